@@ -1,0 +1,3 @@
+//! framepath: the command line tool.
+
+fn main() {}
