@@ -1,6 +1,6 @@
 //! The nine axes of LinuxCNC and quantities that have one value for each.
 
-use nalgebra::SVector;
+use nalgebra::{Matrix3, SVector, Vector3};
 
 /// How many axes LinuxCNC knows: X Y Z A B C U V W, in the order of its `EmcPose`.
 pub const AXIS_COUNT: usize = 9;
@@ -22,4 +22,49 @@ pub struct AxisLimits {
     pub acceleration: Axes,
     /// Machine units (or degrees) per second cubed.
     pub jerk: Axes,
+}
+
+/// How X Y Z of the program lie to those of the machine: the linear part of a programmed frame,
+/// shape (3, 3). The other axes are the same.
+///
+/// The limits of the axes hold for the machine, so that derivatives of the path pass through here
+/// before they are compared with them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MachineMap(Matrix3<f64>);
+
+impl MachineMap {
+    /// Without a frame the axes of the program are those of the machine.
+    pub const IDENTITY: Self = Self(Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0));
+
+    /// `None` if an element is infinite or not a number.
+    pub fn new(linear: &Matrix3<f64>) -> Option<Self> {
+        linear
+            .iter()
+            .all(|element| element.is_finite())
+            .then_some(Self(*linear))
+    }
+
+    /// A derivative of the path, shape (9), as the axes of the machine see it.
+    #[inline]
+    pub fn apply(&self, program: &Axes) -> Axes {
+        let [x, y, z, a, b, c, u, v, w]: [f64; AXIS_COUNT] = (*program).into();
+        let linear = self.0 * Vector3::new(x, y, z);
+        Axes::from([linear.x, linear.y, linear.z, a, b, c, u, v, w])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_acts_on_the_linear_axes_alone() {
+        let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+        let map = MachineMap::new(&quarter_turn).expect("finite");
+        let program = Axes::from([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        let machine = Axes::from([-2.0, 1.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        assert_eq!(map.apply(&program), machine);
+        assert_eq!(MachineMap::IDENTITY.apply(&program), program);
+        assert!(MachineMap::new(&(quarter_turn * f64::NAN)).is_none());
+    }
 }

@@ -13,6 +13,7 @@
 //!   for them are at the edge.
 //! - Simple and clear over fast and clever, until a measurement says otherwise.
 
+pub mod abi;
 pub mod axes;
 pub mod cycle;
 pub mod frame;

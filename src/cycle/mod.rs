@@ -1,3 +1,38 @@
 //! The servo cycle: runs the reference trajectory with a time of its own, within all limits.
+//!
+//! The planner gives a reference trajectory q*(tau) that keeps all limits and ends at rest. The
+//! [`Executor`] runs it: in each servo period it decides how far the reference time tau advances.
+//! With the rate l = dtau/dt, the rate change m = dl/dt and n = dm/dt, and Qk the k-th derivative
+//! of the reference by tau, the machine moves with
+//!
+//! ```text
+//! q'   = l Q1
+//! q''  = l^2 Q2 + m Q1
+//! q''' = l^3 Q3 + 3 l m Q2 + n Q1
+//! ```
+//!
+//! Two facts carry everything. With m = n = 0 the motion is feasible for ever, at every rate from
+//! 0 to 1. So a state is safe if m can be brought to 0 from it within the limits: the executor
+//! always holds one such release, verified against the cells of the table, and follows it until it
+//! has found a better move that comes with a release of its own. Hence feed hold, override and
+//! abort may come at any instant, in any order.
+//!
+//! Inside, time is counted in servo periods: a velocity is what an axis moves in one period. The
+//! formulas then need no period, and a [cell](Cell) of the table is one unit of reference time.
 
+mod cap;
 pub mod cell;
+mod decision;
+mod demand;
+mod executor;
+mod lanes;
+mod release;
+mod rows;
+mod search;
+mod state;
+mod table;
+
+pub use cell::Cell;
+pub use demand::{Demand, Step};
+pub use executor::{ConfigureError, Executor};
+pub use table::{CAPACITY, CloseError, PushError, ReopenError};

@@ -1,1 +1,29 @@
-//! planner
+//! The planner as LinuxCNC's motion controller sees it: moves are added, and each servo period
+//! one [`Planner::cycle`] says where the machine is to be.
+//!
+//! Three parts work one behind the other, and only the first knows what the motion between two
+//! moves looks like:
+//!
+//! 1. the reference ([`reference`]): a trajectory through the queued moves that keeps all limits
+//!    and ends at rest. Today each move runs from rest to rest ([`rest_to_rest`]), which is what
+//!    G61.1 asks for;
+//! 2. the executor ([`crate::cycle`]): runs the reference with a time of its own, for feed hold,
+//!    override, abort;
+//! 3. the bookkeeping ([`Planner`]): which move runs, what is reported, what is written.
+
+mod cell_builder;
+mod inputs;
+mod piece;
+#[allow(clippy::module_inception)]
+mod planner;
+pub mod range;
+pub mod reference;
+mod request;
+pub mod rest_to_rest;
+mod servo;
+mod status;
+
+pub use inputs::CycleInputs;
+pub use planner::{Planner, PositionError};
+pub use request::{AddError, Added, MoveRequest};
+pub use status::{Fault, Status};

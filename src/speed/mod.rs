@@ -1,1 +1,8 @@
-//! speed
+//! How fast a shape may be run, and the fastest run from rest to rest.
+
+mod limits;
+mod profile;
+mod ramp;
+
+pub use limits::PathLimits;
+pub use profile::{JerkLimitedProfile, ProfileState};

@@ -1,0 +1,468 @@
+/* The C interface of framepath's real-time core. Written by `make header` from src/abi; do not edit.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+
+#ifndef FRAMEPATH_H
+#define FRAMEPATH_H
+
+#include "motion.h"
+#include "tp.h"
+#include "kinematics.h"
+
+/*
+ Version of the library: major * 10000 + minor * 100 + patch.
+ */
+#define FRAMEPATH_VERSION 100
+
+/*
+ The most moves that motmod may ask room for (it asks for 2000).
+ */
+#define FRAMEPATH_QUEUE_CAPACITY 2000
+
+/*
+ The planner of the module, with what LinuxCNC handed over for it.
+ */
+struct framepath_planner;
+
+/*
+ What is read from the pins in each servo period. Lengths in machine units, angles in degrees.
+ */
+struct framepath_frame_inputs {
+  /*
+   Number of the command times 1000, plus its code.
+   */
+  double command;
+  /*
+   Values of the command.
+   */
+  double value[3];
+  /*
+   Work offset in X Y Z.
+   */
+  double work_offset[3];
+  /*
+   Rotation of the work offset about Z.
+   */
+  double work_rotation;
+  /*
+   Tool offset in X Y Z.
+   */
+  double tool_offset[3];
+  /*
+   The tool's length stays along the machine's axes in a frame: 0 or 1.
+   */
+  int tool_length_machine;
+  /*
+   Table: where its rotary axis is.
+   */
+  double rotation_point[3];
+  /*
+   Table: from there to the tilting axis.
+   */
+  double offset[3];
+  /*
+   Table: length of the tool along Z.
+   */
+  double table_tool_offset;
+  /*
+   Table: positive angles turn the tool relative to the workpiece: 0 or 1.
+   */
+  int conventional_directions;
+  /*
+   Table: X Y Z are to be the tool centre point on the turning workpiece: 0 or 1.
+   */
+  int tool_centre_point;
+  /*
+   Smallest and greatest angle of the tilting axis.
+   */
+  double tilt_range[2];
+  /*
+   Smallest and greatest angle of the rotary axis C.
+   */
+  double rotary_range[2];
+  /*
+   A ready frame: three rows of a 3x4 map.
+   */
+  double map[12];
+  /*
+   Which of A B C U V W are mirrored: 0 or 1.
+   */
+  int mirror[6];
+  /*
+   Motion stands still: 0 or 1.
+   */
+  int in_position;
+  /*
+   Motion is in teleop mode: 0 or 1.
+   */
+  int teleop;
+};
+
+/*
+ What is written to the pins after each servo period.
+ */
+struct framepath_frame_outputs {
+  /*
+   The kinematics type that motion is asked for.
+   */
+  double switchkins_type;
+  /*
+   Number of the last command that was carried out or refused.
+   */
+  double acknowledged;
+  /*
+   Whether a frame is active: 0 or 1.
+   */
+  int active;
+  /*
+   Kinematics type in effect.
+   */
+  int slot;
+  /*
+   How many operations make up the frame.
+   */
+  int operations;
+  /*
+   The tool centre point is on: 0 or 1.
+   */
+  int tool_centre_point;
+  /*
+   The dimensions of the table, or the tool centre point asked for, are not those in effect: 0 or 1.
+   */
+  int parameters_pending;
+  /*
+   The tool offset in X Y Z that the frame was made with.
+   */
+  double tool_offset[3];
+  /*
+   Why the last command was refused; 0 if it was not.
+   */
+  int refusal;
+  /*
+   Why the tool cannot be put normal to the frame; 0 if it can.
+   */
+  int normal_refusal;
+  /*
+   Where the tilting axis has to go for that.
+   */
+  double normal_tilt;
+  /*
+   Where the rotary axis C has to go for that.
+   */
+  double normal_rotary;
+};
+
+/*
+ Chooses the machine from the texts of `coordinates=`, `machine=` and `tool_length=`. Returns 0, or the number of an
+ error for `framepath_kinematics_configure_text`: 1 to 4 are about the coordinates, and `letter` says at which of
+ them, counted from 1, 0 if at none; 5 is about the machine, 6 about the tool length.
+
+ # Safety
+ The texts are strings or null, `letter` points to a number.
+ */
+int framepath_kinematics_configure(const char *coordinates, const char *machine, const char *tool_length, int *letter);
+
+/*
+ What is wrong, and the remedy, for an error of `framepath_kinematics_configure`.
+ */
+const char *framepath_kinematics_configure_text(int error);
+
+/*
+ Which axis tilts the table: 1 is A, 2 is B, 0 is a machine without such a table.
+ */
+int framepath_kinematics_tilt_axis(void);
+
+/*
+ The pose for joint positions. 0, or -1 if the module is not configured or a result is not finite.
+
+ # Safety
+ `joints` has 16 numbers, `world` is a pose.
+ */
+int framepath_kinematics_forward(const double *joints, EmcPose *world);
+
+/*
+ The joint positions for a pose. 0, or -1 if the module is not configured or a result is not finite.
+
+ # Safety
+ `world` is a pose, `joints` has room for 16 numbers.
+ */
+int framepath_kinematics_inverse(const EmcPose *world, double *joints);
+
+/*
+ The linear part of the frame in force, from the program's X Y Z to the machine's: three rows of three, the identity
+ without a frame. What a tool centre point turns behind it is not part of it. Returns whether a frame is in force.
+
+ # Safety
+ `map` has room for nine numbers, or is null.
+ */
+int framepath_kinematics_linear_map(double *map);
+
+/*
+ Motion switches to a kinematics type. 0, or the number of a refusal: then nothing has changed.
+
+ # Safety
+ `pins` points to the values of the pins.
+ */
+int framepath_kinematics_switch(int slot, const struct framepath_frame_inputs *pins);
+
+/*
+ One servo period of taking commands: what is to be written to the pins.
+
+ # Safety
+ Both point to structures of this header.
+ */
+void framepath_kinematics_update(const struct framepath_frame_inputs *pins, struct framepath_frame_outputs *out);
+
+/*
+ The words for a refusal, with the remedy.
+ */
+const char *framepath_kinematics_refusal_text(int refusal);
+
+/*
+ Makes the planner ready for a queue of `queue_size` moves. Null if that is more than there is room for.
+
+ # Safety
+ `tp` is motmod's planner structure, or null.
+ */
+struct framepath_planner *framepath_planner_create(TP_STRUCT *tp, int queue_size);
+
+/*
+ The functions of the motion controller: motmod hands them over before it creates the planner.
+ */
+void framepath_planner_motion_functions(void (*write_digital)(int, char),
+                                        void (*write_analog)(int, double),
+                                        double (*velocity_limit)(int),
+                                        double (*acceleration_limit)(int));
+
+/*
+ The inverse kinematics, for the soft limits of the joints on the way of a move.
+ */
+void framepath_planner_kinematics(int (*inverse)(const EmcPose*, double*, const unsigned long*, unsigned long*));
+
+/*
+ The motion controller's status and configuration: motmod hands them over before it creates the planner.
+
+ # Safety
+ Both live as long as the module, or are null.
+ */
+void framepath_planner_motion_data(emcmot_status_t *status, emcmot_config_t *config);
+
+/*
+ The joint that the last refused move would have taken beyond a limit: its number, how far it would go, the limit.
+ -1 if that was not the reason.
+
+ # Safety
+ `handle` from `framepath_planner_create`; the others point to numbers.
+ */
+int framepath_planner_joint_out_of_range(const struct framepath_planner *handle, double *position, double *limit);
+
+/*
+ Queues a line. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
+
+ # Safety
+ `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
+ */
+int framepath_planner_add_line(struct framepath_planner *handle,
+                               TP_STRUCT *tp,
+                               const EmcPose *end,
+                               int motion_type,
+                               double feed,
+                               double max_velocity,
+                               unsigned char enables,
+                               char at_speed,
+                               int indexer,
+                               const struct state_tag_t *tag);
+
+/*
+ Queues an arc, helix or spiral. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
+
+ # Safety
+ `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
+ */
+int framepath_planner_add_circle(struct framepath_planner *handle,
+                                 TP_STRUCT *tp,
+                                 const EmcPose *end,
+                                 const PmCartesian *center,
+                                 const PmCartesian *normal,
+                                 int turn,
+                                 int motion_type,
+                                 double feed,
+                                 double max_velocity,
+                                 unsigned char enables,
+                                 char at_speed,
+                                 const struct state_tag_t *tag);
+
+/*
+ Rigid tapping is not supported yet: always -1.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_add_rigid_tap(struct framepath_planner *handle);
+
+/*
+ Why the last move was refused.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+const char *framepath_planner_error_text(const struct framepath_planner *handle);
+
+/*
+ What went wrong inside the planner, null if nothing did. The motion was aborted for it.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+const char *framepath_planner_fault_text(const struct framepath_planner *handle);
+
+/*
+ One servo period. Returns 0, or LinuxCNC's code 4 (waiting) while there is nothing to move.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+ */
+int framepath_planner_run_cycle(struct framepath_planner *handle, TP_STRUCT *tp);
+
+/*
+ Drops all moves.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+ */
+int framepath_planner_clear(struct framepath_planner *handle, TP_STRUCT *tp);
+
+/*
+ Comes to rest on the path and stays there.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+ */
+int framepath_planner_pause(struct framepath_planner *handle, TP_STRUCT *tp);
+
+/*
+ Goes on after a pause.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+ */
+int framepath_planner_resume(struct framepath_planner *handle, TP_STRUCT *tp);
+
+/*
+ Comes to rest on the path, then drops all moves.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+ */
+int framepath_planner_abort(struct framepath_planner *handle, TP_STRUCT *tp);
+
+/*
+ Where the machine is to be.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `position` points to a pose.
+ */
+int framepath_planner_position(const struct framepath_planner *handle, EmcPose *position);
+
+/*
+ Whether no more moves should be sent.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_queue_full(const struct framepath_planner *handle);
+
+/*
+ Sets the greatest jerk of each of the nine axes, 0 = not limited. Returns -1, or the number of the first axis whose
+ value is negative or not a number; then nothing changes.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `jerk` has nine numbers.
+ */
+int framepath_planner_set_jerk(struct framepath_planner *handle, const double *jerk);
+
+/*
+ Says whether a frame is in force, and how the axes of the program lie to those of the machine behind it: three rows
+ of a 3x3 map of X Y Z. The map is taken while nothing is queued, since a frame changes only at standstill; otherwise, and if it is not finite, it is left as it is.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `map` has nine numbers.
+ */
+void framepath_planner_set_machine_map(struct framepath_planner *handle,
+                                       int framed,
+                                       const double *map);
+
+/*
+ Sets the duration of a servo period in seconds. -1 if that is not possible now.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+ */
+int framepath_planner_set_cycle_time(struct framepath_planner *handle, TP_STRUCT *tp, double seconds);
+
+/*
+ Sets what no move may exceed along its path, machine units per second.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_set_velocity_limit(struct framepath_planner *handle, double velocity);
+
+/*
+ Sets LinuxCNC's number for the next move.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_set_id(struct framepath_planner *handle, int id);
+
+/*
+ Sets how the moves to come meet the next one (LinuxCNC's number, and P). -1 if the number or P makes no sense.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_set_termination(struct framepath_planner *handle, int condition, double tolerance);
+
+/*
+ Starts from a position, with everything else dropped. -1 if it has a coordinate that is not finite.
+
+ # Safety
+ `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
+ */
+int framepath_planner_set_position(struct framepath_planner *handle, TP_STRUCT *tp, const EmcPose *position);
+
+/*
+ Says whether the moves to come are synchronised with a spindle (`distance_per_turn` not 0); such moves are refused.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_set_spindle_sync(struct framepath_planner *handle, double distance_per_turn);
+
+/*
+ Gives the next move an analog output to write at its start. -1 if there is none of this number.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_set_analog_output(struct framepath_planner *handle, unsigned char index, double value);
+
+/*
+ Gives the next move a digital output to write at its start. -1 if there is none of this number.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_set_digital_output(struct framepath_planner *handle, int index, unsigned char value);
+
+/*
+ Chooses the direction of the run. The reverse run is not supported yet: anything but forward is -1.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_set_run_direction(struct framepath_planner *handle, int direction);
+
+#endif  /* FRAMEPATH_H */

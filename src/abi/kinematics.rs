@@ -1,0 +1,435 @@
+//! The kinematics as hal-component/framekins.c sees them.
+//!
+//! Static memory, one machine in a module. LinuxCNC calls `configure` while the module is loaded, and everything else
+//! from the servo thread: the HAL function of the module has to be in the same thread as motion-controller.
+
+use core::cell::UnsafeCell;
+use core::ffi::CStr;
+
+use libc::{c_char, c_double, c_int};
+
+use nalgebra::Vector3;
+
+use super::linuxcnc::EmcPose;
+use super::pose::{axes_of, pose_of};
+use crate::axes::{AXIS_COUNT, Axes};
+use crate::frame::control::{FrameControl, FrameInputs};
+use crate::frame::{AffineMap, AngleRange, Refusal, RotaryLimits, ToolLength, tool_normal};
+use crate::machine::{
+    ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, RotaryDirection,
+    TableTiltingParameters, TiltAxis,
+};
+
+/// What is read from the pins in each servo period. Lengths in machine units, angles in degrees.
+#[repr(C)]
+pub struct framepath_frame_inputs {
+    /// Number of the command times 1000, plus its code.
+    pub command: c_double,
+    /// Values of the command.
+    pub value: [c_double; 3],
+    /// Work offset in X Y Z.
+    pub work_offset: [c_double; 3],
+    /// Rotation of the work offset about Z.
+    pub work_rotation: c_double,
+    /// Tool offset in X Y Z.
+    pub tool_offset: [c_double; 3],
+    /// The tool's length stays along the machine's axes in a frame: 0 or 1.
+    pub tool_length_machine: c_int,
+    /// Table: where its rotary axis is.
+    pub rotation_point: [c_double; 3],
+    /// Table: from there to the tilting axis.
+    pub offset: [c_double; 3],
+    /// Table: length of the tool along Z.
+    pub table_tool_offset: c_double,
+    /// Table: positive angles turn the tool relative to the workpiece: 0 or 1.
+    pub conventional_directions: c_int,
+    /// Table: X Y Z are to be the tool centre point on the turning workpiece: 0 or 1.
+    pub tool_centre_point: c_int,
+    /// Smallest and greatest angle of the tilting axis.
+    pub tilt_range: [c_double; 2],
+    /// Smallest and greatest angle of the rotary axis C.
+    pub rotary_range: [c_double; 2],
+    /// A ready frame: three rows of a 3x4 map.
+    pub map: [c_double; 12],
+    /// Which of A B C U V W are mirrored: 0 or 1.
+    pub mirror: [c_int; 6],
+    /// Motion stands still: 0 or 1.
+    pub in_position: c_int,
+    /// Motion is in teleop mode: 0 or 1.
+    pub teleop: c_int,
+}
+
+/// What is written to the pins after each servo period.
+#[repr(C)]
+pub struct framepath_frame_outputs {
+    /// The kinematics type that motion is asked for.
+    pub switchkins_type: c_double,
+    /// Number of the last command that was carried out or refused.
+    pub acknowledged: c_double,
+    /// Whether a frame is active: 0 or 1.
+    pub active: c_int,
+    /// Kinematics type in effect.
+    pub slot: c_int,
+    /// How many operations make up the frame.
+    pub operations: c_int,
+    /// The tool centre point is on: 0 or 1.
+    pub tool_centre_point: c_int,
+    /// The dimensions of the table, or the tool centre point asked for, are not those in effect: 0 or 1.
+    pub parameters_pending: c_int,
+    /// The tool offset in X Y Z that the frame was made with.
+    pub tool_offset: [c_double; 3],
+    /// Why the last command was refused; 0 if it was not.
+    pub refusal: c_int,
+    /// Why the tool cannot be put normal to the frame; 0 if it can.
+    pub normal_refusal: c_int,
+    /// Where the tilting axis has to go for that.
+    pub normal_tilt: c_double,
+    /// Where the rotary axis C has to go for that.
+    pub normal_rotary: c_double,
+}
+
+/// The machine of the module.
+struct Kinematics {
+    control: Option<FrameControl>,
+    /// What `tool_length=` says.
+    tool_length: ToolLength,
+    /// The machine's axes as motion asked for them last.
+    position: [f64; AXIS_COUNT],
+}
+
+/// Memory for the one machine of a module.
+struct Memory(UnsafeCell<Kinematics>);
+
+// SAFETY: LinuxCNC calls the kinematics from one thread at a time, see the head of this file.
+unsafe impl Sync for Memory {}
+
+static MEMORY: Memory = Memory(UnsafeCell::new(Kinematics {
+    control: None,
+    tool_length: ToolLength::Frame,
+    position: [0.0; AXIS_COUNT],
+}));
+
+/// The machine of the module.
+fn module() -> &'static mut Kinematics {
+    // SAFETY: one thread at a time, and no function of this file hands the reference on or calls another one with it.
+    unsafe { &mut *MEMORY.0.get() }
+}
+
+fn inputs_of(pins: &framepath_frame_inputs, tool_length: ToolLength) -> FrameInputs {
+    FrameInputs {
+        command: pins.command,
+        value: pins.value,
+        work_offset: pins.work_offset,
+        work_rotation: pins.work_rotation,
+        tool_offset: pins.tool_offset,
+        tool_length: if pins.tool_length_machine != 0 {
+            ToolLength::Machine
+        } else {
+            tool_length
+        },
+        map: pins.map,
+        mirror: pins.mirror.map(|mirrored| mirrored != 0),
+        table: TableTiltingParameters {
+            rotation_point: Vector3::from(pins.rotation_point),
+            offset: Vector3::from(pins.offset),
+            tool_offset: pins.table_tool_offset,
+            direction: if pins.conventional_directions != 0 {
+                RotaryDirection::Conventional
+            } else {
+                RotaryDirection::Table
+            },
+            tool_centre_point: pins.tool_centre_point != 0,
+        },
+        in_position: pins.in_position != 0,
+        teleop: pins.teleop != 0,
+    }
+}
+
+fn limits_of(pins: &framepath_frame_inputs) -> RotaryLimits {
+    let [tilt, rotary] =
+        [pins.tilt_range, pins.rotary_range].map(|[min, max]| AngleRange { min, max });
+    RotaryLimits { tilt, rotary }
+}
+
+/// The bytes of a parameter of loadrt.
+///
+/// # Safety
+/// `text` is a string or null, which is the empty text.
+unsafe fn parameter<'a>(text: *const c_char) -> &'a [u8] {
+    if text.is_null() {
+        return b"";
+    }
+    // SAFETY: see above.
+    unsafe { CStr::from_ptr(text) }.to_bytes()
+}
+
+/// Chooses the machine from the texts of `coordinates=`, `machine=` and `tool_length=`. Returns 0, or the number of an
+/// error for `framepath_kinematics_configure_text`: 1 to 4 are about the coordinates, and `letter` says at which of
+/// them, counted from 1, 0 if at none; 5 is about the machine, 6 about the tool length.
+///
+/// # Safety
+/// The texts are strings or null, `letter` points to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_kinematics_configure(
+    coordinates: *const c_char,
+    machine: *const c_char,
+    tool_length: *const c_char,
+    letter: *mut c_int,
+) -> c_int {
+    // SAFETY: see above.
+    let [coordinates, machine, tool_length] = unsafe {
+        [
+            parameter(coordinates),
+            parameter(machine),
+            parameter(tool_length),
+        ]
+    };
+    // SAFETY: see above.
+    if let Some(letter) = unsafe { letter.as_mut() } {
+        *letter = 0;
+    }
+    let machine = match Machine::configured(machine, coordinates) {
+        Ok(machine) => machine,
+        Err(ConfigurationError::UnknownMachine) => return 5,
+        Err(ConfigurationError::Coordinates(error)) => {
+            let (error, place) = match error {
+                CoordinatesError::Empty => (1, 0),
+                CoordinatesError::UnknownLetter { position, .. } => (2, position + 1),
+                CoordinatesError::TooManyJoints { position } => (3, position + 1),
+                CoordinatesError::MissingAxis { .. } => (4, 0),
+            };
+            // SAFETY: see above.
+            if let Some(letter) = unsafe { letter.as_mut() } {
+                *letter = place as c_int;
+            }
+            return error;
+        }
+    };
+    let module = module();
+    module.tool_length = match tool_length {
+        b"" | b"frame" => ToolLength::Frame,
+        b"machine" => ToolLength::Machine,
+        _ => return 6,
+    };
+    module.control = Some(FrameControl::new(machine));
+    0
+}
+
+/// What is wrong, and the remedy, for an error of `framepath_kinematics_configure`.
+#[unsafe(no_mangle)]
+pub extern "C" fn framepath_kinematics_configure_text(error: c_int) -> *const c_char {
+    match error {
+        1 => c"no axis is named",
+        2 => c"this is no axis letter",
+        3 => c"more letters than LinuxCNC has joints (16)",
+        4 => c"an axis that this machine needs is missing: xyzac needs X Y Z A C, xyzbc needs X Y Z B C",
+        5 => c"there is no such machine; write machine=identity, machine=xyzac or machine=xyzbc",
+        6 => c"there is no such rule; write tool_length=frame or tool_length=machine",
+        _ => c"no error",
+    }
+    .as_ptr()
+}
+
+/// Which axis tilts the table: 1 is A, 2 is B, 0 is a machine without such a table.
+#[unsafe(no_mangle)]
+pub extern "C" fn framepath_kinematics_tilt_axis() -> c_int {
+    match module().control.as_ref().map(FrameControl::machine) {
+        Some(Machine::TableTilting(table)) => match table.tilt_axis() {
+            TiltAxis::A => 1,
+            TiltAxis::B => 2,
+        },
+        Some(Machine::Identity(_)) | None => 0,
+    }
+}
+
+/// The pose for joint positions. 0, or -1 if the module is not configured or a result is not finite.
+///
+/// # Safety
+/// `joints` has 16 numbers, `world` is a pose.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_kinematics_forward(
+    joints: *const c_double,
+    world: *mut EmcPose,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(joints), Some(world)) =
+        (unsafe { (joints.cast::<[f64; JOINT_COUNT]>().as_ref(), world.as_mut()) })
+    else {
+        return -1;
+    };
+    let Kinematics {
+        control: Some(control),
+        position,
+        ..
+    } = module()
+    else {
+        return -1;
+    };
+    let axes = control.machine().forward(joints);
+    *position = axes.into();
+    let axes = control.active().map_or(axes, |frame| frame.to_world(&axes));
+    *world = pose_of(&axes);
+    if axes.iter().all(|value| value.is_finite()) {
+        0
+    } else {
+        -1
+    }
+}
+
+/// The joint positions for a pose. 0, or -1 if the module is not configured or a result is not finite.
+///
+/// # Safety
+/// `world` is a pose, `joints` has room for 16 numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_kinematics_inverse(
+    world: *const EmcPose,
+    joints: *mut c_double,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(world), Some(joints)) =
+        (unsafe { (world.as_ref(), joints.cast::<[f64; JOINT_COUNT]>().as_mut()) })
+    else {
+        return -1;
+    };
+    let Kinematics {
+        control: Some(control),
+        position,
+        ..
+    } = module()
+    else {
+        return -1;
+    };
+    let axes = axes_of(world);
+    let axes = control
+        .active()
+        .map_or(axes, |frame| frame.to_machine(&axes));
+    *position = axes.into();
+    control.machine().inverse(&axes, joints);
+    if axes.iter().all(|value| value.is_finite()) {
+        0
+    } else {
+        -1
+    }
+}
+
+/// The linear part of the frame in force, from the program's X Y Z to the machine's: three rows of three, the identity
+/// without a frame. What a tool centre point turns behind it is not part of it. Returns whether a frame is in force.
+///
+/// # Safety
+/// `map` has room for nine numbers, or is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_kinematics_linear_map(map: *mut c_double) -> c_int {
+    // SAFETY: see above.
+    let Some(map) = (unsafe { map.cast::<[[f64; 3]; 3]>().as_mut() }) else {
+        return 0;
+    };
+    let frame = module().control.as_ref().and_then(FrameControl::active);
+    let [[xx, xy, xz, _], [yx, yy, yz, _], [zx, zy, zz, _]] = frame.map_or_else(
+        || AffineMap::identity().to_rows(),
+        |frame| frame.map().to_rows(),
+    );
+    *map = [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]];
+    frame.is_some().into()
+}
+
+/// Motion switches to a kinematics type. 0, or the number of a refusal: then nothing has changed.
+///
+/// # Safety
+/// `pins` points to the values of the pins.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_kinematics_switch(
+    slot: c_int,
+    pins: *const framepath_frame_inputs,
+) -> c_int {
+    // SAFETY: see above.
+    let Some(pins) = (unsafe { pins.as_ref() }) else {
+        return -1;
+    };
+    let Kinematics {
+        control: Some(control),
+        tool_length,
+        ..
+    } = module()
+    else {
+        return -1;
+    };
+    match control.switch(slot, &inputs_of(pins, *tool_length)) {
+        Ok(()) => 0,
+        Err(refusal) => refusal as c_int,
+    }
+}
+
+/// One servo period of taking commands: what is to be written to the pins.
+///
+/// # Safety
+/// Both point to structures of this header.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_kinematics_update(
+    pins: *const framepath_frame_inputs,
+    out: *mut framepath_frame_outputs,
+) {
+    // SAFETY: see above.
+    let (Some(pins), Some(out)) = (unsafe { (pins.as_ref(), out.as_mut()) }) else {
+        return;
+    };
+    let Kinematics {
+        control: Some(control),
+        tool_length,
+        position,
+    } = module()
+    else {
+        return;
+    };
+    let outputs = control.update(&inputs_of(pins, *tool_length));
+    let position = Axes::from(*position);
+    let normal = tool_normal(
+        control.machine(),
+        control.active(),
+        &position,
+        &limits_of(pins),
+    );
+    let (normal_tilt, normal_rotary) = match normal {
+        Ok(Some(angles)) => (angles.tilt, angles.rotary),
+        Ok(None) | Err(_) => (0.0, 0.0),
+    };
+    *out = framepath_frame_outputs {
+        switchkins_type: outputs.switchkins_type.into(),
+        acknowledged: outputs.acknowledged,
+        active: outputs.active.into(),
+        slot: outputs.slot,
+        operations: outputs.operations,
+        tool_centre_point: outputs.tool_centre_point.into(),
+        parameters_pending: outputs.parameters_pending.into(),
+        tool_offset: outputs.tool_offset,
+        refusal: outputs.refusal.map_or(0, |refusal| refusal as c_int),
+        normal_refusal: normal.map_or_else(|error| error as c_int, |_| 0),
+        normal_tilt,
+        normal_rotary,
+    };
+}
+
+/// The words for a refusal, with the remedy.
+#[unsafe(no_mangle)]
+pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_char {
+    const WORDS: [(Refusal, &CStr); 15] = [
+        (Refusal::UnknownCommand, c"there is no such command; use the subroutines of framepath"),
+        (Refusal::NotFinite, c"a value is infinite or not a number"),
+        (Refusal::ZeroScale, c"a scale factor is 0; use 1 for an axis that keeps its size"),
+        (Refusal::TranslationTooLarge, c"a shift is larger than a machine"),
+        (Refusal::TooManyOperations, c"more operations are added than there is room for; begin anew with TRANS, ROT, SCALE or MIRROR"),
+        (Refusal::ImpossibleAngles, c"no plane meets these two angles"),
+        (Refusal::Singular, c"the frame is singular: it flattens space, so that no position could be found back"),
+        (Refusal::IllConditioned, c"the scales of the frame are too unequal"),
+        (Refusal::ScaleOutOfRange, c"the frame enlarges or shrinks more than a thousandfold"),
+        (Refusal::Moving, c"the machine moves; wait for the end of the motion"),
+        (Refusal::Teleop, c"motion is in teleop mode, where a switch would make the joints jump; leave it first"),
+        (Refusal::NotSwitched, c"motion did not switch; link framekins.switchkins-type to motion.switchkins-type"),
+        (Refusal::UnknownType, c"motion.switchkins-type has to be 0, 1 or 2"),
+        (Refusal::MissingAxis, c"the frame moves an axis that the machine does not have; see coordinates= of framekins"),
+        (Refusal::MachineParameters, c"a dimension of the machine is not a number or larger than a machine; see the pins framekins.x-rot-point and those beside it"),
+    ];
+    WORDS
+        .iter()
+        .find(|(known, _)| *known as c_int == refusal)
+        .map_or(c"refused".as_ptr(), |(_, words)| words.as_ptr())
+}

@@ -1,0 +1,20 @@
+//! The edge to LinuxCNC's C: the only place with `unsafe` code and with C's types.
+#![allow(unsafe_code)]
+
+pub mod kinematics;
+pub mod linuxcnc;
+pub mod planner;
+mod pose;
+
+use libc::c_uint;
+
+/// Version of the library: major * 10000 + minor * 100 + patch.
+pub const FRAMEPATH_VERSION: c_uint = 100;
+
+const _: () = {
+    let expected = env!("CARGO_PKG_VERSION").as_bytes();
+    assert!(
+        matches!(expected, b"0.1.0"),
+        "FRAMEPATH_VERSION follows the version in Cargo.toml"
+    );
+};

@@ -1,0 +1,298 @@
+//! Moves: queued, or refused with the reason.
+
+use core::ffi::CStr;
+
+use libc::{c_char, c_double, c_int, c_uchar};
+use nalgebra::Vector3;
+
+use super::Handle;
+use crate::abi::linuxcnc::{EmcPose, PmCartesian, StateField, TP_STRUCT, state_tag_t, tp_err_t};
+use crate::abi::pose::{axes_of, pose_of};
+use crate::machine::JOINT_COUNT;
+use crate::moves::{MotionType, STATE_TAG_SIZE, StateTag};
+use crate::path::{Circle, Shape, ShapeError};
+use crate::planner::range::{JointRange, out_of_range};
+use crate::planner::{AddError, Added, MoveRequest};
+
+/// LinuxCNC's numbers of the codes that mean the machine itself: G28, G30, G53.
+const MACHINE_CODES: [c_int; 3] = [280, 300, 530];
+
+/// Whether a move was programmed in coordinates of the machine.
+fn means_the_machine(tag: &state_tag_t) -> bool {
+    let field = tag.fields.get(StateField::GM_FIELD_G_MODE_0 as usize);
+    field.is_some_and(|code| MACHINE_CODES.contains(code))
+}
+
+impl Handle {
+    /// What can be said against a move before its shape is known.
+    fn objection(&self, tag: &state_tag_t) -> Option<&'static CStr> {
+        (self.framed && means_the_machine(tag)).then_some(
+            c"G28, G30 and G53 mean the machine without its frame, which is in force: use o<machine_move> call, or remove the frame first",
+        )
+    }
+
+    /// Whether a move would take a joint beyond its soft limits on its way; then that is kept for
+    /// the operator. Motion itself looks at the ends.
+    fn leaves_range(&mut self, shape: &Result<Shape, ShapeError>) -> bool {
+        let (Some(inverse), Ok(shape)) = (self.inverse_kinematics, shape) else {
+            return false;
+        };
+        // SAFETY: null, or motmod's own structures for as long as the module is loaded.
+        let (Some(status), Some(config)) =
+            (unsafe { (self.status.as_ref(), self.config.as_ref()) })
+        else {
+            return false;
+        };
+        let mut range = JointRange {
+            least: [f64::NEG_INFINITY; JOINT_COUNT],
+            greatest: [f64::INFINITY; JOINT_COUNT],
+            count: usize::try_from(config.numJoints - config.numExtraJoints).unwrap_or(0),
+        };
+        let limits = range.least.iter_mut().zip(&mut range.greatest);
+        for ((least, greatest), joint) in limits.zip(&status.joint_status) {
+            *least = joint.min_pos_limit;
+            *greatest = joint.max_pos_limit;
+        }
+        self.out_of_range = out_of_range(shape, &range, |position| {
+            let mut joints = [0.0; JOINT_COUNT];
+            let (pose, inverse_flags, mut forward_flags) = (pose_of(position), 0, 0);
+            // SAFETY: the kinematics module's own function, with as many joints as it may write.
+            let result = unsafe {
+                inverse(
+                    &pose,
+                    joints.as_mut_ptr(),
+                    &inverse_flags,
+                    &mut forward_flags,
+                )
+            };
+            (result == 0).then_some(joints)
+        });
+        self.out_of_range.is_some()
+    }
+
+    /// The result of adding a move as LinuxCNC expects it; the words for a refusal are kept.
+    fn answer(&mut self, result: Result<Added, AddError>) -> c_int {
+        match result {
+            Ok(Added::Queued) => tp_err_t::TP_ERR_OK,
+            Ok(Added::ZeroLength) => tp_err_t::TP_ERR_ZERO_LENGTH,
+            Err(error) => {
+                self.refused = words(error);
+                tp_err_t::TP_ERR_FAIL
+            }
+        }
+    }
+}
+
+/// Why a move was refused, for the operator.
+fn words(error: AddError) -> &'static CStr {
+    match error {
+        AddError::Aborting => c"a move was sent while the machine comes to rest after an abort",
+        AddError::QueueFull => c"a move was sent although the queue is full",
+        AddError::NotConfigured => c"a move was sent before the motion controller set its period and limits",
+        AddError::AxisLimits { .. } => {
+            c"a move needs an axis without usable limits: [AXIS_L]MAX_VELOCITY and MAX_ACCELERATION have to be positive"
+        }
+        AddError::Shape(ShapeError::ZeroLength) => c"a move of length zero",
+        AddError::Shape(ShapeError::NotFinite) => c"a move has a coordinate that is infinite or not a number",
+        AddError::Shape(ShapeError::NoNormal) => c"an arc has no plane: the vector perpendicular to it is zero",
+        AddError::Shape(ShapeError::RadiusTooSmall) => c"an arc starts or ends at its own centre",
+        AddError::Shape(ShapeError::TooManyTurns) => c"an arc has more turns than can be counted",
+        AddError::Feed { .. } => c"a move has no feed: F, or [TRAJ]MAX_LINEAR_VELOCITY and the [AXIS_L] limits, is zero",
+        AddError::SpindleSynchronised => {
+            c"motion synchronised with the spindle (G33, G76, G95) is not supported; use G94, or TPMOD = tpmod"
+        }
+        AddError::RigidTap => c"rigid tapping (G33.1) is not supported; use a tapping head, or TPMOD = tpmod",
+        AddError::Indexer { .. } => c"a locking rotary indexer is not supported; remove [AXIS_L]LOCKING_INDEXER_JOINT, or use TPMOD = tpmod",
+    }
+}
+
+fn tag_in(tag: &state_tag_t) -> StateTag {
+    const { assert!(size_of::<state_tag_t>() == STATE_TAG_SIZE) };
+    // SAFETY: plain numbers of the same size; every bit pattern is a valid array of bytes.
+    StateTag(unsafe { core::mem::transmute_copy::<state_tag_t, [u8; STATE_TAG_SIZE]>(tag) })
+}
+
+fn vector_of(cartesian: &PmCartesian) -> Vector3<f64> {
+    Vector3::new(cartesian.x, cartesian.y, cartesian.z)
+}
+
+fn request_of(
+    motion_type: c_int,
+    feed: c_double,
+    max_velocity: c_double,
+    enables: c_uchar,
+    at_speed: c_char,
+    indexer: c_int,
+    tag: &state_tag_t,
+) -> Option<MoveRequest> {
+    Some(MoveRequest {
+        motion_type: MotionType::from_number(motion_type)?,
+        feed,
+        max_velocity,
+        enables,
+        wait_for_spindle: at_speed != 0,
+        indexer_joint: (indexer >= 0).then_some(indexer),
+        tag: tag_in(tag),
+    })
+}
+
+/// The joint that the last refused move would have taken beyond a limit: its number, how far it would go, the limit.
+/// -1 if that was not the reason.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; the others point to numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_joint_out_of_range(
+    handle: *const Handle,
+    position: *mut c_double,
+    limit: *mut c_double,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(position), Some(limit)) =
+        (unsafe { (handle.as_ref(), position.as_mut(), limit.as_mut()) })
+    else {
+        return -1;
+    };
+    let Some(found) = handle.out_of_range else {
+        return -1;
+    };
+    *position = found.position;
+    *limit = found.limit;
+    found.joint as c_int
+}
+
+/// Queues a line. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)] // LinuxCNC's tpAddLine has them
+pub unsafe extern "C" fn framepath_planner_add_line(
+    handle: *mut Handle,
+    tp: *mut TP_STRUCT,
+    end: *const EmcPose,
+    motion_type: c_int,
+    feed: c_double,
+    max_velocity: c_double,
+    enables: c_uchar,
+    at_speed: c_char,
+    indexer: c_int,
+    tag: *const state_tag_t,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(tp), Some(end), Some(tag)) =
+        (unsafe { (handle.as_mut(), tp.as_mut(), end.as_ref(), tag.as_ref()) })
+    else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    let Some(request) = request_of(
+        motion_type,
+        feed,
+        max_velocity,
+        enables,
+        at_speed,
+        indexer,
+        tag,
+    ) else {
+        handle.refused = c"a line of a kind that is not known";
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    if let Some(objection) = handle.objection(tag) {
+        handle.refused = objection;
+        return tp_err_t::TP_ERR_FAIL;
+    }
+    let limits = handle.limits();
+    handle.planner.set_limits(&limits);
+    let end = axes_of(end);
+    if handle.leaves_range(&handle.planner.line_to(&end)) {
+        return tp_err_t::TP_ERR_RANGE;
+    }
+    let result = handle.planner.add_line(&end, &request);
+    // Motion looks at the queue in the same period, before the planner runs.
+    handle.report(tp);
+    handle.answer(result)
+}
+
+/// Queues an arc, helix or spiral. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)] // LinuxCNC's tpAddCircle has them
+pub unsafe extern "C" fn framepath_planner_add_circle(
+    handle: *mut Handle,
+    tp: *mut TP_STRUCT,
+    end: *const EmcPose,
+    center: *const PmCartesian,
+    normal: *const PmCartesian,
+    turn: c_int,
+    motion_type: c_int,
+    feed: c_double,
+    max_velocity: c_double,
+    enables: c_uchar,
+    at_speed: c_char,
+    tag: *const state_tag_t,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(tp), Some(end), Some(center), Some(normal), Some(tag)) = (unsafe {
+        (
+            handle.as_mut(),
+            tp.as_mut(),
+            end.as_ref(),
+            center.as_ref(),
+            normal.as_ref(),
+            tag.as_ref(),
+        )
+    }) else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    let Some(request) = request_of(motion_type, feed, max_velocity, enables, at_speed, -1, tag)
+    else {
+        handle.refused = c"an arc of a kind that is not known";
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    let circle = Circle {
+        center: vector_of(center),
+        normal: vector_of(normal),
+        turn,
+    };
+    if let Some(objection) = handle.objection(tag) {
+        handle.refused = objection;
+        return tp_err_t::TP_ERR_FAIL;
+    }
+    let limits = handle.limits();
+    handle.planner.set_limits(&limits);
+    let end = axes_of(end);
+    if handle.leaves_range(&handle.planner.arc_to(&end, &circle)) {
+        return tp_err_t::TP_ERR_RANGE;
+    }
+    let result = handle.planner.add_circle(&end, &circle, &request);
+    // Motion looks at the queue in the same period, before the planner runs.
+    handle.report(tp);
+    handle.answer(result)
+}
+
+/// Rigid tapping is not supported yet: always -1.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_add_rigid_tap(handle: *mut Handle) -> c_int {
+    // SAFETY: see above.
+    if let Some(handle) = unsafe { handle.as_mut() } {
+        handle.refused = words(AddError::RigidTap);
+    }
+    tp_err_t::TP_ERR_FAIL
+}
+
+/// Why the last move was refused.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_error_text(handle: *const Handle) -> *const c_char {
+    // SAFETY: see above.
+    unsafe { handle.as_ref() }.map_or(c"there is no planner".as_ptr(), |handle| {
+        handle.refused.as_ptr()
+    })
+}

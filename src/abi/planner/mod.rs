@@ -1,0 +1,172 @@
+//! The planner as hal-component/blendtp.c sees it: LinuxCNC's structures in, LinuxCNC's return codes out.
+//!
+//! There is one planner in a module, in static memory: motmod has one coordinated planner, and a module must not
+//! allocate. LinuxCNC calls all of this either while modules are loaded or from the servo thread, never from two threads
+//! at a time.
+
+mod add;
+mod run;
+mod settings;
+
+use core::cell::UnsafeCell;
+use core::ffi::CStr;
+use core::ptr;
+
+use libc::{c_char, c_double, c_int, c_ulong};
+
+use super::linuxcnc::{EmcPose, TP_STRUCT, emcmot_config_t, emcmot_status_t, tp_err_t};
+use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
+use crate::planner::Planner;
+use crate::planner::range::OutOfRange;
+
+/// The most moves that motmod may ask room for (it asks for 2000).
+pub const FRAMEPATH_QUEUE_CAPACITY: c_int = 2000;
+
+/// Functions of the motion controller that the planner calls.
+type WriteDigital = Option<unsafe extern "C" fn(c_int, c_char)>;
+type WriteAnalog = Option<unsafe extern "C" fn(c_int, c_double)>;
+type AxisLimit = Option<unsafe extern "C" fn(c_int) -> c_double>;
+
+/// LinuxCNC's `kinematicsInverse`.
+type InverseKinematics = Option<
+    unsafe extern "C" fn(*const EmcPose, *mut c_double, *const c_ulong, *mut c_ulong) -> c_int,
+>;
+
+/// The planner of the module, with what LinuxCNC handed over for it.
+pub struct Handle {
+    planner: Planner,
+    status: *mut emcmot_status_t,
+    config: *mut emcmot_config_t,
+    write_digital: WriteDigital,
+    write_analog: WriteAnalog,
+    velocity_limit: AxisLimit,
+    acceleration_limit: AxisLimit,
+    inverse_kinematics: InverseKinematics,
+    jerk: Axes,
+    /// Whether a programmed frame is in force.
+    framed: bool,
+    refused: &'static CStr,
+    /// The joint for whose sake the last move was refused.
+    out_of_range: Option<OutOfRange>,
+}
+
+/// Memory for the one planner of a module.
+struct Memory(UnsafeCell<Handle>);
+
+// SAFETY: LinuxCNC calls the planner from one thread at a time, see the head of this file.
+unsafe impl Sync for Memory {}
+
+static MEMORY: Memory = Memory(UnsafeCell::new(Handle {
+    planner: Planner::new(),
+    status: ptr::null_mut(),
+    config: ptr::null_mut(),
+    write_digital: None,
+    write_analog: None,
+    velocity_limit: None,
+    acceleration_limit: None,
+    inverse_kinematics: None,
+    jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[f64::INFINITY; AXIS_COUNT]])),
+    framed: false,
+    refused: c"",
+    out_of_range: None,
+}));
+
+/// The planner of the module.
+fn module() -> &'static mut Handle {
+    // SAFETY: one thread at a time, and no function of this file hands the reference on or calls another one with it.
+    unsafe { &mut *MEMORY.0.get() }
+}
+
+impl Handle {
+    /// What each axis is able to do now; LinuxCNC's limits may be changed at any time through its ini.* pins.
+    fn limits(&self) -> AxisLimits {
+        let ask = |function: AxisLimit, axis: usize| match function {
+            // SAFETY: motmod's own function for axis numbers 0 to 8, handed over by it.
+            Some(function) => unsafe { function(axis as c_int) },
+            None => 0.0,
+        };
+        AxisLimits {
+            velocity: Axes::from_fn(|axis, _| ask(self.velocity_limit, axis)),
+            acceleration: Axes::from_fn(|axis, _| ask(self.acceleration_limit, axis)),
+            jerk: self.jerk,
+        }
+    }
+}
+
+/// Makes the planner ready for a queue of `queue_size` moves. Null if that is more than there is room for.
+///
+/// # Safety
+/// `tp` is motmod's planner structure, or null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_create(
+    tp: *mut TP_STRUCT,
+    queue_size: c_int,
+) -> *mut Handle {
+    // SAFETY: see above.
+    let Some(tp) = (unsafe { tp.as_mut() }) else {
+        return ptr::null_mut();
+    };
+    if !(0..=FRAMEPATH_QUEUE_CAPACITY).contains(&queue_size) {
+        return ptr::null_mut();
+    }
+    let handle = module();
+    handle.planner.clear();
+    handle.report(tp);
+    MEMORY.0.get()
+}
+
+/// The functions of the motion controller: motmod hands them over before it creates the planner.
+#[unsafe(no_mangle)]
+pub extern "C" fn framepath_planner_motion_functions(
+    write_digital: Option<unsafe extern "C" fn(c_int, c_char)>,
+    write_analog: Option<unsafe extern "C" fn(c_int, c_double)>,
+    velocity_limit: Option<unsafe extern "C" fn(c_int) -> c_double>,
+    acceleration_limit: Option<unsafe extern "C" fn(c_int) -> c_double>,
+) {
+    let handle = module();
+    handle.write_digital = write_digital;
+    handle.write_analog = write_analog;
+    handle.velocity_limit = velocity_limit;
+    handle.acceleration_limit = acceleration_limit;
+}
+
+/// The inverse kinematics, for the soft limits of the joints on the way of a move.
+#[unsafe(no_mangle)]
+pub extern "C" fn framepath_planner_kinematics(
+    inverse: Option<
+        unsafe extern "C" fn(*const EmcPose, *mut c_double, *const c_ulong, *mut c_ulong) -> c_int,
+    >,
+) {
+    module().inverse_kinematics = inverse;
+}
+
+/// The motion controller's status and configuration: motmod hands them over before it creates the planner.
+///
+/// # Safety
+/// Both live as long as the module, or are null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_motion_data(
+    status: *mut emcmot_status_t,
+    config: *mut emcmot_config_t,
+) {
+    let handle = module();
+    handle.status = status;
+    handle.config = config;
+}
+
+/// Does something with the planner, if there is one.
+fn with(handle: *mut Handle, action: impl FnOnce(&mut Handle) -> c_int) -> c_int {
+    // SAFETY: every caller promises a handle from `framepath_planner_create`, or null.
+    unsafe { handle.as_mut() }.map_or(tp_err_t::TP_ERR_FAIL, action)
+}
+
+/// Does something with the planner, and reports its new state at once.
+fn command(handle: *mut Handle, tp: *mut TP_STRUCT, action: impl FnOnce(&mut Handle)) -> c_int {
+    // SAFETY: every caller promises a handle from `framepath_planner_create` and motmod's planner structure, or null.
+    let (Some(handle), Some(tp)) = (unsafe { (handle.as_mut(), tp.as_mut()) }) else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    action(handle);
+    handle.report(tp);
+    tp_err_t::TP_ERR_OK
+}

@@ -1,0 +1,214 @@
+//! The servo cycle, the operator's commands, and what is reported after them.
+
+use core::ptr;
+
+use libc::{c_char, c_int};
+
+use super::{Handle, command};
+use crate::abi::linuxcnc::{
+    EMCMOT_MAX_AIO, EMCMOT_MAX_DIO, EMCMOT_MOTION_INPOS_BIT, EmcPose, TP_STRUCT, state_tag_t,
+    tc_direction_t, tp_err_t,
+};
+use crate::abi::pose::pose_of;
+use crate::moves::{STATE_TAG_SIZE, StateTag};
+use crate::planner::{CycleInputs, Fault};
+
+/// LinuxCNC's number for "no move" where 0 is a number of a move.
+const NO_MOVE: c_int = c_int::MIN;
+
+impl Handle {
+    /// Writes what motmod and the screens read: every cycle and after every command.
+    pub(super) fn report(&mut self, tp: &mut TP_STRUCT) {
+        let now = self.planner.status();
+        tp.currentPos = pose_of(&now.position);
+        tp.goalPos = pose_of(self.planner.goal());
+        tp.execId = now.exec_id;
+        tp.execTag = tag_out(&now.tag);
+        tp.motionType = now.motion_type.map_or(0, |kind| kind as c_int);
+        tp.done = now.done.into();
+        tp.depth = now.queue_depth as c_int;
+        tp.activeDepth = now.active_depth as c_int;
+        tp.pausing = now.pausing.into();
+        tp.aborting = now.aborting.into();
+        tp.reverse_run = tc_direction_t::TC_DIR_FORWARD as c_int;
+        tp.queue._len = now.queue_depth as c_int;
+        tp.spindle.waiting_for_index = NO_MOVE;
+        tp.spindle.waiting_for_atspeed = if now.waiting_for_spindle {
+            now.exec_id
+        } else {
+            NO_MOVE
+        };
+        // SAFETY: null, or motmod's status in shared memory for as long as the module is loaded.
+        if let Some(status) = unsafe { self.status.as_mut() } {
+            status.current_vel = now.current_velocity;
+            status.requested_vel = now.requested_velocity;
+            status.distance_to_go = now.distance_to_go;
+            status.dtg = pose_of(&now.axis_distance_to_go);
+            status.enables_queued = now.enables.unwrap_or(status.enables_new);
+            status.tcqlen = now.queue_depth as u32;
+            status.spindleSync = 0;
+        }
+    }
+
+    /// Writes the synchronised outputs of the move that has just started.
+    fn write_outputs(&self) {
+        let outputs = &self.planner.status().outputs;
+        if outputs.is_empty() {
+            return;
+        }
+        if let Some(write) = self.write_digital {
+            for (index, value) in outputs
+                .digital()
+                .take_while(|(index, _)| *index < EMCMOT_MAX_DIO as usize)
+            {
+                // SAFETY: motmod's own function; it checks the number against the outputs there are.
+                unsafe { write(index as c_int, value.into()) };
+            }
+        }
+        if let Some(write) = self.write_analog {
+            for (index, value) in outputs
+                .analog()
+                .take_while(|(index, _)| *index < EMCMOT_MAX_AIO as usize)
+            {
+                // SAFETY: as above.
+                unsafe { write(index as c_int, value) };
+            }
+        }
+    }
+}
+
+fn tag_out(tag: &StateTag) -> state_tag_t {
+    // SAFETY: plain numbers of the same size; every bit pattern is a valid tag.
+    unsafe { core::mem::transmute_copy::<[u8; STATE_TAG_SIZE], state_tag_t>(&tag.0) }
+}
+
+/// What went wrong inside the planner, null if nothing did. The motion was aborted for it.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_fault_text(handle: *const Handle) -> *const c_char {
+    // SAFETY: see above.
+    let fault = unsafe { handle.as_ref() }.and_then(|handle| handle.planner.status().fault);
+    match fault {
+        None => ptr::null(),
+        Some(Fault::CellRefused) => c"the executor refused a period of the plan".as_ptr(),
+        Some(Fault::Starved) => c"the executor had nothing left to run on".as_ptr(),
+        Some(Fault::LimitsRefused) => c"the executor refused the limits of the axes".as_ptr(),
+    }
+}
+
+/// One servo period. Returns 0, or LinuxCNC's code 4 (waiting) while there is nothing to move.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_run_cycle(
+    handle: *mut Handle,
+    tp: *mut TP_STRUCT,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(tp)) = (unsafe { (handle.as_mut(), tp.as_mut()) }) else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    // SAFETY: null, or motmod's own structures for as long as the module is loaded.
+    let (Some(status), Some(config)) =
+        (unsafe { (handle.status.as_ref(), handle.config.as_ref()) })
+    else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    let spindles = usize::try_from(config.numSpindles).unwrap_or(0);
+    let inputs = CycleInputs {
+        feed_scale: status.feed_scale,
+        rapid_scale: status.rapid_scale,
+        net_feed_scale: status.net_feed_scale,
+        stepping: status.stepping != 0,
+        spindles_at_speed: status
+            .spindle_status
+            .iter()
+            .take(spindles)
+            .all(|spindle| spindle.at_speed != 0),
+    };
+    let limits = handle.limits();
+    handle.planner.set_limits(&limits);
+    handle.planner.cycle(&inputs);
+    handle.write_outputs();
+    handle.report(tp);
+    if handle.planner.status().queue_depth == 0 {
+        tp_err_t::TP_ERR_WAITING
+    } else {
+        tp_err_t::TP_ERR_OK
+    }
+}
+
+/// Drops all moves.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_clear(handle: *mut Handle, tp: *mut TP_STRUCT) -> c_int {
+    command(handle, tp, |handle| {
+        handle.planner.clear();
+        // SAFETY: null, or motmod's status for as long as the module is loaded.
+        if let Some(status) = unsafe { handle.status.as_mut() } {
+            status.motionFlag |= EMCMOT_MOTION_INPOS_BIT as u16;
+        }
+    })
+}
+
+/// Comes to rest on the path and stays there.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_pause(handle: *mut Handle, tp: *mut TP_STRUCT) -> c_int {
+    command(handle, tp, |handle| handle.planner.pause())
+}
+
+/// Goes on after a pause.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_resume(
+    handle: *mut Handle,
+    tp: *mut TP_STRUCT,
+) -> c_int {
+    command(handle, tp, |handle| handle.planner.resume())
+}
+
+/// Comes to rest on the path, then drops all moves.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_abort(handle: *mut Handle, tp: *mut TP_STRUCT) -> c_int {
+    command(handle, tp, |handle| handle.planner.abort())
+}
+
+/// Where the machine is to be.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `position` points to a pose.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_position(
+    handle: *const Handle,
+    position: *mut EmcPose,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(position)) = (unsafe { (handle.as_ref(), position.as_mut()) }) else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    *position = pose_of(&handle.planner.status().position);
+    tp_err_t::TP_ERR_OK
+}
+
+/// Whether no more moves should be sent.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_queue_full(handle: *const Handle) -> c_int {
+    // SAFETY: see above.
+    unsafe { handle.as_ref() }.map_or(1, |handle| handle.planner.status().queue_full.into())
+}

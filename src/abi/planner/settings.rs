@@ -1,0 +1,228 @@
+//! What motmod sets between moves.
+
+use libc::{c_double, c_int, c_uchar};
+use nalgebra::Matrix3;
+
+use super::{Handle, with};
+use crate::abi::linuxcnc::{EmcPose, TP_STRUCT, tc_direction_t, tp_err_t};
+use crate::abi::pose::axes_of;
+use crate::axes::{AXIS_COUNT, Axes};
+use crate::moves::TerminationCondition;
+
+/// Sets the greatest jerk of each of the nine axes, 0 = not limited. Returns -1, or the number of the first axis whose
+/// value is negative or not a number; then nothing changes.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `jerk` has nine numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_jerk(
+    handle: *mut Handle,
+    jerk: *const c_double,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(jerk)) =
+        (unsafe { (handle.as_mut(), jerk.cast::<[f64; AXIS_COUNT]>().as_ref()) })
+    else {
+        return 0;
+    };
+    if let Some(axis) = jerk
+        .iter()
+        .position(|value| !(*value >= 0.0 && value.is_finite()))
+    {
+        return axis as c_int;
+    }
+    handle.jerk = Axes::from_iterator(
+        jerk.iter()
+            .map(|value| if *value == 0.0 { f64::INFINITY } else { *value }),
+    );
+    -1
+}
+
+/// Says whether a frame is in force, and how the axes of the program lie to those of the machine behind it: three rows
+/// of a 3x3 map of X Y Z. The map is taken while nothing is queued, since a frame changes only at standstill; otherwise, and if it is not finite, it is left as it is.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `map` has nine numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_machine_map(
+    handle: *mut Handle,
+    framed: c_int,
+    map: *const c_double,
+) {
+    // SAFETY: see above.
+    let (Some(handle), Some(map)) = (unsafe { (handle.as_mut(), map.cast::<[f64; 9]>().as_ref()) })
+    else {
+        return;
+    };
+    handle.framed = framed != 0;
+    let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = *map;
+    handle
+        .planner
+        .set_machine_map(&Matrix3::new(xx, xy, xz, yx, yy, yz, zx, zy, zz));
+}
+
+/// Sets the duration of a servo period in seconds. -1 if that is not possible now.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_cycle_time(
+    handle: *mut Handle,
+    tp: *mut TP_STRUCT,
+    seconds: c_double,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(tp)) = (unsafe { (handle.as_mut(), tp.as_mut()) }) else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    if !handle.planner.set_cycle_time(seconds) {
+        return tp_err_t::TP_ERR_FAIL;
+    }
+    tp.cycleTime = seconds;
+    tp_err_t::TP_ERR_OK
+}
+
+/// Sets what no move may exceed along its path, machine units per second.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_velocity_limit(
+    handle: *mut Handle,
+    velocity: c_double,
+) -> c_int {
+    with(handle, |handle| {
+        handle.planner.set_velocity_limit(velocity);
+        tp_err_t::TP_ERR_OK
+    })
+}
+
+/// Sets LinuxCNC's number for the next move.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_id(handle: *mut Handle, id: c_int) -> c_int {
+    with(handle, |handle| {
+        handle.planner.set_id(id);
+        tp_err_t::TP_ERR_OK
+    })
+}
+
+/// Sets how the moves to come meet the next one (LinuxCNC's number, and P). -1 if the number or P makes no sense.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_termination(
+    handle: *mut Handle,
+    condition: c_int,
+    tolerance: c_double,
+) -> c_int {
+    with(handle, |handle| {
+        match TerminationCondition::from_number(condition, tolerance) {
+            Some(termination) => {
+                handle.planner.set_termination(termination);
+                tp_err_t::TP_ERR_OK
+            }
+            None => tp_err_t::TP_ERR_FAIL,
+        }
+    })
+}
+
+/// Starts from a position, with everything else dropped. -1 if it has a coordinate that is not finite.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_position(
+    handle: *mut Handle,
+    tp: *mut TP_STRUCT,
+    position: *const EmcPose,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(tp), Some(position)) =
+        (unsafe { (handle.as_mut(), tp.as_mut(), position.as_ref()) })
+    else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    if handle.planner.set_position(&axes_of(position)).is_err() {
+        return tp_err_t::TP_ERR_FAIL;
+    }
+    handle.report(tp);
+    tp_err_t::TP_ERR_OK
+}
+
+/// Says whether the moves to come are synchronised with a spindle (`distance_per_turn` not 0); such moves are refused.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_spindle_sync(
+    handle: *mut Handle,
+    distance_per_turn: c_double,
+) -> c_int {
+    with(handle, |handle| {
+        handle
+            .planner
+            .set_spindle_synchronised(distance_per_turn != 0.0);
+        tp_err_t::TP_ERR_OK
+    })
+}
+
+/// Gives the next move an analog output to write at its start. -1 if there is none of this number.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_analog_output(
+    handle: *mut Handle,
+    index: c_uchar,
+    value: c_double,
+) -> c_int {
+    with(handle, |handle| {
+        match handle.planner.set_analog_output(index.into(), value) {
+            true => tp_err_t::TP_ERR_OK,
+            false => tp_err_t::TP_ERR_FAIL,
+        }
+    })
+}
+
+/// Gives the next move a digital output to write at its start. -1 if there is none of this number.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_digital_output(
+    handle: *mut Handle,
+    index: c_int,
+    value: c_uchar,
+) -> c_int {
+    with(handle, |handle| {
+        let set = usize::try_from(index)
+            .is_ok_and(|index| handle.planner.set_digital_output(index, value != 0));
+        if set {
+            tp_err_t::TP_ERR_OK
+        } else {
+            tp_err_t::TP_ERR_FAIL
+        }
+    })
+}
+
+/// Chooses the direction of the run. The reverse run is not supported yet: anything but forward is -1.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_run_direction(
+    handle: *mut Handle,
+    direction: c_int,
+) -> c_int {
+    with(handle, |_| {
+        if direction == tc_direction_t::TC_DIR_FORWARD as c_int {
+            tp_err_t::TP_ERR_OK
+        } else {
+            tp_err_t::TP_ERR_FAIL
+        }
+    })
+}

@@ -1,0 +1,254 @@
+//! The feed cap: what overrides and the greatest velocity leave of the programmed feed.
+//!
+//! A cap that the reference exceeds is approached softly, as a jerk-limited S-curve would, so
+//! that the machine arrives at the cap with no acceleration left. Before that, a guard makes sure
+//! that braking as hard as possible from now on would still keep all caps ahead.
+
+use super::demand::Demand;
+use super::release::Refusal;
+use super::rows::{Interval, Limits, Span};
+use super::state::State;
+use super::table::{OverrideKind, StoredCell, Table};
+
+/// Cells of a block. A power of two.
+pub const BLOCK_LENGTH: usize = 16;
+
+/// How far ahead caps are looked for, seconds.
+const FORESIGHT: f64 = 0.1;
+
+/// How long a rate change is assumed to go on when the guard is asked for, seconds.
+const RATE_CHANGE_FORESIGHT: f64 = 0.12;
+
+/// Part of the path's jerk that a soft approach uses; the rest is for what lies ahead.
+const APPROACH_PART: f64 = 0.85;
+
+/// Least part of the least jerk limit for the approach, where the reference leaves almost none.
+const LEAST_APPROACH_PART: f64 = 0.1;
+
+/// Greatest period count of the guard's simulation.
+const GUARD_PERIODS: usize = 60;
+
+/// What the guard lets pass: of the cap, and of the programmed feed.
+const GUARD_TOLERANCE: f64 = 0.01;
+const GUARD_FEED_TOLERANCE: f64 = 5e-4;
+
+/// Path speeds below this part of the cap are free.
+const FREE_PART: f64 = 1e-3;
+
+/// The greatest feeds in a block of cells, for a quick look at what lies ahead.
+#[derive(Clone, Copy, Debug)]
+pub struct FeedBlock {
+    /// Greatest feed at a rate of 1.
+    feed: f32,
+    /// Greatest feed over programmed feed where the feed override applies.
+    feed_over_programmed: f32,
+    /// The same where the rapid override applies.
+    rapid_over_programmed: f32,
+    /// The same where no override applies.
+    fixed_over_programmed: f32,
+}
+
+impl FeedBlock {
+    pub const EMPTY: Self = Self {
+        feed: 0.0,
+        feed_over_programmed: 0.0,
+        rapid_over_programmed: 0.0,
+        fixed_over_programmed: 0.0,
+    };
+
+    pub fn include(&mut self, cell: &StoredCell) {
+        let ratio = (cell.feed() / f64::from(cell.programmed_feed)) as f32;
+        let greatest = match cell.override_kind {
+            OverrideKind::Feed => &mut self.feed_over_programmed,
+            OverrideKind::Rapid => &mut self.rapid_over_programmed,
+            OverrideKind::None => &mut self.fixed_over_programmed,
+        };
+        *greatest = greatest.max(ratio);
+        self.feed = self.feed.max(cell.feed() as f32);
+    }
+}
+
+/// The overrides and the greatest velocity of a servo period.
+#[derive(Clone, Copy, Debug)]
+pub struct Caps {
+    feed_override: f64,
+    rapid_override: f64,
+    /// Units per servo period.
+    max_velocity: f64,
+}
+
+impl Caps {
+    pub const NONE: Self = Self {
+        feed_override: 1.0,
+        rapid_override: 1.0,
+        max_velocity: f64::INFINITY,
+    };
+
+    /// `period` in seconds. Whatever is not a number, or negative, counts as 0.
+    pub fn new(demand: &Demand, period: f64) -> Self {
+        // `max` answers with the other one if one is NaN.
+        Self {
+            feed_override: demand.feed_override.max(0.0),
+            rapid_override: demand.rapid_override.max(0.0),
+            max_velocity: demand.max_velocity.max(0.0) * period,
+        }
+    }
+
+    fn scale(&self, kind: OverrideKind) -> f64 {
+        match kind {
+            OverrideKind::Feed => self.feed_override,
+            OverrideKind::Rapid => self.rapid_override,
+            OverrideKind::None => 1.0,
+        }
+    }
+
+    /// Whether nothing may move in this cell.
+    pub fn is_hold(&self, cell: &StoredCell) -> bool {
+        self.scale(cell.override_kind) <= 0.0 || self.max_velocity <= 0.0
+    }
+
+    /// Greatest feed in a cell, units per servo period.
+    fn feed(&self, cell: &StoredCell) -> f64 {
+        (self.scale(cell.override_kind) * f64::from(cell.programmed_feed)).min(self.max_velocity)
+    }
+
+    /// Greatest ratio of the reference's feed to its cap from `time` on, as far as anything ahead
+    /// matters now. Above 1 the reference has to be slowed down somewhere.
+    pub fn greatest_ratio(&self, table: &Table, time: f64, period: f64) -> f64 {
+        let velocity = 1.0 / self.max_velocity.max(1e-12);
+        let feed = 1.0 / self.feed_override.max(1e-9);
+        let rapid = 1.0 / self.rapid_override.max(1e-9);
+        let cells = (FORESIGHT / period) as usize;
+        table.blocks(time, cells).fold(0.0, |ratio: f64, block| {
+            ratio
+                .max(f64::from(block.feed) * velocity)
+                .max(f64::from(block.feed_over_programmed) * feed)
+                .max(f64::from(block.rapid_over_programmed) * rapid)
+                .max(f64::from(block.fixed_over_programmed))
+        })
+    }
+
+    /// Whether a reference with these programmed feeds may have to be slowed down.
+    pub fn may_bind(&self, greatest_programmed_feed: f64) -> bool {
+        self.feed_override < 1.0
+            || self.rapid_override < 1.0
+            || self.max_velocity < greatest_programmed_feed
+    }
+
+    /// The n that approaches the cap softly: the acceleration along the path from which the cap
+    /// is just reached with what is left of the path's jerk. `jerk_interval` is what the jerk
+    /// limits allow. `None` where the reference is so slow that any rate is right.
+    pub fn approach(
+        &self,
+        table: &Table,
+        limits: &Limits,
+        state: State,
+        jerk_interval: &Interval,
+    ) -> Option<f64> {
+        let index = state.time as usize;
+        let part = (state.time - index as f64).clamp(0.0, 1.0);
+        let (here, next) = (table.cell(index), table.cell(index + 1));
+        let between = |a: f32, b: f32| f64::from(a) + part * (f64::from(b) - f64::from(a));
+        let path_velocity = between(here.path_velocity, next.path_velocity);
+        let path_acceleration = between(here.path_acceleration, next.path_acceleration);
+        let path_jerk = f64::from(next.path_acceleration) - f64::from(here.path_acceleration);
+
+        let feed_ratio = f64::from(here.feed_ratio.max(next.feed_ratio)).max(1e-3);
+        let cap = self.feed(here).min(self.feed(next)) / feed_ratio;
+        if path_velocity < FREE_PART * cap || path_velocity < 1e-12 {
+            return None;
+        }
+
+        let (rate, change) = (state.rate, state.rate_change);
+        let velocity = rate * path_velocity;
+        let acceleration = change * path_velocity + rate * rate * path_acceleration;
+        let jerk_without_n =
+            rate * rate * rate * path_jerk + 3.0 * rate * change * path_acceleration;
+        // What is missing to the cap in the middle of the period.
+        let missing = cap - velocity - 0.5 * acceleration;
+        // The approach ends by braking the acceleration: with jerk of the other sign.
+        let available = if missing > 0.0 {
+            -(jerk_without_n + jerk_interval.low * path_velocity)
+        } else {
+            jerk_without_n + jerk_interval.high * path_velocity
+        };
+        let jerk = (APPROACH_PART * available)
+            .max(LEAST_APPROACH_PART * limits.least_jerk().min(1.0))
+            .clamp(1e-15, 1e15);
+        let half = 0.5 * jerk;
+        let distance = 2.0 * jerk * missing.abs();
+        // sqrt(half^2 + distance) - half, without the cancellation.
+        let wanted = (distance / (half + (half * half + distance).sqrt())).copysign(missing);
+        Some((wanted - acceleration - jerk_without_n) / path_velocity)
+    }
+
+    /// Whether the guard has to look: at this rate, or the one it is about to reach, the
+    /// reference exceeds a cap somewhere ahead by `ratio`.
+    pub fn needs_guard(state: State, ratio: f64, period: f64) -> bool {
+        let rising = state.rate_change.max(0.0) * RATE_CHANGE_FORESIGHT / period;
+        (state.rate + rising).min(1.0) * ratio > 1.0
+    }
+
+    /// Whether the hardest braking from `state`, reached with `previous_n`, keeps the caps.
+    /// `Err` if that cannot be told before more cells are known.
+    #[inline(never)]
+    pub fn guard(
+        &self,
+        table: &Table,
+        limits: &Limits,
+        mut state: State,
+        mut previous_n: f64,
+        period: f64,
+        budget: &mut usize,
+    ) -> Result<bool, Refusal> {
+        let mut start = table.node(state.time);
+        let mut last_feed = 0.0;
+        for count in 0..GUARD_PERIODS {
+            let (here, next) = (table.cell(start.cell), table.cell(start.cell + 1));
+            let part = (state.time - start.cell as f64).clamp(0.0, 1.0);
+            let feed = state.rate * (here.feed() + part * (next.feed() - here.feed()));
+            let allowed = self.feed(here) * (1.0 + GUARD_TOLERANCE)
+                + GUARD_FEED_TOLERANCE * f64::from(here.programmed_feed);
+            if feed > allowed {
+                // Above the cap from the first: it was lowered just now, and the soft approach
+                // brakes anyway. The hardest braking would end far below the cap.
+                return Ok(count == 0);
+            }
+            let falling = count > 0 && feed <= last_feed;
+            if state.rate <= 1e-6
+                || table.is_behind_end(state.time)
+                || falling
+                    && state.rate * self.greatest_ratio(table, state.time, period)
+                        <= 1.0 + GUARD_TOLERANCE
+            {
+                return Ok(true);
+            }
+            match budget.checked_sub(1) {
+                Some(left) => *budget = left,
+                None => return Ok(true),
+            }
+            last_feed = feed;
+            let predicted = state.step(previous_n);
+            if !table.knows(predicted.time) {
+                return Err(Refusal::Wall);
+            }
+            let end = table.node(predicted.time);
+            let span = Span::new(table, limits, &start, &end);
+            let n = hardest_braking(&span, state, predicted);
+            previous_n = n;
+            state = state.step(n);
+            state.rate = state.rate.clamp(0.0, 1.0);
+            start = end;
+        }
+        Ok(true)
+    }
+}
+
+/// The least n within all limits; where they contradict each other, the jerk decides.
+fn hardest_braking(span: &Span, state: State, predicted: State) -> f64 {
+    let low = span
+        .acceleration_interval(state, predicted)
+        .low
+        .max(Interval::of_rate(state).low);
+    span.jerk_interval(state, predicted).nearest(low)
+}

@@ -1,0 +1,321 @@
+//! The servo cycle: one decision for each servo period.
+
+use super::cap::Caps;
+use super::cell::Cell;
+use super::decision::Goal;
+use super::demand::{Demand, Step};
+use super::release::Release;
+use super::rows::Limits;
+use super::state::State;
+use super::table::{CloseError, PushError, ReopenError, Table, USABLE};
+use crate::axes::AxisLimits;
+
+/// Servo periods that may be simulated in one cycle: bounds its cost.
+pub(super) const BUDGET: usize = 256;
+
+/// Why limits or a servo period were refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ConfigureError {
+    /// The servo period is not a positive, finite number of seconds.
+    ServoPeriod(f64),
+    /// A limit is zero, negative or not a number.
+    Limit {
+        /// Index of the axis.
+        axis: usize,
+    },
+}
+
+/// Runs the reference trajectory with a time of its own, within all limits. See [`super`].
+///
+/// In each servo period the planner pushes cells until [`Executor::cells_ahead`] reaches
+/// [`Executor::cells_wanted`], or closes the reference where it comes to rest for good; then it
+/// calls [`Executor::cycle`] and advances its own position in the reference by what the step says.
+#[derive(Clone, Debug)]
+pub struct Executor {
+    pub(super) table: Table,
+    pub(super) state: State,
+    /// Seconds; 0 before the first [`Executor::configure`].
+    pub(super) servo_period: f64,
+    pub(super) limits: Limits,
+    /// The stored release is `releases[stored]`; the other one is for the candidate.
+    pub(super) releases: [Release; 2],
+    pub(super) stored: usize,
+    /// Part of the way to the wanted n that the search tries first.
+    pub(super) fraction: f64,
+    pub(super) goal: Goal,
+    pub(super) caps: Caps,
+    pub(super) greatest_programmed_feed: f64,
+    /// Periods left to simulate in this cycle.
+    pub(super) budget: usize,
+    pub(super) wall: bool,
+    pub(super) started: bool,
+    pub(super) starved: bool,
+    pub(super) end_reached: bool,
+    pub(super) releases_lost: u64,
+}
+
+impl Executor {
+    /// At rest, with an empty table. It takes no cells before [`Executor::configure`].
+    pub const fn new() -> Self {
+        Self {
+            table: Table::new(),
+            state: State::START,
+            servo_period: 0.0,
+            limits: Limits::UNLIMITED,
+            releases: [Release::EMPTY, Release::EMPTY],
+            stored: 0,
+            fraction: 1.0,
+            goal: Goal::Run,
+            caps: Caps::NONE,
+            greatest_programmed_feed: 0.0,
+            budget: 0,
+            wall: false,
+            started: false,
+            starved: false,
+            end_reached: false,
+            releases_lost: 0,
+        }
+    }
+
+    /// Sets limits and servo period (seconds) and [resets](Executor::reset).
+    pub fn configure(
+        &mut self,
+        limits: &AxisLimits,
+        servo_period: f64,
+    ) -> Result<(), ConfigureError> {
+        if !(servo_period > 0.0 && servo_period.is_finite()) {
+            return Err(ConfigureError::ServoPeriod(servo_period));
+        }
+        check(limits)?;
+        self.servo_period = servo_period;
+        self.limits = Limits::new(limits, servo_period);
+        self.greatest_programmed_feed = 0.0;
+        self.reset();
+        Ok(())
+    }
+
+    /// Sets the limits, at any time after [`Executor::configure`]. A reference planned for higher
+    /// limits is still run as it is: the executor only adds nothing to what it needs.
+    pub fn set_limits(&mut self, limits: &AxisLimits) -> Result<(), ConfigureError> {
+        if self.servo_period == 0.0 {
+            return Err(ConfigureError::ServoPeriod(self.servo_period));
+        }
+        check(limits)?;
+        self.limits = Limits::new(limits, self.servo_period);
+        Ok(())
+    }
+
+    /// Forgets the reference. To be called at rest only: before the first cell, when the end is
+    /// reached, or after a hold. The next cell pushed starts a new reference, from rest.
+    pub fn reset(&mut self) {
+        self.table.clear();
+        self.state = State::START;
+        for release in &mut self.releases {
+            release.clear();
+        }
+        self.fraction = 1.0;
+        self.wall = false;
+        self.started = false;
+        self.starved = false;
+        self.end_reached = false;
+    }
+
+    /// Adds the next cell of the reference.
+    pub fn push(&mut self, cell: &Cell) -> Result<(), PushError> {
+        if self.servo_period == 0.0 {
+            return Err(PushError::NotConfigured);
+        }
+        self.table.push(cell, self.servo_period)?;
+        let feed = cell.programmed_feed * self.servo_period;
+        self.greatest_programmed_feed = self.greatest_programmed_feed.max(feed);
+        Ok(())
+    }
+
+    /// The reference ends at rest `seconds` after the start of the last cell pushed (0 to one
+    /// servo period). The table then needs no more cells.
+    pub fn close(&mut self, seconds: f64) -> Result<(), CloseError> {
+        let time = if self.servo_period > 0.0 {
+            seconds / self.servo_period
+        } else {
+            0.0
+        };
+        self.table.close(time, self.state.time)
+    }
+
+    /// More cells follow the end at which the reference was closed: it stands still until the end
+    /// of its last cell, and the next cell pushed follows there. Refused if the executor relies on
+    /// the end; then run to it, [reset](Executor::reset) and start anew.
+    pub fn reopen(&mut self) -> Result<(), ReopenError> {
+        if self.table.end().is_none() {
+            return Err(ReopenError::Open);
+        }
+        if self.end_reached || self.release().relies_on_end() {
+            return Err(ReopenError::EndInUse);
+        }
+        self.table.reopen();
+        Ok(())
+    }
+
+    /// Cells known from the one that the reference time lies in, that one included.
+    pub fn cells_ahead(&self) -> usize {
+        self.table.length()
+    }
+
+    /// How many cells, from the one that the reference time lies in, the executor wants to know
+    /// before the next cycle. Pushing more than 8 in one cycle is never needed. When the reference
+    /// is closed there is nothing more to push.
+    ///
+    /// The less is frozen in the table, the sooner the planner's improvements count. So it is
+    /// little while the reference runs as it is, as far as the stored release reaches while the
+    /// rate changes, and as far as it takes to brake where a feed cap may bind.
+    pub fn cells_wanted(&self) -> usize {
+        // From the time of the state to the end of the cell behind, which is known only when the
+        // next one is.
+        const BOTH_ENDS: usize = 2;
+        let mut wanted = 6;
+        if self.goal == Goal::Hold || !self.is_idle() {
+            wanted = wanted.max(self.release().end_time() as usize + 16);
+        }
+        if self.may_be_capped() {
+            wanted = wanted.max(self.cells_to_brake());
+        }
+        wanted += BOTH_ENDS;
+        if self.wall {
+            wanted = wanted.max(self.table.length() + 8);
+        }
+        wanted.min(USABLE)
+    }
+
+    /// Reference time since the start of the cell that it lies in, seconds.
+    pub fn time_in_cell(&self) -> f64 {
+        self.state.time * self.servo_period
+    }
+
+    /// How often the stored release ended before the rate change was 0: a count of numerical
+    /// accidents, to be 0.
+    pub fn releases_lost(&self) -> u64 {
+        self.releases_lost
+    }
+
+    /// One servo period.
+    pub fn cycle(&mut self, demand: &Demand) -> Step {
+        self.wall = false;
+        if self.end_reached || self.table.length() == 0 && !self.started {
+            return self.standing();
+        }
+        self.caps = Caps::new(demand, self.servo_period);
+        let goal = self.goal(demand);
+        if !self.started {
+            // The reference starts at rest: every rate is the same motion.
+            self.state.rate = if goal == Goal::Hold { 0.0 } else { 1.0 };
+        }
+        self.budget = BUDGET;
+        let n = self.decide(goal);
+        self.goal = goal;
+        self.commit(n)
+    }
+
+    /// Takes the step.
+    fn commit(&mut self, n: f64) -> Step {
+        let state = self.state;
+        let n = if n.is_finite() { n } else { 0.0 };
+        let mut next = state.step(n).settled().within_range();
+        // At a rate of 1 this is exactly one period, wherever in its cell the time lies.
+        let mut advance = state.advance(n).clamp(0.0, 1.0);
+        next.time = state.time + advance;
+        let known = self.table.length() as f64;
+        match self.table.end() {
+            Some(end) if next.time >= end => {
+                self.end_reached = true;
+                advance = (end - state.time).max(0.0);
+                next.time = end.max(state.time);
+            }
+            None if next.time > known => {
+                self.starved = true;
+                self.release_mut().clear();
+                advance = (known - state.time).max(0.0);
+                next = State {
+                    time: known,
+                    rate: 0.0,
+                    rate_change: 0.0,
+                };
+            }
+            _ => {}
+        }
+        self.started |= advance > 0.0;
+        self.state = next;
+        let passed = next.time as usize;
+        if passed > 0 {
+            self.table.discard(passed);
+            self.state.time -= passed as f64;
+            for release in &mut self.releases {
+                release.shift(passed as f64);
+            }
+        }
+        Step {
+            advance: advance * self.servo_period,
+            ..self.standing()
+        }
+    }
+
+    /// The answer for the present state, without an advance.
+    fn standing(&mut self) -> Step {
+        let rests = self.end_reached || !self.started;
+        let (rate, rate_change) = if rests {
+            (0.0, 0.0)
+        } else {
+            (self.state.rate, self.state.rate_change / self.servo_period)
+        };
+        Step {
+            advance: 0.0,
+            rate,
+            rate_change,
+            at_rest: rate == 0.0 && rate_change == 0.0,
+            end_reached: self.end_reached,
+            wall: self.wall,
+            starved: std::mem::take(&mut self.starved),
+        }
+    }
+
+    /// Whether there is nothing to release and nothing to gain.
+    fn is_idle(&self) -> bool {
+        self.state.rate_change == 0.0 && (self.state.rate == 0.0 || self.state.rate == 1.0)
+    }
+
+    fn may_be_capped(&self) -> bool {
+        matches!(self.goal, Goal::Cap(_)) || self.caps.may_bind(self.greatest_programmed_feed)
+    }
+
+    /// Cells within which a change of feed is foreseen: those of a jerk-limited change from the
+    /// greatest programmed feed, and a margin.
+    fn cells_to_brake(&self) -> usize {
+        let braking = (2.0 * self.greatest_programmed_feed / self.limits.least_jerk()).sqrt();
+        let period = self.servo_period.max(1e-9);
+        (0.06 / period).max(0.02 / period + 0.6 * braking) as usize
+    }
+
+    pub(super) fn release(&self) -> &Release {
+        &self.releases[self.stored & 1]
+    }
+
+    pub(super) fn release_mut(&mut self) -> &mut Release {
+        &mut self.releases[self.stored & 1]
+    }
+}
+
+impl Default for Executor {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn check(limits: &AxisLimits) -> Result<(), ConfigureError> {
+    for kind in [&limits.velocity, &limits.acceleration, &limits.jerk] {
+        for (axis, limit) in kind.iter().enumerate() {
+            if limit.is_nan() || *limit <= 0.0 {
+                return Err(ConfigureError::Limit { axis });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,287 @@
+//! The verified release: how the rate change m is brought to 0 from where the machine is.
+//!
+//! A release is a list of n, one for each servo period to come. It was simulated against the
+//! cells of the table, so following it keeps all limits; behind its last entry the rate stays as
+//! it is, which is feasible for ever. As long as one is stored, nothing can go wrong.
+
+use super::rows::{Limits, Span};
+use super::state::State;
+use super::table::{Node, Table};
+
+/// Longest release, servo periods. A power of two.
+const LONGEST: usize = 256;
+
+/// How often a period is predicted before it is given up.
+const PREDICTIONS: usize = 2;
+
+/// Why no release was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// It would leave the known cells.
+    Wall,
+    /// It breaks a limit, or the rate would leave 0 to 1.
+    Limits,
+    /// It takes longer than the periods that may be simulated in one cycle.
+    Budget,
+}
+
+/// A list of n that brings the rate change to 0.
+#[derive(Clone, Debug)]
+pub struct Release {
+    n: [f64; LONGEST],
+    length: usize,
+    next: usize,
+    /// When the rate change is 0, in the time of the table.
+    end_time: f64,
+    relies_on_end: bool,
+}
+
+impl Release {
+    pub const EMPTY: Self = Self {
+        n: [0.0; LONGEST],
+        length: 0,
+        next: 0,
+        end_time: 0.0,
+        relies_on_end: false,
+    };
+
+    /// Nothing to release.
+    pub fn clear(&mut self) {
+        self.length = 0;
+        self.next = 0;
+        self.end_time = 0.0;
+        self.relies_on_end = false;
+    }
+
+    /// A single n, after which the state is `end`.
+    pub fn set_single(&mut self, n: f64, end: State, relies_on_end: bool) {
+        self.start();
+        self.append(n);
+        self.end_time = end.time;
+        self.relies_on_end = relies_on_end;
+    }
+
+    /// The n of the next period, `None` behind the last one.
+    pub fn next(&self) -> Option<f64> {
+        if self.next < self.length {
+            self.n.get(self.next).copied()
+        } else {
+            None
+        }
+    }
+
+    /// Whether one n is left.
+    pub fn is_last(&self) -> bool {
+        self.next + 1 == self.length
+    }
+
+    /// Takes the next n as done.
+    pub fn advance(&mut self) {
+        self.next = self.next.saturating_add(1).min(LONGEST);
+    }
+
+    /// When the rate change is 0, in the time of the table.
+    pub fn end_time(&self) -> f64 {
+        self.end_time
+    }
+
+    /// Whether the reference has to stand still behind its end for it.
+    pub fn relies_on_end(&self) -> bool {
+        self.relies_on_end
+    }
+
+    /// The origin of time moves on by `time`.
+    pub fn shift(&mut self, time: f64) {
+        self.end_time -= time;
+    }
+
+    fn start(&mut self) {
+        self.length = 0;
+        self.next = 0;
+    }
+
+    fn append(&mut self, n: f64) -> bool {
+        match self.n.get_mut(self.length) {
+            Some(slot) => {
+                *slot = n;
+                self.length += 1;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Simulates the fastest release from `state`, reached with `previous_n`, and stores it.
+    /// `budget` counts down by the periods simulated.
+    #[inline(never)]
+    pub fn find(
+        &mut self,
+        table: &Table,
+        limits: &Limits,
+        mut state: State,
+        previous_n: f64,
+        budget: &mut usize,
+    ) -> Result<(), Refusal> {
+        self.start();
+        if !table.knows(state.time) {
+            return Err(Refusal::Wall);
+        }
+        let mut start = table.node(state.time);
+        let mut previous_n = previous_n;
+        for _ in 0..=LONGEST {
+            let behind_end = table.is_behind_end(state.time);
+            if state.is_steady() || behind_end {
+                self.end_time = state.time;
+                self.relies_on_end = behind_end;
+                return Ok(());
+            }
+            let (n, next, end) = fastest_step(table, limits, state, &start, previous_n, budget)?;
+            if !self.append(n) {
+                return Err(Refusal::Budget);
+            }
+            previous_n = n;
+            state = next;
+            start = end;
+        }
+        Err(Refusal::Budget)
+    }
+}
+
+/// One period of the fastest release from `state`: its n, the state after it, and the reference
+/// there. The rows are linearised around the n of the period before; where that is far off, as at
+/// the start of a release, they are once more, around what they gave.
+#[inline(always)]
+fn fastest_step(
+    table: &Table,
+    limits: &Limits,
+    state: State,
+    start: &Node,
+    previous_n: f64,
+    budget: &mut usize,
+) -> Result<(f64, State, Node), Refusal> {
+    let wanted = -state.rate_change;
+    let mut predicted_n = previous_n;
+    for _ in 0..PREDICTIONS {
+        *budget = budget.checked_sub(1).ok_or(Refusal::Budget)?;
+        let predicted = state.step(predicted_n);
+        if !table.knows(predicted.time) {
+            return Err(Refusal::Wall);
+        }
+        let end = table.node(predicted.time);
+        let span = Span::new(table, limits, start, &end);
+        let interval = span.jerk_interval(state, predicted);
+        if interval.is_empty() {
+            return Err(Refusal::Limits);
+        }
+        let n = interval.nearest(wanted);
+        let mut next = state.step(n);
+        if n == wanted {
+            next.rate_change = 0.0;
+        }
+        if !table.knows(next.time) {
+            return Err(Refusal::Wall);
+        }
+        if !next.follows(state) {
+            return Err(Refusal::Limits);
+        }
+        if span.keeps_limits(state, next, n) {
+            return Ok((n, next, end));
+        }
+        predicted_n = n;
+    }
+    Err(Refusal::Limits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cell::Cell;
+    use super::*;
+    use crate::axes::{Axes, AxisLimits};
+
+    /// X moves 0.1 per period, for ever.
+    fn cruise(count: usize) -> Box<Table> {
+        let mut table = Box::new(Table::new());
+        table.clear();
+        for _ in 0..count {
+            let cell = Cell {
+                velocity: Axes::x() * 0.1,
+                acceleration: Axes::zeros(),
+                acceleration_min: Axes::zeros(),
+                acceleration_max: Axes::zeros(),
+                jerk_min: Axes::zeros(),
+                jerk_max: Axes::zeros(),
+                path_velocity: 0.1,
+                path_acceleration: 0.0,
+                feed_ratio: 1.0,
+                programmed_feed: 0.1,
+                rapid: false,
+                override_enabled: true,
+            };
+            table.push(&cell, 1.0).unwrap();
+        }
+        table
+    }
+
+    fn limits() -> Limits {
+        let limits = AxisLimits {
+            velocity: Axes::repeat(1.0),
+            acceleration: Axes::repeat(1e-3),
+            jerk: Axes::repeat(2e-5),
+        };
+        Limits::new(&limits, 1.0)
+    }
+
+    const BRAKING: State = State {
+        time: 0.0,
+        rate: 0.7,
+        rate_change: -0.008,
+    };
+
+    #[test]
+    fn it_takes_the_time_that_the_jerk_asks_for() {
+        let (table, limits) = (cruise(200), limits());
+        let mut release = Release::EMPTY;
+        let mut budget = 100;
+        let found = release.find(&table, &limits, BRAKING, 0.0, &mut budget);
+        assert_eq!(found, Ok(()));
+        // 0.0008 of acceleration at 2e-5 of jerk.
+        assert!((58..=60).contains(&budget), "{budget}");
+        let mut state = BRAKING;
+        while let Some(n) = release.next() {
+            assert!((n * 0.1).abs() <= 2.001e-5);
+            state = state.step(n);
+            release.advance();
+        }
+        assert!(state.is_steady() && state.rate > 0.5);
+        assert!((state.time - release.end_time()).abs() < 1e-9);
+        assert!(!release.relies_on_end());
+        assert_eq!(release.next(), None);
+    }
+
+    #[test]
+    fn refusals_are_told_apart() {
+        let limits = limits();
+        let find = |table: &Table, state, mut budget: usize| {
+            let mut release = Release::EMPTY;
+            release.find(table, &limits, state, 0.0, &mut budget)
+        };
+        let long = cruise(200);
+        assert_eq!(find(&long, BRAKING, 20), Err(Refusal::Budget));
+        let slow = State {
+            rate: 0.1,
+            ..BRAKING
+        };
+        assert_eq!(find(&long, slow, 100), Err(Refusal::Limits));
+        assert_eq!(find(&cruise(10), BRAKING, 100), Err(Refusal::Wall));
+    }
+
+    #[test]
+    fn the_end_of_the_reference_releases_too() {
+        let mut table = cruise(10);
+        table.close(1.0, 0.0).unwrap();
+        let mut release = Release::EMPTY;
+        let found = release.find(&table, &limits(), BRAKING, 0.0, &mut 100);
+        assert_eq!(found, Ok(()));
+        assert!(release.relies_on_end());
+    }
+}

@@ -1,0 +1,454 @@
+//! Which n = dm/dt the limits of the axes allow over the next servo period.
+//!
+//! For every axis the limits of acceleration and jerk are linear in n:
+//! `|offset + n * slope| <= width`, a row. Each row allows an interval of n; the executor picks
+//! from what all rows have in common. The rows look at both ends of the period, linearised around
+//! a predicted n; what was picked is then checked once more, in the middle of the period too.
+
+use super::lanes::{LANE_COUNT, Lanes, greater, greatest, least, lesser, scaled_limits};
+use super::state::State;
+use super::table::{Node, Table};
+use crate::axes::AxisLimits;
+
+/// Greatest rate change m, per period: from 0 to 1 takes four periods even where no axis limits
+/// it, which keeps a period's change of rate small against what the rows linearise.
+pub const RATE_CHANGE_LIMIT: f64 = 0.25;
+
+/// Greatest n, per period squared, for the same reason.
+pub const N_LIMIT: f64 = 0.25;
+
+/// Part of the acceleration limit that is used. The reference itself may use all of it.
+const ACCELERATION_PART: f32 = 0.9985;
+
+/// Rows of acceleration stay below the check by this factor, so that the check does not refuse
+/// what the rows have put on the limit.
+const ACCELERATION_ROW_PART: f32 = 0.9995;
+
+/// The check allows this much more jerk than the rows: they predict the end of the period only.
+const JERK_TOLERANCE: f32 = 1.03;
+
+/// Single precision must not turn a reference that is on the limit into one that is beyond.
+const ROUNDING: f32 = 1.0 + 1e-5;
+
+/// Slope, units per period, below which an axis does not move and its rows mean nothing.
+const LEAST_SLOPE: f32 = 1e-12;
+
+/// Limits of the axes in units of the servo period.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    acceleration: Lanes,
+    jerk: Lanes,
+    least_jerk: f64,
+}
+
+impl Limits {
+    pub const UNLIMITED: Self = Self {
+        acceleration: [super::lanes::UNLIMITED; LANE_COUNT],
+        jerk: [super::lanes::UNLIMITED; LANE_COUNT],
+        least_jerk: f64::INFINITY,
+    };
+
+    /// `period` in seconds.
+    pub fn new(limits: &AxisLimits, period: f64) -> Self {
+        let mut acceleration = scaled_limits(&limits.acceleration, period * period);
+        for lane in &mut acceleration {
+            *lane *= ACCELERATION_PART;
+        }
+        let third = period * period * period;
+        Self {
+            acceleration,
+            jerk: scaled_limits(&limits.jerk, third),
+            least_jerk: limits.jerk.iter().fold(f64::INFINITY, |a, b| a.min(*b)) * third,
+        }
+    }
+
+    /// The least jerk limit of all axes, units per period cubed; may be infinite.
+    pub fn least_jerk(&self) -> f64 {
+        self.least_jerk
+    }
+}
+
+/// An interval of n, per period squared. Empty if `low > high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Interval {
+    pub fn is_empty(&self) -> bool {
+        self.low > self.high
+    }
+
+    pub fn contains(&self, n: f64) -> bool {
+        self.low <= n && n <= self.high
+    }
+
+    pub fn intersection(&self, other: &Self) -> Self {
+        Self {
+            low: self.low.max(other.low),
+            high: self.high.min(other.high),
+        }
+    }
+
+    /// `n` moved into the interval; the middle of an empty one.
+    pub fn nearest(&self, n: f64) -> f64 {
+        if self.is_empty() {
+            0.5 * (self.low + self.high)
+        } else {
+            n.max(self.low).min(self.high)
+        }
+    }
+
+    /// The n that keep the rate from 0 to 1 and |m| within [`RATE_CHANGE_LIMIT`] at the end of
+    /// the period. Never empty.
+    pub fn of_rate(state: State) -> Self {
+        let (rate, change) = (state.rate, state.rate_change);
+        let low = (-RATE_CHANGE_LIMIT - change).max(-2.0 * (rate + change));
+        let high = (RATE_CHANGE_LIMIT - change).min(2.0 * (1.0 - rate - change));
+        Self {
+            low: low.min(high),
+            high: high.max(low),
+        }
+    }
+}
+
+/// What one servo period sees of the reference: its ends, and bounds over the cells it touches.
+pub struct Span {
+    start: Node,
+    end: Node,
+    acceleration: Bounds,
+    jerk: Bounds,
+}
+
+/// Bounds of a derivative, as centre and half width, and the limit that holds.
+struct Bounds {
+    centre: Lanes,
+    half: Lanes,
+    limit: Lanes,
+}
+
+impl Bounds {
+    /// Bounds over two cells. The limit is raised to what the reference needs by itself, so that
+    /// a constant rate is always allowed, even after the limits have been lowered.
+    #[inline(always)]
+    fn new(min: [&Lanes; 2], max: [&Lanes; 2], limit: &Lanes) -> Self {
+        let mut bounds = Self {
+            centre: [0.0; LANE_COUNT],
+            half: [0.0; LANE_COUNT],
+            limit: [0.0; LANE_COUNT],
+        };
+        for lane in 0..LANE_COUNT {
+            let low = lesser(min[0][lane], min[1][lane]);
+            let high = greater(max[0][lane], max[1][lane]);
+            bounds.centre[lane] = 0.5 * (high + low);
+            bounds.half[lane] = 0.5 * (high - low);
+            bounds.limit[lane] = ROUNDING * greater(limit[lane], greater(high, -low));
+        }
+        bounds
+    }
+}
+
+impl Span {
+    /// The period from `start` to about `end`.
+    #[inline(always)]
+    pub fn new(table: &Table, limits: &Limits, start: &Node, end: &Node) -> Self {
+        let (a, b) = (table.cell(start.cell), table.cell(end.cell));
+        Self {
+            start: *start,
+            end: *end,
+            acceleration: Bounds::new(
+                [&a.acceleration_min, &b.acceleration_min],
+                [&a.acceleration_max, &b.acceleration_max],
+                &limits.acceleration,
+            ),
+            jerk: Bounds::new(
+                [&a.jerk_min, &b.jerk_min],
+                [&a.jerk_max, &b.jerk_max],
+                &limits.jerk,
+            ),
+        }
+    }
+
+    /// The n that keep the jerk of all axes within its limits at both ends of the period, given
+    /// the state at its start and the predicted state at its end.
+    #[inline(always)]
+    pub fn jerk_interval(&self, start: State, end: State) -> Interval {
+        let mut rows = Rows::new();
+        let rate = start.rate as f32;
+        let cube = rate * rate * rate;
+        let coupling = 3.0 * rate * start.rate_change as f32;
+        let end_rate = greater(end.rate as f32, 0.0);
+        let end_cube = end_rate * end_rate * end_rate;
+        let end_coupling = 3.0 * end_rate * start.rate_change as f32;
+        for lane in 0..LANE_COUNT {
+            let centre = self.jerk.centre[lane];
+            let half = self.jerk.half[lane];
+            let limit = self.jerk.limit[lane];
+            rows.narrow(
+                lane,
+                cube * centre + coupling * self.start.acceleration[lane],
+                self.start.velocity[lane],
+                limit - cube * half,
+            );
+            // n also changes m at the end of the period, and with it the coupling.
+            let acceleration = self.end.acceleration[lane];
+            rows.narrow(
+                lane,
+                end_cube * centre + end_coupling * acceleration,
+                self.end.velocity[lane] + 3.0 * end_rate * acceleration,
+                limit - end_cube * half,
+            );
+        }
+        rows.interval()
+    }
+
+    /// The n that keep the acceleration of all axes within its limits at the end of the period.
+    #[inline(always)]
+    pub fn acceleration_interval(&self, start: State, end: State) -> Interval {
+        let mut rows = Rows::new();
+        let end_rate = greater(end.rate as f32, 0.0);
+        let square = end_rate * end_rate;
+        let rate_change = start.rate_change as f32;
+        for lane in 0..LANE_COUNT {
+            let velocity = self.end.velocity[lane];
+            rows.narrow(
+                lane,
+                square * self.acceleration.centre[lane] + rate_change * velocity,
+                velocity,
+                ACCELERATION_ROW_PART * self.acceleration.limit[lane]
+                    - square * self.acceleration.half[lane],
+            );
+        }
+        rows.interval()
+    }
+
+    /// Whether the period from `start` to `end` with this n keeps the limits: acceleration at
+    /// both ends and in the middle, jerk in the middle and at the end (the rows hold it at the
+    /// start).
+    #[inline(always)]
+    pub fn keeps_limits(&self, start: State, end: State, n: f64) -> bool {
+        let middle = start.half_step(n);
+        let mut excess = [0.0; LANE_COUNT];
+        let n = n as f32;
+        let [square_start, _, _, change_start] = powers(start);
+        let [square_middle, cube_middle, coupling_middle, change_middle] = powers(middle);
+        let [square_end, cube_end, coupling_end, change_end] = powers(end);
+        for lane in 0..LANE_COUNT {
+            let (v0, v2) = (self.start.velocity[lane], self.end.velocity[lane]);
+            let v1 = 0.5 * (v0 + v2);
+            let (a0, a2) = (self.start.acceleration[lane], self.end.acceleration[lane]);
+            let a1 = 0.5 * (a0 + a2);
+
+            let Bounds {
+                centre,
+                half,
+                limit,
+            } = &self.acceleration;
+            let (centre, half) = (centre[lane], half[lane]);
+            let worst = greater(
+                (square_start * centre + change_start * v0).abs() + square_start * half,
+                greater(
+                    (square_middle * centre + change_middle * v1).abs() + square_middle * half,
+                    (square_end * centre + change_end * v2).abs() + square_end * half,
+                ),
+            );
+            let acceleration = worst - limit[lane];
+
+            let Bounds {
+                centre,
+                half,
+                limit,
+            } = &self.jerk;
+            let (centre, half) = (centre[lane], half[lane]);
+            let worst = greater(
+                (cube_middle * centre + coupling_middle * a1 + n * v1).abs() + cube_middle * half,
+                (cube_end * centre + coupling_end * a2 + n * v2).abs() + cube_end * half,
+            );
+            let jerk = worst - JERK_TOLERANCE * limit[lane];
+            excess[lane] = greater(acceleration, jerk);
+        }
+        greatest(&excess) <= 0.0
+    }
+}
+
+/// l^2, l^3, 3 l m and m, by which the derivatives of the reference count.
+#[inline(always)]
+fn powers(state: State) -> [f32; 4] {
+    let rate = state.rate as f32;
+    let change = state.rate_change as f32;
+    let square = rate * rate;
+    [square, square * rate, 3.0 * rate * change, change]
+}
+
+/// The interval that the rows leave, for each axis by itself.
+struct Rows {
+    low: Lanes,
+    high: Lanes,
+}
+
+impl Rows {
+    #[inline(always)]
+    fn new() -> Self {
+        Self {
+            low: [-N_LIMIT as f32; LANE_COUNT],
+            high: [N_LIMIT as f32; LANE_COUNT],
+        }
+    }
+
+    /// `|offset + n * slope| <= width`.
+    #[inline(always)]
+    fn narrow(&mut self, lane: usize, offset: f32, slope: f32, width: f32) {
+        let scale = 1.0 / (slope.abs() + LEAST_SLOPE);
+        let middle = -offset * 1.0_f32.copysign(slope);
+        self.low[lane] = greater(self.low[lane], (middle - width) * scale);
+        self.high[lane] = lesser(self.high[lane], (middle + width) * scale);
+    }
+
+    #[inline(always)]
+    fn interval(&self) -> Interval {
+        Interval {
+            low: f64::from(greatest(&self.low)),
+            high: f64::from(least(&self.high)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cell::Cell;
+    use super::*;
+    use crate::axes::Axes;
+    use proptest::prelude::*;
+
+    fn axes(values: std::ops::Range<f64>) -> impl Strategy<Value = Axes> {
+        prop::array::uniform9(values).prop_map(Axes::from)
+    }
+
+    /// Cells of a constant acceleration, with bounds of the jerk around 0.
+    fn table(velocity: Axes, acceleration: Axes, jerk: Axes) -> Box<Table> {
+        let mut table = Box::new(Table::new());
+        table.clear();
+        for i in 0..6 {
+            let cell = Cell {
+                velocity: velocity + acceleration * f64::from(i),
+                acceleration,
+                acceleration_min: acceleration,
+                acceleration_max: acceleration,
+                jerk_min: -jerk,
+                jerk_max: jerk,
+                path_velocity: 1.0,
+                path_acceleration: 0.0,
+                feed_ratio: 1.0,
+                programmed_feed: 1.0,
+                rapid: false,
+                override_enabled: true,
+            };
+            table.push(&cell, 1.0).unwrap();
+        }
+        table
+    }
+
+    proptest! {
+        #[test]
+        fn the_interval_is_what_the_limits_allow(
+            velocity in axes(-10.0..10.0),
+            acceleration in axes(-0.1..0.1),
+            jerk in axes(0.0..0.01),
+            rate in 0.0..1.0,
+            rate_change in -0.01..0.01,
+        ) {
+            let limits = AxisLimits {
+                velocity: Axes::repeat(20.0),
+                acceleration: Axes::repeat(0.2),
+                jerk: Axes::repeat(0.02),
+            };
+            let limits = Limits::new(&limits, 1.0);
+            let table = table(velocity, acceleration, jerk);
+            let state = State { time: 0.3, rate, rate_change };
+            let predicted = state.step(0.0);
+            let (start, end) = (table.node(state.time), table.node(predicted.time));
+            let span = Span::new(&table, &limits, &start, &end);
+            let interval = span.jerk_interval(state, predicted);
+            // The jerk at the start of the period, for either sign of the reference's own.
+            let worst = |n: f64| {
+                let at_start = velocity + acceleration * state.time;
+                let known = acceleration * (3.0 * rate * rate_change) + at_start * n;
+                let own = jerk * rate.powi(3);
+                (known.abs() + own).amax()
+            };
+            if !interval.is_empty() {
+                prop_assert!(worst(interval.low) <= 0.02 * 1.0001);
+                prop_assert!(worst(interval.high) <= 0.02 * 1.0001);
+            }
+            // A constant rate is always allowed.
+            let steady = State { rate_change: 0.0, ..state };
+            let next = steady.step(0.0);
+            let end = table.node(next.time);
+            let span = Span::new(&table, &limits, &start, &end);
+            prop_assert!(span.jerk_interval(steady, next).contains(0.0));
+            prop_assert!(span.acceleration_interval(steady, next).contains(0.0));
+            prop_assert!(span.keeps_limits(steady, next, 0.0));
+            // And nothing that the check lets pass is far beyond a limit.
+            for n in [-0.2, -0.01, 0.003, 0.04] {
+                let next = steady.step(n);
+                if span.keeps_limits(steady, next, n) {
+                    let at_end = (velocity + acceleration * next.time) * n;
+                    prop_assert!(at_end.amax() <= 0.021, "{}", at_end.amax());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn intervals() {
+        let interval = Interval {
+            low: -1.0,
+            high: 2.0,
+        };
+        assert_eq!(interval.nearest(5.0), 2.0);
+        assert_eq!(interval.nearest(-5.0), -1.0);
+        assert_eq!(interval.nearest(0.5), 0.5);
+        let empty = interval.intersection(&Interval {
+            low: 3.0,
+            high: 4.0,
+        });
+        assert!(empty.is_empty() && !empty.contains(2.5));
+        assert_eq!(empty.nearest(9.0), 2.5);
+        let standing = State {
+            time: 0.0,
+            rate: 0.0,
+            rate_change: 0.0,
+        };
+        let of_rate = Interval::of_rate(standing);
+        assert_eq!((of_rate.low, of_rate.high), (0.0, RATE_CHANGE_LIMIT));
+    }
+
+    #[test]
+    fn axes_without_limits_do_not_count() {
+        let unlimited = AxisLimits {
+            velocity: Axes::repeat(f64::INFINITY),
+            acceleration: Axes::repeat(f64::INFINITY),
+            jerk: Axes::repeat(f64::INFINITY),
+        };
+        let limits = Limits::new(&unlimited, 1e-3);
+        assert_eq!(limits.least_jerk(), f64::INFINITY);
+        let infinite = Axes::repeat(f64::INFINITY);
+        let table = table(Axes::repeat(5.0), Axes::repeat(0.1), infinite);
+        let state = State {
+            time: 0.0,
+            rate: 0.5,
+            rate_change: 0.1,
+        };
+        let end = state.step(0.0);
+        let (a, b) = (table.node(state.time), table.node(end.time));
+        let span = Span::new(&table, &limits, &a, &b);
+        let all = Interval {
+            low: -N_LIMIT,
+            high: N_LIMIT,
+        };
+        assert_eq!(span.jerk_interval(state, end), all);
+        assert_eq!(span.acceleration_interval(state, end), all);
+        assert!(span.keeps_limits(state, end, 0.0));
+    }
+}

@@ -1,0 +1,128 @@
+//! The search for an n that comes with a release: the shield around whatever is wanted.
+//!
+//! The n of the stored release is always possible. A candidate takes its place only if the period
+//! with it keeps the limits and a release from the state behind it was found.
+
+use super::Executor;
+use super::executor::BUDGET;
+use super::release::Refusal;
+use super::rows::{Interval, N_LIMIT, RATE_CHANGE_LIMIT, Span};
+use super::table::Node;
+
+/// Candidates that are tried in one cycle.
+const TRIES: usize = 6;
+
+/// The search for the best n ends when it is known to this part of the way.
+const SEARCH_TOLERANCE: f64 = 0.06;
+
+/// With less than this left of the budget, what was found is good enough: where releases are long
+/// it changes little from cycle to cycle.
+const ENOUGH_LEFT: usize = BUDGET * 7 / 8;
+
+/// Least part of the way that is tried first.
+const LEAST_FRACTION: f64 = 1.0 / 64.0;
+
+impl Executor {
+    /// Two periods that end exactly on the target rate with no rate change, if such a pair keeps
+    /// all limits. The second one is stored as the release, the first one is the answer.
+    pub(super) fn landing(&mut self, target: f64, allowed: &Interval, start: &Node) -> Option<f64> {
+        let state = self.state;
+        let missing = state.rate - target;
+        let first = -(missing + 1.5 * state.rate_change);
+        let second = missing + 0.5 * state.rate_change;
+        if !allowed.contains(first) || second.abs() > N_LIMIT {
+            // Already in the second period of a pair?
+            let n = self.release().next().filter(|_| self.release().is_last())?;
+            if (state.step(n).rate - target).abs() > 1e-9 {
+                return None;
+            }
+            self.release_mut().advance();
+            return Some(n);
+        }
+        let middle = state.step(first);
+        let mut last = middle.step(second);
+        let known = self.table.knows(middle.time.max(last.time));
+        if !middle.follows(state) || !last.follows(middle) || !known {
+            return None;
+        }
+        last.rate = target;
+        last.rate_change = 0.0;
+        let (node, end) = (self.table.node(middle.time), self.table.node(last.time));
+        let first_span = Span::new(&self.table, &self.limits, start, &node);
+        let second_span = Span::new(&self.table, &self.limits, &node, &end);
+        let keeps = second_span.jerk_interval(middle, last).contains(second)
+            && first_span.keeps_limits(state, middle, first)
+            && second_span.keeps_limits(middle, last, second);
+        if !keeps {
+            return None;
+        }
+        let relies_on_end = self.table.is_behind_end(last.time);
+        self.release_mut().set_single(second, last, relies_on_end);
+        Some(first)
+    }
+
+    /// The n nearest to the wanted one that comes with a release: from the stored release's n as
+    /// far towards the wanted one as it can be verified within the budget.
+    pub(super) fn search(&mut self, safe: f64, wanted: f64, start: &Node) -> f64 {
+        let (mut verified, mut refused) = (0.0, 2.0);
+        let mut fraction = self.fraction;
+        let mut best = None;
+        for _ in 0..TRIES {
+            let n = safe + fraction * (wanted - safe);
+            if self.verify(n, start) {
+                best = Some(n);
+                verified = fraction;
+            } else {
+                refused = fraction;
+            }
+            let costly = verified > 0.0 && self.budget < ENOUGH_LEFT;
+            let close = verified >= 1.0 || refused - verified < SEARCH_TOLERANCE;
+            if close || costly || self.budget == 0 {
+                break;
+            }
+            fraction = if refused > 1.0 {
+                (4.0 * fraction).min(1.0)
+            } else if verified == 0.0 {
+                0.25 * fraction
+            } else {
+                0.5 * (verified + refused)
+            };
+        }
+        match best {
+            Some(n) => {
+                self.fraction = (2.0 * verified).min(1.0);
+                n
+            }
+            None => {
+                self.fraction = fraction.max(LEAST_FRACTION);
+                self.release_mut().advance();
+                safe
+            }
+        }
+    }
+
+    /// Whether this n keeps the limits and has a release of its own, which is then stored.
+    fn verify(&mut self, n: f64, start: &Node) -> bool {
+        let state = self.state;
+        let next = state.step(n).settled();
+        if !next.follows(state) || next.rate_change.abs() > RATE_CHANGE_LIMIT {
+            return false;
+        }
+        if !self.table.knows(next.time) {
+            self.wall = true;
+            return false;
+        }
+        let end = self.table.node(next.time);
+        let span = Span::new(&self.table, &self.limits, start, &end);
+        if !span.keeps_limits(state, next, n) {
+            return false;
+        }
+        let spare = 1 - (self.stored & 1);
+        let found = self.releases[spare].find(&self.table, &self.limits, next, n, &mut self.budget);
+        match found {
+            Ok(()) => self.stored = spare,
+            Err(refusal) => self.wall |= refusal == Refusal::Wall,
+        }
+        found.is_ok()
+    }
+}

@@ -1,0 +1,381 @@
+//! How a frame reaches the kinematics of a running machine: commands, checks, the switch, and what
+//! the operator sees.
+//!
+//! A program hands over one command at a time, under a number that changes.
+//! [`FrameControl::update`] runs in the servo thread behind the motion controller: it applies the
+//! command to a copy of the operations, builds the frame, and asks motion for a switch of
+//! kinematics. Motion answers in its next period with [`FrameControl::switch`], the only place
+//! where the active frame and the machine's dimensions change. Whatever is refused leaves both as
+//! they are.
+//!
+//! Motion notices a request only when the number of the kinematics changes, so two slots are used
+//! in turn.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::command::{Command, Source};
+use super::refusal::Refusal;
+use super::{ActiveFrame, AffineMap, ProgrammableFrame, ToolLength, WorkOffset};
+use crate::axes::Axes;
+use crate::machine::{Coordinates, Machine, TableTiltingParameters};
+
+/// Motion switches in the period after the request. If it has not done so by now, nobody listens.
+const PATIENCE: u32 = 100;
+
+/// How far, in machine units, an axis without a joint may be taken along, and how much of another
+/// axis may reach it: rounding.
+const STILL: f64 = 1e-9;
+
+/// What is read from the pins in each servo period. Lengths in machine units, angles in degrees.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameInputs {
+    /// Number of the command times 1000, plus its code; acted on when the number changes.
+    pub command: f64,
+    /// Values of the command.
+    pub value: [f64; 3],
+    /// Work offset (G5x and G92 together) in X Y Z.
+    pub work_offset: [f64; 3],
+    /// Rotation of the work offset about Z.
+    pub work_rotation: f64,
+    /// Tool offset in X Y Z.
+    pub tool_offset: [f64; 3],
+    /// What becomes of the tool's length in a frame while the tool centre point is off.
+    pub tool_length: ToolLength,
+    /// A ready frame: three rows of a 3x4 map.
+    pub map: [f64; 12],
+    /// Which of A B C U V W are mirrored.
+    pub mirror: [bool; 6],
+    /// Dimensions of a machine with a tilting table, and whether the tool centre point is wanted.
+    pub table: TableTiltingParameters,
+    /// Motion stands still.
+    pub in_position: bool,
+    /// Motion is in teleop (world jogging) mode.
+    pub teleop: bool,
+}
+
+/// What is written to the pins after each servo period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameOutputs {
+    /// The kinematics type that motion is asked for.
+    pub switchkins_type: i32,
+    /// Number of the last command that was carried out or refused.
+    pub acknowledged: f64,
+    /// A frame is active.
+    pub active: bool,
+    /// Kinematics type in effect: 0, 1 or 2.
+    pub slot: i32,
+    /// How many operations make up the frame.
+    pub operations: i32,
+    /// The tool centre point is on.
+    pub tool_centre_point: bool,
+    /// The machine's dimensions on the pins, or the tool centre point asked for, are not those in
+    /// effect: they take effect at the next switch.
+    pub parameters_pending: bool,
+    /// The tool offset in X Y Z that the frame was made with.
+    pub tool_offset: [f64; 3],
+    /// Why the last command was refused.
+    pub refusal: Option<Refusal>,
+}
+
+/// Kinematics that are ready to be switched to.
+#[derive(Clone, Copy, Debug)]
+struct Staged {
+    source: Source,
+    /// `None`: no frame.
+    frame: Option<ActiveFrame>,
+    machine: Machine,
+    /// The tool offset it was made with.
+    tool_offset: [f64; 3],
+}
+
+/// A switch that motion was asked for.
+#[derive(Clone, Copy, Debug)]
+struct Request {
+    staged: Staged,
+    slot: i32,
+    /// The slot that was asked for before.
+    previous: i32,
+    number: f64,
+    waited: u32,
+}
+
+/// The frame of a machine with the machine's own kinematics, and the way to change them.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameControl {
+    active: Staged,
+    slot: i32,
+    request: Option<Request>,
+    outputs: FrameOutputs,
+    /// The slot that was asked for last: asking for it again would go unnoticed.
+    asked: i32,
+    /// The machine's dimensions have been read once.
+    started: bool,
+}
+
+impl FrameControl {
+    /// No frame. The dimensions of the machine are read at the first [`Self::update`].
+    pub fn new(machine: Machine) -> Self {
+        Self {
+            active: Staged {
+                source: Source::nothing(),
+                frame: None,
+                machine,
+                tool_offset: [0.0; 3],
+            },
+            slot: 0,
+            request: None,
+            outputs: FrameOutputs {
+                switchkins_type: 0,
+                acknowledged: 0.0,
+                active: false,
+                slot: 0,
+                operations: 0,
+                tool_centre_point: false,
+                parameters_pending: false,
+                tool_offset: [0.0; 3],
+                refusal: None,
+            },
+            asked: 0,
+            started: false,
+        }
+    }
+
+    /// The frame in force, `None` if the machine runs without one.
+    #[inline]
+    pub fn active(&self) -> Option<&ActiveFrame> {
+        self.active.frame.as_ref()
+    }
+
+    /// The machine with the dimensions in force.
+    #[inline]
+    pub fn machine(&self) -> &Machine {
+        &self.active.machine
+    }
+
+    /// One servo period: takes a new command, asks for a switch, sees whether it took place.
+    ///
+    /// The first one takes over the dimensions of the machine, which has not moved yet.
+    pub fn update(&mut self, inputs: &FrameInputs) -> FrameOutputs {
+        if !self.started {
+            self.started = true;
+            match self.machine_with(&inputs.table) {
+                Ok(machine) => self.active.machine = machine,
+                Err(refusal) => self.outputs.refusal = Some(refusal),
+            }
+        }
+        match &mut self.request {
+            Some(request) => {
+                request.waited += 1;
+                if request.waited > PATIENCE {
+                    let (number, previous) = (request.number, request.previous);
+                    self.request = None;
+                    // Taken back, or motion would switch whenever somebody links the pin.
+                    self.asked = previous;
+                    self.outputs.switchkins_type = previous;
+                    self.refuse(number, Refusal::NotSwitched);
+                }
+            }
+            None => self.take_command(inputs),
+        }
+        self.outputs.slot = self.slot;
+        self.outputs.active = self.active.frame.is_some();
+        self.outputs.operations = self.active.source.count();
+        let wanted = self.machine_with(&inputs.table);
+        self.outputs.tool_centre_point = self.machine().tool_centre_point();
+        self.outputs.parameters_pending = wanted != Ok(self.active.machine);
+        self.outputs.tool_offset = self.active.tool_offset;
+        self.outputs
+    }
+
+    /// Motion switches to kinematics `slot`: 0 without a frame, 1 or 2 with one.
+    ///
+    /// A slot that was not asked for by [`Self::update`] takes the map pins as they are now: so a
+    /// frame can also be switched on by hand. Every switch takes over the machine's dimensions.
+    ///
+    /// # Errors
+    ///
+    /// Why nothing changes.
+    pub fn switch(&mut self, slot: i32, inputs: &FrameInputs) -> Result<(), Refusal> {
+        let request = self.request.take();
+        let number = request.map_or(self.outputs.acknowledged, |request| request.number);
+        // Motion remembers the number, whatever comes of it.
+        self.asked = slot;
+        match self.checked(slot, request, inputs) {
+            Ok(staged) => {
+                self.active = staged;
+                self.slot = slot;
+                self.outputs.acknowledged = number;
+                self.outputs.refusal = None;
+                Ok(())
+            }
+            Err(refusal) => {
+                self.refuse(number, refusal);
+                Err(refusal)
+            }
+        }
+    }
+
+    /// What a switch to `slot` would make the active frame.
+    fn checked(
+        &self,
+        slot: i32,
+        request: Option<Request>,
+        inputs: &FrameInputs,
+    ) -> Result<Staged, Refusal> {
+        standing(inputs)?;
+        match request {
+            Some(request) if request.slot == slot => Ok(request.staged),
+            _ if slot == 0 => self.staged(Source::nothing(), inputs),
+            _ if slot == 1 || slot == 2 => self.staged(Source::map_pins(), inputs),
+            _ => Err(Refusal::UnknownType),
+        }
+    }
+
+    fn refuse(&mut self, number: f64, refusal: Refusal) {
+        self.outputs.acknowledged = number;
+        self.outputs.refusal = Some(refusal);
+    }
+
+    fn take_command(&mut self, inputs: &FrameInputs) {
+        let Some(command) = Command::on_pin(inputs.command) else {
+            return;
+        };
+        let number = command.number;
+        if number == self.outputs.acknowledged {
+            return;
+        }
+        let staged = if command.suspends() {
+            standing(inputs).and_then(|()| self.suspended(inputs))
+        } else {
+            let source = self.active.source.after(&command, &inputs.value);
+            source.and_then(|source| standing(inputs).and_then(|()| self.staged(source, inputs)))
+        };
+        match staged {
+            Err(refusal) => self.refuse(number, refusal),
+            Ok(staged) if self.changes_nothing(&staged) => {
+                self.active.source = staged.source;
+                self.outputs.acknowledged = number;
+                self.outputs.refusal = None;
+            }
+            Ok(staged) => self.ask(staged, number),
+        }
+    }
+
+    /// There was no frame, there will be none, and the machine is the same.
+    fn changes_nothing(&self, staged: &Staged) -> bool {
+        let frames = staged.frame.is_some() || self.active.frame.is_some();
+        !frames && self.slot == 0 && staged.machine == self.active.machine
+    }
+
+    /// Asks motion for a switch, under a number that differs from the last.
+    fn ask(&mut self, staged: Staged, number: f64) {
+        let slot = match (staged.frame, self.asked) {
+            (None, asked) if asked != 0 => 0,
+            (_, 1) => 2,
+            _ => 1,
+        };
+        self.request = Some(Request {
+            staged,
+            slot,
+            previous: self.asked,
+            number,
+            waited: 0,
+        });
+        self.asked = slot;
+        self.outputs.switchkins_type = slot;
+    }
+
+    /// The machine with other dimensions.
+    fn machine_with(&self, table: &TableTiltingParameters) -> Result<Machine, Refusal> {
+        let mut machine = self.active.machine;
+        match machine.set_parameters(table) {
+            Ok(()) => Ok(machine),
+            Err(_) => Err(Refusal::MachineParameters),
+        }
+    }
+
+    /// No frame, with what it was made of kept for later.
+    fn suspended(&self, inputs: &FrameInputs) -> Result<Staged, Refusal> {
+        Ok(Staged {
+            source: self.active.source,
+            frame: None,
+            machine: self.machine_with(&inputs.table)?,
+            tool_offset: inputs.tool_offset,
+        })
+    }
+
+    /// The kinematics that this makes, with machine, work offset and tool as they are now.
+    fn staged(&self, source: Source, inputs: &FrameInputs) -> Result<Staged, Refusal> {
+        let machine = self.machine_with(&inputs.table)?;
+        let programmed = match source.operations() {
+            Some(list) if list.is_empty() => None,
+            Some(list) => Some(list.fold()?),
+            None => {
+                let [xx, xy, xz, x, yx, yy, yz, y, zx, zy, zz, z] = inputs.map;
+                let linear = Matrix3::new(xx, xy, xz, yx, yy, yz, zx, zy, zz);
+                let map = AffineMap::new(linear, Vector3::new(x, y, z))?;
+                Some(ProgrammableFrame::from_map(map)?)
+            }
+        };
+        let frame = match programmed {
+            None => None,
+            Some(programmed) => Some(joined(&programmed, &machine, inputs)?),
+        };
+        Ok(Staged {
+            source,
+            frame,
+            machine,
+            tool_offset: inputs.tool_offset,
+        })
+    }
+}
+
+/// A frame with work offset and tool as they are now.
+fn joined(
+    programmed: &ProgrammableFrame,
+    machine: &Machine,
+    inputs: &FrameInputs,
+) -> Result<ActiveFrame, Refusal> {
+    let offset = spread(&inputs.work_offset);
+    let work = WorkOffset::new(offset, Axes::zeros(), inputs.work_rotation)?;
+    let tool = spread(&inputs.tool_offset);
+    // With the tool centre point on, the kinematics behind the frame turn the tool's length.
+    let tool_length = if machine.tool_centre_point() {
+        ToolLength::Machine
+    } else {
+        inputs.tool_length
+    };
+    let frame = ActiveFrame::new(programmed, inputs.mirror, &work, &tool, tool_length)?;
+    if moves_missing_axis(frame.map(), machine.coordinates()) {
+        return Err(Refusal::MissingAxis);
+    }
+    Ok(frame)
+}
+
+/// Whether an axis that has no joint would have to leave its zero for the program to be run.
+fn moves_missing_axis(map: &AffineMap, coordinates: &Coordinates) -> bool {
+    map.to_rows().iter().enumerate().any(|(axis, row)| {
+        let [x, y, z, shift] = *row;
+        let others = [x, y, z]
+            .iter()
+            .enumerate()
+            .any(|(other, part)| other != axis && part.abs() > STILL);
+        coordinates.joint_of_axis(axis).is_none() && (others || shift.abs() > STILL)
+    })
+}
+
+/// Whether kinematics may change now.
+fn standing(inputs: &FrameInputs) -> Result<(), Refusal> {
+    if inputs.teleop {
+        Err(Refusal::Teleop)
+    } else if !inputs.in_position {
+        Err(Refusal::Moving)
+    } else {
+        Ok(())
+    }
+}
+
+/// X Y Z of nine axes, the others 0.
+fn spread([x, y, z]: &[f64; 3]) -> Axes {
+    Axes::from([*x, *y, *z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+}

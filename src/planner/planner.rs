@@ -1,0 +1,376 @@
+//! The planner's state, its settings and commands.
+
+use nalgebra::{ArrayStorage, Matrix3};
+
+use super::request::{AddError, Added, MoveRequest};
+use super::rest_to_rest::RestToRest;
+use super::status::{Fault, Status};
+use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
+use crate::cycle::Executor;
+use crate::moves::{
+    Move, MoveQueue, QueueFull, StateTag, SynchronisedOutputs, TerminationCondition,
+};
+use crate::path::{Arc9, Circle, Line9, Shape, ShapeError};
+
+/// A position with a coordinate that is infinite or not a number was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PositionError;
+
+const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
+
+const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
+
+/// The trajectory planner. About 2 MB, without a heap: it belongs in a static.
+#[derive(Debug)]
+pub struct Planner {
+    pub(super) queue: MoveQueue,
+    pub(super) reference: RestToRest,
+    pub(super) executor: Executor,
+    /// Whether the executor runs the reference. If not, the machine is at rest.
+    pub(super) running: bool,
+    /// Whether the reference has been handed out to its end.
+    pub(super) closed: bool,
+    pub(super) status: Status,
+    pub(super) limits: AxisLimits,
+    /// How the axes of the program lie to those of the machine.
+    pub(super) map: MachineMap,
+    /// Which axes have had usable limits the last time.
+    limited: [bool; AXIS_COUNT],
+    /// Duration of a cycle, seconds; 0 before it is known.
+    pub(super) period: f64,
+    pub(super) velocity_limit: f64,
+    /// The greatest finite velocity limit there has been: the range of the operator's slider.
+    velocity_range: f64,
+    termination: TerminationCondition,
+    next_id: i32,
+    /// Whether the next move has to follow a spindle.
+    pub(super) spindle_synchronised: bool,
+    /// For the next move.
+    outputs: SynchronisedOutputs,
+    /// Where the last queued move ends.
+    pub(super) goal: Axes,
+}
+
+impl Planner {
+    /// A planner without limits or period, at the origin, with nothing to do.
+    pub const fn new() -> Self {
+        Self {
+            queue: MoveQueue::new(),
+            reference: RestToRest::new(),
+            executor: Executor::new(),
+            running: false,
+            closed: false,
+            status: Status::IDLE,
+            limits: AxisLimits {
+                velocity: UNLIMITED,
+                acceleration: UNLIMITED,
+                jerk: UNLIMITED,
+            },
+            map: MachineMap::IDENTITY,
+            limited: [false; AXIS_COUNT],
+            period: 0.0,
+            velocity_limit: f64::INFINITY,
+            velocity_range: 0.0,
+            termination: TerminationCondition::Continuous { tolerance: 0.0 },
+            next_id: 0,
+            spindle_synchronised: false,
+            outputs: SynchronisedOutputs::NONE,
+            goal: ORIGIN,
+        }
+    }
+
+    /// Sets the duration of a cycle in seconds. `false`, and nothing changes, if it is not
+    /// positive and finite or a move runs.
+    pub fn set_cycle_time(&mut self, seconds: f64) -> bool {
+        let accepted = !self.running && self.executor.configure(&self.limits, seconds).is_ok();
+        if accepted {
+            self.period = seconds;
+        }
+        accepted
+    }
+
+    /// Sets what the axes are able to do. Moves that have been planned keep the limits they were
+    /// planned with; LinuxCNC may change limits at any time, so it is cheap to call this in each
+    /// cycle.
+    ///
+    /// An axis one of whose limits is zero, negative or not a number keeps the limits it had, and
+    /// new moves of it are refused.
+    pub fn set_limits(&mut self, limits: &AxisLimits) {
+        let mut changed = false;
+        for axis in 0..AXIS_COUNT {
+            let new = [
+                limits.velocity[axis],
+                limits.acceleration[axis],
+                limits.jerk[axis],
+            ];
+            let old = [
+                self.limits.velocity[axis],
+                self.limits.acceleration[axis],
+                self.limits.jerk[axis],
+            ];
+            let usable = new.iter().all(|limit| *limit > 0.0);
+            self.limited[axis] = usable;
+            if usable && new != old {
+                [
+                    self.limits.velocity[axis],
+                    self.limits.acceleration[axis],
+                    self.limits.jerk[axis],
+                ] = new;
+                changed = true;
+            }
+        }
+        if changed && self.period > 0.0 && self.executor.set_limits(&self.limits).is_err() {
+            self.fail(Fault::LimitsRefused);
+        }
+    }
+
+    /// Sets how X Y Z of the program lie to those of the machine, shape (3, 3): the limits hold for
+    /// the machine. `false`, and nothing changes, if it is not finite, or while anything is queued:
+    /// a frame changes only at standstill.
+    pub fn set_machine_map(&mut self, linear: &Matrix3<f64>) -> bool {
+        match MachineMap::new(linear) {
+            Some(map) if self.status.done => {
+                self.map = map;
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Sets what no move may exceed along its path, machine units per second, from the operator's
+    /// slider. 0 holds the machine; what is negative or not a number counts as 0. A move of rotary
+    /// axes only is slowed in proportion: to the same share of its greatest velocity as the limit
+    /// is of the greatest limit that was ever set.
+    pub fn set_velocity_limit(&mut self, velocity: f64) {
+        self.velocity_limit = velocity.max(0.0);
+        if velocity.is_finite() {
+            self.velocity_range = self.velocity_range.max(velocity);
+        }
+    }
+
+    /// The operator's slider as a share of its range.
+    pub(super) fn velocity_share(&self) -> f64 {
+        if self.velocity_limit < self.velocity_range {
+            self.velocity_limit / self.velocity_range
+        } else {
+            1.0
+        }
+    }
+
+    /// Sets how the moves to come meet the next one.
+    pub fn set_termination(&mut self, termination: TerminationCondition) {
+        self.termination = termination;
+    }
+
+    /// How the moves to come meet the next one.
+    pub fn termination(&self) -> TerminationCondition {
+        self.termination
+    }
+
+    /// Sets LinuxCNC's number for the next move; each further move gets the next number.
+    pub fn set_id(&mut self, id: i32) {
+        self.next_id = id;
+    }
+
+    /// Whether the moves to come are synchronised with a spindle. Such moves are refused so far.
+    pub fn set_spindle_synchronised(&mut self, synchronised: bool) {
+        self.spindle_synchronised = synchronised;
+    }
+
+    /// Gives the next move a digital output to write at its start (M62, M63). `false` if there is
+    /// no output of this number.
+    pub fn set_digital_output(&mut self, index: usize, value: bool) -> bool {
+        self.outputs.set_digital(index, value)
+    }
+
+    /// Gives the next move an analog output to write at its start (M67). `false` if there is no
+    /// output of this number or the value is not finite.
+    pub fn set_analog_output(&mut self, index: usize, value: f64) -> bool {
+        self.outputs.set_analog(index, value)
+    }
+
+    /// Drops the outputs given for the next move.
+    pub fn clear_outputs(&mut self) {
+        self.outputs = SynchronisedOutputs::NONE;
+    }
+
+    /// Queues a line to `end`, shape (9).
+    ///
+    /// # Errors
+    /// See [`AddError`]; nothing changes then.
+    pub fn add_line(&mut self, end: &Axes, request: &MoveRequest) -> Result<Added, AddError> {
+        self.add(self.line_to(end), request)
+    }
+
+    /// Queues an arc, helix or spiral to `end`, shape (9).
+    ///
+    /// # Errors
+    /// See [`AddError`]; nothing changes then.
+    pub fn add_circle(
+        &mut self,
+        end: &Axes,
+        circle: &Circle,
+        request: &MoveRequest,
+    ) -> Result<Added, AddError> {
+        self.add(self.arc_to(end, circle), request)
+    }
+
+    /// The line that [`Self::add_line`] would queue, to be looked at.
+    ///
+    /// # Errors
+    /// See [`ShapeError`].
+    pub fn line_to(&self, end: &Axes) -> Result<Shape, ShapeError> {
+        Line9::new(&self.goal, end).map(Shape::Line)
+    }
+
+    /// The arc that [`Self::add_circle`] would queue, to be looked at.
+    ///
+    /// # Errors
+    /// See [`ShapeError`].
+    pub fn arc_to(&self, end: &Axes, circle: &Circle) -> Result<Shape, ShapeError> {
+        Arc9::new(&self.goal, end, circle).map(Shape::Arc)
+    }
+
+    /// Rigid tapping is not supported yet.
+    ///
+    /// # Errors
+    /// Always [`AddError::RigidTap`].
+    pub fn add_rigid_tap(
+        &mut self,
+        _end: &Axes,
+        _request: &MoveRequest,
+    ) -> Result<Added, AddError> {
+        Err(AddError::RigidTap)
+    }
+
+    fn add(
+        &mut self,
+        shape: Result<Shape, ShapeError>,
+        request: &MoveRequest,
+    ) -> Result<Added, AddError> {
+        if self.status.aborting {
+            return Err(AddError::Aborting);
+        }
+        if self.period == 0.0 {
+            return Err(AddError::NotConfigured);
+        }
+        if self.spindle_synchronised {
+            return Err(AddError::SpindleSynchronised);
+        }
+        if let Some(joint) = request.indexer_joint {
+            return Err(AddError::Indexer { joint });
+        }
+        let (feed, max_velocity) = (request.feed, request.max_velocity);
+        let usable = |velocity: f64| velocity > 0.0 && velocity.is_finite();
+        if !(usable(feed) && usable(max_velocity)) {
+            return Err(AddError::Feed { feed, max_velocity });
+        }
+        let shape = match shape {
+            Ok(shape) => shape,
+            Err(ShapeError::ZeroLength) => return Ok(Added::ZeroLength),
+            Err(error) => return Err(AddError::Shape(error)),
+        };
+        let mut axes = (0..AXIS_COUNT).zip(self.limited);
+        if let Some((axis, _)) = axes.find(|(axis, limited)| !limited && shape.moves(*axis)) {
+            return Err(AddError::AxisLimits { axis });
+        }
+        let queued = Move {
+            id: self.next_id,
+            tag: request.tag,
+            motion_type: request.motion_type,
+            shape,
+            feed,
+            max_velocity,
+            enables: request.enables,
+            wait_for_spindle: request.wait_for_spindle,
+            termination: self.termination,
+            outputs: self.outputs,
+        };
+        self.queue
+            .push(queued)
+            .map_err(|QueueFull| AddError::QueueFull)?;
+        self.next_id = self.next_id.wrapping_add(1);
+        self.clear_outputs();
+        self.goal = shape.end();
+        self.status.done = false;
+        self.report_queue();
+        Ok(Added::Queued)
+    }
+
+    /// The state after the last cycle or command.
+    pub fn status(&self) -> &Status {
+        &self.status
+    }
+
+    /// Brings the machine to rest on its path and holds it there. Forgotten, as with LinuxCNC's
+    /// planner, when there is nothing to hold.
+    pub fn pause(&mut self) {
+        self.status.pausing = true;
+    }
+
+    /// Ends a pause. Does nothing while an abort brings the machine to rest.
+    pub fn resume(&mut self) {
+        self.status.pausing = self.status.aborting;
+    }
+
+    /// Brings the machine to rest on its path, drops all moves, and goes on from where it came to
+    /// rest. Moves are refused until then.
+    pub fn abort(&mut self) {
+        self.clear_outputs();
+        self.status.aborting = true;
+        self.status.pausing = true;
+    }
+
+    /// Drops everything and starts from `position`, shape (9). For changes of mode and of
+    /// kinematics, when nothing moves.
+    ///
+    /// # Errors
+    /// [`PositionError`]; nothing changes then.
+    pub fn set_position(&mut self, position: &Axes) -> Result<(), PositionError> {
+        if !position.iter().all(|coordinate| coordinate.is_finite()) {
+            return Err(PositionError);
+        }
+        self.status.position = *position;
+        self.drop_moves();
+        Ok(())
+    }
+
+    /// Drops all moves and all state but the position, the settings and the termination
+    /// condition. For the end of a program, when nothing moves.
+    pub fn clear(&mut self) {
+        self.drop_moves();
+        self.spindle_synchronised = false;
+        self.next_id = 0;
+        self.status.tag = StateTag::EMPTY;
+        self.status.fault = None;
+        self.clear_outputs();
+    }
+
+    /// Stays where the machine is, with nothing to do.
+    pub(super) fn drop_moves(&mut self) {
+        self.queue.clear();
+        self.executor.reset();
+        self.running = false;
+        self.goal = self.status.position;
+        self.status.pausing = false;
+        self.status.aborting = false;
+        self.report_rest();
+    }
+
+    /// Stops for a fault of the planner itself.
+    pub(super) fn fail(&mut self, fault: Fault) {
+        self.status.fault = Some(fault);
+        self.abort();
+    }
+
+    /// Where the last queued move ends, shape (9): the start of the next one.
+    pub fn goal(&self) -> &Axes {
+        &self.goal
+    }
+}
+
+impl Default for Planner {
+    fn default() -> Self {
+        Self::new()
+    }
+}

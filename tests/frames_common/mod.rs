@@ -1,0 +1,87 @@
+//! Motion, played for the kinematics: what motmod and the subroutines do.
+
+use framepath::axes::Axes;
+use framepath::frame::control::{FrameControl, FrameInputs, FrameOutputs};
+use framepath::frame::{Refusal, ToolLength};
+use framepath::machine::{Machine, TableTiltingParameters};
+
+const IDENTITY: [f64; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+
+/// Motion as motmod does it: asks the kinematics when the number on its pin changes.
+pub struct Motion {
+    /// What is tested.
+    pub control: FrameControl,
+    /// What the pins say.
+    pub inputs: FrameInputs,
+    /// `motion.switchkins-type` is linked.
+    pub linked: bool,
+    /// The kinematics type that motion knows.
+    pub type_seen: i32,
+    /// What the module answered last.
+    pub out: FrameOutputs,
+    /// Number of the last command.
+    pub number: f64,
+}
+
+impl Motion {
+    pub fn new(name: &str, coordinates: &str) -> Self {
+        let machine = Machine::configured(name.as_bytes(), coordinates.as_bytes()).unwrap();
+        let inputs = FrameInputs {
+            command: 0.0,
+            value: [0.0; 3],
+            work_offset: [0.0; 3],
+            work_rotation: 0.0,
+            tool_offset: [0.0; 3],
+            tool_length: ToolLength::Frame,
+            map: IDENTITY,
+            mirror: [false; 6],
+            table: TableTiltingParameters::default(),
+            in_position: true,
+            teleop: false,
+        };
+        let mut control = FrameControl::new(machine);
+        let out = control.update(&inputs);
+        Self {
+            control,
+            inputs,
+            linked: true,
+            type_seen: 0,
+            out,
+            number: 0.0,
+        }
+    }
+
+    /// One servo period: motion first, then the module's function.
+    pub fn period(&mut self) {
+        if self.linked && self.out.switchkins_type != self.type_seen {
+            self.type_seen = self.out.switchkins_type;
+            let _ = self.control.switch(self.type_seen, &self.inputs);
+        }
+        self.out = self.control.update(&self.inputs);
+    }
+
+    /// Hands over a command and waits for the answer.
+    pub fn send(&mut self, code: i32, value: [f64; 3]) -> Option<Refusal> {
+        self.number += 1.0;
+        self.inputs.command = self.number * 1000.0 + f64::from(code);
+        self.inputs.value = value;
+        for _ in 0..200 {
+            self.period();
+            if self.out.acknowledged == self.number {
+                self.period();
+                return self.out.refusal;
+            }
+        }
+        panic!("command {code} was not answered");
+    }
+
+    /// Where a position of the program is on the machine.
+    pub fn machine(&self, point: [f64; 3]) -> [f64; 3] {
+        let world = Axes::from([point[0], point[1], point[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let axes = self
+            .control
+            .active()
+            .map_or(world, |frame| frame.to_machine(&world));
+        [axes[0], axes[1], axes[2]]
+    }
+}
