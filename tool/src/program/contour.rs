@@ -44,8 +44,16 @@ impl Shape {
     /// The point at `t`, 0 at the start and 1 at the end.
     pub fn point(&self, t: f64) -> [f64; 3] {
         match self {
-            Shape::Line { start, end } => std::array::from_fn(|i| start[i] + t * (end[i] - start[i])),
-            Shape::Arc { centre, u, v, sweep, rise } => {
+            Shape::Line { start, end } => {
+                std::array::from_fn(|i| start[i] + t * (end[i] - start[i]))
+            }
+            Shape::Arc {
+                centre,
+                u,
+                v,
+                sweep,
+                rise,
+            } => {
                 let (sin, cos) = (sweep * t).sin_cos();
                 std::array::from_fn(|i| centre[i] + cos * u[i] + sin * v[i] + t * rise[i])
             }

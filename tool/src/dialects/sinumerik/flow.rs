@@ -1,0 +1,147 @@
+//! Which block comes next: conditions, loops and jumps.
+
+use super::interpreter::{Interpreter, Next};
+use super::library::Routine;
+use super::syntax::{Assignment, Direction, Flow, Jump, Statement, Target};
+use crate::diagnostics::Diagnostic;
+use crate::dialects::expression::{Expression, ExpressionKind, Value};
+
+impl Interpreter<'_> {
+    pub(super) fn flow(
+        &mut self,
+        flow: &Flow,
+        routine: &Routine,
+        at: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        // A missing partner has been reported when the file was read.
+        let Some(after_partner) = self.after_partner(flow, routine, at) else {
+            return Ok(Next::Abort);
+        };
+        let next = Next::Block(at + 1);
+        Ok(match flow {
+            Flow::If(condition) | Flow::While(condition) => match self.holds(condition)? {
+                true => next,
+                false => Next::Block(after_partner),
+            },
+            Flow::Else => Next::Block(after_partner),
+            Flow::EndIf | Flow::Loop | Flow::Repeat => next,
+            Flow::EndWhile | Flow::EndLoop => Next::Block(after_partner - 1),
+            Flow::Until(condition) => match self.holds(condition)? {
+                true => next,
+                false => Next::Block(after_partner),
+            },
+            Flow::For(start, last) => {
+                self.assign(std::slice::from_ref(start))?;
+                self.for_pass(start, last, at + 1, after_partner)?
+            }
+            Flow::EndFor => self.end_for(routine, at, after_partner)?,
+            Flow::JumpIf(condition, jump) => match self.holds(condition)? {
+                true => self.jump(jump, routine, at)?,
+                false => next,
+            },
+            Flow::Jump(jump) => self.jump(jump, routine, at)?,
+            Flow::Case(value, cases, default) => {
+                let value = value.evaluate(&self.variables)?;
+                for (constant, jump) in cases {
+                    if constant.evaluate(&self.variables)? == value {
+                        return self.jump(jump, routine, at);
+                    }
+                }
+                match default {
+                    Some(jump) => self.jump(jump, routine, at)?,
+                    None => next,
+                }
+            }
+        })
+    }
+
+    /// Index of the block after the partner; for flow without partner, any.
+    fn after_partner(&self, flow: &Flow, routine: &Routine, at: usize) -> Option<usize> {
+        match flow {
+            Flow::JumpIf(..) | Flow::Jump(_) | Flow::Case(..) => Some(0),
+            _ => routine.structure.partner(at).map(|partner| partner + 1),
+        }
+    }
+
+    fn holds(&self, condition: &Expression) -> Result<bool, Box<Diagnostic>> {
+        Ok(condition.number(&self.variables)? != 0.0)
+    }
+
+    fn for_pass(
+        &self,
+        start: &Assignment,
+        last: &Expression,
+        body: usize,
+        after: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        let value = self.loop_variable(start)?;
+        let last = last.number(&self.variables)?;
+        Ok(Next::Block(if value <= last { body } else { after }))
+    }
+
+    fn loop_variable(&self, start: &Assignment) -> Result<f64, Box<Diagnostic>> {
+        let variable = Expression {
+            kind: ExpressionKind::Variable(start.name.clone(), start.index.clone()),
+            span: start.span,
+        };
+        variable.number(&self.variables)
+    }
+
+    /// Counts up and tests again. The end is evaluated in each pass, as the control does.
+    fn end_for(
+        &mut self,
+        routine: &Routine,
+        at: usize,
+        body: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        let beginning = routine
+            .section
+            .blocks
+            .get(body - 1)
+            .map(|block| &block.statement);
+        let Some(Statement::Flow(Flow::For(start, last))) = beginning else {
+            return Ok(Next::Abort);
+        };
+        let value = Value::Number(self.loop_variable(start)? + 1.0);
+        let index: Result<Vec<f64>, _> = start
+            .index
+            .iter()
+            .map(|index| index.number(&self.variables))
+            .collect();
+        self.variables
+            .assign(&start.name, &index?, value, start.span)?;
+        self.for_pass(start, last, body, at + 1)
+    }
+
+    fn jump(&self, jump: &Jump, routine: &Routine, at: usize) -> Result<Next, Box<Diagnostic>> {
+        let blocks = &routine.section.blocks;
+        let is_target = |index: &usize| {
+            let block = &blocks[*index];
+            match &jump.target {
+                Target::Label(label) => block.label.as_ref() == Some(label),
+                Target::Number(number) => block.number == Some(*number),
+            }
+        };
+        let forward = (at + 1..blocks.len()).find(is_target);
+        let backward = (0..=at).rev().find(is_target);
+        let found = match jump.direction {
+            Direction::Forward => forward,
+            Direction::Backward => backward,
+            Direction::Either | Direction::Optional => forward.or((0..=at).find(is_target)),
+        };
+        match (found, jump.direction) {
+            (Some(target), _) => Ok(Next::Block(target)),
+            (None, Direction::Optional) => Ok(Next::Block(at + 1)),
+            (None, _) => {
+                let error =
+                    Diagnostic::error(jump.span, "there is no such label in this direction");
+                Err(Box::new(match forward.or(backward) {
+                    Some(_) => {
+                        error.help("GOTOF looks towards the end, GOTOB towards the beginning")
+                    }
+                    None => error.help("labels are written NAME: at the beginning of a block"),
+                }))
+            }
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! Parsing conditions, loops, jumps and declarations.
+
+use super::cursor::Parsed;
+use super::expressions::{arguments, expression};
+use super::parser::BlockParser;
+use super::syntax::{Definition, Direction, Flow, Jump, Statement, Target, VariableKind};
+use super::token::{Symbol, TokenKind};
+use super::words;
+
+/// The statement that begins with `name`, if it is one of those here.
+pub(super) fn flow(parser: &mut BlockParser, name: &str) -> Parsed<Option<Statement>> {
+    let flow = match name {
+        "IF" => {
+            parser.cursor.advance();
+            let condition = expression(&mut parser.cursor)?;
+            match direction(parser) {
+                Some(direction) => Flow::JumpIf(condition, jump(parser, direction)?),
+                None => Flow::If(condition),
+            }
+        }
+        "ELSE" => keyword(parser, Flow::Else),
+        "ENDIF" => keyword(parser, Flow::EndIf),
+        "WHILE" => {
+            parser.cursor.advance();
+            Flow::While(expression(&mut parser.cursor)?)
+        }
+        "ENDWHILE" => keyword(parser, Flow::EndWhile),
+        "FOR" => {
+            parser.cursor.advance();
+            let start = parser.assignment()?;
+            if !parser.cursor.take_name("TO") {
+                return Err(parser.cursor.error("`TO` is missing here"));
+            }
+            Flow::For(start, expression(&mut parser.cursor)?)
+        }
+        "ENDFOR" => keyword(parser, Flow::EndFor),
+        "LOOP" => keyword(parser, Flow::Loop),
+        "ENDLOOP" => keyword(parser, Flow::EndLoop),
+        "REPEAT" => {
+            parser.cursor.advance();
+            if !parser.cursor.is_at_end() {
+                return Err(parser.error_with_help(
+                    "repeating a part between labels is not supported",
+                    "put the part in a subprogram and call it with P, or use FOR .. ENDFOR",
+                ));
+            }
+            Flow::Repeat
+        }
+        "UNTIL" => {
+            parser.cursor.advance();
+            Flow::Until(expression(&mut parser.cursor)?)
+        }
+        "CASE" => case(parser)?,
+        "DEF" => return definitions(parser).map(Some),
+        _ => match direction(parser) {
+            Some(direction) => Flow::Jump(jump(parser, direction)?),
+            None => return Ok(None),
+        },
+    };
+    Ok(Some(Statement::Flow(flow)))
+}
+
+fn keyword(parser: &mut BlockParser, flow: Flow) -> Flow {
+    parser.cursor.advance();
+    flow
+}
+
+/// Takes `GOTOF` and its like.
+fn direction(parser: &mut BlockParser) -> Option<Direction> {
+    let direction = match parser.cursor.peek() {
+        Some(TokenKind::Name(name)) => match name.as_str() {
+            "GOTOF" => Direction::Forward,
+            "GOTOB" => Direction::Backward,
+            "GOTO" => Direction::Either,
+            "GOTOC" => Direction::Optional,
+            _ => return None,
+        },
+        _ => return None,
+    };
+    parser.cursor.advance();
+    Some(direction)
+}
+
+fn jump(parser: &mut BlockParser, direction: Direction) -> Parsed<Jump> {
+    let start = parser.cursor.span();
+    let target = match parser.cursor.peek() {
+        Some(TokenKind::Name(label)) => {
+            parser.cursor.advance();
+            Target::Label(label.clone())
+        }
+        Some(TokenKind::Letter('N')) => {
+            parser.cursor.advance();
+            Target::Number(parser.cursor.whole("a block number")?)
+        }
+        Some(TokenKind::Symbol(Symbol::Colon)) => {
+            parser.cursor.advance();
+            Target::Number(parser.cursor.whole("a block number")?)
+        }
+        _ => {
+            return Err(parser.error_with_help(
+                "the target of the jump is missing",
+                "name a label or a block number: GOTOF END_OF_PART, GOTOB N100",
+            ));
+        }
+    };
+    Ok(Jump {
+        direction,
+        target,
+        span: start.to(parser.cursor.last_span()),
+    })
+}
+
+fn case(parser: &mut BlockParser) -> Parsed<Flow> {
+    parser.cursor.advance();
+    let value = expression(&mut parser.cursor)?;
+    if !parser.cursor.take_name("OF") {
+        return Err(parser.cursor.error("`OF` is missing here"));
+    }
+    let mut cases = Vec::new();
+    let mut default = None;
+    while !parser.cursor.is_at_end() {
+        let is_default = parser.cursor.take_name("DEFAULT");
+        let constant = match is_default {
+            true => None,
+            false => Some(expression(&mut parser.cursor)?),
+        };
+        let Some(direction) = direction(parser) else {
+            return Err(parser
+                .cursor
+                .error("a jump (GOTOF, GOTOB, GOTO) is missing here"));
+        };
+        let jump = jump(parser, direction)?;
+        match constant {
+            Some(constant) => cases.push((constant, jump)),
+            None => {
+                default = Some(jump);
+                break;
+            }
+        }
+    }
+    Ok(Flow::Case(value, cases, default))
+}
+
+/// `DEF REAL A, B[3] = 2`: the words between DEF and the type (NCK, PHU and so on) do not occur in
+/// part programs.
+fn definitions(parser: &mut BlockParser) -> Parsed<Statement> {
+    parser.cursor.advance();
+    let kind = match parser.cursor.peek() {
+        Some(TokenKind::Name(name)) => match name.as_str() {
+            "INT" => VariableKind::Whole,
+            "REAL" => VariableKind::Real,
+            "BOOL" => VariableKind::Truth,
+            "STRING" | "CHAR" => VariableKind::Text,
+            _ => {
+                return Err(parser.error_with_help(
+                    &format!("variables of the type {name} are not supported"),
+                    "use INT, REAL, BOOL or STRING",
+                ));
+            }
+        },
+        _ => return Err(parser.cursor.error("the type of the variable is missing")),
+    };
+    parser.cursor.advance();
+    if kind == VariableKind::Text && parser.cursor.take(Symbol::OpenBracket) {
+        // The length of a text does not matter here.
+        arguments(&mut parser.cursor, Symbol::CloseBracket, "]")?;
+    }
+    let mut list = Vec::new();
+    loop {
+        list.push(definition(parser, kind)?);
+        if !parser.cursor.take(Symbol::Comma) {
+            return Ok(Statement::Define(list));
+        }
+    }
+}
+
+fn definition(parser: &mut BlockParser, kind: VariableKind) -> Parsed<Definition> {
+    let span = parser.cursor.span();
+    let name = match parser.cursor.peek() {
+        Some(TokenKind::Name(name)) if !words::is_reserved(name) && !name.starts_with('$') => {
+            name.clone()
+        }
+        _ => {
+            return Err(parser.error_with_help(
+                "this cannot be the name of a variable",
+                "use two letters or more that are no command",
+            ));
+        }
+    };
+    parser.cursor.advance();
+    let mut size = Vec::new();
+    if parser.cursor.take(Symbol::OpenBracket) {
+        for item in arguments(&mut parser.cursor, Symbol::CloseBracket, "]")? {
+            size.push(item.ok_or_else(|| parser.cursor.error("the size of the array is missing"))?);
+        }
+    }
+    let value = match parser.cursor.take(Symbol::Assign) {
+        true => Some(expression(&mut parser.cursor)?),
+        false => None,
+    };
+    Ok(Definition {
+        name,
+        span,
+        kind,
+        size,
+        value,
+    })
+}

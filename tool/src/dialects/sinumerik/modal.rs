@@ -1,0 +1,100 @@
+//! What stays in force from block to block.
+
+use crate::dialects::settings::Settings;
+use crate::program::frame::Frame;
+use crate::program::position::Position;
+use crate::program::{Compensation, FeedMode, PathControl, Plane};
+
+/// The motion that a block of axis words alone carries on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// G0.
+    Rapid,
+    /// G1.
+    Line,
+    /// G2.
+    Clockwise,
+    /// G3.
+    Counterclockwise,
+}
+
+/// The state of the control while the program is evaluated.
+#[derive(Clone, Debug)]
+pub struct Modal {
+    /// `None` until the program names one.
+    pub motion: Option<Motion>,
+    /// G91.
+    pub incremental: bool,
+    /// G17 to G19.
+    pub plane: Plane,
+    /// Lengths in the program times this are machine units.
+    pub length_factor: f64,
+    /// Feeds in the program times this are machine units.
+    pub feed_factor: f64,
+    /// G93 to G95.
+    pub feed_mode: FeedMode,
+    /// Whether a feed is in force.
+    pub has_feed: bool,
+    /// S, revolutions per minute.
+    pub spindle_speed: Option<f64>,
+    /// G40 to G42.
+    pub compensation: Compensation,
+    /// G60 and G64.
+    pub path_control: Option<PathControl>,
+    /// The programmable frame.
+    pub frame: Frame,
+    /// Where the axes are.
+    pub position: Position,
+    /// Coordinates from before the last change of frame, for axes that have not moved since.
+    pub carried: [Option<Option<f64>>; 3],
+}
+
+impl Modal {
+    /// As the control is after power on.
+    pub fn new(settings: &Settings) -> Modal {
+        let mut modal = Modal {
+            motion: None,
+            incremental: false,
+            plane: Plane::Xy,
+            length_factor: 1.0,
+            feed_factor: 1.0,
+            feed_mode: FeedMode::PerMinute,
+            has_feed: false,
+            spindle_speed: None,
+            compensation: Compensation::Off,
+            path_control: None,
+            frame: Frame::default(),
+            position: Position::default(),
+            carried: [None; 3],
+        };
+        modal.use_inch(settings.machine_in_inch, true, settings);
+        modal
+    }
+
+    /// G70, G71 (lengths) and G700, G710 (feeds too).
+    pub fn use_inch(&mut self, inch: bool, feed_too: bool, settings: &Settings) {
+        let factor = match (inch, settings.machine_in_inch) {
+            (true, false) => 25.4,
+            (false, true) => 1.0 / 25.4,
+            _ => 1.0,
+        };
+        self.length_factor = factor;
+        self.feed_factor = if feed_too { factor } else { 1.0 };
+    }
+
+    /// The tool or an offset changed: nothing is known about the coordinates any more.
+    pub fn forget_position(&mut self) {
+        self.position.forget();
+        self.carried = [None; 3];
+    }
+
+    /// Another frame; the tool stays where it is.
+    pub fn set_frame(&mut self, frame: Frame) {
+        for axis in 0..3 {
+            let before = self.position.get(axis);
+            self.carried[axis].get_or_insert(before);
+        }
+        self.position.change_frame(&self.frame, &frame);
+        self.frame = frame;
+    }
+}

@@ -1,0 +1,395 @@
+//! From tokens to the syntax tree, one block at a time: a block that cannot be understood is reported
+//! and does not hide the ones after it.
+
+use super::cursor::{Cursor, Parsed};
+use super::expressions::{arguments, expression};
+use super::flow_parser;
+use super::syntax::{Assignment, Block, Call, Section, Statement, Word, WordValue};
+use super::token::{Symbol, Token, TokenKind};
+use super::word_parser::unknown_word;
+use super::words;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::expression::{Expression, ExpressionKind};
+use crate::source::{SourceFile, Span};
+
+/// The sections of a file. A file without archive lines is one section without a name.
+pub fn parse(file: &SourceFile, tokens: &[Token], diagnostics: &mut Diagnostics) -> Vec<Section> {
+    let mut sections = vec![Section {
+        name: String::new(),
+        main: true,
+        blocks: Vec::new(),
+    }];
+    for line in tokens.split_inclusive(|token| token.kind == TokenKind::EndOfLine) {
+        let Some((end, tokens)) = line.split_last() else {
+            continue;
+        };
+        let section_line = tokens.iter().find_map(|token| match &token.kind {
+            TokenKind::Section { name, main } => Some((name, *main)),
+            _ => None,
+        });
+        if let Some((name, main)) = section_line {
+            sections.push(Section {
+                name: name.clone(),
+                main,
+                blocks: Vec::new(),
+            });
+        } else if let (Some(section), Some(block)) = (
+            sections.last_mut(),
+            parse_block(file, tokens, end.span, diagnostics),
+        ) {
+            section.blocks.push(block);
+        }
+    }
+    let is_empty = |section: &Section| {
+        let mut blocks = section.blocks.iter();
+        blocks.all(|block| block.statement == Statement::Empty)
+    };
+    if sections.len() > 1 && is_empty(&sections[0]) {
+        sections.remove(0);
+    }
+    sections
+}
+
+fn parse_block(
+    file: &SourceFile,
+    tokens: &[Token],
+    end: Span,
+    diagnostics: &mut Diagnostics,
+) -> Option<Block> {
+    let (comment, tokens) = match tokens.split_last() {
+        Some((last, before)) => match &last.kind {
+            TokenKind::Comment(text) => (Some(text.clone()), before),
+            _ => (None, tokens),
+        },
+        None => return None,
+    };
+    // Archive files name their directory in a comment; that is no comment of the program.
+    let comment = comment.filter(|text| !text.to_ascii_uppercase().starts_with("$PATH="));
+    let first = tokens.first().map_or(end, |token| token.span);
+    let last = tokens.last().map_or(first, |token| token.span);
+    let mut block = Block {
+        span: first.to(last),
+        number: None,
+        skip: false,
+        label: None,
+        statement: Statement::Empty,
+        comment,
+    };
+    let mut parser = BlockParser {
+        cursor: Cursor::new(
+            tokens,
+            Span {
+                start: last.end,
+                end: last.end,
+                ..last
+            },
+        ),
+        text: &file.text,
+    };
+    if tokens.iter().any(|token| token.kind == TokenKind::Invalid) {
+        block.statement = Statement::Invalid;
+        return Some(block);
+    }
+    let parsed = parser.prefix(&mut block).and_then(|()| parser.statement());
+    block.statement = parsed.unwrap_or_else(|diagnostic| {
+        diagnostics.push(*diagnostic);
+        Statement::Invalid
+    });
+    Some(block)
+}
+
+/// Parses one block.
+pub(super) struct BlockParser<'a> {
+    pub(super) cursor: Cursor<'a>,
+    text: &'a str,
+}
+
+impl BlockParser<'_> {
+    fn prefix(&mut self, block: &mut Block) -> Parsed<()> {
+        if self.cursor.take(Symbol::Slash) {
+            block.skip = true;
+            if let Some(TokenKind::Number(level)) = self.cursor.peek() {
+                if !(0.0..=9.0).contains(level) || level.fract() != 0.0 {
+                    return Err(self.cursor.error("skip levels go from /0 to /9"));
+                }
+                self.cursor.advance();
+            }
+        }
+        let numbered = matches!(self.cursor.peek_at(1), Some(TokenKind::Number(_)));
+        if numbered && (self.cursor.take_letter('N') || self.cursor.take(Symbol::Colon)) {
+            block.number = Some(self.cursor.whole("a block number")?);
+        }
+        if let (Some(TokenKind::Name(name)), true) =
+            (self.cursor.peek(), self.cursor.is_symbol(1, Symbol::Colon))
+        {
+            block.label = Some(name.clone());
+            self.cursor.advance();
+            self.cursor.advance();
+        }
+        Ok(())
+    }
+
+    fn statement(&mut self) -> Parsed<Statement> {
+        let statement = match self.cursor.peek() {
+            None => return Ok(Statement::Empty),
+            Some(TokenKind::Letter('L')) => self.numbered_call()?,
+            Some(TokenKind::Letter('R')) => self.assignments()?,
+            Some(TokenKind::Name(name)) => match self.named_statement(name)? {
+                Some(statement) => statement,
+                None => self.words()?,
+            },
+            _ => self.words()?,
+        };
+        if !self.cursor.is_at_end() {
+            return Err(self.error_with_help(
+                "nothing more may stand in this block",
+                "put what follows in a block of its own",
+            ));
+        }
+        Ok(statement)
+    }
+
+    /// Statements that begin with a name; `None` if it is a word among others.
+    fn named_statement(&mut self, name: &str) -> Parsed<Option<Statement>> {
+        if words::is_address(name) || words::is_flag(name) {
+            return Ok(None);
+        }
+        if let Some(flow) = flow_parser::flow(self, name)? {
+            return Ok(Some(flow));
+        }
+        let keyword = self.cursor.span();
+        if let Some(command) = words::frame_keyword(name) {
+            self.cursor.advance();
+            let words = self.word_list()?;
+            return Ok(Some(Statement::Frame {
+                command,
+                keyword,
+                words,
+            }));
+        }
+        if self.is_assignment() {
+            return self.assignments().map(Some);
+        }
+        if name == "MSG" {
+            return self.message().map(Some);
+        }
+        if name == "STOPRE" {
+            self.cursor.advance();
+            return Ok(Some(Statement::Nothing));
+        }
+        if name == "PROC" {
+            return self.procedure().map(Some);
+        }
+        if name == "CALL" {
+            return self.call_by_text().map(Some);
+        }
+        if name == "RET" {
+            self.cursor.advance();
+            return Ok(Some(Statement::Words(vec![Word {
+                address: "RET".to_string(),
+                value: WordValue::None,
+                span: keyword,
+            }])));
+        }
+        if words::is_noted(name) {
+            // Several may stand in one block, among G functions too.
+            return Ok(match self.noted_alone() {
+                true => Some(self.noted(name)?),
+                false => None,
+            });
+        }
+        self.refuse_known(name, keyword)?;
+        if words::is_reserved(name) {
+            return Err(self.cursor.error(format!("{name} is not supported")));
+        }
+        self.call().map(Some)
+    }
+
+    /// `PROC NAME DISPLOF`: the head of a subprogram. The name is that of the file or section.
+    fn procedure(&mut self) -> Parsed<Statement> {
+        self.cursor.advance();
+        self.cursor.advance();
+        while let Some(TokenKind::Name(attribute)) = self.cursor.peek() {
+            match attribute.as_str() {
+                "DISPLOF" | "DISPLON" | "SBLOF" | "SBLON" => self.cursor.advance(),
+                _ => break,
+            };
+        }
+        if self.cursor.is_symbol(0, Symbol::Open) {
+            return Err(self.error_with_help(
+                "subprograms with parameters are not supported",
+                "pass values in R parameters",
+            ));
+        }
+        Ok(Statement::Nothing)
+    }
+
+    /// `CALL "NAME"`.
+    fn call_by_text(&mut self) -> Parsed<Statement> {
+        self.cursor.advance();
+        let Some(TokenKind::Text(name)) = self.cursor.peek() else {
+            return Err(self.error_with_help(
+                "CALL needs the name of a subprogram as a text",
+                "write CALL \"POCKET\"",
+            ));
+        };
+        let span = self.cursor.span();
+        self.cursor.advance();
+        Ok(Statement::Call(Call {
+            name: name.to_ascii_uppercase(),
+            span,
+            arguments: Vec::new(),
+            passes: None,
+        }))
+    }
+
+    fn noted_alone(&self) -> bool {
+        self.cursor.peek_at(1).is_none() || self.cursor.is_symbol(1, Symbol::Open)
+    }
+
+    fn noted(&mut self, name: &str) -> Parsed<Statement> {
+        self.cursor.advance();
+        if self.cursor.take(Symbol::Open) {
+            arguments(&mut self.cursor, Symbol::Close, ")")?;
+        }
+        Ok(Statement::Noted(name.to_string()))
+    }
+
+    pub(super) fn refuse_known(&self, name: &str, span: Span) -> Parsed<()> {
+        let reason = match words::refused(name) {
+            Some(reason) => reason,
+            None if name.starts_with('$') => "system variables cannot be evaluated ahead of time",
+            None => return Ok(()),
+        };
+        Err(Box::new(
+            Diagnostic::error(span, format!("{name} is not supported")).help(reason),
+        ))
+    }
+
+    /// `L10`, `L10 P3`: leading zeros belong to the name.
+    fn numbered_call(&mut self) -> Parsed<Statement> {
+        let start = self.cursor.span();
+        self.cursor.advance();
+        if !matches!(self.cursor.peek(), Some(TokenKind::Number(_))) {
+            return Err(self
+                .cursor
+                .error("the number of the subprogram is missing: L10"));
+        }
+        self.cursor.whole("the number of a subprogram")?;
+        let span = start.to(self.cursor.last_span());
+        let digits = self
+            .text
+            .get(self.cursor.last_span().start..span.end)
+            .unwrap_or("");
+        let passes = self.passes()?;
+        Ok(Statement::Call(Call {
+            name: format!("L{digits}"),
+            span,
+            arguments: Vec::new(),
+            passes,
+        }))
+    }
+
+    fn call(&mut self) -> Parsed<Statement> {
+        let span = self.cursor.span();
+        let name = match self.cursor.advance().map(|token| &token.kind) {
+            Some(TokenKind::Name(name)) => name.clone(),
+            _ => return Err(self.cursor.error("the name of a subprogram is missing")),
+        };
+        let arguments = if self.cursor.take(Symbol::Open) {
+            arguments(&mut self.cursor, Symbol::Close, ")")?
+        } else {
+            Vec::new()
+        };
+        let passes = self.passes()?;
+        if !self.cursor.is_at_end() {
+            // A call stands alone: this is a word that nobody knows, among others.
+            return Err(Box::new(unknown_word(&name, span)));
+        }
+        Ok(Statement::Call(Call {
+            name,
+            span,
+            arguments,
+            passes,
+        }))
+    }
+
+    fn passes(&mut self) -> Parsed<Option<Expression>> {
+        if !self.cursor.take_letter('P') {
+            return Ok(None);
+        }
+        self.cursor.take(Symbol::Assign);
+        expression(&mut self.cursor).map(Some)
+    }
+
+    fn message(&mut self) -> Parsed<Statement> {
+        self.cursor.advance();
+        self.cursor.expect(Symbol::Open, "(")?;
+        let list = arguments(&mut self.cursor, Symbol::Close, ")")?;
+        Ok(Statement::Message(list.into_iter().next().flatten()))
+    }
+
+    fn is_assignment(&self) -> bool {
+        self.cursor.is_symbol(1, Symbol::Assign) || self.cursor.is_symbol(1, Symbol::OpenBracket)
+    }
+
+    fn assignments(&mut self) -> Parsed<Statement> {
+        let mut list = Vec::new();
+        while !self.cursor.is_at_end() {
+            let is_variable = match self.cursor.peek() {
+                Some(TokenKind::Letter('R')) => true,
+                Some(TokenKind::Name(name)) => !words::is_reserved(name) && self.is_assignment(),
+                _ => false,
+            };
+            if !is_variable {
+                return Err(self.error_with_help(
+                    "values for variables and other words cannot stand in one block",
+                    "put the assignments in a block of their own",
+                ));
+            }
+            list.push(self.assignment()?);
+        }
+        Ok(Statement::Assign(list))
+    }
+
+    /// One `name = value`.
+    pub(super) fn assignment(&mut self) -> Parsed<Assignment> {
+        let (name, index, span) = self.variable()?;
+        self.cursor.expect(Symbol::Assign, "=")?;
+        let value = expression(&mut self.cursor)?;
+        Ok(Assignment {
+            name,
+            index,
+            value,
+            span,
+        })
+    }
+
+    /// A variable that is written to.
+    fn variable(&mut self) -> Parsed<(String, Vec<Expression>, Span)> {
+        // A variable has the form of an expression; the equals sign ends it.
+        let variable = match self.cursor.peek() {
+            Some(TokenKind::Name(name)) if name.starts_with('$') => {
+                self.refuse_known(name, self.cursor.span())?;
+                expression(&mut self.cursor)?
+            }
+            Some(TokenKind::Letter('R') | TokenKind::Name(_)) => expression(&mut self.cursor)?,
+            _ => return Err(self.cursor.error("the name of a variable is missing")),
+        };
+        match variable.kind {
+            ExpressionKind::Variable(name, index) => Ok((name, index, variable.span)),
+            _ => Err(Box::new(Diagnostic::error(
+                variable.span,
+                "only a variable can be given a value",
+            ))),
+        }
+    }
+
+    fn words(&mut self) -> Parsed<Statement> {
+        self.word_list().map(Statement::Words)
+    }
+
+    pub(super) fn error_with_help(&self, message: &str, help: &str) -> Box<Diagnostic> {
+        Box::new(Diagnostic::error(self.cursor.span(), message).help(help))
+    }
+}

@@ -1,0 +1,226 @@
+//! The syntax tree of a Sinumerik-like part program.
+
+use crate::dialects::expression::Expression;
+use crate::source::Span;
+
+/// A program or subprogram: a file, or one section of an archive file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Name in upper case; empty for a file that does not name itself.
+    pub name: String,
+    /// Whether it was declared a main program.
+    pub main: bool,
+    /// The blocks that hold something, in order.
+    pub blocks: Vec<Block>,
+}
+
+/// One line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// From its first to its last word, without the comment.
+    pub span: Span,
+    /// `N10` or `:10`.
+    pub number: Option<u32>,
+    /// Whether it begins with `/`: it is left out where the operator says so.
+    pub skip: bool,
+    /// The label before the colon, in upper case.
+    pub label: Option<String>,
+    /// What it says.
+    pub statement: Statement,
+    /// Its comment.
+    pub comment: Option<String>,
+}
+
+/// What a block says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// Nothing but number, label or comment.
+    Empty,
+    /// It could not be understood; that has been reported.
+    Invalid,
+    /// Words: G functions, axes, feed and so on.
+    Words(Vec<Word>),
+    /// Values for variables.
+    Assign(Vec<Assignment>),
+    /// TRANS, ROT, SCALE, MIRROR and their like.
+    Frame {
+        /// Which command.
+        command: FrameKeyword,
+        /// Its name.
+        keyword: Span,
+        /// Its axes and angles.
+        words: Vec<Word>,
+    },
+    /// A subprogram, or a command in the form of one.
+    Call(Call),
+    /// `MSG("text")`; without a text, `MSG()` clears.
+    Message(Option<Expression>),
+    /// `STOPRE` and others that are part of the flow but need no evaluation ahead of time.
+    Nothing,
+    /// A command that does not change the part.
+    Noted(String),
+    /// Declares variables.
+    Define(Vec<Definition>),
+    /// A condition, a loop or a jump.
+    Flow(Flow),
+}
+
+/// Commands of the programmable frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names are the commands")]
+pub enum FrameKeyword {
+    Trans,
+    Atrans,
+    Rot,
+    Arot,
+    Rots,
+    Arots,
+    Scale,
+    Ascale,
+    Mirror,
+    Amirror,
+}
+
+/// An address and its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Word {
+    /// The address in upper case: `X`, `CR`, `I1`.
+    pub address: String,
+    /// Its value.
+    pub value: WordValue,
+    /// The whole word.
+    pub span: Span,
+}
+
+/// The value of a word.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WordValue {
+    /// As G90 or G91 say.
+    Plain(Expression),
+    /// `AC(..)`.
+    Absolute(Expression),
+    /// `IC(..)`.
+    Incremental(Expression),
+    /// A word that is its own meaning: `SUPA`.
+    None,
+}
+
+/// `R1 = ..`, `NAME[2] = ..`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment {
+    /// Name in upper case.
+    pub name: String,
+    /// Indices, for an array.
+    pub index: Vec<Expression>,
+    /// The new value.
+    pub value: Expression,
+    /// The name with its indices.
+    pub span: Span,
+}
+
+/// A call.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Call {
+    /// Name in upper case: `L10`, `POCKET`, `CYCLE81`.
+    pub name: String,
+    /// Where the name stands.
+    pub span: Span,
+    /// What stands in parentheses; `None` for one that was left out. No parentheses: empty.
+    pub arguments: Vec<Option<Expression>>,
+    /// `P3`.
+    pub passes: Option<Expression>,
+}
+
+/// One name of a `DEF`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Definition {
+    /// Name in upper case.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// The kind of its values.
+    pub kind: VariableKind,
+    /// Sizes, for an array.
+    pub size: Vec<Expression>,
+    /// The starting value.
+    pub value: Option<Expression>,
+}
+
+/// The kinds of values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VariableKind {
+    /// INT: a whole number.
+    Whole,
+    /// REAL.
+    Real,
+    /// BOOL: 0 or 1.
+    Truth,
+    /// STRING, CHAR.
+    Text,
+}
+
+/// A condition, a loop or a jump.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Flow {
+    /// `IF condition`.
+    If(Expression),
+    /// `IF condition GOTOF ..`.
+    JumpIf(Expression, Jump),
+    /// `ELSE`.
+    Else,
+    /// `ENDIF`.
+    EndIf,
+    /// `WHILE condition`.
+    While(Expression),
+    /// `ENDWHILE`.
+    EndWhile,
+    /// `FOR variable = from TO to`.
+    For(Assignment, Expression),
+    /// `ENDFOR`.
+    EndFor,
+    /// `LOOP`.
+    Loop,
+    /// `ENDLOOP`.
+    EndLoop,
+    /// `REPEAT` without a label.
+    Repeat,
+    /// `UNTIL condition`.
+    Until(Expression),
+    /// `GOTOF`, `GOTOB`, `GOTO`, `GOTOC`.
+    Jump(Jump),
+    /// `CASE value OF constant GOTOF .. DEFAULT GOTOF ..`.
+    Case(Expression, Vec<(Expression, Jump)>, Option<Jump>),
+}
+
+/// Where to go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jump {
+    /// Where to look for the target.
+    pub direction: Direction,
+    /// The target.
+    pub target: Target,
+    /// Where the target stands.
+    pub span: Span,
+}
+
+/// Where the target of a jump is looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// GOTOF: towards the end.
+    Forward,
+    /// GOTOB: towards the beginning.
+    Backward,
+    /// GOTO: towards the end, then from the beginning.
+    Either,
+    /// GOTOC: like GOTO; without a target the jump is left out.
+    Optional,
+}
+
+/// The target of a jump.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// A label, in upper case.
+    Label(String),
+    /// A block number.
+    Number(u32),
+}

@@ -1,0 +1,199 @@
+//! R parameters and the variables that a program declares.
+
+use super::syntax::VariableKind;
+use crate::diagnostics::Diagnostic;
+use crate::dialects::expression::{Value, Variables};
+use crate::source::Span;
+use std::collections::{BTreeMap, HashMap};
+
+/// How many elements the arrays of a program may have together.
+const ELEMENT_LIMIT: usize = 1_000_000;
+
+#[derive(Clone, Debug)]
+struct Variable {
+    kind: VariableKind,
+    size: Vec<usize>,
+    values: Vec<Value>,
+}
+
+/// The values of all variables.
+#[derive(Clone, Debug)]
+pub struct VariableStore {
+    /// R parameters belong to the control, the others to the program or subprogram that declares them.
+    r: HashMap<u32, f64>,
+    scopes: Vec<HashMap<String, Variable>>,
+}
+
+impl VariableStore {
+    /// With the starting values of the settings, such as `R5`.
+    pub fn new(given: &BTreeMap<String, f64>) -> VariableStore {
+        let r = given.iter().filter_map(|(name, value)| {
+            let number = name.strip_prefix(['R', 'r'])?.parse().ok()?;
+            Some((number, *value))
+        });
+        VariableStore {
+            r: r.collect(),
+            scopes: vec![HashMap::new()],
+        }
+    }
+
+    /// A subprogram begins.
+    pub fn enter(&mut self) {
+        self.scopes.push(HashMap::new());
+    }
+
+    /// A subprogram ends.
+    pub fn leave(&mut self) {
+        self.scopes.pop();
+    }
+
+    /// Declares a variable, or an array with these sizes, with one value for all its elements.
+    pub fn define(
+        &mut self,
+        name: &str,
+        kind: VariableKind,
+        size: Vec<usize>,
+        value: Option<Value>,
+        span: Span,
+    ) -> Result<(), Box<Diagnostic>> {
+        let count = size
+            .iter()
+            .try_fold(1_usize, |count, size| count.checked_mul(*size));
+        let count = count
+            .filter(|count| *count <= ELEMENT_LIMIT)
+            .ok_or_else(|| Box::new(Diagnostic::error(span, "this array is too large")))?;
+        let initial = value.unwrap_or(match kind {
+            VariableKind::Text => Value::Text(String::new()),
+            _ => Value::Number(0.0),
+        });
+        let initial = converted(kind, initial, span)?;
+        if let Some(scope) = self.scopes.last_mut() {
+            let values = vec![initial; count];
+            scope.insert(name.to_string(), Variable { kind, size, values });
+        }
+        Ok(())
+    }
+
+    /// Gives a variable a value.
+    pub fn assign(
+        &mut self,
+        name: &str,
+        index: &[f64],
+        value: Value,
+        span: Span,
+    ) -> Result<(), Box<Diagnostic>> {
+        if name == "R" {
+            let number = r_number(index, span)?;
+            let Value::Number(value) = value else {
+                return Err(Box::new(Diagnostic::error(
+                    span,
+                    "R parameters are numbers",
+                )));
+            };
+            self.r.insert(number, value);
+            return Ok(());
+        }
+        let variable = self
+            .scopes
+            .last_mut()
+            .and_then(|scope| scope.get_mut(name))
+            .ok_or_else(|| unknown(name, span))?;
+        let kind = variable.kind;
+        let at = element(&variable.size, index, span)?;
+        if let Some(place) = variable.values.get_mut(at) {
+            *place = converted(kind, value, span)?;
+        }
+        Ok(())
+    }
+}
+
+impl Variables for VariableStore {
+    fn value(&self, name: &str, index: &[f64], span: Span) -> Result<Value, Box<Diagnostic>> {
+        if name == "R" {
+            let number = r_number(index, span)?;
+            return self.r.get(&number).map(|value| Value::Number(*value)).ok_or_else(|| {
+                Box::new(
+                    Diagnostic::error(
+                        span,
+                        format!("R{number} has no value here: the control would take what it had last"),
+                    )
+                    .help(format!("assign it in the program, or give --set R{number}=VALUE")),
+                )
+            });
+        }
+        let variable = self
+            .scopes
+            .last()
+            .and_then(|scope| scope.get(name))
+            .ok_or_else(|| unknown(name, span))?;
+        let at = element(&variable.size, index, span)?;
+        variable
+            .values
+            .get(at)
+            .cloned()
+            .ok_or_else(|| Box::new(Diagnostic::error(span, "there is no such element")))
+    }
+}
+
+fn unknown(name: &str, span: Span) -> Box<Diagnostic> {
+    let error = Diagnostic::error(span, format!("`{name}` is not declared"));
+    Box::new(if name.starts_with('$') {
+        Diagnostic::error(
+            span,
+            format!("{name}: system variables cannot be evaluated ahead of time"),
+        )
+    } else {
+        error.help(format!("declare it before its first use: DEF REAL {name}"))
+    })
+}
+
+fn r_number(index: &[f64], span: Span) -> Result<u32, Box<Diagnostic>> {
+    match index {
+        [number] if number.fract() == 0.0 && (0.0..=32767.0).contains(number) => Ok(*number as u32),
+        _ => Err(Box::new(Diagnostic::error(
+            span,
+            "the number of an R parameter is a whole number from 0 to 32767",
+        ))),
+    }
+}
+
+fn element(size: &[usize], index: &[f64], span: Span) -> Result<usize, Box<Diagnostic>> {
+    if size.len() != index.len() {
+        return Err(Box::new(Diagnostic::error(
+            span,
+            format!("this variable has {} indices", size.len()),
+        )));
+    }
+    let mut at = 0;
+    for (size, index) in size.iter().zip(index) {
+        if index.fract() != 0.0 || *index < 0.0 || *index >= *size as f64 {
+            return Err(Box::new(Diagnostic::error(
+                span,
+                format!(
+                    "the index {index} is outside 0 to {}",
+                    size.saturating_sub(1)
+                ),
+            )));
+        }
+        at = at * size + *index as usize;
+    }
+    Ok(at)
+}
+
+/// The value as a variable of this kind holds it.
+fn converted(kind: VariableKind, value: Value, span: Span) -> Result<Value, Box<Diagnostic>> {
+    Ok(match (kind, value) {
+        (VariableKind::Text, Value::Text(text)) => Value::Text(text),
+        (VariableKind::Real, Value::Number(number)) => Value::Number(number),
+        (VariableKind::Whole, Value::Number(number)) => Value::Number(number.round()),
+        (VariableKind::Truth, Value::Number(number)) => {
+            Value::Number(f64::from(u8::from(number != 0.0)))
+        }
+        _ => {
+            return Err(Box::new(Diagnostic::error(
+                span,
+                "a text and a number cannot take each other's place",
+            )));
+        }
+    })
+}

@@ -1,0 +1,193 @@
+//! What a part program does, whatever language it was written in: the one form between the dialects,
+//! which produce it, and the backends and the contour, which are made from it.
+//!
+//! All lengths are in the unit of the machine (millimetres unless the caller says otherwise), angles
+//! in degrees, feeds per minute unless the mode says otherwise. Calls, loops and arithmetic are
+//! evaluated: a program here is a plain list of blocks.
+
+pub mod arc;
+pub mod contour;
+pub mod frame;
+pub mod moves;
+pub mod position;
+pub mod trace;
+
+use crate::source::Span;
+use frame::FrameCommand;
+use moves::Move;
+
+/// A program whose flow has been evaluated.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// The blocks in the order in which they run.
+    pub blocks: Vec<Block>,
+}
+
+/// Where a block was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// Index of the source file; 0 is the program itself.
+    pub file: usize,
+    /// Line, 1 for the first.
+    pub line: u32,
+    /// The block number (`N10`), if it has one.
+    pub number: Option<u32>,
+    /// The text of the block.
+    pub span: Span,
+}
+
+/// One block of the source, each time it runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Where it was written.
+    pub origin: Origin,
+    /// What it does, in the order in which that happens.
+    pub actions: Vec<Action>,
+    /// The comment of the block.
+    pub comment: Option<String>,
+}
+
+/// One thing that a block does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Another plane for arcs and compensation.
+    Plane(Plane),
+    /// Work offset 1 to 9: G54 to G59.3.
+    WorkOffset(u8),
+    /// How feeds are given.
+    FeedMode(FeedMode),
+    /// Feed in the unit of the feed mode.
+    Feed(f64),
+    /// Spindle speed in revolutions per minute.
+    SpindleSpeed(f64),
+    /// Spindle on or off.
+    Spindle(Spindle),
+    /// The tool to be changed to next.
+    Tool(u32),
+    /// The tool change itself.
+    ToolChange,
+    /// Tool length compensation on (of the tool in the spindle) or off.
+    ToolLength(bool),
+    /// Coolant on or off.
+    Coolant(Coolant),
+    /// Cutter radius compensation.
+    Compensation(Compensation),
+    /// How corners are passed.
+    PathControl(PathControl),
+    /// A pause in seconds.
+    Dwell(f64),
+    /// A change of the programmable frame.
+    Frame(FrameCommand),
+    /// A motion.
+    Move(Move),
+    /// G92: the present position gets these coordinates (X Y Z A B C U V W).
+    Preset([Option<f64>; 9]),
+    /// M0, or M1 where the operator decides.
+    Pause {
+        /// Whether this is M1.
+        optional: bool,
+    },
+    /// M-number that the settings pass on.
+    OtherM(u32),
+    /// A text for the operator.
+    Message(String),
+    /// A subprogram begins.
+    Enter {
+        /// Name of the subprogram.
+        name: String,
+        /// Name of the file it was found in.
+        file: String,
+        /// Which of the passes this is, 1 for the first.
+        pass: u32,
+        /// How many passes the call asks for.
+        passes: u32,
+    },
+    /// A subprogram ends.
+    Leave {
+        /// Name of the subprogram.
+        name: String,
+    },
+    /// The end of the program: M30, or M2.
+    End {
+        /// Whether this is M30.
+        rewind: bool,
+    },
+}
+
+/// The plane of arcs, compensation and rotations in the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane {
+    /// G17: first axis X, second Y, normal Z.
+    Xy,
+    /// G18: first axis Z, second X, normal Y.
+    Zx,
+    /// G19: first axis Y, second Z, normal X.
+    Yz,
+}
+
+impl Plane {
+    /// Indices of the first and the second axis and of the normal: a right-handed triple.
+    pub fn axes(self) -> [usize; 3] {
+        match self {
+            Plane::Xy => [0, 1, 2],
+            Plane::Zx => [2, 0, 1],
+            Plane::Yz => [1, 2, 0],
+        }
+    }
+}
+
+/// The unit in which feeds are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedMode {
+    /// G93: the reciprocal of the time of the block, 1/min.
+    InverseTime,
+    /// G94: length per minute.
+    PerMinute,
+    /// G95: length per revolution.
+    PerRevolution,
+}
+
+/// State of the main spindle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spindle {
+    /// M3.
+    Clockwise,
+    /// M4.
+    Counterclockwise,
+    /// M5.
+    Stop,
+}
+
+/// State of the coolant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coolant {
+    /// M7.
+    Mist,
+    /// M8.
+    Flood,
+    /// M9.
+    Off,
+}
+
+/// Cutter radius compensation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compensation {
+    /// G40.
+    Off,
+    /// G41.
+    Left,
+    /// G42.
+    Right,
+}
+
+/// How the corner between two blocks is passed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PathControl {
+    /// Every block ends at rest in its end point.
+    ExactStop,
+    /// Corners may be rounded; by how much at most, in machine units, or as the machine has it set.
+    Continuous {
+        /// Largest distance from the programmed path; `None`: the default of the machine.
+        tolerance: Option<f64>,
+    },
+}

@@ -1,0 +1,87 @@
+//! One motion of a program.
+
+/// Where an axis goes in a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coordinate {
+    /// It is not named in the block and stays where it is.
+    Keep,
+    /// To this coordinate of the current frame.
+    At(f64),
+    /// By this much from where it is: only where the start is not known ahead of time.
+    By(f64),
+}
+
+/// A motion in coordinates of the current frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Move {
+    /// Rapid, line or arc.
+    pub kind: MoveKind,
+    /// Where each of X Y Z A B C U V W goes.
+    pub target: [Coordinate; 9],
+    /// Where each axis is before the move, as far as that is known ahead of time.
+    pub start: [Option<f64>; 9],
+    /// Whether this block alone ends in an exact stop (G9).
+    pub exact_stop: bool,
+}
+
+impl Move {
+    /// Whether LinuxCNC has to read where it is to carry out the move. Under cutter compensation it
+    /// would read the compensated position.
+    pub fn depends_on_position(&self) -> bool {
+        let step = |target: &Coordinate| matches!(target, Coordinate::By(_));
+        let centre = match &self.kind {
+            MoveKind::Arc(arc) => matches!(arc.centre, Centre::Point(_)),
+            _ => false,
+        };
+        centre || self.target.iter().any(step)
+    }
+
+    /// Where an axis is after the move, as far as that is known ahead of time.
+    pub fn end(&self, axis: usize) -> Option<f64> {
+        match self.target[axis] {
+            Coordinate::Keep => self.start[axis],
+            Coordinate::At(value) => Some(value),
+            Coordinate::By(step) => self.start[axis].map(|start| start + step),
+        }
+    }
+}
+
+/// The kind of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MoveKind {
+    /// G0.
+    Rapid,
+    /// G0 or G1 in coordinates of the machine, without frame and work offset.
+    Machine {
+        /// Whether this is a rapid move.
+        rapid: bool,
+        /// Whether the tool length counts, so that the tip goes to the coordinates.
+        tool_length: bool,
+    },
+    /// G1.
+    Line,
+    /// G2 or G3 in the plane that is active.
+    Arc(Arc),
+}
+
+/// An arc, or a helix, in the plane that is active.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arc {
+    /// G2.
+    pub clockwise: bool,
+    /// Where its centre is.
+    pub centre: Centre,
+    /// Full turns beyond the first passage of the end point.
+    pub extra_turns: u32,
+}
+
+/// How the centre of an arc is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Centre {
+    /// From the start, along the first and the second axis of the plane.
+    Offset([f64; 2]),
+    /// The start is not known: each coordinate of the centre as it was written.
+    Point([Coordinate; 2]),
+    /// The start is not known: the radius, negative for more than half a circle.
+    Radius(f64),
+}

@@ -1,0 +1,208 @@
+//! `framepath report`: what the planner did with a program, from a recording of every servo cycle.
+//!
+//! The files in the order of the work: [`recording`] and [`ini`] read, [`machine`] holds the
+//! limits; [`differences`] finds the peaks of velocity, acceleration and jerk, [`frame_changes`]
+//! the changes of the frame; [`pieces`] and [`following`] compare the executed path with the
+//! programmed path; [`summary`] holds all figures and [`findings`] draws the conclusions;
+//! [`text`] and [`page`] show them, `page/` is the template of the HTML page.
+
+mod decimation;
+mod differences;
+mod error;
+mod findings;
+mod following;
+mod format;
+mod frame_changes;
+mod ini;
+mod machine;
+mod page;
+mod pieces;
+mod recording;
+mod summary;
+mod text;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+pub use error::ReportError;
+
+use crate::encoding::decode;
+use crate::program::contour::ContourMove;
+use ini::Ini;
+use machine::{AXIS_LETTERS, Machine};
+use page::Listing;
+use recording::Recording;
+
+/// Arguments of `framepath report`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ReportArguments {
+    /// Recording of a run: CSV with one row for every servo cycle, header
+    /// time,id,line,joint.0,..,axis.x,..
+    #[arg(long, value_name = "FILE.csv")]
+    pub recording: PathBuf,
+    /// INI file of the machine that was recorded
+    #[arg(long, value_name = "MACHINE.ini")]
+    pub ini: PathBuf,
+    /// Headline of the report [default: name of the program, or of the recording]
+    #[arg(long, value_name = "TEXT")]
+    pub title: Option<String>,
+    /// How far the executed path may be from the programmed path (G64 P), in machine units
+    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    /// Write all figures to this file
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write a page with drawings to this file: one file that needs no network
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Dialect of PROGRAM, for example sinumerik: compare with the path that it programs.
+    /// Without it PROGRAM is what LinuxCNC ran, and is only listed
+    #[arg(long, value_name = "DIALECT", requires = "program")]
+    pub dialect: Option<String>,
+    /// Program that was recorded
+    #[arg(value_name = "PROGRAM")]
+    pub program: Option<PathBuf>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("a number above 0 is needed".to_owned()),
+    }
+}
+
+/// Makes the report: the text on standard output, JSON and HTML into files where asked for.
+///
+/// # Errors
+/// Unreadable or unusable files; then there is no output at all.
+pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
+    match (&arguments.dialect, &arguments.program) {
+        (Some(dialect), Some(program)) => Err(ReportError::Program {
+            file: program.clone(),
+            problem: format!("--dialect {dialect}: no such dialect is known here; leave it out"),
+        }),
+        _ => run_along(arguments, &[]),
+    }
+}
+
+/// The same with the path that the program describes, in machine coordinates, in the order of the
+/// moves. Without moves nothing is compared.
+///
+/// # Errors
+/// Those of [`run`].
+pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result<(), ReportError> {
+    let machine = Machine::from_ini(&Ini::read(&arguments.ini)?)?;
+    let mut recording = Recording::read(&arguments.recording)?;
+    let letter_order = |letter: char| AXIS_LETTERS.find(letter.to_ascii_uppercase());
+    recording
+        .axes
+        .sort_by_key(|(letter, _)| letter_order(*letter));
+    check_match(arguments, &machine, &recording)?;
+    let listing = match &arguments.program {
+        Some(program) => Some(Listing {
+            name: file_name(program),
+            text: decode(&std::fs::read(program).map_err(|source| ReportError::Read {
+                file: program.clone(),
+                source,
+            })?),
+            by_source: arguments.dialect.is_some(),
+        }),
+        None => None,
+    };
+
+    let recording_name = file_name(&arguments.recording);
+    let title = arguments.title.clone().unwrap_or_else(|| {
+        let named = arguments.program.as_ref().unwrap_or(&arguments.recording);
+        named.file_stem().map_or_else(
+            || file_name(named),
+            |stem| stem.to_string_lossy().into_owned(),
+        )
+    });
+    let analysis = summary::analyse(&title, &machine, &recording, contour, arguments.tolerance);
+
+    let unwritable = |file: &Path| {
+        let file = file.to_owned();
+        move |source| ReportError::Write { file, source }
+    };
+    let standard_output = Path::new("standard output");
+    let mut text = text::render(&analysis.report, &recording_name)
+        .map_err(|error| unwritable(standard_output)(std::io::Error::other(error)))?;
+    if let Some(file) = &arguments.json {
+        let mut json = serde_json::to_string_pretty(&analysis.report)
+            .map_err(|error| unwritable(file)(error.into()))?;
+        json.push('\n');
+        std::fs::write(file, json).map_err(unwritable(file))?;
+    }
+    if let Some(file) = &arguments.html {
+        let page = page::render(
+            &analysis,
+            &recording,
+            &recording_name,
+            &text,
+            contour,
+            listing.as_ref(),
+        )
+        .map_err(|error| unwritable(file)(error.into()))?;
+        std::fs::write(file, page).map_err(unwritable(file))?;
+    }
+
+    if let Some(file) = &arguments.html {
+        text.push_str(&format!("Page: {}\n", file.display()));
+    }
+    std::io::stdout()
+        .write_all(text.as_bytes())
+        .map_err(unwritable(standard_output))
+}
+
+fn file_name(file: &Path) -> String {
+    file.file_name().map_or_else(
+        || file.display().to_string(),
+        |name| name.to_string_lossy().into_owned(),
+    )
+}
+
+/// Recording and INI file have to describe the same machine, or limits would be compared with
+/// the wrong columns.
+fn check_match(
+    arguments: &ReportArguments,
+    machine: &Machine,
+    recording: &Recording,
+) -> Result<(), ReportError> {
+    let fail = |problem: String| {
+        Err(ReportError::Mismatch {
+            recording: arguments.recording.clone(),
+            ini: arguments.ini.clone(),
+            problem,
+        })
+    };
+    if recording.joints.len() != machine.joints.len() {
+        return fail(format!(
+            "{} joints are recorded, [KINS]KINEMATICS names {}; record joint.0 to joint.{}",
+            recording.joints.len(),
+            machine.joints.len(),
+            machine.joints.len() - 1
+        ));
+    }
+    let recorded: String = recording.axes.iter().map(|(letter, _)| *letter).collect();
+    let named: String = machine
+        .axes
+        .iter()
+        .map(|axis| axis.letter.to_ascii_lowercase())
+        .collect();
+    if recorded != named {
+        return fail(format!(
+            "the axes `{recorded}` are recorded, [KINS]KINEMATICS names `{named}`; record a \
+             column axis.L for each"
+        ));
+    }
+    let period = recording.period();
+    if (period / machine.servo_period - 1.0).abs() > 0.01 {
+        return fail(format!(
+            "the rows are {} ms apart, [EMCMOT]SERVO_PERIOD is {} ms; record every servo cycle, \
+             and give the INI file that was used",
+            format::significant(period * 1e3, 6),
+            format::significant(machine.servo_period * 1e3, 6)
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,203 @@
+// Velocity, acceleration and jerk of each joint over time, and the distance from the programmed path.
+
+const span = { from: bucketTime[0], to: endTime };
+
+// One curve; `series` has columns low and high, the range of the values in each bucket of time.
+function makeProfile(holder, series, onTime, onSpan) {
+  const canvases = layers(holder);
+  const low = decode(series.low, Float32Array);
+  const high = series.high ? decode(series.high, Float32Array) : low;
+  const margin = { left: 58, right: 6, top: 8, bottom: series.last ? 40 : 6 };
+  const limit = series.limit;
+  let greatest = 1e-12;
+  for (let i = 0; i < low.length; i++) greatest = Math.max(greatest, -low[i], high[i]);
+  // A limit that is far away is not drawn, or the curve would be flat.
+  const limitShown = limit !== null && limit <= 4 * greatest;
+  const top = 1.1 * Math.max(greatest, limitShown ? limit : 0);
+  const bottomValue = series.oneSided ? 0 : -top;
+  let size = { width: 1, height: 1 };
+  let cursor = null;
+  let selection = null;
+
+  const toX = (time) => margin.left + ((time - span.from) / (span.to - span.from)) * (size.width - margin.left - margin.right);
+  const toY = (value) => {
+    const share = (value - bottomValue) / (top - bottomValue);
+    return size.height - margin.bottom - share * (size.height - margin.top - margin.bottom);
+  };
+  const toTime = (x) => span.from + ((x - margin.left) / (size.width - margin.left - margin.right)) * (span.to - span.from);
+
+  function draw() {
+    const { context, width, height } = canvases.base();
+    size = { width, height };
+    const right = width - margin.right;
+    context.strokeStyle = colour("rule");
+    context.lineWidth = 1;
+    context.strokeRect(margin.left + 0.5, margin.top + 0.5, right - margin.left - 1, height - margin.bottom - margin.top - 1);
+    context.beginPath();
+    context.moveTo(margin.left, Math.round(toY(0)) + 0.5);
+    context.lineTo(right, Math.round(toY(0)) + 0.5);
+    context.stroke();
+    context.fillStyle = colour("quiet");
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    const scale = limitShown ? limit : ticks(0, greatest, 2.5).pop() || greatest;
+    for (const value of series.oneSided ? [0, scale] : [-scale, 0, scale]) {
+      context.fillText(number(value, 4), margin.left - 7, toY(value));
+    }
+
+    context.save();
+    context.beginPath();
+    context.rect(margin.left, margin.top, right - margin.left, height - margin.top - margin.bottom);
+    context.clip();
+    const curve = colour("accent");
+    context.strokeStyle = curve;
+    context.lineWidth = 1.3;
+    context.beginPath();
+    let column = null;
+    let least = 0;
+    let most = 0;
+    let first = true;
+    const flush = () => {
+      if (column === null) return;
+      if (first) context.moveTo(column, toY(most));
+      else context.lineTo(column, toY(most));
+      first = false;
+      if (most > least) context.lineTo(column, toY(least));
+    };
+    for (let i = 0; i < low.length; i++) {
+      const x = toX(bucketTime[i]);
+      if (x < margin.left - 40 || x > right + 40) continue;
+      const pixel = Math.round(x * 2) / 2;
+      if (pixel !== column) {
+        flush();
+        column = pixel;
+        least = low[i];
+        most = high[i];
+      } else {
+        least = Math.min(least, low[i]);
+        most = Math.max(most, high[i]);
+      }
+    }
+    flush();
+    context.stroke();
+    context.restore();
+    if (limitShown) {
+      context.beginPath();
+      for (const value of series.oneSided ? [limit] : [limit, -limit]) {
+        context.moveTo(margin.left, Math.round(toY(value)) + 0.5);
+        context.lineTo(right, Math.round(toY(value)) + 0.5);
+      }
+      // The light line below keeps the limit visible on a dense curve.
+      context.strokeStyle = colour("ground");
+      context.lineWidth = 3;
+      context.stroke();
+      context.strokeStyle = colour("bad");
+      context.lineWidth = 1;
+      context.setLineDash([4, 3]);
+      context.stroke();
+      context.setLineDash([]);
+    }
+    if (series.last) {
+      context.fillStyle = colour("quiet");
+      context.textBaseline = "top";
+      context.textAlign = "center";
+      for (const time of ticks(span.from, span.to, (right - margin.left) / 70)) {
+        const x = Math.max(margin.left + 4, Math.min(right - 14, toX(time)));
+        context.fillText(number(time, 6), x, height - margin.bottom + 5);
+      }
+      context.fillText("time (s)", (margin.left + right) / 2, height - margin.bottom + 22);
+    }
+    show(cursor);
+  }
+
+  function valueAt(time) {
+    let a = 0;
+    let b = bucketTime.length - 1;
+    while (b - a > 1) {
+      const middle = (a + b) >> 1;
+      if (bucketTime[middle] <= time) a = middle;
+      else b = middle;
+    }
+    const index = bucketTime[b] <= time ? b : a;
+    const value = Math.abs(low[index]) > Math.abs(high[index]) ? low[index] : high[index];
+    // What is left by the rounding of the recording is rest.
+    return Math.abs(value) < 1e-6 * greatest ? 0 : value;
+  }
+
+  function show(point) {
+    cursor = point;
+    const { context } = canvases.overlay();
+    if (selection) {
+      context.fillStyle = colour("wash");
+      context.fillRect(selection[0], margin.top, selection[1] - selection[0], size.height - margin.top - margin.bottom);
+    }
+    series.output.textContent = point ? `${number(valueAt(point.time), 5)} ${series.unit}` : "";
+    if (!point || point.time < span.from || point.time > span.to) return;
+    const x = Math.round(toX(point.time)) + 0.5;
+    context.strokeStyle = colour("ink");
+    context.lineWidth = 1;
+    context.globalAlpha = 0.6;
+    context.beginPath();
+    context.moveTo(x, margin.top);
+    context.lineTo(x, size.height - margin.bottom);
+    context.stroke();
+  }
+
+  const within = (x) => Math.max(margin.left, Math.min(size.width - margin.right, x));
+  holder.addEventListener("pointerdown", (event) => {
+    if (event.pointerType === "touch") return;
+    selection = [within(event.offsetX), within(event.offsetX)];
+    holder.setPointerCapture(event.pointerId);
+  });
+  holder.addEventListener("pointermove", (event) => {
+    if (selection) selection[1] = within(event.offsetX);
+    onTime(toTime(within(event.offsetX)));
+  });
+  holder.addEventListener("pointerup", () => {
+    const chosen = selection;
+    selection = null;
+    if (chosen && Math.abs(chosen[1] - chosen[0]) > 5) onSpan(...chosen.map(toTime).sort((a, b) => a - b));
+    else show(cursor);
+  });
+  holder.addEventListener("dblclick", () => onSpan(bucketTime[0], endTime));
+  return { draw, show };
+}
+
+// All curves of all joints, one column for each joint.
+function makeProfiles(parent, onTime, onSpan) {
+  const profiles = [];
+  const add = (column, title, series) => {
+    const output = element("output");
+    const holder = element("div", "canvas profile" + (series.last ? " last" : ""));
+    column.append(element("div", "profile-title", element("span", "", title), output), holder);
+    profiles.push(makeProfile(holder, { ...series, output }, onTime, onSpan));
+  };
+  report.joints.forEach((joint, j) => {
+    const column = element("div", "joint");
+    const heading = element("h3", "", joint.letter + " ", element("span", "quiet", joint.name));
+    column.append(heading);
+    parent.append(column);
+    joint.peaks.forEach((peak, q) => {
+      const rate = rateUnit(joint.unit, peak.quantity);
+      const limit = peak.limit === null ? "not limited" : `limit ${number(peak.limit, 6)}`;
+      add(column, `${peak.quantity} (${rate}), ${limit}`, {
+        ...data.profiles.joints[j][q], limit: peak.limit, unit: rate, last: q === joint.peaks.length - 1,
+      });
+    });
+  });
+  if (data.profiles.distance) {
+    const column = element("div", "joint");
+    const tolerance = report.path.tolerance;
+    const heading = element("h3", "", "Path ", element("span", "quiet", "distance from the programmed path"));
+    column.append(heading);
+    parent.append(column);
+    const factor = data.profiles.distance_factor;
+    const name = factor === 1000 ? "\u00b5m" : unit;
+    const limit = tolerance === null ? "" : `, tolerance ${number(tolerance * factor, 5)}`;
+    add(column, `distance (${name})${limit}`, {
+      ...data.profiles.distance, limit: tolerance === null ? null : tolerance * factor,
+      unit: name, last: true, oneSided: true,
+    });
+  }
+  return profiles;
+}

@@ -1,0 +1,302 @@
+// The two drawings of the path: seen from above, and in space.
+
+const box = { low: [], high: [] };
+for (const name of ["x", "y", "z"]) {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const column of [path[name], programmed[name]]) {
+    for (const value of column) {
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    }
+  }
+  box.low.push(low);
+  box.high.push(high);
+}
+const boxCentre = box.low.map((low, i) => (low + box.high[i]) / 2);
+const boxDiagonal = Math.hypot(...box.low.map((low, i) => box.high[i] - low)) || 1;
+
+// Draws the programmed path under the executed path; `project(x, y, z)` gives pixels.
+function drawPaths(context, project) {
+  const stroke = (rapid, width, dash) => {
+    context.strokeStyle = colour("programmed");
+    context.lineWidth = width;
+    context.setLineDash(dash);
+    context.beginPath();
+    for (let i = 1; i < programmed.x.length; i++) {
+      if ((programmed.rapid[i] === 1) !== rapid || programmed.rapid[i] < 0) continue;
+      context.moveTo(...project(programmed.x[i - 1], programmed.y[i - 1], programmed.z[i - 1]));
+      context.lineTo(...project(programmed.x[i], programmed.y[i], programmed.z[i]));
+    }
+    context.stroke();
+    context.setLineDash([]);
+  };
+  context.lineCap = "butt";
+  stroke(true, 1.2, [5, 4]);
+  context.lineCap = "round";
+  stroke(false, 5, []);
+
+  const colours = speedColours();
+  context.lineWidth = 2;
+  let step = -1;
+  for (let i = 1; i < path.x.length; i++) {
+    const next = speedStep((path.speed[i - 1] + path.speed[i]) / 2);
+    if (next !== step) {
+      if (step >= 0) context.stroke();
+      context.strokeStyle = colours[next];
+      context.beginPath();
+      context.moveTo(...project(path.x[i - 1], path.y[i - 1], path.z[i - 1]));
+      step = next;
+    }
+    context.lineTo(...project(path.x[i], path.y[i], path.z[i]));
+  }
+  if (step >= 0) context.stroke();
+}
+
+function drawDot(context, [x, y]) {
+  context.beginPath();
+  context.arc(x, y, 6, 0, 2 * Math.PI);
+  context.fillStyle = colour("accent");
+  context.strokeStyle = colour("ground");
+  context.lineWidth = 2.5;
+  context.fill();
+  context.stroke();
+}
+
+// The time of the point of the path that is drawn nearest to a pixel, or null if none is close.
+function timeAt(project, pixelX, pixelY) {
+  let best = 30 * 30;
+  let time = null;
+  let before = project(path.x[0], path.y[0], path.z[0]);
+  for (let i = 1; i < path.x.length; i++) {
+    const here = project(path.x[i], path.y[i], path.z[i]);
+    const dx = here[0] - before[0];
+    const dy = here[1] - before[1];
+    const square = dx * dx + dy * dy;
+    const share = square > 0 ? Math.max(0, Math.min(1, ((pixelX - before[0]) * dx + (pixelY - before[1]) * dy) / square)) : 0;
+    const away = (before[0] + share * dx - pixelX) ** 2 + (before[1] + share * dy - pixelY) ** 2;
+    if (away < best) {
+      best = away;
+      time = path.time[i - 1] + share * (path.time[i] - path.time[i - 1]);
+    }
+    before = here;
+  }
+  return time;
+}
+
+function makePlan(holder, onPoint) {
+  const canvases = layers(holder);
+  const margin = { left: 62, right: 18, top: 16, bottom: 44 };
+  let zoom = 1;
+  let centre = [boxCentre[0], boxCentre[1]];
+  let size = { width: 1, height: 1 };
+  let cursor = null;
+
+  const scale = () => {
+    const width = Math.max(box.high[0] - box.low[0], boxDiagonal / 50);
+    const height = Math.max(box.high[1] - box.low[1], boxDiagonal / 50);
+    const fit = Math.min((size.width - margin.left - margin.right) / width, (size.height - margin.top - margin.bottom) / height);
+    return 0.92 * fit * zoom;
+  };
+  const middle = () => [
+    (margin.left + size.width - margin.right) / 2,
+    (margin.top + size.height - margin.bottom) / 2,
+  ];
+  const project = (x, y) => {
+    const [mx, my] = middle();
+    return [mx + (x - centre[0]) * scale(), my - (y - centre[1]) * scale()];
+  };
+
+  function draw() {
+    const { context, width, height } = canvases.base();
+    size = { width, height };
+    const s = scale();
+    const [mx, my] = middle();
+    const right = width - margin.right;
+    const bottom = height - margin.bottom;
+    const xs = ticks(centre[0] - (mx - margin.left) / s, centre[0] + (right - mx) / s, (right - margin.left) / 64);
+    const ys = ticks(centre[1] - (bottom - my) / s, centre[1] + (my - margin.top) / s, (bottom - margin.top) / 64);
+    context.strokeStyle = colour("rule");
+    context.lineWidth = 1;
+    context.beginPath();
+    for (const x of xs) {
+      const px = Math.round(project(x, 0)[0]) + 0.5;
+      context.moveTo(px, margin.top);
+      context.lineTo(px, bottom);
+    }
+    for (const y of ys) {
+      const py = Math.round(project(0, y)[1]) + 0.5;
+      context.moveTo(margin.left, py);
+      context.lineTo(right, py);
+    }
+    context.stroke();
+    context.fillStyle = colour("quiet");
+    context.textAlign = "center";
+    context.textBaseline = "top";
+    for (const x of xs) {
+      const px = project(x, 0)[0];
+      if (px > margin.left + 8 && px < right - 8) context.fillText(number(x, 7), px, bottom + 6);
+    }
+    context.fillText(`X (${unit})`, (margin.left + right) / 2, bottom + 24);
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    for (const y of ys) {
+      const py = project(0, y)[1];
+      if (py > margin.top + 4 && py < bottom - 2) context.fillText(number(y, 7), margin.left - 7, py);
+    }
+    context.save();
+    context.translate(14, (margin.top + bottom) / 2);
+    context.rotate(-Math.PI / 2);
+    context.textAlign = "center";
+    context.fillText(`Y (${unit})`, 0, 0);
+    context.restore();
+    context.save();
+    context.beginPath();
+    context.rect(margin.left, margin.top, right - margin.left, bottom - margin.top);
+    context.clip();
+    drawPaths(context, project);
+    context.restore();
+    show(cursor);
+  }
+
+  function show(point) {
+    cursor = point;
+    const { context } = canvases.overlay();
+    if (point) drawDot(context, project(point.x, point.y));
+  }
+
+  let drag = null;
+  holder.addEventListener("pointerdown", (event) => {
+    if (zoom > 1) drag = [event.offsetX, event.offsetY];
+  });
+  window.addEventListener("pointerup", () => (drag = null));
+  holder.addEventListener("pointermove", (event) => {
+    if (drag) {
+      const s = scale();
+      centre = [centre[0] - (event.offsetX - drag[0]) / s, centre[1] + (event.offsetY - drag[1]) / s];
+      drag = [event.offsetX, event.offsetY];
+      draw();
+    } else {
+      onPoint(timeAt(project, event.offsetX, event.offsetY));
+    }
+  });
+  holder.addEventListener("dblclick", (event) => {
+    const [mx, my] = middle();
+    centre = [centre[0] + (event.offsetX - mx) / scale(), centre[1] - (event.offsetY - my) / scale()];
+    zoom *= 2.5;
+    draw();
+  });
+  function enlarge(factor) {
+    zoom = factor ? Math.max(1, zoom * factor) : 1;
+    if (zoom === 1) centre = [boxCentre[0], boxCentre[1]];
+    else if (cursor) centre = [cursor.x, cursor.y];
+    draw();
+  }
+  return { draw, show, enlarge };
+}
+
+function makeSpace(holder, onPoint) {
+  const canvases = layers(holder);
+  // Seen from the front right and above, as most people stand at a mill.
+  let turn = -0.6;
+  let tilt = 0.55;
+  let size = { width: 1, height: 1 };
+  let cursor = null;
+
+  // Large enough to fill the drawing at this tilt, the same at every turn.
+  const spaceScale = () => {
+    const [dx, dy, dz] = box.low.map((low, i) => box.high[i] - low);
+    const flat = Math.hypot(dx, dy);
+    const tall = Math.cos(tilt) * dz + Math.sin(tilt) * flat;
+    return Math.min((0.88 * size.width) / (flat || boxDiagonal), (0.74 * size.height) / (tall || boxDiagonal));
+  };
+  const project = (x, y, z) => {
+    const s = spaceScale();
+    const [dx, dy, dz] = [x - boxCentre[0], y - boxCentre[1], z - boxCentre[2]];
+    const across = Math.cos(turn) * dx - Math.sin(turn) * dy;
+    const deep = Math.sin(turn) * dx + Math.cos(turn) * dy;
+    const up = Math.cos(tilt) * dz + Math.sin(tilt) * deep;
+    return [size.width / 2 + across * s, size.height / 2 - up * s];
+  };
+
+  function draw() {
+    const { context, width, height } = canvases.base();
+    size = { width, height };
+    const corner = (bits) => box.low.map((low, i) => (bits & (1 << i) ? box.high[i] : low));
+    context.strokeStyle = colour("rule");
+    context.lineWidth = 1;
+    context.beginPath();
+    for (let bits = 0; bits < 8; bits++) {
+      for (let axis = 0; axis < 3; axis++) {
+        if (bits & (1 << axis)) continue;
+        context.moveTo(...project(...corner(bits)));
+        context.lineTo(...project(...corner(bits | (1 << axis))));
+      }
+    }
+    context.stroke();
+    drawPaths(context, project);
+
+    // The three axes as a small cross of their own, where it is never in the way of the path.
+    const origin = [46, height - 46];
+    const zero = project(0, 0, 0);
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    for (const [letter, ...direction] of [["X", 1, 0, 0], ["Y", 0, 1, 0], ["Z", 0, 0, 1]]) {
+      const far = project(...direction);
+      const arm = [((far[0] - zero[0]) * 30) / spaceScale(), ((far[1] - zero[1]) * 30) / spaceScale()];
+      const long = Math.hypot(...arm);
+      context.strokeStyle = colour("quiet");
+      context.lineWidth = 1.5;
+      context.beginPath();
+      context.moveTo(...origin);
+      context.lineTo(origin[0] + arm[0], origin[1] + arm[1]);
+      context.stroke();
+      if (long < 7) continue;
+      context.fillStyle = colour("ink");
+      context.fillText(letter, origin[0] + arm[0] * (1 + 11 / long), origin[1] + arm[1] * (1 + 11 / long));
+    }
+    context.fillStyle = colour("quiet");
+    context.textAlign = "right";
+    const extents = box.low.map((low, i) => number(box.high[i] - low, 5)).join(" \u00d7 ");
+    context.fillText(`box ${extents} ${unit}`, width - 14, height - 18);
+    show(cursor);
+  }
+
+  function show(point) {
+    cursor = point;
+    const { context } = canvases.overlay();
+    if (point) drawDot(context, project(point.x, point.y, point.z));
+  }
+
+  function rotate(dx, dy) {
+    turn += dx * 0.01;
+    tilt = Math.max(0, Math.min(Math.PI / 2, tilt + dy * 0.01));
+    draw();
+  }
+
+  let drag = null;
+  holder.tabIndex = 0;
+  holder.setAttribute("role", "img");
+  holder.setAttribute("aria-label", "The path in space; the arrow keys turn it");
+  holder.addEventListener("pointerdown", (event) => {
+    drag = [event.clientX, event.clientY];
+    holder.setPointerCapture(event.pointerId);
+  });
+  holder.addEventListener("pointerup", () => (drag = null));
+  holder.addEventListener("pointercancel", () => (drag = null));
+  holder.addEventListener("pointermove", (event) => {
+    if (drag) {
+      rotate(event.clientX - drag[0], event.clientY - drag[1]);
+      drag = [event.clientX, event.clientY];
+    } else {
+      onPoint(timeAt(project, event.offsetX, event.offsetY));
+    }
+  });
+  holder.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: [-10, 0], ArrowRight: [10, 0], ArrowUp: [0, -10], ArrowDown: [0, 10] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    rotate(...step);
+  });
+  return { draw, show };
+}

@@ -1,0 +1,357 @@
+//! The backend for machines with the frame kinematics: the moves stay as they were programmed, and
+//! each frame command becomes the call of a subroutine that sets the kinematics.
+//!
+//! The subroutines wait for the motion to end, set the frame, and make the interpreter read its
+//! position again. So that nothing depends on what was read, the first move after a change names
+//! every coordinate that is known.
+//!
+//! The kinematics takes the work offset and the tool offset into its map when the frame is set.
+//! The frame is therefore taken off before either changes, and before motions in machine
+//! coordinates, and set again before the next move that needs it.
+
+use super::WriteSettings;
+use super::blocks::{begin, header};
+use super::line::{Lines, Rank};
+use super::number::{coordinate, factor};
+use super::words::{
+    axis_word, centre_words, common_action, compensation_word, machine_move_words,
+    path_control_words,
+};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::program::frame::{Frame, FrameCommand, FrameOperation, SolidAngles};
+use crate::program::moves::{Coordinate, Move, MoveKind};
+use crate::program::{Action, Block, Compensation, FeedMode, PathControl, Plane, Program};
+use crate::source::Span;
+use framepath::frame::AffineMap;
+use framepath::frame::singular_values::singular_values;
+use nalgebra::Vector3;
+
+/// Stretches that differ from 1 by less are none.
+const SAME_SIZE: f64 = 1e-9;
+
+/// The program as G-code. `progress` is told the share of the blocks that are done, 0 to 1. What this
+/// backend cannot do is reported; the text is of no use then.
+pub fn write(
+    program: &Program,
+    settings: &WriteSettings,
+    diagnostics: &mut Diagnostics,
+    progress: &mut dyn FnMut(f64),
+) -> String {
+    let mut writer = Writer {
+        settings,
+        diagnostics,
+        lines: Lines::default(),
+        frame: Frame::default(),
+        suspended: false,
+        explicit: [false; 3],
+        plane: Plane::Xy,
+        feed_mode: FeedMode::PerMinute,
+        feed: None,
+        written_feed: None,
+        path_control: None,
+        tool_length: None,
+    };
+    header(&mut writer.lines, settings, "for the frame kinematics");
+    // A program that was aborted may have left its frame.
+    writer.lines.raw("o<frame_off> call");
+    for (index, block) in program.blocks.iter().enumerate() {
+        writer.block(block);
+        progress((index + 1) as f64 / program.blocks.len() as f64);
+    }
+    writer.lines.finish()
+}
+
+struct Writer<'a> {
+    settings: &'a WriteSettings<'a>,
+    diagnostics: &'a mut Diagnostics,
+    lines: Lines,
+    frame: Frame,
+    /// Whether the frame is taken off for the time being.
+    suspended: bool,
+    /// Which of X Y Z must be named in the next move.
+    explicit: [bool; 3],
+    plane: Plane,
+    feed_mode: FeedMode,
+    feed: Option<f64>,
+    written_feed: Option<f64>,
+    path_control: Option<PathControl>,
+    tool_length: Option<bool>,
+}
+
+impl Writer<'_> {
+    fn block(&mut self, block: &Block) {
+        if !begin(&mut self.lines, block, self.settings) {
+            return;
+        }
+        if block.actions.iter().any(needs_no_frame) {
+            self.suspend();
+        }
+        for action in &block.actions {
+            self.action(action, block.origin.span);
+        }
+        self.lines.end_block();
+    }
+
+    fn action(&mut self, action: &Action, span: Span) {
+        match action {
+            Action::Plane(plane) => self.plane = *plane,
+            Action::FeedMode(mode) => {
+                self.feed_mode = *mode;
+                self.feed = None;
+                self.written_feed = None;
+            }
+            Action::PathControl(control) => self.path_control = Some(*control),
+            Action::ToolLength(on) => self.tool_length = Some(*on),
+            _ => {}
+        }
+        if common_action(action, &mut self.lines) {
+            return;
+        }
+        match action {
+            Action::Feed(feed) => self.set_feed(*feed),
+            Action::Compensation(compensation) => self.compensation(*compensation, span),
+            Action::Frame(command) => self.frame_command(*command, span),
+            Action::Move(motion) => self.motion(motion),
+            Action::End { rewind } => {
+                self.lines.flush();
+                if !self.frame_is_off() {
+                    self.lines.line("o<frame_off> call");
+                }
+                self.lines
+                    .add(Rank::Stop, if *rewind { "M30" } else { "M2" });
+            }
+            _ => {}
+        }
+    }
+
+    fn frame_is_off(&self) -> bool {
+        self.suspended || self.frame.is_empty()
+    }
+
+    fn set_feed(&mut self, feed: f64) {
+        self.feed = Some(feed);
+        // Under a scale the number depends on the move: it is written there.
+        if self.feed_mode == FeedMode::InverseTime || !self.frame.has_scale() {
+            self.lines.add(Rank::Feed, format!("F{}", coordinate(feed)));
+            self.written_feed = Some(feed);
+        }
+    }
+
+    fn compensation(&mut self, compensation: Compensation, span: Span) {
+        if compensation != Compensation::Off {
+            if self.frame.has_scale() {
+                self.diagnostics.push(
+                    Diagnostic::error(
+                        span,
+                        "cutter compensation under SCALE: the kinematics would scale the offset too",
+                    )
+                    .help("use --backend program, which scales the contour only"),
+                );
+            }
+            self.resume();
+        }
+        self.lines
+            .add(Rank::Compensation, compensation_word(compensation));
+    }
+
+    fn frame_command(&mut self, command: FrameCommand, span: Span) {
+        let Ok(frame) = self.frame.after(command) else {
+            self.diagnostics
+                .push(Diagnostic::error(span, "too many frame commands"));
+            return;
+        };
+        match command {
+            FrameCommand::Additive(_) | FrameCommand::DropScales => self.resume(),
+            FrameCommand::Cancel | FrameCommand::Absolute(_) => self.suspended = false,
+        }
+        self.lines.flush();
+        self.frame = frame;
+        self.explicit = [true; 3];
+        let call = match command {
+            FrameCommand::Cancel => "o<frame_off> call".to_string(),
+            FrameCommand::DropScales => "o<ascale_off> call".to_string(),
+            FrameCommand::Absolute(operation) => call(&operation, false, self.plane),
+            FrameCommand::Additive(operation) => call(&operation, true, self.plane),
+        };
+        self.lines.line(&call);
+    }
+
+    /// Takes the frame off until it is needed again.
+    fn suspend(&mut self) {
+        if self.frame_is_off() {
+            return;
+        }
+        self.lines.flush();
+        self.lines.line("o<frame_off> call");
+        self.suspended = true;
+    }
+
+    /// Sets the frame again as it was.
+    fn resume(&mut self) {
+        if !self.suspended {
+            return;
+        }
+        self.suspended = false;
+        self.explicit = [true; 3];
+        self.lines.flush();
+        for (index, operation) in self.frame.operations().iter().enumerate() {
+            // The plane may be another one by now: rotations are written about their axis.
+            let operation = match operation {
+                FrameOperation::RotateInPlane(plane, angle) => about_normal(*plane, *angle),
+                other => *other,
+            };
+            self.lines.raw(&call(&operation, index > 0, self.plane));
+        }
+    }
+
+    fn motion(&mut self, motion: &Move) {
+        if let MoveKind::Machine { rapid, tool_length } = motion.kind {
+            let tool_length = tool_length && self.tool_length != Some(false);
+            self.lines
+                .add(Rank::Motion, machine_move_words(motion, rapid, tool_length));
+            return;
+        }
+        self.resume();
+        if motion.exact_stop && self.path_control != Some(PathControl::ExactStop) {
+            self.lines.add(Rank::PathControl, "G61.1");
+        }
+        let mut words = Vec::new();
+        words.push(
+            match &motion.kind {
+                MoveKind::Rapid | MoveKind::Machine { .. } => "G0",
+                MoveKind::Line => "G1",
+                MoveKind::Arc(arc) if arc.clockwise => "G2",
+                MoveKind::Arc(_) => "G3",
+            }
+            .to_string(),
+        );
+        for axis in 0..9 {
+            words.extend(axis_word(axis, self.written_target(motion, axis)));
+        }
+        if let MoveKind::Arc(arc) = &motion.kind {
+            words.push(centre_words(arc.centre, arc.extra_turns, self.plane));
+        }
+        if motion.kind != MoveKind::Rapid
+            && let Some(feed) = self.feed_for(motion)
+        {
+            words.push(format!("F{}", coordinate(feed)));
+        }
+        self.lines.add(Rank::Motion, words.join(" "));
+        if motion.exact_stop && self.path_control != Some(PathControl::ExactStop) {
+            self.lines.flush();
+            let mode = self
+                .path_control
+                .unwrap_or(PathControl::Continuous { tolerance: None });
+            self.lines.line(&path_control_words(mode));
+        }
+    }
+
+    /// The target of an axis with coordinates that the program left out and that must be explicit.
+    fn written_target(&mut self, motion: &Move, axis: usize) -> Coordinate {
+        let target = motion.target[axis];
+        let in_plane = self.plane.axes()[..2].contains(&axis);
+        let is_arc = matches!(motion.kind, MoveKind::Arc(_));
+        let wanted = match self.explicit.get_mut(axis) {
+            // A third coordinate would make a helix of the arc.
+            Some(explicit) if !is_arc || in_plane => std::mem::take(explicit) || is_arc,
+            _ => false,
+        };
+        match (target, motion.start[axis]) {
+            (Coordinate::Keep, Some(start)) if wanted => Coordinate::At(start),
+            _ => target,
+        }
+    }
+
+    /// The feed to be written with a move, if it differs from the last one. The kinematics stretches
+    /// the move, so the feed in the frame is the programmed one divided by the stretch.
+    fn feed_for(&mut self, motion: &Move) -> Option<f64> {
+        if self.feed_mode == FeedMode::InverseTime {
+            return None;
+        }
+        let feed = match self.frame.has_scale() {
+            true => self.feed? / stretch(self.frame.map(), motion),
+            false => self.feed?,
+        };
+        let same = self
+            .written_feed
+            .is_some_and(|old| (old - feed).abs() <= SAME_SIZE * feed);
+        if same {
+            return None;
+        }
+        self.written_feed = Some(feed);
+        Some(feed)
+    }
+}
+
+/// Whether an action is only allowed, or only right, while no frame is set.
+fn needs_no_frame(action: &Action) -> bool {
+    match action {
+        Action::ToolChange | Action::ToolLength(_) | Action::WorkOffset(_) => true,
+        Action::Move(motion) => matches!(motion.kind, MoveKind::Machine { .. }),
+        _ => false,
+    }
+}
+
+/// How much longer a move is on the machine than in the frame: of a line, its own stretch; of an
+/// arc, or where the start is not known, the largest of all directions, so that the feed is never
+/// exceeded.
+fn stretch(map: &AffineMap, motion: &Move) -> f64 {
+    let largest = singular_values(map.linear()).max();
+    if matches!(motion.kind, MoveKind::Arc(_)) {
+        return largest;
+    }
+    let mut delta = Vector3::zeros();
+    for axis in 0..3 {
+        delta[axis] = match (motion.target[axis], motion.start[axis]) {
+            (Coordinate::Keep, _) => 0.0,
+            (Coordinate::By(step), _) => step,
+            (Coordinate::At(end), Some(start)) => end - start,
+            (Coordinate::At(_), None) => return largest,
+        };
+    }
+    let length = delta.norm();
+    if length == 0.0 {
+        return 1.0;
+    }
+    map.apply_to_vector(&delta).norm() / length
+}
+
+fn about_normal(plane: Plane, angle: f64) -> FrameOperation {
+    let [_, _, normal] = plane.axes();
+    let mut angles = [0.0; 3];
+    angles[normal] = angle;
+    FrameOperation::Rotate(angles)
+}
+
+/// The call that sets one operation.
+fn call(operation: &FrameOperation, additive: bool, plane: Plane) -> String {
+    let (name, arguments): (&str, Vec<f64>) = match *operation {
+        FrameOperation::Translate(shift) => ("trans", shift.to_vec()),
+        FrameOperation::Rotate(angles) => ("rot", angles.to_vec()),
+        FrameOperation::RotateInPlane(its_plane, angle) if its_plane == plane => {
+            ("rot_rpl", vec![angle])
+        }
+        FrameOperation::RotateInPlane(its_plane, angle) => {
+            return call(&about_normal(its_plane, angle), additive, plane);
+        }
+        FrameOperation::RotateBySolidAngles(which, angles) => (
+            match which {
+                SolidAngles::XThenY => "rots_xy",
+                SolidAngles::ZThenX => "rots_zx",
+                SolidAngles::YThenZ => "rots_yz",
+            },
+            angles.to_vec(),
+        ),
+        FrameOperation::Scale(factors) => ("scale", factors.to_vec()),
+        FrameOperation::Mirror(axes) => (
+            "mirror",
+            axes.map(|axis| f64::from(u8::from(axis))).to_vec(),
+        ),
+    };
+    let arguments: Vec<String> = arguments
+        .into_iter()
+        .map(|value| format!("[{}]", factor(value)))
+        .collect();
+    let prefix = if additive { "a" } else { "" };
+    format!("o<{prefix}{name}> call {}", arguments.join(" "))
+}

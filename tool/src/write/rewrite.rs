@@ -1,0 +1,367 @@
+//! The backend for any machine: the frame is worked into the coordinates, and LinuxCNC gets an
+//! ordinary program.
+//!
+//! Arcs stay arcs where the frame keeps circles of their plane; a mirror exchanges G2 with G3 and G41
+//! with G42. Under unequal scales an arc becomes chords. A frame that tilts the plane would need
+//! tilted arcs and a tilted tool length: that is for the frame kinematics.
+
+use super::WriteSettings;
+use super::blocks::{begin, header};
+use super::line::{Lines, Rank};
+use super::number::coordinate;
+use super::words::{
+    axis_word, centre_words, common_action, compensation_word, machine_move_words,
+    path_control_words,
+};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::program::frame::Frame;
+use crate::program::moves::{Arc, Centre, Coordinate, Move, MoveKind};
+use crate::program::position::apply_partly;
+use crate::program::trace::frame_arc;
+use crate::program::{Action, Block, Compensation, FeedMode, PathControl, Plane, Program};
+use crate::source::Span;
+use framepath::frame::Handedness;
+use nalgebra::Vector3;
+
+/// How many chords one arc may become.
+const CHORD_LIMIT: f64 = 10_000.0;
+
+/// Entries of the map that are smaller, relative to the largest, are rounding.
+const NOTHING: f64 = 1e-14;
+
+/// The program as G-code; see [`super::kinematics::write`].
+pub fn write(
+    program: &Program,
+    settings: &WriteSettings,
+    diagnostics: &mut Diagnostics,
+    progress: &mut dyn FnMut(f64),
+) -> String {
+    let mut writer = Writer {
+        settings,
+        diagnostics,
+        lines: Lines::default(),
+        frame: Frame::default(),
+        plane: Plane::Xy,
+        compensation: Compensation::Off,
+        path_control: None,
+        feed_mode: FeedMode::PerMinute,
+        tool_length: None,
+    };
+    header(
+        &mut writer.lines,
+        settings,
+        "with frames worked into its coordinates",
+    );
+    for (index, block) in program.blocks.iter().enumerate() {
+        writer.block(block);
+        progress((index + 1) as f64 / program.blocks.len() as f64);
+    }
+    writer.lines.finish()
+}
+
+struct Writer<'a> {
+    settings: &'a WriteSettings<'a>,
+    diagnostics: &'a mut Diagnostics,
+    lines: Lines,
+    frame: Frame,
+    plane: Plane,
+    compensation: Compensation,
+    path_control: Option<PathControl>,
+    feed_mode: FeedMode,
+    tool_length: Option<bool>,
+}
+
+impl Writer<'_> {
+    fn block(&mut self, block: &Block) {
+        if !begin(&mut self.lines, block, self.settings) {
+            return;
+        }
+        for action in &block.actions {
+            if let Err(diagnostic) = self.action(action, block.origin.span) {
+                self.diagnostics.push(*diagnostic);
+            }
+        }
+        self.lines.end_block();
+    }
+
+    fn action(&mut self, action: &Action, span: Span) -> Result<(), Box<Diagnostic>> {
+        match action {
+            Action::Plane(plane) => self.plane = *plane,
+            Action::PathControl(control) => self.path_control = Some(*control),
+            Action::FeedMode(mode) => self.feed_mode = *mode,
+            Action::ToolLength(on) => self.tool_length = Some(*on),
+            _ => {}
+        }
+        if common_action(action, &mut self.lines) {
+            return Ok(());
+        }
+        match action {
+            Action::Feed(feed) => self
+                .lines
+                .add(Rank::Feed, format!("F{}", coordinate(*feed))),
+            Action::Compensation(compensation) => self.set_compensation(*compensation, span)?,
+            Action::Frame(command) => {
+                // The interpreter has carried out the same command: it cannot fail here.
+                if let Ok(frame) = self.frame.after(*command) {
+                    self.frame = frame;
+                }
+                self.check_tilt(span)?;
+            }
+            Action::Move(motion) => self.motion(motion, span)?,
+            Action::End { rewind } => self
+                .lines
+                .add(Rank::Stop, if *rewind { "M30" } else { "M2" }),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn check_tilt(&self, span: Span) -> Result<(), Box<Diagnostic>> {
+        if self.frame.map().keeps_plane(Plane::Xy.into()) {
+            return Ok(());
+        }
+        Err(Box::new(
+            Diagnostic::error(span, "this frame tilts the tool axis")
+                .help("use --backend kinematics on a machine with the frame kinematics"),
+        ))
+    }
+
+    fn mirrors_plane(&self) -> bool {
+        self.frame.map().handedness_in_plane(self.plane.into()) == Some(Handedness::Left)
+    }
+
+    fn set_compensation(
+        &mut self,
+        compensation: Compensation,
+        span: Span,
+    ) -> Result<(), Box<Diagnostic>> {
+        self.compensation = compensation;
+        if compensation != Compensation::Off && !self.frame.map().keeps_plane(self.plane.into()) {
+            return Err(Box::new(
+                Diagnostic::error(span, "cutter compensation in a plane that the frame tilts")
+                    .help("use --backend kinematics on a machine with the frame kinematics"),
+            ));
+        }
+        let written = match (compensation, self.mirrors_plane()) {
+            (Compensation::Left, true) => Compensation::Right,
+            (Compensation::Right, true) => Compensation::Left,
+            (other, _) => other,
+        };
+        self.lines
+            .add(Rank::Compensation, compensation_word(written));
+        Ok(())
+    }
+
+    fn motion(&mut self, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
+        if let MoveKind::Machine { rapid, tool_length } = motion.kind {
+            let tool_length = tool_length && self.tool_length != Some(false);
+            self.lines
+                .add(Rank::Motion, machine_move_words(motion, rapid, tool_length));
+            return Ok(());
+        }
+        let stops = motion.exact_stop && self.path_control != Some(PathControl::ExactStop);
+        if stops {
+            self.lines.add(Rank::PathControl, "G61.1");
+        }
+        match &motion.kind {
+            MoveKind::Arc(arc) => self.arc(arc, motion, span)?,
+            kind => {
+                let code = if *kind == MoveKind::Rapid { "G0" } else { "G1" };
+                let words = self.axis_words(motion, span)?;
+                self.lines.add(Rank::Motion, joined(code, &words));
+            }
+        }
+        if stops {
+            self.lines.flush();
+            let mode = self
+                .path_control
+                .unwrap_or(PathControl::Continuous { tolerance: None });
+            self.lines.line(&path_control_words(mode));
+        }
+        Ok(())
+    }
+
+    /// Where each axis goes in coordinates of the work offset.
+    fn axis_words(&self, motion: &Move, span: Span) -> Result<Vec<String>, Box<Diagnostic>> {
+        let mut targets = motion.target;
+        if !self.frame.is_empty() {
+            let linear = self.work_targets(motion, span)?;
+            targets[..3].copy_from_slice(&linear);
+        }
+        let words = targets.iter().enumerate();
+        Ok(words
+            .filter_map(|(axis, target)| axis_word(axis, *target))
+            .collect())
+    }
+
+    fn work_targets(&self, motion: &Move, span: Span) -> Result<[Coordinate; 3], Box<Diagnostic>> {
+        let map = self.frame.map();
+        let end = apply_partly(map, [0, 1, 2].map(|axis| motion.end(axis)));
+        let largest = map.linear().amax();
+        let mut targets = [Coordinate::Keep; 3];
+        for (row, target) in targets.iter_mut().enumerate() {
+            let moving = (0..3).filter(|&column| {
+                motion.target[column] != Coordinate::Keep
+                    && map.linear()[(row, column)].abs() > NOTHING * largest
+            });
+            let moving: Vec<usize> = moving.collect();
+            if moving.is_empty() {
+                continue;
+            }
+            let steps: Option<f64> = moving
+                .iter()
+                .map(|&column| {
+                    match (motion.target[column], motion.start[column]) {
+                        (Coordinate::By(step), _) => Some(step),
+                        (Coordinate::At(end), Some(start)) => Some(end - start),
+                        _ => None,
+                    }
+                    .map(|step| step * map.linear()[(row, column)])
+                })
+                .sum();
+            *target = match (end[row], steps) {
+                (Some(end), _) => Coordinate::At(end),
+                (None, Some(step)) => Coordinate::By(step),
+                (None, None) => {
+                    let unknown = (0..3)
+                        .find(|&column| motion.end(column).is_none())
+                        .map_or("an axis", |column| super::words::LETTERS[column]);
+                    return Err(Box::new(
+                        Diagnostic::error(
+                            span,
+                            format!("where {unknown} is in this frame is not known ahead of time"),
+                        )
+                        .help(
+                            "program all axes that the frame turns into each other in the first \
+                             block after a change of frame, tool or work offset",
+                        ),
+                    ));
+                }
+            };
+        }
+        Ok(targets)
+    }
+
+    fn arc(&mut self, arc: &Arc, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
+        let map = self.frame.map();
+        if !map.keeps_plane(self.plane.into()) {
+            return Err(Box::new(
+                Diagnostic::error(span, "an arc in a plane that the frame tilts")
+                    .help("use --backend kinematics on a machine with the frame kinematics"),
+            ));
+        }
+        let Some(scale) = map.is_similarity_of_plane(self.plane.into()) else {
+            return self.chords(arc, motion, span);
+        };
+        let [first, second, _] = self.plane.axes();
+        let turned = |a: f64, b: f64| {
+            let mut offset = Vector3::zeros();
+            offset[first] = a;
+            offset[second] = b;
+            let image = map.apply_to_vector(&offset);
+            [image[first], image[second]]
+        };
+        let centre = match arc.centre {
+            Centre::Offset([a, b]) => Centre::Offset(turned(a, b)),
+            Centre::Radius(radius) => Centre::Radius(radius * scale),
+            Centre::Point(point) if self.frame.is_empty() => Centre::Point(point),
+            Centre::Point(_) => {
+                return Err(Box::new(
+                    Diagnostic::error(span, "an absolute centre, and the start of this arc is not known ahead of time")
+                        .help("program the start of the arc in a block of its own, or give I, J, K from the start"),
+                ));
+            }
+        };
+        let clockwise = arc.clockwise != self.mirrors_plane();
+        let mut words = self.axis_words(motion, span)?;
+        words.push(centre_words(centre, arc.extra_turns, self.plane));
+        let code = if clockwise { "G2" } else { "G3" };
+        self.lines.add(Rank::Motion, joined(code, &words));
+        Ok(())
+    }
+
+    /// An arc that the frame makes an ellipse.
+    fn chords(&mut self, arc: &Arc, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
+        if self.compensation != Compensation::Off {
+            return Err(Box::new(
+                Diagnostic::error(span, "an arc under unequal scales with cutter compensation")
+                    .help(
+                        "use equal factors for the axes of the plane, or program the tool centre",
+                    ),
+            ));
+        }
+        if self.feed_mode == FeedMode::InverseTime {
+            return Err(Box::new(
+                Diagnostic::error(
+                    span,
+                    "an arc under unequal scales with feed in inverse time",
+                )
+                .help("use G94"),
+            ));
+        }
+        let known = |value: [Option<f64>; 3]| match value {
+            [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
+            _ => None,
+        };
+        let start = known([0, 1, 2].map(|axis| motion.start[axis]));
+        let end = known([0, 1, 2].map(|axis| motion.end(axis)));
+        let (Some(start), Some(end)) = (start, end) else {
+            return Err(Box::new(
+                Diagnostic::error(
+                    span,
+                    "an arc under unequal scales, and its start is not known ahead of time",
+                )
+                .help("program X, Y and Z before the arc"),
+            ));
+        };
+        let shape = frame_arc(arc, start, end, self.plane, self.settings.arc_tolerance)
+            .map_err(|_| Box::new(Diagnostic::error(span, "this arc has no centre")))?;
+        let map = *self.frame.map();
+        // A chord over the angle a is off the ellipse by at most (1 - cos(a / 2)) times the larger
+        // half axis, which is no longer than the longer of these two conjugate radii times sqrt 2.
+        let radius = std::f64::consts::SQRT_2
+            * map
+                .apply_to_vector(&shape.u)
+                .norm()
+                .max(map.apply_to_vector(&shape.v).norm());
+        let off = (self.settings.chord_tolerance / radius).min(1.0);
+        let count = (shape.sweep / (2.0 * (1.0 - off).acos())).ceil().max(1.0);
+        if count > CHORD_LIMIT {
+            return Err(Box::new(
+                Diagnostic::error(span, format!("this arc would need {count} chords"))
+                    .help("give a larger --chord-tolerance"),
+            ));
+        }
+        for index in 1..=count as u32 {
+            let point = map.apply(&shape.point(f64::from(index) / count));
+            let mut targets = motion.target;
+            for axis in 0..3 {
+                targets[axis] = Coordinate::At(point[axis]);
+            }
+            // Further axes arrive with the last chord only if they are not moving.
+            if motion.target[3..]
+                .iter()
+                .any(|target| *target != Coordinate::Keep)
+            {
+                return Err(Box::new(Diagnostic::error(
+                    span,
+                    "an arc under unequal scales together with further axes",
+                )));
+            }
+            let words: Vec<String> = targets
+                .iter()
+                .enumerate()
+                .filter_map(|(axis, target)| axis_word(axis, *target))
+                .collect();
+            self.lines.add(Rank::Motion, joined("G1", &words));
+        }
+        Ok(())
+    }
+}
+
+fn joined(code: &str, words: &[String]) -> String {
+    std::iter::once(code)
+        .chain(words.iter().map(String::as_str))
+        .collect::<Vec<&str>>()
+        .join(" ")
+}

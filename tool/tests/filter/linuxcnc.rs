@@ -1,0 +1,260 @@
+//! LinuxCNC's own interpreter reads what the filter writes.
+
+use crate::shop::{Shop, accepted};
+use framepath_tool::dialects::Dialect;
+use framepath_tool::dialects::settings::Settings;
+use framepath_tool::filter::contour;
+use framepath_tool::program::contour::{ContourMove, Shape};
+use framepath_tool::program::trace::Setup;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Everything at once, in G17 so that both backends can do it.
+const PROGRAM: &str = "\
+N10 G17 G54 G64
+T1 M6 D1
+S1000 M3
+G0 X0 Y0 Z10
+TRANS X20 Y10
+L10 P2
+TRANS X55 Y35
+AROT RPL=45
+L10
+MIRROR X0
+ATRANS X10 Z1
+L10
+SCALE X2 Y2
+ATRANS X2.5 Y18
+L10
+AROT Z30
+AMIRROR Y0
+L10
+ASCALE
+L10
+TRANS
+G0 Z50
+M5
+M30
+%_N_L10_SPF
+; a contour of lines, arcs and a helix
+G0 X0 Y0 Z2
+G1 Z-1 F100
+G1 X10 F300
+G3 X10 Y10 CR=5
+G2 X0 Y10 Z-2 I-5 J0 TURN=1
+G91 G1 Y-5
+G90 Y0
+G2 I-3 J0
+M17
+";
+
+/// The names of all subroutines that the kinematics backend calls.
+const SUBROUTINES: [&str; 19] = [
+    "frame_off",
+    "trans",
+    "atrans",
+    "rot",
+    "arot",
+    "rot_rpl",
+    "arot_rpl",
+    "rots_xy",
+    "rots_zx",
+    "rots_yz",
+    "arots_xy",
+    "arots_zx",
+    "arots_yz",
+    "scale",
+    "ascale",
+    "ascale_off",
+    "mirror",
+    "amirror",
+    "unused",
+];
+
+/// The canonical calls that LinuxCNC makes of a program. Fails on any error of the interpreter.
+fn interpret(shop: &Shop, program: &str) -> Vec<String> {
+    for name in SUBROUTINES {
+        let text = format!("o<{name}> sub\n(MSG, called {name} #1 #2 #3)\no<{name}> endsub\nM2\n");
+        std::fs::write(shop.path(&format!("{name}.ngc")), text).expect("a file");
+    }
+    let folder = shop.path("");
+    let ini = format!("[RS274NGC]\nSUBROUTINE_PATH={}\n", folder.display());
+    std::fs::write(shop.path("machine.ini"), ini).expect("a file");
+    std::fs::write(shop.path("tool.tbl"), "T1 P1 Z12.5 D6\n").expect("a file");
+    std::fs::write(shop.path("out.ngc"), program).expect("a file");
+    let log = std::fs::File::create(shop.path("canon.txt")).expect("a file");
+    let errors = std::fs::File::create(shop.path("errors.txt")).expect("a file");
+    let mut interpreter = Command::new("rs274")
+        .current_dir(&folder)
+        .args([
+            "-n",
+            "0",
+            "-g",
+            "-i",
+            "machine.ini",
+            "-t",
+            "tool.tbl",
+            "out.ngc",
+        ])
+        .stdin(Stdio::null())
+        .stdout(log)
+        .stderr(errors)
+        .spawn()
+        .expect("rs274 of LinuxCNC is installed");
+    let begun = Instant::now();
+    loop {
+        match interpreter
+            .try_wait()
+            .expect("the interpreter can be waited for")
+        {
+            Some(_) => break,
+            None if begun.elapsed() > Duration::from_secs(30) => {
+                interpreter.kill().expect("the interpreter can be stopped");
+                panic!("rs274 does not end");
+            }
+            None => std::thread::sleep(Duration::from_millis(10)),
+        }
+    }
+    let read = |name| std::fs::read_to_string(shop.path(name)).expect("a file");
+    let errors: Vec<String> = read("errors.txt")
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.contains("executing"))
+        .map(String::from)
+        .collect();
+    assert!(errors.is_empty(), "rs274 says: {errors:?}");
+    let canon: Vec<String> = read("canon.txt").lines().map(String::from).collect();
+    let ended = canon.iter().any(|line| line.contains("PROGRAM_END"));
+    assert!(
+        ended,
+        "the program did not reach its end: {:?}",
+        canon.last()
+    );
+    canon
+}
+
+/// The numbers of a canonical call with this name.
+fn numbers(line: &str, name: &str) -> Option<Vec<f64>> {
+    let (_, rest) = line.split_once(&format!("{name}("))?;
+    let list = rest.trim_end_matches(')').split(',');
+    Some(
+        list.filter_map(|number| number.trim().parse().ok())
+            .collect(),
+    )
+}
+
+#[test]
+fn both_backends_write_what_linuxcnc_accepts() {
+    let shop = Shop::new(&[("part.mpf", PROGRAM.as_bytes())]);
+    for backend in ["kinematics", "program"] {
+        let output = accepted(&shop.run("part.mpf", &["--backend", backend]));
+        let canon = interpret(&shop, &output);
+        let arcs = canon
+            .iter()
+            .filter(|line| line.contains("ARC_FEED"))
+            .count();
+        // Three to a pass, seven passes.
+        assert_eq!(arcs, 21, "{backend}");
+    }
+}
+
+#[test]
+fn every_subroutine_is_called_with_its_numbers() {
+    let program = "TRANS X1 Y2 Z3\nATRANS X4\nROT X5\nAROT Y6\nROT RPL=7\nAROT RPL=8\nROTS X9 Y10\n\
+                   AROTS Z11 X12\nAROTS Y13 Z14\nSCALE X15\nASCALE Y16\nASCALE\nMIRROR X0\n\
+                   AMIRROR Y0\nG0 X1 Y1 Z1\nM30\n";
+    let shop = Shop::new(&[("part.mpf", program.as_bytes())]);
+    let output = accepted(&shop.run("part.mpf", &["--backend", "kinematics"]));
+    let canon = interpret(&shop, &output);
+    let called: Vec<&str> = canon
+        .iter()
+        .filter_map(|line| line.split_once("called ")?.1.split(' ').next())
+        .collect();
+    assert_eq!(
+        called,
+        [
+            "frame_off",
+            "trans",
+            "atrans",
+            "rot",
+            "arot",
+            "rot_rpl",
+            "arot_rpl",
+            "rots_xy",
+            "arots_zx",
+            "arots_yz",
+            "scale",
+            "ascale",
+            "ascale_off",
+            "mirror",
+            "amirror",
+            "frame_off",
+        ]
+    );
+}
+
+#[test]
+fn coordinates_that_linuxcnc_works_out_are_understood() {
+    let program = "G91 G0 X5 Z-1\nG90 G2 X10 Y0 I=AC(7.5) J=AC(0) F100\nG0 SUPA Z3 D1\nM30\n";
+    let shop = Shop::new(&[("part.mpf", program.as_bytes())]);
+    let output = accepted(&shop.run("part.mpf", &[]));
+    let canon = interpret(&shop, &output);
+    let arc = canon
+        .iter()
+        .find_map(|line| numbers(line, "ARC_FEED"))
+        .expect("an arc");
+    assert_eq!(arc[..4], [10.0, 0.0, 7.5, 0.0]);
+}
+
+/// What LinuxCNC drives for the rewritten program is the contour, move for move.
+#[test]
+fn rewritten_moves_are_the_contour() {
+    let shop = Shop::new(&[("part.mpf", PROGRAM.as_bytes())]);
+    let output = accepted(&shop.run("part.mpf", &["--backend", "program"]));
+    let canon = interpret(&shop, &output);
+    let moves: Vec<ContourMove> = contour(
+        Dialect::Sinumerik,
+        &shop.path("part.mpf"),
+        &Settings::default(),
+        &Setup::default(),
+    )
+    .expect("a contour");
+    let mut moves = moves.iter();
+    let mut compared = 0;
+    for line in &canon {
+        let straight = numbers(line, "STRAIGHT_TRAVERSE").or(numbers(line, "STRAIGHT_FEED"));
+        if let Some(end) = straight {
+            let expected = moves.next().expect("as many moves");
+            let Shape::Line {
+                end: contour_end, ..
+            } = expected.shape
+            else {
+                panic!("a line where the contour has an arc");
+            };
+            for axis in 0..3 {
+                assert!(
+                    (end[axis] - contour_end[axis]).abs() < 1e-4,
+                    "{line} {expected:?}"
+                );
+            }
+            assert_eq!(expected.rapid, line.contains("TRAVERSE"));
+            compared += 1;
+        } else if let Some(arc) = numbers(line, "ARC_FEED") {
+            let expected = moves.next().expect("as many moves");
+            let Shape::Arc { centre, sweep, .. } = expected.shape else {
+                panic!("an arc where the contour has a line");
+            };
+            let end = expected.shape.point(1.0);
+            // end X, end Y, centre X, centre Y, turns with sign, end Z
+            let given = [arc[0], arc[1], arc[2], arc[3], arc[5]];
+            let wanted = [end[0], end[1], centre[0], centre[1], end[2]];
+            for (given, wanted) in given.iter().zip(wanted) {
+                assert!((given - wanted).abs() < 1e-4, "{line} {expected:?}");
+            }
+            let turns = (sweep / std::f64::consts::TAU - 1e-9).ceil();
+            assert_eq!(arc[4].abs(), turns, "{line} {expected:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 50, "only {compared} moves were compared");
+    assert_eq!(moves.next(), None);
+}

@@ -1,0 +1,227 @@
+//! `framepath report` as a user calls it.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+const INI: &str = "\
+[EMC]
+MACHINE = Bench
+[EMCMOT]
+SERVO_PERIOD = 1000000
+[TRAJ]
+LINEAR_UNITS = mm
+[KINS]
+KINEMATICS = trivkins coordinates=X
+[AXIS_X]
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 1000
+MAX_JERK = 20000
+[JOINT_0]
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 1000
+";
+
+/// A move of X with four phases of 40 ms of `jerk`, then 40 ms of rest; line 7.
+fn constant_jerk_run(jerk: f64) -> String {
+    let mut text = "time,id,line,joint.0,axis.x\n".to_owned();
+    for row in 0..=200 {
+        let mut left = f64::from(row) * 0.001;
+        let [mut x, mut v, mut a] = [0.0; 3];
+        for j in [jerk, -jerk, -jerk, jerk] {
+            let t = left.min(0.04);
+            x += t * (v + t * (a / 2.0 + t * j / 6.0));
+            v += t * (a + t * j / 2.0);
+            a += t * j;
+            left -= t;
+        }
+        writeln!(text, "{:.3},4,7,{x:.12},{x:.12}", f64::from(row) * 0.001).expect("a string");
+    }
+    text
+}
+
+struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new(recording: &str, ini: &str) -> Bench {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("run.csv"), recording).expect("written");
+        std::fs::write(folder.path().join("bench.ini"), ini).expect("written");
+        Bench { folder }
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Runs the report in the folder of the files.
+    fn report(&self, more: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_framepath"))
+            .current_dir(self.path())
+            .args(["report", "--recording", "run.csv", "--ini", "bench.ini"])
+            .args(more)
+            .output()
+            .expect("the program runs")
+    }
+
+    /// The message of a run that is refused, without any output.
+    fn refused(&self, more: &[&str]) -> String {
+        let outputs = ["--json", "out.json", "--html", "out.html"];
+        let output = self.report(&[&outputs, more].concat());
+        assert!(!output.status.success());
+        assert!(output.stdout.is_empty(), "nothing on standard output");
+        assert!(!self.path().join("out.json").exists());
+        assert!(!self.path().join("out.html").exists());
+        String::from_utf8(output.stderr).expect("text")
+    }
+}
+
+#[test]
+fn text_json_and_page_agree() {
+    let bench = Bench::new(&constant_jerk_run(20000.0), INI);
+    std::fs::write(bench.path().join("part.ngc"), "G21\nG0 X2\n").expect("written");
+    let output = bench.report(&["--json", "out.json", "--html", "out.html", "part.ngc"]);
+    assert!(output.status.success(), "{output:?}");
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(text.is_ascii() && text.starts_with("part\n"), "{text}");
+    assert!(
+        text.ends_with("Result: PASS, all within limits\nPage: out.html\n"),
+        "{text}"
+    );
+
+    let json = std::fs::read_to_string(bench.path().join("out.json")).expect("the file");
+    let report: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(report["format"], 1);
+    assert_eq!(report["verdict"], "pass");
+    assert_eq!(report["machine"], "Bench");
+    assert_eq!(report["length_unit"], "mm");
+    assert_eq!(report["rows"], 201);
+    assert_eq!(report["moves"]["ids_seen"], 1);
+    assert!(report["moves"]["programmed"].is_null() && report["path"].is_null());
+    let near = |value: &Value, expected: f64, allowed: f64| {
+        let number = value.as_f64().expect("a number");
+        assert!((number - expected).abs() <= allowed, "{number} {expected}");
+    };
+    // x = 2 j t^3 for four phases of t: 20000 * 0.04^3 * 2.
+    near(&report["path_length"], 2.56, 1e-9);
+    near(&report["time"]["total"], 0.2, 1e-9);
+    near(&report["time"]["in_motion"], 0.16, 1.5e-3);
+    let joint = &report["joints"][0];
+    assert_eq!(
+        (joint["name"].as_str(), joint["letter"].as_str()),
+        (Some("joint.0"), Some("X"))
+    );
+    assert_eq!(joint["peaks"][2]["quantity"], "jerk");
+    assert_eq!(joint["peaks"][2]["judgement"], "within");
+    assert_eq!(joint["peaks"][2]["line"], 7);
+    near(&joint["peaks"][2]["peak"], 20000.0, 0.02);
+    near(&joint["peaks"][2]["limit"], 20000.0, 0.0);
+    near(&joint["peaks"][0]["peak"], 32.0, 0.01);
+    near(&joint["peaks"][0]["time"], 0.08, 1e-3);
+
+    let page = std::fs::read_to_string(bench.path().join("out.html")).expect("the file");
+    assert!(page.contains("<title>part</title>") && page.contains("G0 X2"));
+    assert!(!page.contains("http"));
+}
+
+#[test]
+fn a_broken_limit_is_said_in_words() {
+    let bench = Bench::new(&constant_jerk_run(21000.0), INI);
+    let output = bench.report(&["--title", "Too hard"]);
+    assert!(output.status.success(), "a report was made: {output:?}");
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(text.contains("OVER LIMIT"), "{text}");
+    assert!(
+        text.contains("joint.0: jerk is 1.05 times its limit (21000 of 20000 mm/s3) at"),
+        "{text}"
+    );
+    assert!(text.ends_with("Result: FAIL, see above\n"), "{text}");
+}
+
+#[test]
+fn too_few_decimals_are_not_passed_over() {
+    let rounded: String = constant_jerk_run(20000.0)
+        .lines()
+        .map(|line| {
+            let fields: Vec<String> = line
+                .split(',')
+                .map(|field| {
+                    field
+                        .get(..8)
+                        .filter(|_| field.len() > 10)
+                        .unwrap_or(field)
+                        .to_owned()
+                })
+                .collect();
+            fields.join(",") + "\n"
+        })
+        .collect();
+    let output = Bench::new(&rounded, INI).report(&[]);
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(text.contains("jerk cannot be judged"), "{text}");
+    assert!(
+        text.ends_with("Result: INCOMPLETE, not all could be checked\n"),
+        "{text}"
+    );
+}
+
+#[test]
+fn unusable_files_are_refused_with_file_line_and_remedy() {
+    let good = constant_jerk_run(20000.0);
+    let damaged = good.replacen("0.100,4,7,", "0.100,4,", 1);
+    assert!(
+        Bench::new(&damaged, INI)
+            .refused(&[])
+            .contains("run.csv:102: 4 fields, but the header has 5")
+    );
+    let no_limit = INI.replace("MAX_ACCELERATION = 1000\nMAX_JERK", "MAX_JERK");
+    assert!(
+        Bench::new(&good, &no_limit)
+            .refused(&[])
+            .contains("bench.ini: [AXIS_X]MAX_ACCELERATION is missing: write")
+    );
+    let other_period = INI.replace("1000000", "2000000");
+    assert!(
+        Bench::new(&good, &other_period)
+            .refused(&[])
+            .contains("the rows are 1 ms apart, [EMCMOT]SERVO_PERIOD is 2 ms")
+    );
+    let two_joints = format!(
+        "{}[JOINT_1]\nMAX_VELOCITY = 1\nMAX_ACCELERATION = 1\n",
+        INI.replace("coordinates=X", "coordinates=XX")
+    );
+    assert!(
+        Bench::new(&good, &two_joints)
+            .refused(&[])
+            .contains("1 joints are recorded, [KINS]KINEMATICS names 2")
+    );
+    let other_axis = good.replacen("axis.x", "axis.y", 1);
+    assert!(
+        Bench::new(&other_axis, INI)
+            .refused(&[])
+            .contains("the axes `y` are recorded")
+    );
+
+    let bench = Bench::new(&good, INI);
+    assert!(
+        bench
+            .refused(&["missing.mpf"])
+            .contains("missing.mpf: cannot be read")
+    );
+    assert!(
+        bench
+            .refused(&["--tolerance", "-1"])
+            .contains("a number above 0")
+    );
+    assert!(
+        bench
+            .refused(&["--dialect", "none", "run.csv"])
+            .contains("--dialect none")
+    );
+    std::fs::remove_file(bench.path().join("bench.ini")).expect("removed");
+    assert!(bench.refused(&[]).contains("bench.ini: cannot be read"));
+}
