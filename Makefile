@@ -1,0 +1,76 @@
+# framepath. The two commands for a newcomer: make demo, make test. All others: make help.
+
+CARGO ?= cargo
+PYTHON = /usr/bin/python3
+TARGET = $(abspath $(or $(CARGO_TARGET_DIR),target))
+MODULES = $(TARGET)/modules
+TOOL = $(TARGET)/release/framepath
+
+DESTDIR ?=
+PREFIX ?= /usr
+MODULE_FOLDER = $(DESTDIR)/usr/lib/linuxcnc/modules
+SHARE = $(DESTDIR)$(PREFIX)/share/framepath
+MAN = $(DESTDIR)$(PREFIX)/share/man
+BIN = $(DESTDIR)$(PREFIX)/bin
+
+export FRAMEPATH_MODULES = $(MODULES)
+export FRAMEPATH_TOOL = $(TOOL)
+
+help:
+	@echo 'make demo       install what is missing, build, run the main job in a headless LinuxCNC, show a report'
+	@echo 'make test       install what is missing, build, run every test'
+	@echo 'make modules    build framekins.so and blendtp.so into $(MODULES)'
+	@echo 'make tool       build the framepath command'
+	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
+	@echo 'make uninstall  remove them again'
+	@echo 'make bench      measure the functions that the servo thread calls'
+	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
+
+prerequisites:
+	@./prerequisites
+
+modules: prerequisites
+	$(CARGO) build --locked --profile realtime --lib
+	$(MAKE) -C hal-component LIBRARY=$(TARGET)/realtime/libframepath.a OUT=$(MODULES)
+
+tool: prerequisites
+	$(CARGO) build --locked --release -p framepath-tool
+
+demo: modules tool
+	./demo/run
+
+lint:
+	@./prerequisites lint
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
+
+test: lint modules tool
+	$(CARGO) test --locked --workspace
+	$(PYTHON) -B -m unittest discover -s tests/linuxcnc -t tests/linuxcnc -v
+
+bench: prerequisites
+	$(CARGO) bench --locked
+
+header:
+	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
+
+install: modules tool
+	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(MAN)/man1 $(MAN)/man9
+	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
+	install -m 755 $(TOOL) $(BIN)
+	install -m 644 hal-component/subroutines/*.ngc hal-component/subroutines/frame_settings.py \
+	    hal-component/subroutines/README.md $(SHARE)/subroutines
+	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
+	cp -R hal-component/configs $(SHARE)
+	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
+	install -m 644 tool/framepath.1 $(MAN)/man1
+
+uninstall:
+	rm -f $(MODULE_FOLDER)/framekins.so $(MODULE_FOLDER)/blendtp.so $(BIN)/framepath
+	rm -f $(MAN)/man9/framekins.9 $(MAN)/man9/blendtp.9 $(MAN)/man1/framepath.1
+	rm -rf $(SHARE)
+
+clean:
+	$(CARGO) clean
+
+.PHONY: help prerequisites modules tool demo lint test bench header install uninstall clean

@@ -1,0 +1,345 @@
+/* blendtp: a trajectory planner module of LinuxCNC ([TRAJ]TPMOD = blendtp).
+ *
+ * This file owns the HAL pins and defines the functions of tp.h that motmod calls, so that the C compiler checks each
+ * against LinuxCNC's header; every one forwards to the library (include/framepath.h).
+ * The pins are explained in blendtp.9.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <dlfcn.h>
+#include "rtapi.h"
+#include "rtapi_app.h"
+#include "hal.h"
+#include "framepath.h"
+
+MODULE_AUTHOR("the framepath authors");
+MODULE_DESCRIPTION("Jerk-limited trajectory planner");
+MODULE_LICENSE("GPL");
+
+#define AXES 9
+static const char letters[AXES + 1] = "xyzabcuvw";
+
+static struct {
+    hal_float_t *max_jerk[AXES];
+    hal_u32_t *version;
+} *pins;
+
+static int component;
+static struct framepath_planner *planner;
+
+/* framekins says how the axes of the program lie to those of the machine; other kinematics do not have it. */
+static int (*linear_map)(double map[9]);
+
+/* Hands the jerk limits to the planner. Called before a move is added: a limit that makes no sense refuses the move. */
+static int take_jerk_limits(void)
+{
+    double jerk[AXES];
+    for (int i = 0; i < AXES; i++)
+        jerk[i] = *pins->max_jerk[i];
+    int axis = framepath_planner_set_jerk(planner, jerk);
+    if (axis >= 0 && axis < AXES) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.axis.%c.max-jerk is %g: it must be 0 (not limited) or a positive number of "
+                        "machine units per second cubed; set it with setp or [AXIS_%c]MAX_JERK\n",
+                        letters[axis], jerk[axis], letters[axis] - 'x' + 'X');
+        return -1;
+    }
+    return 0;
+}
+
+/* What the planner has to know before a move is added. */
+static int prepare(void)
+{
+    double map[9];
+    if (linear_map)
+        framepath_planner_set_machine_map(planner, linear_map(map), map);
+    return take_jerk_limits();
+}
+
+/* Says why a move was refused; zero-length moves are no error. */
+static int said(int result)
+{
+    double position, limit;
+    int joint;
+    if (result == TP_ERR_RANGE && (joint = framepath_planner_joint_out_of_range(planner, &position, &limit)) >= 0)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the move would take joint %d to %f on its way, beyond its soft limit %f\n",
+                        joint, position, limit);
+    else if (result < 0)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s\n", framepath_planner_error_text(planner));
+    return result;
+}
+
+int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
+{
+    (void)id;
+    int (*inverse)(const EmcPose *, double *, const unsigned long *, unsigned long *);
+    planner = framepath_planner_create(tp, queue_size);
+    if (!planner) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: motmod asks for a queue of %d moves, %d is the most\n", queue_size,
+                        FRAMEPATH_QUEUE_CAPACITY);
+        return -1;
+    }
+    /* motmod is loaded after the kinematics, so they can be looked up now; here, not in the servo thread. */
+    *(void **)&linear_map = dlsym(RTLD_DEFAULT, "framekinsLinearMap");
+    *(void **)&inverse = dlsym(RTLD_DEFAULT, "kinematicsInverse");
+    framepath_planner_kinematics(inverse);
+    return 0;
+}
+
+void tpMotFunctions(void (*dio_write)(int, char), void (*aio_write)(int, double), void (*set_rotary_unlock)(int, int),
+                    int (*get_rotary_unlock)(int), double (*axis_velocity_limit)(int),
+                    double (*axis_acceleration_limit)(int))
+{
+    (void)set_rotary_unlock;
+    (void)get_rotary_unlock;
+    framepath_planner_motion_functions(dio_write, aio_write, axis_velocity_limit, axis_acceleration_limit);
+}
+
+void tpMotData(emcmot_status_t *status, emcmot_config_t *config)
+{
+    framepath_planner_motion_data(status, config);
+}
+
+int tpAddLine(TP_STRUCT * const tp, EmcPose end, int canon_motion_type, double vel, double ini_maxvel, double acc,
+              unsigned char enables, char atspeed, int indexer, struct state_tag_t tag)
+{
+    (void)acc;
+    if (prepare())
+        return -1;
+    return said(framepath_planner_add_line(planner, tp, &end, canon_motion_type, vel, ini_maxvel, enables, atspeed, indexer, &tag));
+}
+
+int tpAddCircle(TP_STRUCT * const tp, EmcPose end, PmCartesian center, PmCartesian normal, int turn,
+                int canon_motion_type, double vel, double ini_maxvel, double acc, unsigned char enables, char atspeed,
+                struct state_tag_t tag)
+{
+    (void)acc;
+    if (prepare())
+        return -1;
+    return said(framepath_planner_add_circle(planner, tp, &end, &center, &normal, turn, canon_motion_type, vel, ini_maxvel, enables,
+                                             atspeed, &tag));
+}
+
+int tpAddRigidTap(TP_STRUCT * const tp, EmcPose end, double vel, double ini_maxvel, double acc, unsigned char enables,
+                  double scale, struct state_tag_t tag)
+{
+    (void)tp;
+    (void)end;
+    (void)vel;
+    (void)ini_maxvel;
+    (void)acc;
+    (void)enables;
+    (void)scale;
+    (void)tag;
+    return said(framepath_planner_add_rigid_tap(planner));
+}
+
+int tpRunCycle(TP_STRUCT * const tp, long period)
+{
+    static const char *told;
+    int result;
+    const char *fault;
+    (void)period;
+    result = framepath_planner_run_cycle(planner, tp);
+    fault = framepath_planner_fault_text(planner);
+    if (fault && fault != told)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the motion was stopped, since %s. This is a fault of blendtp: please "
+                        "report it with the program\n", fault);
+    told = fault;
+    return result;
+}
+
+int tpSetCycleTime(TP_STRUCT *tp, double seconds)
+{
+    return framepath_planner_set_cycle_time(planner, tp, seconds);
+}
+
+int tpSetVmax(TP_STRUCT *tp, double vmax, double ini_maxvel)
+{
+    /* Every move brings its own velocity. */
+    (void)tp;
+    (void)vmax;
+    (void)ini_maxvel;
+    return 0;
+}
+
+int tpSetVlimit(TP_STRUCT *tp, double limit)
+{
+    (void)tp;
+    return framepath_planner_set_velocity_limit(planner, limit);
+}
+
+int tpSetAmax(TP_STRUCT *tp, double amax)
+{
+    /* Acceleration is limited axis by axis. */
+    (void)tp;
+    (void)amax;
+    return 0;
+}
+
+int tpSetId(TP_STRUCT *tp, int id)
+{
+    (void)tp;
+    return framepath_planner_set_id(planner, id);
+}
+
+int tpSetTermCond(TP_STRUCT *tp, int condition, double tolerance)
+{
+    (void)tp;
+    return framepath_planner_set_termination(planner, condition, tolerance);
+}
+
+int tpSetPos(TP_STRUCT *tp, EmcPose const *position)
+{
+    return framepath_planner_set_position(planner, tp, position);
+}
+
+int tpSetSpindleSync(TP_STRUCT * const tp, int spindle, double sync, int velocity_mode)
+{
+    (void)tp;
+    (void)spindle;
+    (void)velocity_mode;
+    return framepath_planner_set_spindle_sync(planner, sync);
+}
+
+int tpSetAout(TP_STRUCT * const tp, unsigned char index, double start, double end)
+{
+    (void)tp;
+    (void)end;
+    return framepath_planner_set_analog_output(planner, index, start);
+}
+
+int tpSetDout(TP_STRUCT * const tp, int index, unsigned char start, unsigned char end)
+{
+    (void)tp;
+    (void)end;
+    return framepath_planner_set_digital_output(planner, index, start);
+}
+
+int tpSetRunDir(TP_STRUCT * const tp, tc_direction_t direction)
+{
+    (void)tp;
+    return framepath_planner_set_run_direction(planner, direction);
+}
+
+int tpClear(TP_STRUCT *tp)
+{
+    return framepath_planner_clear(planner, tp);
+}
+
+int tpPause(TP_STRUCT *tp)
+{
+    return framepath_planner_pause(planner, tp);
+}
+
+int tpResume(TP_STRUCT *tp)
+{
+    return framepath_planner_resume(planner, tp);
+}
+
+int tpAbort(TP_STRUCT *tp)
+{
+    return framepath_planner_abort(planner, tp);
+}
+
+int tpGetPos(TP_STRUCT const * const tp, EmcPose *position)
+{
+    (void)tp;
+    return framepath_planner_position(planner, position);
+}
+
+int tpGetExecId(TP_STRUCT *tp)
+{
+    return tp->execId;
+}
+
+struct state_tag_t tpGetExecTag(TP_STRUCT * const tp)
+{
+    return tp->execTag;
+}
+
+int tpGetMotionType(TP_STRUCT * const tp)
+{
+    return tp->motionType;
+}
+
+int tpIsDone(TP_STRUCT * const tp)
+{
+    return tp->done;
+}
+
+int tpQueueDepth(TP_STRUCT * const tp)
+{
+    return tp->depth;
+}
+
+int tpActiveDepth(TP_STRUCT * const tp)
+{
+    return tp->activeDepth;
+}
+
+int tcqFull(TC_QUEUE_STRUCT const * const queue)
+{
+    (void)queue;
+    return framepath_planner_queue_full(planner);
+}
+
+EXPORT_SYMBOL(tpCreate);
+EXPORT_SYMBOL(tpMotFunctions);
+EXPORT_SYMBOL(tpMotData);
+EXPORT_SYMBOL(tpAddLine);
+EXPORT_SYMBOL(tpAddCircle);
+EXPORT_SYMBOL(tpAddRigidTap);
+EXPORT_SYMBOL(tpRunCycle);
+EXPORT_SYMBOL(tpSetCycleTime);
+EXPORT_SYMBOL(tpSetVmax);
+EXPORT_SYMBOL(tpSetVlimit);
+EXPORT_SYMBOL(tpSetAmax);
+EXPORT_SYMBOL(tpSetId);
+EXPORT_SYMBOL(tpSetTermCond);
+EXPORT_SYMBOL(tpSetPos);
+EXPORT_SYMBOL(tpSetSpindleSync);
+EXPORT_SYMBOL(tpSetAout);
+EXPORT_SYMBOL(tpSetDout);
+EXPORT_SYMBOL(tpSetRunDir);
+EXPORT_SYMBOL(tpClear);
+EXPORT_SYMBOL(tpPause);
+EXPORT_SYMBOL(tpResume);
+EXPORT_SYMBOL(tpAbort);
+EXPORT_SYMBOL(tpGetPos);
+EXPORT_SYMBOL(tpGetExecId);
+EXPORT_SYMBOL(tpGetExecTag);
+EXPORT_SYMBOL(tpGetMotionType);
+EXPORT_SYMBOL(tpIsDone);
+EXPORT_SYMBOL(tpQueueDepth);
+EXPORT_SYMBOL(tpActiveDepth);
+EXPORT_SYMBOL(tcqFull);
+
+int rtapi_app_main(void)
+{
+    int error = 0;
+    component = hal_init("blendtp");
+    if (component < 0) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: hal_init failed (%d): is it loaded already? Load it once\n", component);
+        return component;
+    }
+    pins = hal_malloc(sizeof *pins);
+    if (!pins)
+        error = 1;
+    for (int i = 0; i < AXES && !error; i++)
+        error |= hal_pin_float_newf(HAL_IN, &pins->max_jerk[i], component, "blendtp.axis.%c.max-jerk", letters[i]);
+    if (!error)
+        error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "blendtp.version");
+    if (error) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: HAL has no room for the pins; raise HAL_SIZE or load fewer components\n");
+        hal_exit(component);
+        return -12; /* ENOMEM */
+    }
+    *pins->version = FRAMEPATH_VERSION;
+    hal_ready(component);
+    return 0;
+}
+
+void rtapi_app_exit(void)
+{
+    hal_exit(component);
+}

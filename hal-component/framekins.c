@@ -1,0 +1,278 @@
+/* framekins: a kinematics module of LinuxCNC with programmable frames in front of the machine's own kinematics.
+ *
+ * This file owns the HAL pins and the parameters of loadrt and forwards to the library (include/framepath.h).
+ * The pins are explained in framekins.9.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include "rtapi.h"
+#include "rtapi_app.h"
+#include "hal.h"
+
+#include <math.h>
+
+#include "framepath.h"
+
+MODULE_AUTHOR("the framepath authors");
+MODULE_DESCRIPTION("Kinematics with programmable frames: translate, rotate, scale, mirror");
+MODULE_LICENSE("GPL");
+
+static char *coordinates = "";
+RTAPI_MP_STRING(coordinates, "Axis letters, one for each joint: coordinates=XYZ");
+
+static char *machine = "identity";
+RTAPI_MP_STRING(machine, "identity, xyzac or xyzbc");
+
+static char *tool_length = "frame";
+RTAPI_MP_STRING(tool_length, "frame: the tool's length turns with a frame; machine: it stays along the machine's axes");
+
+/* The dimensions of a machine with a tilting rotary table have the names of LinuxCNC's xyzac-trt-kins. */
+static struct {
+    hal_float_t *command, *value[3];
+    hal_float_t *work_offset[3], *work_rotation, *tool_offset[3];
+    hal_float_t *map[12];
+    hal_bit_t *mirror[6];
+    hal_bit_t *in_position, *teleop, *tool_length_machine;
+    hal_float_t *rotation_point[3], *offset[3], *table_tool_offset;
+    hal_bit_t *conventional_directions, *tool_centre_point;
+    hal_float_t *tilt_range[2], *rotary_range[2];
+    hal_float_t *switchkins_type, *acknowledged;
+    hal_bit_t *active, *tool_centre_point_active, *parameters_pending;
+    hal_float_t *frame_tool_offset[3];
+    hal_s32_t *slot, *operations, *refusal, *tilt_axis, *normal_refusal;
+    hal_float_t *normal_tilt, *normal_rotary;
+    hal_u32_t *version;
+} *pins;
+
+static int component;
+static int has_table;
+static const double no_limits[2] = {-HUGE_VAL, HUGE_VAL};
+
+/* What the pins of a tilting table say; nothing and no limits on a machine without one, which has no such pins. */
+static void read_table_pins(struct framepath_frame_inputs *in)
+{
+    for (int i = 0; i < 3; i++) {
+        in->rotation_point[i] = has_table ? *pins->rotation_point[i] : 0.0;
+        in->offset[i] = has_table ? *pins->offset[i] : 0.0;
+    }
+    for (int i = 0; i < 2; i++) {
+        in->tilt_range[i] = has_table ? *pins->tilt_range[i] : no_limits[i];
+        in->rotary_range[i] = has_table ? *pins->rotary_range[i] : no_limits[i];
+    }
+    in->table_tool_offset = has_table ? *pins->table_tool_offset : 0.0;
+    in->conventional_directions = has_table && *pins->conventional_directions;
+    in->tool_centre_point = has_table && *pins->tool_centre_point;
+}
+
+/* What the pins say now. */
+static struct framepath_frame_inputs read_pins(void)
+{
+    struct framepath_frame_inputs in;
+    read_table_pins(&in);
+    in.command = *pins->command;
+    for (int i = 0; i < 3; i++) {
+        in.value[i] = *pins->value[i];
+        in.work_offset[i] = *pins->work_offset[i];
+        in.tool_offset[i] = *pins->tool_offset[i];
+    }
+    in.work_rotation = *pins->work_rotation;
+    for (int i = 0; i < 12; i++)
+        in.map[i] = *pins->map[i];
+    for (int i = 0; i < 6; i++)
+        in.mirror[i] = *pins->mirror[i];
+    in.tool_length_machine = *pins->tool_length_machine;
+    in.in_position = *pins->in_position;
+    in.teleop = *pins->teleop;
+    return in;
+}
+
+static void write_pins(const struct framepath_frame_outputs *out)
+{
+    *pins->switchkins_type = out->switchkins_type;
+    *pins->acknowledged = out->acknowledged;
+    *pins->active = out->active;
+    *pins->slot = out->slot;
+    *pins->operations = out->operations;
+    *pins->refusal = out->refusal;
+    *pins->tool_centre_point_active = out->tool_centre_point;
+    *pins->parameters_pending = out->parameters_pending;
+    for (int i = 0; i < 3; i++)
+        *pins->frame_tool_offset[i] = out->tool_offset[i];
+    *pins->normal_refusal = out->normal_refusal;
+    *pins->normal_tilt = out->normal_tilt;
+    *pins->normal_rotary = out->normal_rotary;
+}
+
+/* In the servo thread, behind motion-controller: takes commands, asks motion for a switch, shows the state. */
+static void update(void *argument, long period)
+{
+    (void)argument;
+    (void)period;
+    struct framepath_frame_inputs in = read_pins();
+    struct framepath_frame_outputs out;
+    framepath_kinematics_update(&in, &out);
+    if (out.refusal && out.refusal != *pins->refusal)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: frame refused: %s\n", framepath_kinematics_refusal_text(out.refusal));
+    write_pins(&out);
+}
+
+/* For blendtp: the linear part of the frame, and whether one is in force. */
+int framekinsLinearMap(double map[9]);
+
+int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags,
+                      KINEMATICS_INVERSE_FLAGS *iflags)
+{
+    (void)fflags;
+    (void)iflags;
+    return framepath_kinematics_forward(joints, world);
+}
+
+int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMATICS_INVERSE_FLAGS *iflags,
+                      KINEMATICS_FORWARD_FLAGS *fflags)
+{
+    (void)iflags;
+    (void)fflags;
+    return framepath_kinematics_inverse(world, joints);
+}
+
+KINEMATICS_TYPE kinematicsType(void)
+{
+    return KINEMATICS_BOTH;
+}
+
+int kinematicsSwitchable(void)
+{
+    return 1;
+}
+
+/* 0 is success; anything else makes motion report an error and keep its pose. */
+int kinematicsSwitch(int type)
+{
+    struct framepath_frame_inputs in = read_pins();
+    return framepath_kinematics_switch(type, &in);
+}
+
+/* For the planner, which looks it up by name: three rows of three, and whether a frame is in force; see framepath.h. */
+int framekinsLinearMap(double map[9])
+{
+    return framepath_kinematics_linear_map(map);
+}
+
+EXPORT_SYMBOL(kinematicsForward);
+EXPORT_SYMBOL(kinematicsInverse);
+EXPORT_SYMBOL(kinematicsType);
+EXPORT_SYMBOL(kinematicsSwitchable);
+EXPORT_SYMBOL(kinematicsSwitch);
+EXPORT_SYMBOL(framekinsLinearMap);
+
+static int export_frame_pins(void)
+{
+    static const char *const row_names[12] = {"xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z"};
+    int error = 0;
+    error |= hal_pin_float_newf(HAL_IN, &pins->command, component, "framekins.command");
+    for (int i = 0; i < 3; i++) {
+        error |= hal_pin_float_newf(HAL_IN, &pins->value[i], component, "framekins.value.%d", i + 1);
+        error |= hal_pin_float_newf(HAL_IN, &pins->work_offset[i], component, "framekins.work-offset.%c", "xyz"[i]);
+        error |= hal_pin_float_newf(HAL_IN, &pins->tool_offset[i], component, "framekins.tool-offset.%c", "xyz"[i]);
+    }
+    error |= hal_pin_float_newf(HAL_IN, &pins->work_rotation, component, "framekins.work-offset.rotation");
+    for (int i = 0; i < 12; i++)
+        error |= hal_pin_float_newf(HAL_IN, &pins->map[i], component, "framekins.map.%s", row_names[i]);
+    for (int i = 0; i < 6; i++)
+        error |= hal_pin_bit_newf(HAL_IN, &pins->mirror[i], component, "framekins.mirror.%c", "abcuvw"[i]);
+    error |= hal_pin_bit_newf(HAL_IN, &pins->in_position, component, "framekins.in-position");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->teleop, component, "framekins.teleop");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->tool_length_machine, component, "framekins.tool-length-machine");
+    error |= hal_pin_float_newf(HAL_OUT, &pins->switchkins_type, component, "framekins.switchkins-type");
+    error |= hal_pin_float_newf(HAL_OUT, &pins->acknowledged, component, "framekins.acknowledged");
+    error |= hal_pin_bit_newf(HAL_OUT, &pins->active, component, "framekins.active");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->slot, component, "framekins.slot");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->operations, component, "framekins.operations");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->refusal, component, "framekins.refusal");
+    error |= hal_pin_bit_newf(HAL_OUT, &pins->tool_centre_point_active, component, "framekins.tool-centre-point-active");
+    for (int i = 0; i < 3; i++)
+        error |= hal_pin_float_newf(HAL_OUT, &pins->frame_tool_offset[i], component, "framekins.frame-tool-offset.%c", "xyz"[i]);
+    error |= hal_pin_bit_newf(HAL_OUT, &pins->parameters_pending, component, "framekins.parameters-pending");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->tilt_axis, component, "framekins.tilt-axis");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->normal_refusal, component, "framekins.normal-refusal");
+    error |= hal_pin_float_newf(HAL_OUT, &pins->normal_tilt, component, "framekins.normal-tilt");
+    error |= hal_pin_float_newf(HAL_OUT, &pins->normal_rotary, component, "framekins.normal-rotary");
+    error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "framekins.version");
+    if (error)
+        return -1;
+    /* The map is the identity until somebody says otherwise. */
+    *pins->map[0] = *pins->map[5] = *pins->map[10] = 1.0;
+    *pins->version = FRAMEPATH_VERSION;
+    *pins->tilt_axis = framepath_kinematics_tilt_axis();
+    return 0;
+}
+
+/* For machines with a tilting rotary table. */
+static int export_table_pins(void)
+{
+    static const char *const range_names[2] = {"min", "max"};
+    int error = 0;
+    for (int i = 0; i < 3; i++) {
+        error |= hal_pin_float_newf(HAL_IN, &pins->rotation_point[i], component, "framekins.%c-rot-point", "xyz"[i]);
+        error |= hal_pin_float_newf(HAL_IN, &pins->offset[i], component, "framekins.%c-offset", "xyz"[i]);
+    }
+    error |= hal_pin_float_newf(HAL_IN, &pins->table_tool_offset, component, "framekins.tool-offset");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->conventional_directions, component, "framekins.conventional-directions");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->tool_centre_point, component, "framekins.tool-centre-point");
+    for (int i = 0; i < 2; i++) {
+        error |= hal_pin_float_newf(HAL_IN, &pins->tilt_range[i], component, "framekins.tilt-%s", range_names[i]);
+        error |= hal_pin_float_newf(HAL_IN, &pins->rotary_range[i], component, "framekins.rotary-%s", range_names[i]);
+    }
+    if (error)
+        return -1;
+    /* Without limits until somebody says otherwise. */
+    for (int i = 0; i < 2; i++)
+        *pins->tilt_range[i] = *pins->rotary_range[i] = no_limits[i];
+    return 0;
+}
+
+/* Chooses the machine; 0, or what is wrong has been said. */
+static int configure(void)
+{
+    int letter = 0;
+    int error = framepath_kinematics_configure(coordinates, machine, tool_length, &letter);
+    const char *words = framepath_kinematics_configure_text(error);
+    if (!error)
+        return 0;
+    if (error == 5)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: machine=%s: %s\n", machine, words);
+    else if (error == 6)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_length=%s: %s\n", tool_length, words);
+    else
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: coordinates=%s: %s (letter %d); write one letter of XYZABCUVW for each joint, "
+                        "as in: loadrt framekins coordinates=XYZ\n",
+                        coordinates, words, letter);
+    return -22; /* EINVAL */
+}
+
+int rtapi_app_main(void)
+{
+    int error = configure();
+    if (error)
+        return error;
+    has_table = framepath_kinematics_tilt_axis() != 0;
+    component = hal_init("framekins");
+    if (component < 0) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: hal_init failed (%d): is it loaded already? Load it once\n", component);
+        return component;
+    }
+    pins = hal_malloc(sizeof *pins);
+    if (!pins || export_frame_pins() || (has_table && export_table_pins())
+        || hal_export_funct("framekins", update, 0, 1, 0, component)) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: HAL has no room for the pins; raise HAL_SIZE or load fewer components\n");
+        hal_exit(component);
+        return -12; /* ENOMEM */
+    }
+    hal_ready(component);
+    return 0;
+}
+
+void rtapi_app_exit(void)
+{
+    hal_exit(component);
+}

@@ -1,0 +1,148 @@
+"""The settings of the frames: section [FRAMEPATH] of LinuxCNC's INI file, and what else there they depend on.
+
+Everything is checked when LinuxCNC starts, so that a misspelt key is an error then and not a surprise at the machine.
+"""
+
+import re
+
+SECTION = "FRAMEPATH"
+
+#: [TRAJ]LINEAR_UNITS as LinuxCNC understands it: machine units in a millimetre
+LINEAR_UNITS = {"mm": 1.0, "metric": 1.0, "in": 1 / 25.4, "inch": 1 / 25.4, "imperial": 1 / 25.4}
+
+#: a frame command takes eight analog outputs in a row
+OUTPUTS = 8
+
+#: LinuxCNC has at most this many analog outputs (num_aio of motmod)
+MOST_OUTPUTS = 64
+
+
+class SettingsError(Exception):
+    """A setting that cannot be used. The text names file, line, section, key, and what may be written."""
+
+
+class IniFile:
+    """An INI file as LinuxCNC reads it: of several equal keys the first counts, names are case-sensitive."""
+
+    def __init__(self, path):
+        self.path = path
+        #: (section, key, value, line number), in the order of the file
+        self.entries = []
+        section, joined, begun = None, "", 0
+        with open(path, encoding="utf-8", errors="replace") as file:
+            for number, line in enumerate(file, 1):
+                line = line.rstrip("\r\n")
+                begun = begun if joined else number
+                if line.endswith("\\"):
+                    joined += line[:-1]
+                    continue
+                text, joined = (joined + line).strip(), ""
+                if not text or text[0] in "#;":
+                    continue
+                heading = re.match(r"\[([^\]]*)\]", text)
+                if heading:
+                    section = heading.group(1).strip()
+                elif "=" in text:
+                    key, value = text.split("=", 1)
+                    self.entries.append((section, key.strip(), value.strip(), begun))
+
+    def find(self, section, key):
+        """(value, line number), or (None, 0)."""
+        for where, name, value, line in self.entries:
+            if where == section and name == key:
+                return value, line
+        return None, 0
+
+    def section(self, name):
+        return [(key, value, line) for where, key, value, line in self.entries if where == name]
+
+
+def _switch(text):
+    return {"0": False, "1": True}.get(text)
+
+
+def _choice(*words):
+    return lambda text: text.lower() if text.lower() in words else None
+
+
+def _output(text):
+    if not text.isdigit() or int(text) + OUTPUTS > MOST_OUTPUTS:
+        return None
+    return int(text)
+
+
+#: key: (default, reader that returns None for what it cannot read, what may be written)
+KEYS = {
+    "CLEAR_AT_START": (True, _switch, "0 or 1"),
+    "CLEAR_AT_END": (True, _switch, "0 or 1"),
+    "CLEAR_ON_ABORT": (True, _switch, "0 or 1"),
+    "TOOL_LENGTH": ("frame", _choice("frame", "machine"), "frame or machine"),
+    "ROTS_CONVENTION": ("seed", _choice("seed", "k2"), "seed or k2"),
+    "ANALOG_OUTPUT": (0, _output, f"a whole number from 0 to {MOST_OUTPUTS - OUTPUTS}"),
+}
+
+
+class Settings:
+    """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
+
+    units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s.
+    """
+
+    def __init__(self, path):
+        """Reads a file. Raises SettingsError, or OSError if it cannot be read."""
+        ini = IniFile(path)
+        for key, (default, _, _) in KEYS.items():
+            setattr(self, key.lower(), default)
+        seen = set()
+        for key, value, line in ini.section(SECTION):
+            place = f"{path}:{line}: [{SECTION}]{key}"
+            if key not in KEYS:
+                raise SettingsError(f"{place}: there is no such key; the keys are {', '.join(KEYS)}")
+            if key in seen:
+                raise SettingsError(f"{place}: this key stands there twice; keep one of the two")
+            seen.add(key)
+            _, read, possible = KEYS[key]
+            setting = read(value)
+            if setting is None:
+                raise SettingsError(f"{place} = {value}: write {possible}, and comments on a line of their own")
+            setattr(self, key.lower(), setting)
+        for where, _, _, line in ini.entries:
+            if where and where != SECTION and where.upper() == SECTION:
+                raise SettingsError(f"{path}:{line}: section [{where}]: write [{SECTION}], in capitals")
+        self.units_per_mm = _linear_units(ini)
+        self.task_cycle = _task_cycle(ini)
+        _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
+        if self.clear_on_abort:
+            _require(ini, "ON_ABORT_COMMAND", None, f"[{SECTION}]CLEAR_ON_ABORT = 1 depends on it; write "
+                     "o<on_abort> call, or call o<on_abort> in a subroutine of your own")
+
+
+def _linear_units(ini):
+    text, line = ini.find("TRAJ", "LINEAR_UNITS")
+    if text is None:
+        raise SettingsError(f"{ini.path}: [TRAJ]LINEAR_UNITS is missing: write mm or inch")
+    if text.lower() in LINEAR_UNITS:
+        return LINEAR_UNITS[text.lower()]
+    try:
+        units = float(text)
+    except ValueError:
+        units = 0.0
+    if not 0 < units < float("inf"):
+        raise SettingsError(f"{ini.path}:{line}: [TRAJ]LINEAR_UNITS = {text}: write mm or inch")
+    return units
+
+
+def _task_cycle(ini):
+    text, _ = ini.find("TASK", "CYCLE_TIME")
+    try:
+        return min(1.0, max(0.001, float(text)))
+    except (TypeError, ValueError):
+        return 0.1  # LinuxCNC's own default
+
+
+def _require(ini, key, wanted, why):
+    text, line = ini.find("RS274NGC", key)
+    if text is None or (wanted is not None and text != wanted):
+        place = f"{ini.path}:{line}" if line else ini.path
+        value = wanted or "o<on_abort> call"
+        raise SettingsError(f"{place}: [RS274NGC]{key} = {value} is needed: {why}")

@@ -1,0 +1,109 @@
+/* Stands where HAL stands, so that a kinematics module can be loaded into an ordinary process and called at full speed:
+ * keeps the pins and functions that a module makes under their names, and the messages it prints.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST = 256 };
+
+static struct { char name[64]; void *place; } entries[MOST];
+static int count;
+static char messages[65536];
+
+/* A place of eight bytes under a name. */
+static int keep(const char *name, void *place)
+{
+    if (count == MOST)
+        return -12;
+    snprintf(entries[count].name, sizeof entries[count].name, "%s", name);
+    entries[count++].place = place;
+    return 0;
+}
+
+static int new_pin(void **pin, const char *format, va_list arguments)
+{
+    char name[64];
+    vsnprintf(name, sizeof name, format, arguments);
+    *pin = calloc(1, 8);
+    return keep(name, *pin);
+}
+
+/* For the test: the pin or function of a name, and everything forgotten. */
+void *host_find(const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (!strcmp(entries[i].name, name))
+            return entries[i].place;
+    return 0;
+}
+
+const char *host_messages(void)
+{
+    return messages;
+}
+
+void host_forget(void)
+{
+    count = 0;
+    messages[0] = 0;
+}
+
+int hal_init(const char *name) { (void)name; return 1; }
+int hal_exit(int component) { (void)component; return 0; }
+int hal_ready(int component) { (void)component; return 0; }
+void *hal_malloc(long size) { return calloc(1, size); }
+
+int hal_export_funct(const char *name, void (*function)(void *, long), void *argument, int fp, int reentrant, int component)
+{
+    (void)argument; (void)fp; (void)reentrant; (void)component;
+    char key[64];
+    snprintf(key, sizeof key, "function %s", name);
+    return keep(key, (void *)function);
+}
+
+#define NEW_PIN(kind) \
+    int hal_pin_##kind##_newf(int direction, void **pin, int component, const char *format, ...) \
+    { \
+        (void)direction; (void)component; \
+        va_list arguments; \
+        va_start(arguments, format); \
+        int result = new_pin(pin, format, arguments); \
+        va_end(arguments); \
+        return result; \
+    } \
+    int hal_pin_##kind##_new(const char *name, int direction, void **pin, int component) \
+    { \
+        return hal_pin_##kind##_newf(direction, pin, component, "%s", name); \
+    }
+
+NEW_PIN(bit)
+NEW_PIN(float)
+NEW_PIN(s32)
+NEW_PIN(u32)
+
+static void note(const char *format, va_list arguments)
+{
+    size_t used = strlen(messages);
+    vsnprintf(messages + used, sizeof messages - used, format, arguments);
+}
+
+void rtapi_print(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    note(format, arguments);
+    va_end(arguments);
+}
+
+void rtapi_print_msg(int level, const char *format, ...)
+{
+    (void)level;
+    va_list arguments;
+    va_start(arguments, format);
+    note(format, arguments);
+    va_end(arguments);
+}

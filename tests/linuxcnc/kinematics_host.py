@@ -1,0 +1,91 @@
+"""Loads kinematics modules into this process, without HAL and LinuxCNC, to call them many times a second."""
+
+import ctypes
+import os
+import shutil
+import subprocess
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+Pose = ctypes.c_double * 9
+Joints = ctypes.c_double * 16
+
+_host = None
+_folder = None
+
+
+def host():
+    """The stand-in for HAL, compiled once."""
+    global _host, _folder
+    if _host is None:
+        _folder = tempfile.TemporaryDirectory(prefix="framepath-host.")
+        library = os.path.join(_folder.name, "host.so")
+        subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", library, os.path.join(HERE, "kinematics_host.c")],
+                       check=True)
+        _host = ctypes.CDLL(library, mode=ctypes.RTLD_GLOBAL)
+        _host.host_find.restype = ctypes.c_void_p
+        _host.host_find.argtypes = [ctypes.c_char_p]
+        _host.host_messages.restype = ctypes.c_char_p
+    return _host
+
+
+class Module:
+    """A kinematics module, loaded with parameters as by loadrt. LoadError if it refuses them."""
+
+    class LoadError(Exception):
+        """What the module printed."""
+
+    def __init__(self, path, prefix, **parameters):
+        self.host = host()
+        self.prefix = prefix
+        self.host.host_forget()
+        # a copy of its own has variables of its own
+        copy = tempfile.NamedTemporaryFile(suffix=".so", dir=_folder.name, delete=False).name
+        shutil.copy(path, copy)
+        self.library = ctypes.CDLL(copy, mode=ctypes.RTLD_LOCAL)
+        # the module keeps the addresses of the texts
+        self.texts = {name: ctypes.create_string_buffer(value.encode()) for name, value in parameters.items()}
+        for name, text in self.texts.items():
+            address = ctypes.c_void_p.in_dll(self.library, f"rtapi_info_address_{name}").value
+            ctypes.c_void_p.from_address(address).value = ctypes.addressof(text)
+        if self.library.rtapi_app_main() != 0:
+            raise Module.LoadError(self.host.host_messages().decode())
+        self.pins = {}
+        self.flags = ctypes.c_ulong(0)
+        # found now, since the next module makes pins of its own
+        self.function = self.host.host_find(f"function {prefix}".encode())
+
+    def find(self, pin, kind):
+        """To be called for all pins before another module is loaded."""
+        address = self.host.host_find(f"{self.prefix}.{pin}".encode())
+        if address is None:
+            raise KeyError(pin)
+        self.pins[pin] = kind.from_address(address)
+
+    def set(self, **values):
+        for name, value in values.items():
+            self.pins[name.replace("_", "-")].value = value
+
+    def update(self):
+        """One servo period of the module's function."""
+        ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_long)(self.function)(None, 1000000)
+
+    def switch(self, kinematics_type):
+        return self.library.kinematicsSwitch(kinematics_type)
+
+    def forward(self, joints):
+        pose = Pose()
+        result = self.library.kinematicsForward(Joints(*joints), pose, ctypes.byref(self.flags),
+                                                ctypes.byref(self.flags))
+        if result:
+            raise ArithmeticError(f"kinematicsForward returned {result}")
+        return list(pose)
+
+    def inverse(self, pose):
+        joints = Joints()
+        result = self.library.kinematicsInverse(Pose(*pose), joints, ctypes.byref(self.flags),
+                                                ctypes.byref(self.flags))
+        if result:
+            raise ArithmeticError(f"kinematicsInverse returned {result}")
+        return list(joints)

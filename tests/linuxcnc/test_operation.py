@@ -1,0 +1,320 @@
+"""Frames and everything else an operator does: start, end, abort, reset, machine coordinates, offsets, probing, jogging."""
+
+import os
+import sys
+import tempfile
+import unittest
+
+import harness
+from test_gcode import QUICK, SAY, said
+
+sys.path.insert(0, os.path.join(harness.SAMPLES, "subroutines"))
+from frame_settings import Settings, SettingsError  # noqa: E402
+
+BEGIN = "G21 G61.1 G17 G90 G94 F3000\n"
+
+
+def programs(**texts):
+    return {f"{name}.ngc": BEGIN + text for name, text in texts.items()}
+
+
+def run(name):
+    return ["run", f"PROGRAMS/{name}.ngc"]
+
+
+def clearing(start, end, abort):
+    return {("FRAMEPATH", key): str(int(value)) for key, value in
+            (("CLEAR_AT_START", start), ("CLEAR_AT_END", end), ("CLEAR_ON_ABORT", abort))}
+
+
+OFF = ["expect", "framekins.active", "FALSE"]
+ON = ["expect", "framekins.active", "TRUE"]
+
+
+class Case(unittest.TestCase):
+    def fine(self, result):
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [], result.log)
+
+    def at(self, result, name, joints, position=None):
+        """Where the joints were, and that LinuxCNC showed the position that belongs to them."""
+        for key, wanted in (("joints", joints), ("position", position)):
+            if wanted is not None:
+                got = result.answers[name][key][:3]
+                for one, other in zip(got, wanted):
+                    self.assertAlmostEqual(one, other, places=5, msg=f"{name}: {key} {got} {wanted}")
+
+
+class Clearing(Case):
+    LEAVES_A_FRAME = "o<trans> call [10] [20] [0]\nG0 X1 Y2 Z3\n"
+
+    def test_at_start_end_and_abort(self):
+        result = harness.run([
+            run("leave"), OFF, ["sleep", 0.1], ["note", "end"],
+            # one axis alone shows whether the interpreter knows where the others are
+            run("one"), ["note", "one"],
+            ["start", "PROGRAMS/long.ngc"], ON, ["wait_moving"], ["sleep", 0.2], ["abort"], OFF, ["sleep", 0.2],
+            ["note", "aborted"], run("one"), ["note", "one after abort"],
+            # a frame of MDI is not one of the program's
+            ["mdi", "o<trans> call [0] [50] [0]"], ["mdi", "G0 X0 Y0"], ["note", "mdi"],
+            ["switch_mode", "auto"], OFF, ["sleep", 0.1], run("one"), ["note", "one after MDI"],
+            # the same without waiting: it starts without the frame, or it does not start
+            ["mdi", "G0 X0 Y0"], ["mdi", "o<arot> call [0] [0] [90]"], ["forget"], ["start_at_once"], ["sleep", 0.5],
+            OFF, ["finish"],
+            ["recall", "at once errors"], ["note", "at once"], run("one"), ["note", "one at last"],
+            # in MDI itself the frame stays from line to line, until something is aborted
+            ["mdi", "o<trans> call [0] [50] [0]"], ["sleep", 0.2], ["mdi", "G0 X0 Y0"], ["note", "mdi again"],
+            ["abort"], OFF, ["sleep", 0.1], ["mdi", "G0 X5"], ["note", "mdi after abort"],
+        ], programs(leave=self.LEAVES_A_FRAME + "M2\n", one="G1 X30\nM30\n",
+                    long="o<trans> call [10] [20] [0]\nG1 X1 Y2\nG1 X400\nM2\n"), ini=QUICK)
+        self.fine(result)
+        self.at(result, "end", (11, 22, 3), (11, 22, 3))
+        self.at(result, "one", (30, 22, 3), (30, 22, 3))
+        self.at(result, "aborted", result.answers["aborted"]["position"][:3])
+        self.at(result, "one after abort", (30, 22, 3), (30, 22, 3))
+        self.at(result, "mdi", (0, 50, 3), (0, 0, 3))
+        self.at(result, "one after MDI", (30, 50, 3), (30, 50, 3))
+        self.at(result, "one at last", (30, 0, 3), (30, 0, 3))
+        # it has run to the end without the frame, or it was refused with the reason before it got anywhere
+        refused = "\n".join(result.answers["at once errors"])
+        joints = result.answers["at once"]["joints"]
+        if refused:
+            self.assertRegex(refused, "start the program again|in MDI mode")
+        else:
+            self.assertAlmostEqual(joints[0], 30, places=5)
+        self.assertLess(abs(joints[1]), 0.5)
+        self.at(result, "mdi again", (0, 50, 3), (0, 0, 3))
+        self.at(result, "mdi after abort", (5, 50, 3), (5, 50, 3))
+
+    def test_programs_one_behind_the_other(self):
+        # each start falls somewhere into the removal of the last frame: it is refused, or it starts right
+        result = harness.run([
+            ["mdi", "G0 X0 Y7 Z3"], ["open", "PROGRAMS/part.ngc"], ["forget"], *[["start_at_once"], ["finish"]] * 15,
+            OFF, ["sleep", 0.1], ["recall", "errors"], run("part"), ["note", "end"],
+        ], programs(part="o<trans> call [10] [20] [0]\nG1 X1\nG1 X5\nM2\n"), ini=QUICK)
+        self.fine(result)
+        for text in result.answers["errors"]:
+            self.assertRegex(text, "start the program again|give it again|in MDI mode|in auto mode with the interpreter idle")
+        # no program names Y: it may never move, whatever the interpreter was told in between
+        y = result.column("joint.1")
+        y = y[next(n for n, place in enumerate(y) if abs(place - 7) < 1e-9):]
+        self.assertLess(max(y) - min(y), 1e-9)
+        self.at(result, "end", (15, 7, 3))
+
+    def test_on_reset(self):
+        frame = [["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X10 Y0"]]
+        result = harness.run([
+            *frame, ["note", "before"], ["machine_off"], OFF, ["on"], ["switch_mode", "mdi"], ["note", "off"],
+            ["mdi", "G0 X5"], ["note", "moved"],
+            *frame, ["estop"], OFF, ["on"], ["switch_mode", "mdi"], ["note", "estop"], ["mdi", "G0 X5"],
+            ["note", "moved again"],
+        ], ini=QUICK)
+        self.fine(result)
+        self.at(result, "before", (0, 10, 0), (10, 0, 0))
+        self.at(result, "off", (0, 10, 0), (0, 10, 0))
+        self.at(result, "moved", (5, 10, 0), (5, 10, 0))
+        self.at(result, "estop", (0, 10, 0), (0, 10, 0))
+        self.at(result, "moved again", (5, 10, 0), (5, 10, 0))
+
+    def test_nothing_is_cleared_if_the_settings_say_so(self):
+        result = harness.run([
+            run("leave"), ["sleep", 0.4], ON, ["note", "end"],
+            run("one"), ["sleep", 0.3], ON, ["note", "start"],
+            ["start", "PROGRAMS/long.ngc"], ["wait_moving"], ["abort"], ["sleep", 0.4], ON,
+            ["machine_off"], ["sleep", 0.3], ON, ["on"], ["mdi", "G0 X0"], ["note", "off"],
+        ], programs(leave=self.LEAVES_A_FRAME + "M2\n", one="G1 X30\nM30\n", long="G1 X400\nM2\n"),
+            ini={**QUICK, **clearing(False, False, False)})
+        self.fine(result)
+        self.at(result, "end", (11, 22, 3), (1, 2, 3))
+        self.at(result, "start", (40, 22, 3), (30, 2, 3))
+        self.at(result, "off", (10, 22, 3), (0, 2, 3))
+
+    def test_only_at_the_end(self):
+        result = harness.run([
+            ["start", "PROGRAMS/long.ngc"], ON, ["wait_moving"], ["abort"], ["sleep", 0.5], ON,
+            ["mdi", "o<frame_off> call"], run("leave"), OFF,
+        ], programs(leave=self.LEAVES_A_FRAME + "M30\n", long="o<trans> call [1] [0] [0]\nG1 X400\nM2\n"),
+            ini={**QUICK, **clearing(False, True, False)})
+        self.fine(result)
+
+
+class MachineCoordinates(Case):
+    def test_moves_past_the_frame(self):
+        text = SAY + """\
+G10 L2 P1 X100 Y0 Z0 R0
+G54
+o<rot> call [0] [0] [90]
+G1 X10 Y0 Z0
+o<say> call [1]
+o<machine_move> call [5] [6] [7]
+o<say> call [2]
+X20 Y0 Z0 (a feed move, as before)
+o<say> call [3]
+G79 Z9
+o<say> call [4]
+G91
+G79 X1 Y2
+G90
+o<say> call [5]
+o<frame_suspend> call
+G53 G0 X40 Y41 Z42
+G28
+o<say> call [6]
+G30
+o<frame_resume> call
+G1 X20 Y0 Z0
+o<say> call [7]
+(the change position is one of the machine)
+T1 M6
+o<say> call [8]
+G1 X20 Y0 Z0
+o<say> call [9]
+o<frame_off> call
+G10 L2 P1 X0
+M2
+"""
+        result = harness.run([["mdi", "G53 G0 X50 Y51 Z52"], ["mdi", "G28.1"], ["mdi", "G53 G0 X60 Y61 Z62"],
+                              ["mdi", "G30.1"], run("part")], programs(part=text),
+                             ini={**QUICK, ("EMCIO", "TOOL_CHANGE_POSITION"): "-30 -31 -32"})
+        self.fine(result)
+        expected = {1: (100, 10, 0), 2: (5, 6, 7), 3: (100, 20, 0), 4: (100, 20, 9), 5: (1, 2, 9), 6: (50, 51, 52),
+                    7: (100, 20, 0), 8: (-30, -31, -32), 9: (100, 20, 0)}
+        for number, joints in expected.items():
+            for got, wanted in zip(said(result)[number], joints):
+                self.assertAlmostEqual(got, wanted, places=5, msg=f"{number}: {said(result)[number]} {joints}")
+
+    def test_what_is_refused(self):
+        frame = "o<trans> call [0] [0] [30]\no<arot> call [0] [0] [90]\n"
+        texts = {
+            "g53": frame + "G53 G1 X-60\n",
+            "g28": frame + "G28 X0 Y0 Z0\n",
+            "g30": frame + "G30\n",
+            "work": "G55\n" + frame + "G54\nG1 X-60\n",
+            "refresh": "G55\n" + frame + "G54\no<frame_refresh> call\nG1 X-10 Y0 Z0\n",
+            "g92": frame + "G92 X7\nG1 X-60\n",
+            "length": "o<scale> call [2] [2] [2]\nT2 M6 G43\nG1 X-60\n",
+            "length_refreshed": "o<scale> call [2] [2] [2]\nT2 M6 G43\no<frame_refresh> call\nG1 X-10 Y0 Z0\n",
+            "turned_length": "o<rot> call [0] [0] [90]\nT2 M6 G43\nG1 X-10 Y0 Z0\n",
+        }
+        # the first three by the planner before anything moves, the others by frame_guard when the move begins
+        machine = "G28, G30 and G53 mean the machine without its frame"
+        words = {"g53": machine, "g28": machine, "g30": machine, "work": "work offset has changed",
+                 "g92": "work offset has changed", "length": "tool offset has changed"}
+        steps = [["mdi", "G53 G0 X40 Y41 Z42"], ["mdi", "G28.1"], ["mdi", "G30.1"], ["mdi", "G10 L2 P2 X10 Y0 Z0"],
+                 ["mdi", "G53 G0 X0 Y0 Z0"]]
+        for name in texts:
+            steps += [["forget"], ["note", f"{name} before"], run(name), OFF, ["sleep", 0.1], ["recall", name],
+                      ["note", f"{name} after"], ["mdi", "G92.1 G54 G49"], ["mdi", "G53 G0 X0 Y0 Z0"]]
+        # with the limits of the sample, so that the way until the machine stops means something
+        result = harness.run(steps, programs(**{name: text + "M2\n" for name, text in texts.items()}))
+        self.fine(result)
+        for name in texts:
+            said_then = "\n".join(result.answers[name])
+            if name in words:
+                self.assertIn(words[name], said_then, name)
+                travel = [abs(a - b) for a, b in zip(result.answers[f"{name} before"]["joints"],
+                                                     result.answers[f"{name} after"]["joints"])]
+                # seen within some hundredths of a second: the move hardly begins
+                self.assertLess(max(travel), 1e-9 if words[name] == machine else 5, name)
+            else:
+                self.assertEqual(said_then, "", name)
+        self.at(result, "refresh after", (0, -10, 30))
+        self.at(result, "length_refreshed after", (-20, 0, 20))
+        self.at(result, "turned_length after", (0, -10, 20))
+
+    def test_a_tool_change_position_without_the_remap(self):
+        result = harness.run([["forget"], run("part"), OFF, ["recall", "errors"], ["note", "end"]],
+                             programs(part="o<rot> call [0] [0] [90]\nT1 M6\nM2\n"),
+                             ini={("RS274NGC", "REMAP"): None, ("EMCIO", "TOOL_CHANGE_POSITION"): "-30 -31 -32"})
+        self.fine(result)
+        self.assertIn("tool change position would run through the active frame", "\n".join(result.answers["errors"]))
+        self.assertLess(max(abs(joint) for joint in result.answers["end"]["joints"][:3]), 5)
+
+
+class ByHand(Case):
+    def test_probing_jogging_and_homing_in_a_frame(self):
+        probe = """\
+loadrt comp names=wall
+addf wall servo-thread
+setp wall.in0 20
+net joint-1 => wall.in1
+net probe wall.out => motion.probe-input
+"""
+        result = harness.run([
+            ["mdi", "G10 L2 P1 X100 Y0 Z0"], ["mdi", "G54"],
+            ["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X0 Y0"], ["note", "start"],
+            # the wall stands at Y 20 of the machine: X 20 of the program
+            ["mdi", "F300"], ["mdi", "G38.2 X50"], ["mdi", "(DEBUG, PROBED #5061 #5062 #5063 #5070)"],
+            ["mdi", "G0 X0"],
+            # the keys of the axes run along the frame
+            ["note", "before jog"], ["jog_along", 0, 20, 5], ["note", "after jog"],
+            # the joints home as ever, and the position follows
+            ["home_again", 0], ["note", "homed"], ["getp", "active", "framekins.active"],
+            ["mdi", "G0 X1 Y2"], ["note", "end"],
+        ], hal=probe, ini={**QUICK, ("JOINT_0", "HOME"): "0"})
+        self.fine(result)
+        self.at(result, "start", (100, 0, 0), (100, 0, 0))
+        text = [words for _, words in result.messages if words.startswith("PROBED")][0]
+        x, y, z, tripped = (float(word) for word in text.split()[1:])
+        self.assertEqual(tripped, 1)
+        self.assertAlmostEqual(x, 20, delta=0.02)
+        self.assertAlmostEqual(y, 0, places=5)
+        before, after = result.answers["before jog"]["joints"], result.answers["after jog"]["joints"]
+        # a jog of LinuxCNC comes to rest a few nanometres short of its target
+        self.assertAlmostEqual(after[0] - before[0], 0, places=5)
+        self.assertAlmostEqual(after[1] - before[1], 5, places=3)
+        self.assertEqual(result.answers["active"], "TRUE")
+        self.at(result, "end", (98, 1, 0), (101, 2, 0))
+
+
+class SettingsOfTheIni(unittest.TestCase):
+    BASE = "[TRAJ]\nLINEAR_UNITS = mm\n[RS274NGC]\nOWORD_NARGS = 1\nON_ABORT_COMMAND = o<on_abort> call\n"
+
+    def read(self, text, base=BASE):
+        with tempfile.NamedTemporaryFile("w", suffix=".ini") as file:
+            file.write(base + text)
+            file.flush()
+            return Settings(file.name)
+
+    def refused(self, text, *words, base=BASE):
+        with self.assertRaises(SettingsError) as caught:
+            self.read(text, base)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_defaults_and_values(self):
+        settings = self.read("")
+        self.assertEqual((settings.clear_at_start, settings.clear_at_end, settings.clear_on_abort,
+                          settings.tool_length, settings.rots_convention, settings.analog_output),
+                         (True, True, True, "frame", "seed", 0))
+        settings = self.read("[FRAMEPATH]\nCLEAR_AT_START=0\nCLEAR_AT_END = 0\nTOOL_LENGTH = Machine\n"
+                             "ROTS_CONVENTION = k2\nANALOG_OUTPUT = 56\n")
+        self.assertEqual((settings.clear_at_start, settings.clear_at_end, settings.clear_on_abort,
+                          settings.tool_length, settings.rots_convention, settings.analog_output),
+                         (False, False, True, "machine", "k2", 56))
+        self.assertAlmostEqual(self.read("", self.BASE.replace("mm", "inch")).units_per_mm, 1 / 25.4)
+
+    def test_every_mistake_is_named(self):
+        self.refused("[FRAMEPATH]\nCLEAR_AT_STRAT = 1\n", ".ini:7: [FRAMEPATH]CLEAR_AT_STRAT", "CLEAR_AT_START",
+                     "ANALOG_OUTPUT")
+        self.refused("[FRAMEPATH]\nCLEAR_AT_END = yes\n", "[FRAMEPATH]CLEAR_AT_END = yes", "0 or 1")
+        self.refused("[FRAMEPATH]\nTOOL_LENGTH = head\n", "frame or machine")
+        self.refused("[FRAMEPATH]\nROTS_CONVENTION =\n", "seed or k2")
+        self.refused("[FRAMEPATH]\nCLEAR_AT_END = 1 # always\n", "comments on a line of their own")
+        for value in ("57", "-1", "1.5", "x"):
+            self.refused(f"[FRAMEPATH]\nANALOG_OUTPUT = {value}\n", "from 0 to 56")
+        self.refused("[FRAMEPATH]\nCLEAR_AT_END = 1\nCLEAR_AT_END = 0\n", "twice")
+        self.refused("[framepath]\nCLEAR_AT_END = 1\n", "[framepath]", "capitals")
+        self.refused("", "[RS274NGC]OWORD_NARGS = 1", base=self.BASE.replace("OWORD_NARGS = 1\n", ""))
+        self.refused("", "[RS274NGC]ON_ABORT_COMMAND", base=self.BASE.replace("ON_ABORT_COMMAND", "#"))
+        self.refused("", "[TRAJ]LINEAR_UNITS", base=self.BASE.replace("mm", "feet"))
+        self.refused("", "[TRAJ]LINEAR_UNITS is missing", base=self.BASE.replace("LINEAR_UNITS = mm\n", ""))
+
+    def test_linuxcnc_does_not_start_with_a_mistake(self):
+        with self.assertRaises(RuntimeError) as caught:
+            harness.run([], ini={("FRAMEPATH", "CLEAR_AT_STRAT"): "1"})
+        self.assertIn("[FRAMEPATH]CLEAR_AT_STRAT: there is no such key", str(caught.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,212 @@
+"""blendtp under LinuxCNC's task, interpreter and motion controller: times, limits, events, refusals."""
+
+import math
+import random
+import unittest
+
+import harness
+
+PERIOD = 1e-3
+VELOCITY, ACCELERATION, JERK = 100.0, 1000.0, 20000.0
+#: [TRAJ]MAX_LINEAR_VELOCITY of the sample
+PATH_VELOCITY = 100.0
+AXES = "xyz"
+RUN = ["run", "PROGRAMS/part.ngc"]
+
+
+def program(*lines):
+    return {"part.ngc": "\n".join(["G21 G61.1 G17 G90 G94 F60000", *lines, "M2"]) + "\n"}
+
+
+def differences(values):
+    return [(b - a) / PERIOD for a, b in zip(values, values[1:])]
+
+
+def peaks(positions):
+    """Greatest velocity, acceleration and jerk of one axis, by differences."""
+    velocity = differences(positions)
+    acceleration = differences(velocity)
+    jerk = differences(acceleration)
+    return [max(map(abs, values)) for values in (velocity, acceleration, jerk)]
+
+
+def rest_to_rest(length, velocity, acceleration, jerk):
+    """The least time from rest to rest within these limits (Biagiotti and Melchiorri, chapter 3)."""
+    # the peak speed that the length allows, with or without a phase of constant acceleration
+    if acceleration ** 2 / jerk >= velocity:
+        ramp = 2 * math.sqrt(velocity / jerk)
+    else:
+        ramp = velocity / acceleration + acceleration / jerk
+    if length >= velocity * ramp:
+        return length / velocity + ramp
+    # no cruise: two ramps to a lower peak
+    peak = (math.sqrt((acceleration ** 2 / jerk) ** 2 + 4 * acceleration * length) - acceleration ** 2 / jerk) / 2
+    if peak >= acceleration ** 2 / jerk:
+        return 2 * (peak / acceleration + acceleration / jerk)
+    return 4 * (length / (2 * jerk)) ** (1 / 3)
+
+
+class Case(unittest.TestCase):
+    def completed(self, result):
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [], result.log)
+
+    def within_limits(self, result, jerk=1.05):
+        for axis in AXES:
+            v, a, j = peaks(result.column(f"axis.{axis}"))
+            self.assertLess(v, VELOCITY * 1.001, axis)
+            self.assertLess(a, ACCELERATION * 1.001, axis)
+            self.assertLess(j, JERK * jerk, axis)
+
+
+class SingleMoves(Case):
+    def test_times_are_the_optimum_to_one_cycle(self):
+        source = random.Random(2)
+        moves, position = [], (0.0, 0.0, 0.0)
+        for length in (0.001, 0.01, 0.1, 0.5, 1, 3, 10, 40, 200):
+            direction = [source.gauss(0, 1) for _ in AXES]
+            size = math.hypot(*direction)
+            end = tuple(round(p + length * d / size, 9) for p, d in zip(position, direction))
+            moves.append((position, end))
+            position = end
+        moves.append((position, (-300.0, -200.0, -400.0)))
+        moves.append(((-300.0, -200.0, -400.0), (400.0, 300.0, 100.0)))
+        lines = []
+        for _, end in moves:
+            lines += ["G1 " + " ".join(f"{a.upper()}{e:.9f}" for a, e in zip(AXES, end)), "G4 P0.05"]
+        result = harness.run([RUN], program(*lines))
+        self.completed(result)
+        self.within_limits(result, jerk=1.001)
+        positions = result.columns(*(f"axis.{axis}" for axis in AXES))
+        cycle = 0
+        for start, end in moves:
+            direction = [e - s for s, e in zip(start, end)]
+            length = math.hypot(*direction)
+            share = max(abs(d) for d in direction) / length
+            expected = rest_to_rest(length, min(VELOCITY / share, PATH_VELOCITY), ACCELERATION / share, JERK / share)
+            while positions[cycle] == positions[cycle + 1]:
+                cycle += 1
+            first = cycle
+            while positions[cycle] != positions[cycle + 1]:
+                cycle += 1
+            self.assertAlmostEqual((cycle - first) * PERIOD, expected, delta=1.01 * PERIOD, msg=f"{length} mm")
+            for value, target in zip(positions[cycle], end):
+                self.assertAlmostEqual(value, target, delta=1e-9)
+
+    def test_arcs_and_helices(self):
+        result = harness.run([RUN, ["note", "end"]], program(
+            "G2 X20 Y0 I10 J0", "G3 X20 Y0 Z5 I-10 J0 P2", "G18 G2 X20 Z15 I0 K5", "G17 G3 X20 Y0.5 I0 J0.25",
+            "G2 X60 Y0.5 R300"))
+        self.completed(result)
+        self.within_limits(result)
+        for value, target in zip(result.answers["end"]["joints"], (60, 0.5, 15)):
+            self.assertAlmostEqual(value, target, delta=1e-9)
+
+
+class Events(Case):
+    #: a zig-zag with a long leg, arcs and a rapid
+    PROGRAM = program("G1 X80 Y10", "G2 X80 Y30 I0 J10 F3000", "G1 X10 Y30 Z5", "G0 X90 Y-40 Z0", "G1 X0 Y0 F2000")
+
+    def run_with(self, *steps):
+        result = harness.run([["start", "PROGRAMS/part.ngc"], *steps, ["finish"], ["note", "end"]], self.PROGRAM)
+        self.assertIsNone(result.failure, result.log)
+        self.within_limits(result)
+        return result
+
+    def at_end(self, result):
+        self.assertEqual(result.errors, [])
+        for value, target in zip(result.answers["end"]["joints"], (0, 0, 0)):
+            self.assertAlmostEqual(value, target, delta=1e-9)
+
+    def test_pause_and_resume(self):
+        steps = []
+        for n in range(6):
+            steps += [["sleep", 0.23], ["pause"], ["sleep", 0.3], ["note", f"paused {n}"], ["sleep", 0.1],
+                      ["note", f"still paused {n}"], ["resume"]]
+        result = self.run_with(["wait_moving"], *steps)
+        self.at_end(result)
+        stood = 0
+        for n in range(6):
+            before, after = result.answers[f"paused {n}"], result.answers[f"still paused {n}"]
+            self.assertEqual(before["joints"], after["joints"])
+            stood += before["paused"]
+        self.assertGreaterEqual(stood, 4)
+
+    def test_feed_and_rapid_override(self):
+        steps = []
+        for scale in (0.5, 2.0, 0.0, 0.1, 1.3, 0.7, 1.0):
+            steps += [["feed_override", scale], ["rapid_override", min(scale, 1.0)], ["sleep", 0.4]]
+        self.at_end(self.run_with(["wait_moving"], *steps))
+
+    def test_the_slider_for_the_greatest_velocity(self):
+        result = self.run_with(["wait_moving"], ["max_velocity", 20], ["sleep", 1.0], ["note", "slow"],
+                               ["max_velocity", 100])
+        self.at_end(result)
+
+    def test_abort_and_a_new_program(self):
+        result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["sleep", 0.3], ["abort"],
+                              ["sleep", 0.3], ["note", "stopped"], ["mdi", "G90 G1 X5 Y6 Z7 F3000"], ["note", "end"]],
+                             self.PROGRAM)
+        self.assertIsNone(result.failure, result.log)
+        self.within_limits(result)
+        stopped = result.answers["stopped"]
+        self.assertEqual(stopped["queue"], 0)
+        # stopped on the first line
+        x, y, _ = stopped["joints"][:3]
+        self.assertGreater(x, 1)
+        self.assertAlmostEqual(y, x / 8, delta=1e-6)
+        for value, target in zip(result.answers["end"]["joints"], (5, 6, 7)):
+            self.assertAlmostEqual(value, target, delta=1e-9)
+
+    def test_single_steps(self):
+        result = harness.run([["open", "PROGRAMS/part.ngc"], *[step for n in range(5) for step in
+                                                            (["step"], ["sleep", 0.15], ["note", f"step {n}"])],
+                              ["resume"], ["finish"], ["note", "end"]], self.PROGRAM)
+        self.assertIsNone(result.failure, result.log)
+        self.within_limits(result)
+        # LinuxCNC's interpreter says this at the end of a program that was stepped, with its own planner too
+        result.errors = [e for e in result.errors if e != "File ended with no percent sign or program end"]
+        self.at_end(result)
+
+    def test_machine_off_in_motion(self):
+        result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["sleep", 0.2], ["machine_off"],
+                              ["sleep", 0.2], ["on"], ["mdi", "G90 G0 X1 Y2 Z3"], ["note", "end"]], self.PROGRAM)
+        self.assertIsNone(result.failure, result.log)
+        for value, target in zip(result.answers["end"]["joints"], (1, 2, 3)):
+            self.assertAlmostEqual(value, target, delta=1e-9)
+
+
+class Refused(Case):
+    def nothing_moves(self, result):
+        for axis in AXES:
+            values = result.column(f"axis.{axis}")
+            self.assertEqual(max(values), min(values), axis)
+
+    def test_a_jerk_that_makes_no_sense(self):
+        for value in ("-5", "nan"):
+            result = harness.run([["mdi", "G0 X10"], ["note", "end"]],
+                                 hal=f"setp blendtp.axis.y.max-jerk {value}\n")
+            self.assertIn("blendtp.axis.y.max-jerk", result.log)
+            self.assertIn("must be 0 (not limited) or a positive number", result.log)
+            self.assertTrue(any("can't add linear move" in error for error in result.errors), result.errors)
+            self.nothing_moves(result)
+
+    def test_what_is_not_supported_says_so(self):
+        for line, words in (("G33 Z-5 K1", "synchronised with the spindle"), ("G33.1 Z-5 K1", "rigid tapping")):
+            result = harness.run([["mdi", "M3 S100"], ["mdi", line]])
+            self.assertIn(words, result.log)
+            self.assertTrue(result.errors)
+            self.nothing_moves(result)
+
+    def test_jerk_not_limited(self):
+        result = harness.run([RUN, ["note", "end"]], program("G1 X50 Y20", "G1 X0", "G0 Y0"),
+                             hal="".join(f"setp blendtp.axis.{axis}.max-jerk 0\n" for axis in AXES))
+        self.completed(result)
+        for axis in AXES:
+            v, a, _ = peaks(result.column(f"axis.{axis}"))
+            self.assertLess(v, VELOCITY * 1.001)
+            self.assertLess(a, ACCELERATION * 1.001)
+
+
+if __name__ == "__main__":
+    unittest.main()
