@@ -4,7 +4,9 @@ CARGO ?= cargo
 PYTHON = /usr/bin/python3
 TARGET = $(abspath $(or $(CARGO_TARGET_DIR),target))
 MODULES = $(TARGET)/modules
-TOOL = $(TARGET)/release/framepath
+# dev builds faster: the tests use it
+TOOL_PROFILE ?= release
+TOOL = $(TARGET)/$(if $(filter dev,$(TOOL_PROFILE)),debug,$(TOOL_PROFILE))/framepath
 
 DESTDIR ?=
 PREFIX ?= /usr
@@ -19,6 +21,7 @@ export FRAMEPATH_TOOL = $(TOOL)
 help:
 	@echo 'make demo       install what is missing, build, run the main job in a headless LinuxCNC, show a report'
 	@echo 'make test       install what is missing, build, run every test'
+	@echo 'make linuxcnc-test  only those of the tests that run a real LinuxCNC'
 	@echo 'make modules    build framekins.so and blendtp.so into $(MODULES)'
 	@echo 'make tool       build the framepath command'
 	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
@@ -34,7 +37,7 @@ modules: prerequisites
 	$(MAKE) -C hal-component LIBRARY=$(TARGET)/realtime/libframepath.a OUT=$(MODULES)
 
 tool: prerequisites
-	$(CARGO) build --locked --release -p framepath-tool
+	$(CARGO) build --locked --profile $(TOOL_PROFILE) -p framepath-tool
 
 demo: modules tool
 	./demo/run
@@ -44,8 +47,13 @@ lint:
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
 
-test: lint modules tool
+test: export TOOL_PROFILE = dev
+test: lint modules
 	$(CARGO) test --locked --workspace
+	$(MAKE) linuxcnc-test
+
+# What runs in a real LinuxCNC, with the modules and the tool as they are built.
+linuxcnc-test: modules tool
 	$(PYTHON) -B -m unittest discover -s tests/linuxcnc -t tests/linuxcnc -v
 
 bench: prerequisites
@@ -73,4 +81,4 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules tool demo lint test bench header install uninstall clean
+.PHONY: help prerequisites modules tool demo lint test linuxcnc-test bench header install uninstall clean

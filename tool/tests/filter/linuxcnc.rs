@@ -86,6 +86,8 @@ fn interpret(shop: &Shop, program: &str) -> Vec<String> {
     let errors = std::fs::File::create(shop.path("errors.txt")).expect("a file");
     let mut interpreter = Command::new("rs274")
         .current_dir(&folder)
+        // LinuxCNC's tool table lies in a file of the home folder: the tests run at the same time
+        .env("HOME", &folder)
         .args([
             "-n",
             "0",
