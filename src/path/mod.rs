@@ -4,6 +4,7 @@
 //! counts (see [`measure`]), and gives position and three derivatives by s.
 
 mod arc;
+pub mod blend;
 mod line;
 pub mod measure;
 

@@ -1,0 +1,303 @@
+//! The legs that are known and the vertices between them, in a ring.
+
+use super::leg::Leg;
+use super::metric::Metric;
+use super::settings::BlendSettings;
+use super::vertex::Vertex;
+
+/// A power of two, so that a masked index is in range for the compiler too.
+const SLOTS: usize = 2048;
+
+/// A kernel reaches no farther than this many vertices to either side.
+pub(super) const NEIGHBOURS: u64 = 32;
+
+/// How many legs behind a place are kept: whatever reaches it, and what reaches these.
+const HISTORY: u64 = 2 * NEIGHBOURS + 8;
+
+/// Legs, each with the vertex at its start. They are numbered from the first one of the machine's
+/// life; the vertex at the start of a leg has the leg's number.
+#[derive(Debug)]
+pub(super) struct Chain {
+    legs: [Leg; SLOTS],
+    vertices: [Vertex; SLOTS],
+    first: u64,
+    next: u64,
+}
+
+const fn slot(number: u64) -> usize {
+    number as usize & (SLOTS - 1)
+}
+
+impl Chain {
+    pub const fn new() -> Self {
+        Self {
+            legs: [Leg::VACANT; SLOTS],
+            vertices: [Vertex::VACANT; SLOTS],
+            first: 0,
+            next: 0,
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.first = self.next;
+    }
+
+    /// Number of the oldest leg.
+    pub fn first(&self) -> u64 {
+        self.first
+    }
+
+    /// Number of the leg to come.
+    pub fn next(&self) -> u64 {
+        self.next
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.first == self.next
+    }
+
+    /// How many legs there is room for.
+    pub fn room(&self) -> usize {
+        SLOTS - self.next.wrapping_sub(self.first) as usize
+    }
+
+    /// Only asked for numbers from the first to before the next.
+    #[inline]
+    pub fn leg(&self, number: u64) -> &Leg {
+        &self.legs[slot(number)]
+    }
+
+    #[inline]
+    pub fn leg_mut(&mut self, number: u64) -> &mut Leg {
+        &mut self.legs[slot(number)]
+    }
+
+    /// The start of the leg with this number.
+    #[inline]
+    pub fn vertex(&self, number: u64) -> &Vertex {
+        &self.vertices[slot(number)]
+    }
+
+    #[inline]
+    pub fn vertex_mut(&mut self, number: u64) -> &mut Vertex {
+        &mut self.vertices[slot(number)]
+    }
+
+    /// The newest leg.
+    pub fn last(&self) -> Option<&Leg> {
+        (!self.is_empty()).then(|| self.leg(self.next.wrapping_sub(1)))
+    }
+
+    /// Where the newest leg ends, path distance; 0 if there is none.
+    pub fn end(&self) -> f64 {
+        self.last().map_or(0.0, Leg::end)
+    }
+
+    /// Puts a leg at the end. Does nothing if there is no room.
+    pub fn push(&mut self, leg: Leg, settings: &BlendSettings, metric: &Metric) {
+        if self.room() == 0 {
+            return;
+        }
+        let mut leg = leg;
+        leg.start = self.end();
+        let vertex = match self.last() {
+            // The path begins here, at rest.
+            None => Vertex {
+                s: leg.start,
+                left_wall: leg.start,
+                ..Vertex::VACANT
+            },
+            Some(before) => {
+                let vertex = Vertex::between(before, &leg, settings, metric);
+                let previous = self.vertex(self.next.wrapping_sub(1));
+                let left_wall = if previous.wall {
+                    previous.s
+                } else {
+                    previous.left_wall
+                };
+                Vertex {
+                    left_wall,
+                    ..vertex
+                }
+            }
+        };
+        *self.leg_mut(self.next) = leg;
+        *self.vertex_mut(self.next) = vertex;
+        self.next = self.next.wrapping_add(1);
+    }
+
+    /// Number of the leg at path distance `s`: the later one where two meet. Held within what
+    /// there is; the chain must not be empty.
+    pub fn locate(&self, s: f64) -> u64 {
+        let (mut low, mut high) = (self.first, self.next);
+        while high.saturating_sub(low) > 1 {
+            let middle = low + (high - low) / 2;
+            if self.leg(middle).start <= s {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
+    /// Drops the legs that nothing from the leg with this number on depends on.
+    pub fn discard_before(&mut self, number: u64) {
+        let keep = number.saturating_sub(HISTORY).min(self.next);
+        self.first = self.first.max(keep);
+    }
+
+    /// Vertices that may reach into a leg from its left, nearest first. Nothing reaches beyond a
+    /// wall, so that they end with one.
+    pub fn left_of(&self, leg: u64) -> impl Iterator<Item = (u64, &Vertex)> + '_ {
+        let mut open = true;
+        (0..NEIGHBOURS)
+            .map_while(move |k| leg.checked_sub(k).filter(|number| *number >= self.first))
+            .map(|number| (number, self.vertex(number)))
+            .take_while(move |(_, vertex)| {
+                let taken = open;
+                open = !vertex.wall;
+                taken
+            })
+    }
+
+    /// Vertices that may reach into a leg from its right, below `next`, nearest first.
+    pub fn right_of(&self, leg: u64, next: u64) -> impl Iterator<Item = (u64, &Vertex)> + '_ {
+        let mut open = true;
+        (leg.saturating_add(1)..leg.saturating_add(1 + NEIGHBOURS).min(next))
+            .map(|number| (number, self.vertex(number)))
+            .take_while(move |(_, vertex)| {
+                let taken = open;
+                open = !vertex.wall;
+                taken
+            })
+    }
+
+    /// Takes note that a vertex reaches `reach` to both sides on trial, or did: its legs have to be
+    /// checked, and evaluation has to look for it there. Answers the number of legs visited.
+    pub fn touch(&mut self, number: u64, reach: f64, next: u64) -> usize {
+        let s = self.vertex(number).s;
+        let mut visited = 1;
+        for k in 0..NEIGHBOURS {
+            let right = number.saturating_add(k);
+            if right >= next || self.leg(right).start >= s + reach {
+                break;
+            }
+            let leg = self.leg_mut(right);
+            leg.unchecked = true;
+            leg.reached_from_left = leg.reached_from_left.max(k as u32 + 1);
+            visited += 1;
+        }
+        for k in 1..=NEIGHBOURS {
+            let Some(left) = number.checked_sub(k).filter(|left| *left >= self.first) else {
+                break;
+            };
+            if self.leg(left).end() <= s - reach {
+                break;
+            }
+            let leg = self.leg_mut(left);
+            leg.unchecked = true;
+            leg.reached_from_right = leg.reached_from_right.max(k as u32);
+            visited += 1;
+        }
+        visited
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A chain of legs of length 1; it is too large for the stack of a test.
+    fn with_chain(legs: u32, test: fn(&mut Chain)) {
+        std::thread::Builder::new()
+            .stack_size(16 << 20)
+            .spawn(move || {
+                let settings = BlendSettings::DEFAULT;
+                let metric = Metric::new(settings.rotary_weight());
+                let mut chain = Chain::new();
+                for _ in 0..legs {
+                    let leg = Leg {
+                        length: 1.0,
+                        tolerance: 0.1,
+                        ..Leg::VACANT
+                    };
+                    chain.push(leg, &settings, &metric);
+                }
+                test(&mut chain);
+            })
+            .expect("a thread")
+            .join()
+            .expect("the test itself");
+    }
+
+    #[test]
+    fn legs_are_found_by_distance() {
+        with_chain(100, |chain| {
+            assert_eq!(chain.end(), 100.0);
+            for (s, leg) in [
+                (-1.0, 0),
+                (0.0, 0),
+                (0.99, 0),
+                (1.0, 1),
+                (57.5, 57),
+                (100.0, 99),
+                (1e9, 99),
+            ] {
+                assert_eq!(chain.locate(s), leg, "{s}");
+            }
+        });
+    }
+
+    #[test]
+    fn history_is_kept() {
+        with_chain(200, |chain| {
+            chain.discard_before(50);
+            assert_eq!(chain.first(), 0);
+            chain.discard_before(150);
+            assert_eq!(chain.first(), 150 - HISTORY);
+            assert_eq!(chain.locate(0.0), chain.first());
+            chain.discard_before(100);
+            assert_eq!(chain.first(), 150 - HISTORY);
+        });
+    }
+
+    #[test]
+    fn there_is_room_for_so_many() {
+        with_chain(SLOTS as u32 + 5, |chain| {
+            assert_eq!(chain.room(), 0);
+            assert_eq!(chain.end(), SLOTS as f64);
+            chain.clear();
+            assert!(chain.is_empty() && chain.last().is_none());
+            assert_eq!((chain.room(), chain.end()), (SLOTS, 0.0));
+        });
+    }
+
+    #[test]
+    fn nothing_reaches_over_a_wall_or_farther_than_its_neighbours() {
+        with_chain(200, |chain| {
+            assert_eq!(chain.left_of(100).count() as u64, NEIGHBOURS);
+            assert_eq!(chain.right_of(100, 200).count() as u64, NEIGHBOURS);
+            chain.vertex_mut(98).wall = true;
+            chain.vertex_mut(103).wall = true;
+            let left: Vec<u64> = chain.left_of(100).map(|(number, _)| number).collect();
+            let right: Vec<u64> = chain.right_of(100, 200).map(|(number, _)| number).collect();
+            assert_eq!((left, right), (vec![100, 99, 98], vec![101, 102, 103]));
+            assert_eq!(chain.right_of(100, 102).count(), 1);
+            assert_eq!(chain.left_of(3).count(), 4);
+        });
+    }
+
+    #[test]
+    fn a_touch_reaches_as_far_as_the_kernel() {
+        with_chain(20, |chain| {
+            chain.touch(10, 2.5, 20);
+            let touched: Vec<u64> = (0..20).filter(|leg| chain.leg(*leg).unchecked).collect();
+            assert_eq!(touched, [7, 8, 9, 10, 11, 12]);
+            assert_eq!(chain.leg(7).reached_from_right, 3);
+            assert_eq!(chain.leg(9).reached_from_right, 1);
+            assert_eq!(chain.leg(10).reached_from_left, 1);
+            assert_eq!(chain.leg(12).reached_from_left, 3);
+        });
+    }
+}

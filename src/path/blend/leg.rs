@@ -1,0 +1,142 @@
+//! One leg of the programmed path: a move, or several short lines merged into one.
+
+use super::metric::Metric;
+use super::settings::BlendSettings;
+use crate::moves::TerminationCondition;
+use crate::path::measure::{self, Measure};
+use crate::path::{PathPoint, Shape};
+
+/// A move as the blended path takes it.
+#[derive(Clone, Copy, Debug)]
+pub struct ProgrammedMove {
+    /// Number of the move, growing from move to move; what
+    /// [`BlendedPath::progress`](super::BlendedPath::progress) reports.
+    pub serial: u64,
+    /// Where it goes. Starts where the move before ended.
+    pub shape: Shape,
+    /// What the program asks for at an override of 100 %, units of the shape's measure per
+    /// second, positive. Widths are chosen for it.
+    pub feed: f64,
+    /// How it meets the next move.
+    pub termination: TerminationCondition,
+    /// Whether the machine has to come to rest before it: it waits for a spindle, probes, or turns
+    /// a locked axis.
+    pub stop_before: bool,
+    /// Whether it must not be merged with the lines before it: something happens when it starts
+    /// (outputs), or other overrides apply.
+    pub separate: bool,
+}
+
+/// A leg of the programmed path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leg {
+    pub shape: Shape,
+    /// Number of the last move that it covers.
+    pub serial: u64,
+    /// Where it starts, path distance.
+    pub start: f64,
+    /// Path distance.
+    pub length: f64,
+    /// How much F counts for a unit of path distance.
+    pub measure_rate: f64,
+    /// Programmed speed, path distance per second.
+    pub speed: f64,
+    /// How far the blended path may be from it; 0: not at all.
+    pub tolerance: f64,
+    /// See [`BlendSettings::design_width`].
+    pub design_width: f64,
+    pub stop_before: bool,
+    pub stop_after: bool,
+    /// Whether a trial assignment of widths has yet to be checked on it.
+    pub unchecked: bool,
+    /// How many vertices to the left, its own start included, reach into it at most.
+    pub reached_from_left: u32,
+    /// How many vertices to the right, its own end included, reach into it at most.
+    pub reached_from_right: u32,
+}
+
+impl Leg {
+    pub const VACANT: Self = Self {
+        shape: Shape::VACANT,
+        serial: 0,
+        start: 0.0,
+        length: 0.0,
+        measure_rate: 1.0,
+        speed: 0.0,
+        tolerance: 0.0,
+        design_width: 0.0,
+        stop_before: false,
+        stop_after: false,
+        unchecked: false,
+        reached_from_left: 0,
+        reached_from_right: 0,
+    };
+
+    /// The leg of a single move, not yet placed: it starts at 0.
+    pub fn new(programmed: &ProgrammedMove, settings: &BlendSettings, metric: &Metric) -> Self {
+        let per_measure = metric.per_measure(&programmed.shape);
+        let length = programmed.shape.length() * per_measure;
+        let speed = programmed.feed * per_measure;
+        Self {
+            shape: programmed.shape,
+            serial: programmed.serial,
+            length,
+            measure_rate: 1.0 / per_measure,
+            speed,
+            tolerance: match programmed.termination {
+                TerminationCondition::Continuous { tolerance } => {
+                    settings.tolerance(tolerance, length)
+                }
+                TerminationCondition::Exact | TerminationCondition::Stop => 0.0,
+            },
+            design_width: settings.design_width(speed),
+            stop_before: programmed.stop_before,
+            stop_after: programmed.termination == TerminationCondition::Stop,
+            ..Self::VACANT
+        }
+    }
+
+    /// Where it ends, path distance.
+    #[inline]
+    pub fn end(&self) -> f64 {
+        self.start + self.length
+    }
+
+    /// Whether the blended path has to be the programmed path here.
+    pub fn is_exact(&self) -> bool {
+        self.tolerance <= 0.0
+    }
+
+    /// What F counts.
+    pub fn measure(&self) -> Measure {
+        match &self.shape {
+            Shape::Line(line) => {
+                measure::of(&(line.direction() * line.length())).map_or(Measure::Linear, |m| m.0)
+            }
+            Shape::Arc(_) => Measure::Linear,
+        }
+    }
+
+    /// How much F has counted at path distance `s`, held within the leg.
+    pub fn measured(&self, s: f64) -> f64 {
+        if s >= self.end() {
+            self.shape.length()
+        } else {
+            ((s - self.start) * self.measure_rate)
+                .max(0.0)
+                .min(self.shape.length())
+        }
+    }
+
+    /// The programmed path at path distance `s`, held within the leg, with derivatives by path
+    /// distance.
+    #[inline]
+    pub fn point(&self, s: f64) -> PathPoint {
+        let mut point = self.shape.point(self.measured(s));
+        let rate = self.measure_rate;
+        point.first *= rate;
+        point.second *= rate * rate;
+        point.third *= rate * rate * rate;
+        point
+    }
+}

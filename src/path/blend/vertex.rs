@@ -1,0 +1,292 @@
+//! A vertex of the programmed path: where two legs meet.
+
+use nalgebra::ArrayStorage;
+
+use super::leg::Leg;
+use super::metric::Metric;
+use super::settings::BlendSettings;
+use super::{easement, kernel};
+use crate::axes::{AXIS_COUNT, Axes};
+use crate::path::PathPoint;
+
+const ZERO: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
+
+/// A turn of the direction below this is rounding.
+const NO_TURN: f64 = 1e-9;
+
+/// A jump of the curvature below this, 1 per machine unit, is rounding.
+const NO_JUMP: f64 = 1e-6;
+
+/// Of the tolerance, what the middle of a corner uses.
+pub(super) const KERNEL_SHARE: f64 = 0.97;
+
+/// Of the tolerance, what an easement uses.
+const EASEMENT_SHARE: f64 = 0.9;
+
+/// A kernel this much narrower than half the shorter leg makes an isolated corner.
+const ISOLATED: f64 = 0.5;
+
+/// How far a vertex is smoothed to both sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Widths {
+    /// Of the kernel for the turn; 0 without one.
+    pub kernel: f64,
+    /// Mix of the kernels.
+    pub mix: f64,
+    /// Of the easement for the jump of curvature; 0 without one.
+    pub easement: f64,
+}
+
+impl Widths {
+    pub const NONE: Self = Self {
+        kernel: 0.0,
+        mix: 0.0,
+        easement: 0.0,
+    };
+
+    /// How far the blended path is changed on both sides.
+    #[inline]
+    pub fn reach(&self) -> f64 {
+        self.kernel.max(self.easement)
+    }
+}
+
+/// The start of a leg, where it meets the leg before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vertex {
+    /// Where it is, path distance.
+    pub s: f64,
+    /// Jump of dp/ds, shape (9).
+    pub turn: Axes,
+    /// Jump of d2p/ds2, shape (9).
+    pub jump: Axes,
+    /// Length of the turn, 0 to 2.
+    pub turn_size: f64,
+    /// Length of the jump.
+    pub jump_size: f64,
+    /// The smaller of its legs' tolerances.
+    pub tolerance: f64,
+    /// Half of its shorter leg.
+    pub half_leg: f64,
+    /// Length of the longer of its legs.
+    pub longer_leg: f64,
+    /// Mean length of its legs.
+    pub mean_leg: f64,
+    /// The machine comes to rest here.
+    pub stop: bool,
+    /// No kernel crosses it, and it has none itself.
+    pub wall: bool,
+    /// Where the nearest wall to the left is.
+    pub left_wall: f64,
+    /// Where the nearest wall to the right is, infinity where none is known.
+    pub right_wall: f64,
+    /// The width for which an isolated corner would use its tolerance.
+    pub corner_width: f64,
+    /// Whether its kernel keeps clear of its neighbours' without more ado.
+    pub isolated: bool,
+    /// What the base width of the kernel is raised to at most.
+    pub design_width: f64,
+    /// The greatest width found within the tolerance so far.
+    pub scanned: f64,
+    /// Whether a greater width was found to leave it.
+    pub scan_done: bool,
+    /// What its widths would be but for its neighbours.
+    pub base: Widths,
+    /// What the check has left of the base widths, 0 to 1.
+    pub factor: f64,
+    /// The same, as long as not more of the path is known.
+    pub temporary_factor: f64,
+    /// Widths under examination.
+    pub trial: Widths,
+    /// Widths in force.
+    pub stored: Widths,
+    /// The factor that belongs to the stored widths.
+    pub stored_factor: f64,
+    /// Reaches a place that violates the tolerance.
+    pub marked: bool,
+    /// And that place may change for the better when more is known.
+    pub marked_temporarily: bool,
+}
+
+impl Vertex {
+    pub const VACANT: Self = Self {
+        s: 0.0,
+        turn: ZERO,
+        jump: ZERO,
+        turn_size: 0.0,
+        jump_size: 0.0,
+        tolerance: 0.0,
+        half_leg: 0.0,
+        longer_leg: 0.0,
+        mean_leg: 0.0,
+        stop: true,
+        wall: true,
+        left_wall: 0.0,
+        right_wall: f64::INFINITY,
+        corner_width: 0.0,
+        isolated: false,
+        design_width: 0.0,
+        scanned: 0.0,
+        scan_done: true,
+        base: Widths::NONE,
+        factor: 1.0,
+        temporary_factor: 1.0,
+        trial: Widths::NONE,
+        stored: Widths::NONE,
+        stored_factor: 1.0,
+        marked: false,
+        marked_temporarily: false,
+    };
+
+    /// The vertex between two legs, with base widths as far as they depend on nothing else.
+    pub fn between(before: &Leg, after: &Leg, settings: &BlendSettings, metric: &Metric) -> Self {
+        let (from, to) = (before.point(before.end()), after.point(after.start));
+        let (turn, jump) = (to.first - from.first, to.second - from.second);
+        let significant = |size: f64, least: f64| if size > least { size } else { 0.0 };
+        let turn_size = significant(metric.norm(&turn), NO_TURN);
+        let jump_size = significant(metric.norm(&jump), NO_JUMP);
+        let exact = before.is_exact() || after.is_exact();
+        let stop = before.stop_after
+            || after.stop_before
+            || (exact && (turn_size > 0.0 || jump_size > 0.0));
+        let mut vertex = Self {
+            s: after.start,
+            turn,
+            jump,
+            turn_size,
+            jump_size,
+            tolerance: before.tolerance.min(after.tolerance),
+            half_leg: 0.5 * before.length.min(after.length),
+            longer_leg: before.length.max(after.length),
+            mean_leg: 0.5 * (before.length + after.length),
+            stop,
+            wall: stop || exact,
+            ..Self::VACANT
+        };
+        if !vertex.wall {
+            let speed = before.speed.max(after.speed);
+            let design_width = before.design_width.max(after.design_width);
+            vertex.find_base_widths(speed, design_width, settings);
+        }
+        vertex
+    }
+
+    fn find_base_widths(&mut self, speed: f64, design_width: f64, settings: &BlendSettings) {
+        if self.turn_size > 0.0 {
+            let peak = kernel::PEAK_SECOND_ORDER * self.turn_size;
+            self.corner_width = KERNEL_SHARE * self.tolerance / peak;
+            self.isolated = self.corner_width <= ISOLATED * self.half_leg;
+            self.scan_done = self.isolated;
+            self.scanned = self.half_leg.min(self.corner_width);
+            self.design_width = settings
+                .full_speed_width(self.turn_size, speed)
+                .min(self.longer_leg)
+                .max(design_width)
+                .min(settings.greatest_design_width());
+            self.base.kernel = if self.isolated {
+                self.corner_width
+            } else {
+                self.scanned
+            };
+        }
+        if self.jump_size > 0.0 {
+            let within = EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.jump_size);
+            self.base.easement = within.sqrt().min(
+                settings
+                    .full_speed_easement(self.jump_size, speed)
+                    .max(design_width),
+            );
+        }
+    }
+
+    /// The mix of kernels for a width: where kernels of neighbours overlap, the curve that they
+    /// stand for must not shrink. What is above 1 balances deviations to the outside and to the
+    /// inside when the legs are so long that the curve lies well outside of them.
+    pub fn mix(&self, width: f64) -> f64 {
+        if width > self.half_leg * 1.001 {
+            self.overlapping_mix(width)
+        } else {
+            0.0
+        }
+    }
+
+    /// The mix of a kernel that overlaps with its neighbours.
+    pub fn overlapping_mix(&self, width: f64) -> f64 {
+        let share = self.mean_leg / width;
+        1.0 + (0.29 * share * share).min(0.15)
+    }
+
+    /// Whether there is anything to be smoothed.
+    pub fn is_smoothed(&self) -> bool {
+        !self.wall && (self.turn_size > 0.0 || self.jump_size > 0.0)
+    }
+
+    /// How far it might reach in later assignments, going by what is known.
+    pub fn possible_reach(&self, settings: &BlendSettings) -> f64 {
+        let kernel = if self.scan_done {
+            self.base.kernel
+        } else {
+            let run = 2.0 * self.longer_leg;
+            self.scanned
+                .max(self.design_width)
+                .max(run.min(settings.greatest_design_width()))
+        };
+        kernel.max(self.base.easement).max(self.stored.reach())
+    }
+
+    /// Adds what it contributes with `widths` to the deviation of the blended path from the
+    /// programmed one, shape (9), at `distance` from it, positive to its right.
+    #[inline]
+    pub fn add_deviation(&self, widths: &Widths, distance: f64, deviation: &mut Axes) {
+        let x = distance.abs();
+        if x < widths.kernel {
+            *deviation +=
+                self.turn * (widths.kernel * kernel::value(x / widths.kernel, widths.mix));
+        }
+        if x < widths.easement {
+            let value = widths.easement * widths.easement * easement::value(x / widths.easement);
+            *deviation += self.jump * value.copysign(distance);
+        }
+    }
+
+    /// A bound of the second derivative of what it contributes with `widths`, at `distance` from
+    /// it, 0 and above, and everywhere beyond.
+    #[inline]
+    pub fn bend_bound(&self, widths: &Widths, distance: f64) -> f64 {
+        let mut bound = 0.0;
+        if distance < widths.kernel {
+            let majorant = kernel::majorant(distance / widths.kernel, widths.mix);
+            bound += self.turn_size / widths.kernel * majorant;
+        }
+        if distance < widths.easement {
+            bound += self.jump_size * easement::GREATEST_SECOND;
+        }
+        bound
+    }
+
+    /// Adds what it contributes in force to a point of the programmed path, at `distance` (0 and
+    /// above) to its right (`side` 1) or left (`side` -1).
+    #[inline]
+    pub fn add_to(&self, point: &mut PathPoint, distance: f64, side: f64) {
+        let Widths {
+            kernel: width,
+            mix,
+            easement: ease,
+        } = self.stored;
+        if distance < width {
+            let inverse = 1.0 / width;
+            let phi = kernel::derivatives(distance * inverse, mix);
+            point.position += self.turn * (width * phi.value);
+            point.first += self.turn * (side * phi.first);
+            point.second += self.turn * (phi.second * inverse);
+            point.third += self.turn * (side * phi.third * inverse * inverse);
+        }
+        if distance < ease {
+            let f = easement::derivatives(distance / ease);
+            point.position += self.jump * (side * ease * ease * f.value);
+            point.first += self.jump * (ease * f.first);
+            point.second += self.jump * (side * f.second);
+            point.third += self.jump * (f.third / ease);
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! The part of the path that widths are chosen for at a time.
+
+use super::chain::{Chain, NEIGHBOURS};
+
+/// Kernels end this share before what they must not reach, so that rounding never carries them
+/// over it.
+const CLEAR: f64 = 0.999;
+
+/// The vertices whose widths may change, and what they must not reach.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window {
+    /// Number of the first vertex whose widths may change.
+    pub open: u64,
+    /// Number of the first leg that is not looked at yet.
+    pub next: u64,
+    /// Where the last leg that is looked at ends, path distance.
+    pub end: f64,
+    /// Up to here the path never changes again.
+    pub frozen: f64,
+}
+
+impl Window {
+    pub const EMPTY: Self = Self {
+        open: 0,
+        next: 0,
+        end: 0.0,
+        frozen: 0.0,
+    };
+
+    /// How far a vertex may reach: to the nearest wall, the ends of the window, and its 32nd
+    /// neighbour on either side.
+    pub fn clip(&self, chain: &Chain, number: u64) -> f64 {
+        let vertex = chain.vertex(number);
+        let left = match number.checked_sub(NEIGHBOURS) {
+            Some(far) if far >= chain.first() => chain.vertex(far).s,
+            _ => vertex.left_wall,
+        };
+        let far = number.saturating_add(NEIGHBOURS);
+        let right = if far < self.next {
+            chain.vertex(far).s
+        } else {
+            self.end
+        };
+        let left = vertex.s - left.max(vertex.left_wall).max(self.frozen);
+        let right = right.min(vertex.right_wall) - vertex.s;
+        CLEAR * left.min(right).max(0.0)
+    }
+
+    /// Whether what happens at `s` may look different when more is known.
+    pub fn is_near_end(&self, s: f64, distance: f64) -> bool {
+        self.end - s < distance
+    }
+}

@@ -1,0 +1,307 @@
+//! What the polish minimises in one interval: its duration, and a barrier at its limits.
+//!
+//! The duration is Simpson's rule for the integral of ds / sqrt(b). The barrier is the logarithm
+//! of what is left of the cap, of the acceleration and of the jerk of each axis at start, middle
+//! and end (Boyd and Vandenberghe, Convex Optimization, chapter 11). The jerk is bounded as
+//! `|q' u + 3 q'' a + q''' b| <= J / sqrt(b)`; the right side is convex in b, which would make the
+//! barrier's second derivatives indefinite, so that one term of them is left out.
+
+use super::interval::Parabola;
+use super::rows::{AxisRows, Sample};
+use crate::axes::AXIS_COUNT;
+
+/// Derivatives by the three coefficients that an interval depends on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Derivatives {
+    /// Gradient, shape (3).
+    pub gradient: [f64; 3],
+    /// Second derivatives, positive semidefinite, upper triangle by rows: 00 01 02 11 12 22.
+    pub hessian: [f64; 6],
+}
+
+/// Derivatives by b, a and u at a place, second ones symmetric.
+#[derive(Clone, Copy, Default)]
+struct Local {
+    b: f64,
+    a: f64,
+    u: f64,
+    bb: f64,
+    ba: f64,
+    bu: f64,
+    aa: f64,
+    au: f64,
+    uu: f64,
+}
+
+/// What the barrier is to be assembled with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Barrier {
+    /// Its weight against the duration, per second of motion.
+    pub weight: f64,
+    /// The share of acceleration and jerk at which it is infinite.
+    pub margin: f64,
+    /// Square of what the program's caps are multiplied by.
+    pub raise_squared: f64,
+}
+
+impl Barrier {
+    /// Of an interval that keeps its limits, with the lengths of itself and its neighbours.
+    pub fn derivatives(
+        &self,
+        rows: &AxisRows,
+        parabola: &Parabola,
+        samples: [&Sample; 3],
+        lengths: [f64; 3],
+    ) -> Derivatives {
+        let h = parabola.length;
+        let (b_middle, _) = parabola.at(0.5 * h);
+        let weight = self.weight * h / b_middle.sqrt();
+        let mut sum = Local::default();
+        let places = [(0.0, 0.25, 1.0), (0.5, 0.5, 4.0), (1.0, 0.25, 1.0)];
+        for ((share, part, simpson), sample) in places.into_iter().zip(samples) {
+            let x = share * h;
+            let mut local = duration(parabola, x, h * simpson / 6.0);
+            self.add_limits(&mut local, rows, parabola, sample, x, weight * part);
+            sum.add_at(&local, x);
+        }
+        sum.by_coefficients(lengths)
+    }
+
+    /// Adds the barrier at `x`.
+    fn add_limits(
+        &self,
+        sum: &mut Local,
+        rows: &AxisRows,
+        parabola: &Parabola,
+        sample: &Sample,
+        x: f64,
+        weight: f64,
+    ) {
+        let (b, a) = parabola.at(x);
+        let u = parabola.u;
+        let left = sample.cap(self.raise_squared) - b;
+        if left > 0.0 {
+            sum.b += weight / left;
+            sum.bb += weight / (left * left);
+        }
+        // The bound of the jerk rows and its derivative by b.
+        let bound = self.margin / b.sqrt();
+        let bound_slope = -0.5 * bound / b;
+        for axis in 0..AXIS_COUNT {
+            let row = [sample.third[axis], sample.second[axis], sample.first[axis]];
+            let [by_b, by_a, by_u] = row;
+            if by_b == 0.0 && by_a == 0.0 && by_u == 0.0 {
+                continue;
+            }
+            let (upper, lower) = reciprocals(bound, by_u * u + by_a * a + by_b * b);
+            let slope = weight * (upper - lower);
+            sum.u += slope * by_u;
+            sum.a += slope * by_a;
+            sum.b += slope * by_b - weight * (upper + lower) * bound_slope;
+            let even = weight * (upper * upper + lower * lower);
+            let odd = weight * (upper * upper - lower * lower) * bound_slope;
+            sum.uu += even * by_u * by_u;
+            sum.au += even * by_u * by_a;
+            sum.bu += even * by_u * by_b - odd * by_u;
+            sum.aa += even * by_a * by_a;
+            sum.ba += even * by_a * by_b - odd * by_a;
+            sum.bb += even * (by_b * by_b + bound_slope * bound_slope) - 2.0 * odd * by_b;
+
+            let time = rows.jerk_time()[axis];
+            let (by_a, by_b) = (by_u * time, by_a * time / 3.0);
+            let (upper, lower) = reciprocals(self.margin, by_a * a + by_b * b);
+            let slope = weight * (upper - lower);
+            sum.a += slope * by_a;
+            sum.b += slope * by_b;
+            let even = weight * (upper * upper + lower * lower);
+            sum.aa += even * by_a * by_a;
+            sum.ba += even * by_a * by_b;
+            sum.bb += even * by_b * by_b;
+        }
+    }
+}
+
+/// 1 / (bound - y) and 1 / (bound + y) with one division.
+#[inline]
+fn reciprocals(bound: f64, y: f64) -> (f64, f64) {
+    let (above, below) = (bound - y, bound + y);
+    let inverse = 1.0 / (above * below);
+    (below * inverse, above * inverse)
+}
+
+/// `weight / sqrt(b)` at `x`.
+fn duration(parabola: &Parabola, x: f64, weight: f64) -> Local {
+    let (b, _) = parabola.at(x);
+    let cubed = weight / (b * b.sqrt());
+    Local {
+        b: -0.5 * cubed,
+        bb: 0.75 * cubed / b,
+        ..Local::default()
+    }
+}
+
+impl Local {
+    /// Adds what is meant by b, a, u at `x` as seen from the start, where
+    /// `b = b0 + 2 a0 x + u x^2` and `a = a0 + u x`.
+    fn add_at(&mut self, other: &Self, x: f64) {
+        let two_x = 2.0 * x;
+        let xx = x * x;
+        // Rows of the second derivatives times the columns of the transformation.
+        let b_a = other.bb * two_x + other.ba;
+        let a_a = other.ba * two_x + other.aa;
+        let b_u = other.bb * xx + other.ba * x + other.bu;
+        let a_u = other.ba * xx + other.aa * x + other.au;
+        let u_u = other.bu * xx + other.au * x + other.uu;
+        self.b += other.b;
+        self.a += other.b * two_x + other.a;
+        self.u += other.b * xx + other.a * x + other.u;
+        self.bb += other.bb;
+        self.ba += b_a;
+        self.bu += b_u;
+        self.aa += two_x * b_a + a_a;
+        self.au += two_x * b_u + a_u;
+        self.uu += xx * b_u + x * a_u + u_u;
+    }
+
+    /// The same by the coefficients before, in and behind the interval.
+    fn by_coefficients(&self, lengths: [f64; 3]) -> Derivatives {
+        let [before, here, after] = lengths;
+        let left = 1.0 / (before + here);
+        let right = 1.0 / (here + after);
+        let inverse = 1.0 / here;
+        // b, a and u of a unit of each coefficient.
+        let units = [
+            [here * left, -left, left * inverse],
+            [before * left, left, -(left + right) * inverse],
+            [0.0, 0.0, right * inverse],
+        ];
+        let gradient = units.map(|[b, a, u]| self.b * b + self.a * a + self.u * u);
+        let images = units.map(|[b, a, u]| {
+            [
+                self.bb * b + self.ba * a + self.bu * u,
+                self.ba * b + self.aa * a + self.au * u,
+                self.bu * b + self.au * a + self.uu * u,
+            ]
+        });
+        let product = |[b, a, u]: [f64; 3], [x, y, z]: [f64; 3]| b * x + a * y + u * z;
+        let [unit_0, unit_1, unit_2] = units;
+        let [image_0, image_1, image_2] = images;
+        Derivatives {
+            gradient,
+            hessian: [
+                product(unit_0, image_0),
+                product(unit_0, image_1),
+                product(unit_0, image_2),
+                product(unit_1, image_1),
+                product(unit_1, image_2),
+                product(unit_2, image_2),
+            ],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axes::{Axes, AxisLimits, MachineMap};
+    use crate::path::PathPoint;
+    use crate::speed::look_ahead::{Route, SpeedCap, Vertex};
+
+    /// A curve whose derivatives are all different from 0.
+    struct Bend;
+
+    impl Route for Bend {
+        fn point(&self, s: f64) -> PathPoint {
+            let along = |x: f64, y: f64| Axes::from([x, y, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            PathPoint {
+                position: Axes::zeros(),
+                first: along(0.8 + 0.1 * s, 0.6),
+                second: along(0.1, -0.2 + 0.3 * s),
+                third: along(0.05, 0.3),
+            }
+        }
+        fn known_end(&self) -> f64 {
+            10.0
+        }
+        fn is_complete(&self) -> bool {
+            true
+        }
+        fn speed_cap(&self, _: f64) -> SpeedCap {
+            SpeedCap {
+                programmed: 50.0,
+                greatest: 60.0,
+            }
+        }
+        fn vertex_after(&self, _: f64) -> Option<Vertex> {
+            None
+        }
+        fn vertex_before(&self, _: f64) -> Option<Vertex> {
+            None
+        }
+        fn greatest_reach(&self) -> f64 {
+            0.0
+        }
+    }
+
+    /// What the derivatives are meant to be of, with the weight of the barrier given.
+    fn value(rows: &AxisRows, parabola: &Parabola, samples: [&Sample; 3], weight: f64) -> f64 {
+        let h = parabola.length;
+        let places = [(0.0, 0.25, 1.0), (0.5, 0.5, 4.0), (1.0, 0.25, 1.0)];
+        let mut sum = 0.0;
+        for ((share, part, simpson), sample) in places.into_iter().zip(samples) {
+            let (b, a) = parabola.at(share * h);
+            sum += h * simpson / 6.0 / b.sqrt();
+            let mut logarithms = (sample.cap(1.0) - b).ln();
+            for axis in 0..3 {
+                let u = parabola.u;
+                let [first, second, third] = [sample.first, sample.second, sample.third];
+                let jerk = first[axis] * u + second[axis] * a + third[axis] * b;
+                let bound = 0.98 / b.sqrt();
+                logarithms += (bound - jerk).ln() + (bound + jerk).ln();
+                let acceleration =
+                    (first[axis] * a + second[axis] * b / 3.0) * rows.jerk_time()[axis];
+                logarithms += (0.98 - acceleration).ln() + (0.98 + acceleration).ln();
+            }
+            sum -= weight * part * logarithms;
+        }
+        sum
+    }
+
+    #[test]
+    fn the_gradient_is_that_of_duration_and_barrier() {
+        let limits = AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(20_000.0),
+        };
+        let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
+        let samples = [0.0, 0.2, 0.4].map(|s| rows.sample(&Bend, s));
+        let samples = samples.each_ref();
+        let lengths = [0.3, 0.4, 0.5];
+        let coefficients = [900.0, 1050.0, 1100.0];
+        let parabola = Parabola::of_coefficients(lengths, coefficients);
+        assert!(rows.keeps(&parabola, samples, 1.0, 0.98));
+        let barrier = Barrier {
+            weight: 0.1,
+            margin: 0.98,
+            raise_squared: 1.0,
+        };
+        let derivatives = barrier.derivatives(&rows, &parabola, samples, lengths);
+        let (middle, _) = parabola.at(0.2);
+        let weight = 0.1 * 0.4 / middle.sqrt();
+        for i in 0..3 {
+            let at = |step: f64| {
+                let mut moved = coefficients;
+                moved[i] += step;
+                let parabola = Parabola::of_coefficients(lengths, moved);
+                value(&rows, &parabola, samples, weight)
+            };
+            let difference = (at(1e-3) - at(-1e-3)) / 2e-3;
+            let gradient = derivatives.gradient[i];
+            let near = (difference - gradient).abs() <= 1e-6 * gradient.abs().max(1e-6);
+            assert!(near, "{i}: {difference} {gradient}");
+        }
+        let [h00, h01, _, h11, _, h22] = derivatives.hessian;
+        assert!(h00 > 0.0 && h22 > 0.0 && h00 * h11 > h01 * h01);
+    }
+}

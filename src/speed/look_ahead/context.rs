@@ -1,0 +1,34 @@
+//! What a draft works with.
+
+use super::rest_arc::{LASTING, PROVISIONAL, RestArcSearch};
+use super::route::Route;
+use super::rows::AxisRows;
+use super::spline::Spline;
+
+/// The path, the limits, and the plan that a draft continues.
+pub(super) struct DraftContext<'a, R: Route> {
+    pub route: &'a R,
+    pub rows: &'a AxisRows,
+    pub plan: &'a Spline,
+    /// Square of what the program's caps are multiplied by.
+    pub raise_squared: f64,
+    /// The first interval that is still needed.
+    pub oldest: usize,
+}
+
+impl<R: Route> DraftContext<'_, R> {
+    /// The search for an arc between the spline and a rest, see [`RestArcSearch::new`].
+    pub fn search(&self, place: f64, direction: f64, most: f64, share: f64) -> RestArcSearch {
+        let raise = self.raise_squared;
+        RestArcSearch::new(self.rows, self.route, place, direction, most, share, raise)
+    }
+
+    /// The share of the greatest acceleration for the arc to the rest at `end`.
+    pub fn end_share(&self, end: f64) -> f64 {
+        if self.route.is_complete() && end >= self.route.known_end() {
+            LASTING
+        } else {
+            PROVISIONAL
+        }
+    }
+}

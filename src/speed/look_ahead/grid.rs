@@ -1,0 +1,264 @@
+//! Where the nodes of the plan are: they follow the time that the path will take, not the moves.
+//!
+//! The spacing is what a change of shape or of the speed cap asks for, grows by [`GROWTH`] of the
+//! distance from it, and is at most what is run in [`FREE_TIME`] at the cap.
+
+use super::feature::{Feature, Features};
+use super::rest_arc::RestArc;
+use super::route::Route;
+use super::rows::{AxisRows, Sample};
+use super::spline::{CAPACITY, Interval, SampleBanks, Spline};
+
+/// How much the spacing grows with the distance from what asked for a small one. Also the spacing
+/// beside a rest over the length of its arc.
+pub(super) const GROWTH: f64 = 0.35;
+
+/// Seconds between nodes where nothing happens.
+const FREE_TIME: f64 = 8e-3;
+
+/// The most of a radius of curvature that an interval covers where no vertex asks for nodes.
+const RADIUS_SHARE: f64 = 0.25;
+
+/// The share of J that the third derivative of the path may leave its linear interpolation by.
+const THIRD_DERIVATIVE_ERROR: f64 = 0.08;
+
+/// What the grid has come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum GridStep {
+    /// Not yet at the end.
+    More,
+    /// The last node is at the arc of the final rest.
+    Done,
+    /// There are more nodes than there is room for.
+    TooLong,
+    /// The path is not a number, or has a place that must not be passed at any speed.
+    Unsound,
+}
+
+/// The grid of a draft while it is being made.
+#[derive(Debug)]
+pub(super) struct Grid {
+    features: Features,
+    k: usize,
+    end: f64,
+    end_spacing: f64,
+}
+
+impl Grid {
+    pub const fn new() -> Self {
+        Self {
+            features: Features::new(),
+            k: 0,
+            end: 0.0,
+            end_spacing: 0.0,
+        }
+    }
+
+    /// Begins at the start of interval `cut`, whose place and sample the draft has.
+    pub fn restart<R: Route>(&mut self, draft: &Spline, cut: usize, route: &R) {
+        let RestArc { length, .. } = draft.end_arc;
+        self.k = cut;
+        self.end = draft.end - length;
+        self.end_spacing = GROWTH * length;
+        let start = draft.at(cut).start;
+        let back = route.greatest_reach() * 1.01 + 1e-9 * start.abs();
+        self.features.restart(start - back);
+    }
+
+    /// The interval that comes next.
+    pub fn reached(&self) -> usize {
+        self.k
+    }
+
+    /// Takes a vertex or places a node, at most six evaluations of the path. `oldest` is the first
+    /// interval that is still needed.
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "a struct for one call would hide what is changed"
+    )]
+    pub fn advance<R: Route>(
+        &mut self,
+        draft: &mut Spline,
+        plan: &Spline,
+        samples: &mut SampleBanks,
+        rows: &AxisRows,
+        route: &R,
+        raise_squared: f64,
+        oldest: usize,
+    ) -> GridStep {
+        let k = self.k;
+        if k + 3 - oldest >= CAPACITY {
+            return GridStep::TooLong;
+        }
+        let s = draft.at(k).start;
+        let left = *samples.start(draft, k);
+        let free = FREE_TIME * left.cap(raise_squared).sqrt();
+        let window = free / GROWTH + route.greatest_reach();
+        if !self.features.covers(s + window) {
+            self.features.take_next(rows, route, raise_squared);
+            return GridStep::More;
+        }
+        self.features.drop_before(s, free);
+
+        let previous = draft.at(k - 1).length;
+        let step = self.step(s, previous, free, &left);
+        let (length, end) = (step.length, step.end);
+        if !(length > 0.0 && end > s) {
+            return GridStep::Unsound;
+        }
+        let (length, end, middle, right) = self.resolve(s, length, end, &left, rows, route);
+        if !(middle.is_sound() && right.is_sound()) {
+            return GridStep::Unsound;
+        }
+
+        let interval = draft.at_mut(k);
+        *interval = Interval {
+            start: s,
+            length,
+            near_end: step.near_end,
+            bank: interval.bank,
+            ..Interval::NONE
+        };
+        samples.pair_mut(draft, k).middle = middle;
+        *draft.at_mut(k + 1) = Interval {
+            start: end,
+            length,
+            near_end: true,
+            bank: plan.at(k + 1).bank ^ 1,
+            ..Interval::NONE
+        };
+        let next = samples.pair_mut(draft, k + 1);
+        next.start = right;
+        next.middle = right;
+        if end >= self.end {
+            draft.last = k;
+            return GridStep::Done;
+        }
+        self.k = k + 1;
+        GridStep::More
+    }
+
+    /// The length of the interval from `s` on, by features and neighbours.
+    fn step(&self, s: f64, previous: f64, free: f64, left: &Sample) -> Step {
+        let mut length = free.min(previous * (1.0 + 2.0 * GROWTH));
+        let mut within = false;
+        for feature in self.features.iter() {
+            length = length.min(feature.spacing_at(s));
+            within |= feature.speed > 0.0 && feature.start <= s && s < feature.end;
+        }
+        if !within {
+            length = length.min((RADIUS_SHARE * left.radius()).max(0.02 * free));
+        }
+        let by_end = (self.end_spacing + GROWTH * (self.end - s)) / (1.0 + GROWTH);
+        let mut near_end = by_end < 0.9 * length;
+        length = length.min(by_end);
+        let mut end = s + length;
+        if let Some(place) = self.landmark(s, length) {
+            end = place;
+            length = place - s;
+        } else if let Some(place) = self.cap_change(s, length) {
+            length = 0.5 * (place - s);
+            end = s + length;
+        }
+        let left_over = self.end - s;
+        if left_over < 1.3 * length {
+            near_end = true;
+            end = self.end;
+            length = left_over;
+        } else if left_over < 2.0 * length {
+            near_end = true;
+            length = 0.5 * left_over;
+            end = s + length;
+        }
+        Step {
+            length,
+            end,
+            near_end,
+        }
+    }
+
+    /// The next place that a node should be on, if it is near the end of the interval: start,
+    /// center and end of a blend that stands alone, and changes of the speed cap.
+    fn landmark(&self, s: f64, length: f64) -> Option<f64> {
+        let near = |place: f64| place - s > 0.3 * length && place - s < 1.3 * length;
+        let mut best: Option<f64> = None;
+        let mut consider = |place: f64| {
+            if near(place) && best.is_none_or(|other| place < other) {
+                best = Some(place);
+            }
+        };
+        let mut before: Option<&Feature> = None;
+        let mut features = self.features.iter().peekable();
+        while let Some(feature) = features.next() {
+            let free_before = before.is_none_or(|other| other.end <= feature.start);
+            let free_behind = features
+                .peek()
+                .is_none_or(|other| feature.end <= other.start);
+            if feature.cap_changes {
+                consider(feature.center);
+            }
+            if feature.speed > 0.0 && feature.single && free_before && free_behind {
+                consider(feature.start);
+                consider(feature.center);
+                consider(feature.end);
+            }
+            before = Some(feature);
+        }
+        best
+    }
+
+    /// A change of the speed cap that two intervals would not quite come to.
+    fn cap_change(&self, s: f64, length: f64) -> Option<f64> {
+        self.features
+            .iter()
+            .filter(|feature| feature.cap_changes)
+            .map(|feature| feature.center)
+            .find(|place| place - s >= 1.3 * length && place - s < 2.0 * length)
+    }
+
+    /// Shortens an interval at most twice while the third derivative of the path is not resolved
+    /// at the speed to be expected. Returns length, end and the samples at middle and end.
+    fn resolve<R: Route>(
+        &self,
+        s: f64,
+        mut length: f64,
+        mut end: f64,
+        left: &Sample,
+        rows: &AxisRows,
+        route: &R,
+    ) -> (f64, f64, Sample, Sample) {
+        let (mut speed, mut finest) = (0.0, f64::INFINITY);
+        for feature in self.features.iter() {
+            let beside = 0.1 * length;
+            if feature.speed > 0.0 && end > feature.start - beside && s < feature.end + beside {
+                speed = f64::max(speed, feature.speed);
+                finest = finest.min(feature.spacing);
+            }
+        }
+        let cubed = (1.2 * speed) * (1.2 * speed) * (1.2 * speed);
+        let mut middle = rows.sample(route, s + 0.5 * length);
+        let mut right = rows.sample(route, end);
+        for _ in 0..2 {
+            let bulge = middle.third - (left.third + right.third) * 0.5;
+            let error = bulge.amax() * cubed;
+            if error <= THIRD_DERIVATIVE_ERROR || length <= 0.4 * finest {
+                break;
+            }
+            length *= if error > 2.5 * THIRD_DERIVATIVE_ERROR {
+                0.5
+            } else {
+                0.7
+            };
+            end = s + length;
+            middle = rows.sample(route, s + 0.5 * length);
+            right = rows.sample(route, end);
+        }
+        (length, end, middle, right)
+    }
+}
+
+struct Step {
+    length: f64,
+    end: f64,
+    near_end: bool,
+}

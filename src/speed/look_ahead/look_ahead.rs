@@ -1,0 +1,451 @@
+//! The planner: what is worked on next, and what the executor takes.
+
+use super::context::DraftContext;
+use super::cost;
+use super::draft::{self, Draft, DraftStep};
+use super::newton::{MOST_INTERVALS, NewtonStep};
+use super::piece::Piece;
+use super::refusal::Refusal;
+use super::route::{Route, SpeedCap};
+use super::rows::AxisRows;
+use super::run_state::{RunState, SHORTEST_LEAD};
+use super::spline::{CAPACITY, SampleBanks, Spline};
+use crate::axes::{AxisLimits, MachineMap};
+
+/// Seconds behind the frozen part that are left alone, so that work begun is seldom overtaken.
+const COMMITTED_TIME: f64 = 8e-3;
+/// See [`SHORTEST_LEAD`].
+const LONGEST_LEAD: f64 = 128e-3;
+/// The most intervals that these may be.
+const MOST_COMMITTED: usize = 128;
+
+/// Intervals ahead of the machine beyond which the plan is not extended: room is left for one
+/// extension.
+const HORIZON: usize = CAPACITY - draft::MOST_INTERVALS - 16;
+
+/// Intervals that an extension is meant to add.
+const EXTENSION: f64 = 64.0;
+
+/// An extension by fewer intervals than this waits for more, but no longer than [`PATIENCE`].
+const WORTHWHILE: f64 = 8.0;
+/// Slices.
+const PATIENCE: u32 = 8;
+
+/// Seconds to the final braking, below which an extension comes before the polish.
+const URGENT: f64 = 0.1;
+
+/// Seconds at the programmed speed that the first plan covers. It is short, so that the motion
+/// begins soon.
+const FIRST_TIME: f64 = 0.04;
+
+/// While the path is shorter than that and grows, the first plan waits, for this many slices at
+/// most.
+const LONGEST_WAIT: u32 = 40;
+
+/// A first plan that is refused is made over half the length, this often ..
+const SHORTER_FIRST_PLANS: u32 = 6;
+/// .. and then, as often again, at this share of the programmed speed.
+const SLOWER_FIRST_PLANS: u32 = 4;
+const SLOWER: f64 = 0.4;
+
+/// Steps of the polish without anything new, after which nothing is left to gain.
+const MOST_STEPS: u32 = 50;
+
+/// The weight that the barrier goes back to where caps were raised.
+const RAISED_BARRIER: f64 = 0.05;
+
+/// How a planner stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// [`LookAhead::start`] has not been called.
+    Idle,
+    /// The path known so far is too short, or the first plan is not finished.
+    Starting,
+    /// There is a plan that keeps all limits and ends at rest.
+    Ready,
+    /// No first plan was found.
+    Refused(Refusal),
+}
+
+/// The speed reference of one run from rest to rest along a [`Route`].
+///
+/// Memory is of fixed size (about 0.6 MB), work is done in slices.
+#[derive(Debug)]
+pub struct LookAhead {
+    rows: AxisRows,
+    plan: Spline,
+    samples: SampleBanks,
+    draft: Draft,
+    newton: NewtonStep,
+    progress: Progress,
+    state: RunState,
+}
+
+impl LookAhead {
+    /// A planner without anything to do.
+    pub const fn new() -> Self {
+        Self {
+            rows: AxisRows::NONE,
+            plan: Spline::NONE,
+            samples: SampleBanks::NONE,
+            draft: Draft::NONE,
+            newton: NewtonStep::NONE,
+            progress: Progress::Idle,
+            state: RunState::AT_REST,
+        }
+    }
+
+    /// Forgets everything and begins at rest at `s`. `period` of the servo thread in seconds.
+    pub fn start(&mut self, s: f64, limits: &AxisLimits, map: &MachineMap, period: f64) {
+        self.rows = AxisRows::new(limits, map, period);
+        self.plan.last = 0;
+        self.plan.start = s;
+        self.plan.end = s;
+        self.newton.cancel();
+        self.progress = Progress::Starting;
+        self.state = RunState::AT_REST;
+    }
+
+    /// Whether there is a plan.
+    pub fn progress(&self) -> Progress {
+        self.progress
+    }
+
+    /// Where the plan comes to rest, as s.
+    pub fn end(&self) -> f64 {
+        self.plan.end
+    }
+
+    /// Seconds of the plan that are frozen.
+    pub fn frozen_time(&self) -> f64 {
+        self.state.frozen_time
+    }
+
+    /// Whether the whole plan is frozen: the reference ends at rest.
+    pub fn is_frozen(&self) -> bool {
+        self.progress == Progress::Ready && self.state.next > self.plan.last + 1
+    }
+
+    /// Whether the final braking begins less than `seconds` behind the frozen part. A path whose
+    /// end is still open has to be ended then.
+    pub fn brakes_within(&self, seconds: f64) -> bool {
+        let mut time = 0.0;
+        for k in self.state.next..self.state.braking {
+            time += self.plan.duration(k);
+            if time >= seconds {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// The next piece, which stays as it is from now on. `None` if there is no plan, or the
+    /// reference has ended at rest.
+    pub fn freeze(&mut self) -> Option<Piece> {
+        if self.progress != Progress::Ready || self.is_frozen() {
+            return None;
+        }
+        let piece = Piece::of(&self.plan, self.state.next, self.state.frozen_time);
+        self.state.next += 1;
+        self.state.frozen_time += piece.duration;
+        self.state.idle_steps = 0;
+        Some(piece)
+    }
+
+    /// Multiplies the programmed speeds by `factor` from now on, up to the greatest ones; a factor
+    /// below the one in force changes nothing, since every state has to stay feasible.
+    pub fn raise(&mut self, factor: f64) {
+        if factor.is_finite() && factor > self.state.raise {
+            self.state.raise = factor;
+            self.soften();
+        }
+    }
+
+    /// Works on the plan for at most `budget` units of 20 to 40 ns, give or take one step of a few
+    /// microseconds.
+    pub fn slice<R: Route>(&mut self, route: &R, budget: u32) -> Progress {
+        self.state.pause = self.state.pause.saturating_sub(1);
+        self.state.waited = self.state.waited.saturating_add(1);
+        let mut left = budget;
+        while left > 0 {
+            if self.state.drafting {
+                self.continue_draft(route, &mut left);
+            } else if !self.newton.is_idle() {
+                self.continue_polish(&mut left);
+            } else if !self.begin_work(route) {
+                break;
+            }
+            left = left.saturating_sub(1);
+        }
+        self.progress
+    }
+
+    fn begin_work<R: Route>(&mut self, route: &R) -> bool {
+        match self.progress {
+            Progress::Idle | Progress::Refused(_) => false,
+            Progress::Starting => self.begin_first(route),
+            Progress::Ready => self.state.next <= self.plan.last && self.begin_next(route),
+        }
+    }
+
+    fn begin_first<R: Route>(&mut self, route: &R) -> bool {
+        let start = self.plan.start;
+        let known = route.known_end() - start;
+        if known <= 0.0 {
+            return false;
+        }
+        let SpeedCap { programmed, .. } = route.speed_cap(start);
+        let halvings = self.state.failures.min(SHORTER_FIRST_PLANS);
+        let most = FIRST_TIME * programmed;
+        if known > self.state.seen {
+            self.state.seen = known;
+            self.state.quiet = 0;
+        }
+        self.state.quiet += 1;
+        let waits = self.state.quiet < PATIENCE && self.state.waited < LONGEST_WAIT;
+        if known < most && !route.is_complete() && waits {
+            return false;
+        }
+        let mut length = if most < 0.7 * known { most } else { known };
+        for _ in 0..halvings {
+            length *= 0.5;
+        }
+        let end = if length < known {
+            start + length
+        } else {
+            route.known_end()
+        };
+        let (context, draft) = self.context(route);
+        draft.begin_first(&context, start, end, context_failures(halvings));
+        self.state.drafting = true;
+        true
+    }
+
+    fn begin_next<R: Route>(&mut self, route: &R) -> bool {
+        let committed = self.committed();
+        let gain = route.known_end() - self.plan.end;
+        let complete = route.is_complete();
+        let enough =
+            complete || gain >= WORTHWHILE * self.state.spacing || self.state.waited >= PATIENCE;
+        let room = self.plan.last.saturating_sub(self.state.next) < HORIZON;
+        let wanted = gain > 0.0 && enough && room && self.state.pause == 0;
+        let urgent = wanted && self.brakes_within(URGENT);
+        if urgent || wanted && self.state.steps >= self.steps_between(committed) {
+            self.begin_extension(route, committed, gain);
+            return true;
+        }
+        if self.begin_polish(committed, complete && gain <= 0.0) {
+            return true;
+        }
+        if wanted {
+            self.begin_extension(route, committed, gain);
+        }
+        wanted
+    }
+
+    /// How many steps of the polish are due between two extensions: few while the machine is near
+    /// to what is not settled, since a longer plan gains more than a smoother one.
+    fn steps_between(&self, committed: usize) -> u32 {
+        let ahead = self.state.settled.saturating_sub(committed);
+        if ahead > 2 * MOST_INTERVALS {
+            12
+        } else if ahead > MOST_INTERVALS * 5 / 4 {
+            4
+        } else if ahead > MOST_INTERVALS / 2 {
+            2
+        } else {
+            1
+        }
+    }
+
+    fn begin_extension<R: Route>(&mut self, route: &R, committed: usize, gain: f64) {
+        self.state.steps = 0;
+        self.state.waited = 0;
+        let share = EXTENSION / f64::from(1 + self.state.failures % 3);
+        let step = share * self.state.spacing;
+        let end = if gain > 1.5 * step {
+            self.plan.end + step
+        } else {
+            route.known_end()
+        };
+        // Where it is left at what was polished last, the plan keeps all of that; if this was
+        // refused, it is left earlier.
+        let latest = self.state.polished.min(self.plan.last.saturating_sub(4));
+        let spare = latest.saturating_sub(committed + 1);
+        let base = match self.state.failures & 3 {
+            0 => latest,
+            1 => latest - spare / 3,
+            2 => latest - 2 * (spare / 3),
+            _ => latest - spare,
+        }
+        .max(
+            self.interval_behind(self.state.lead)
+                .min(self.state.braking),
+        )
+        .max(committed + 1);
+        let failures = context_failures(self.state.failures);
+        let (context, draft) = self.context(route);
+        draft.begin_extension(&context, base, end, failures);
+        self.state.drafting = true;
+    }
+
+    /// Begins a step of the polish behind the committed part; up to the end if nothing follows.
+    fn begin_polish(&mut self, committed: usize, to_the_end: bool) -> bool {
+        if self.state.idle_steps >= MOST_STEPS {
+            return false;
+        }
+        let limit = if to_the_end {
+            self.plan.last + 1
+        } else {
+            self.state.settled.max(self.state.braking.saturating_sub(3))
+        };
+        let end = limit.min(committed + MOST_INTERVALS);
+        if end < committed + 4 {
+            return false;
+        }
+        self.newton.begin(committed, end);
+        if !to_the_end {
+            self.state.polished = self.state.polished.max(end);
+        }
+        true
+    }
+
+    fn continue_polish(&mut self, left: &mut u32) {
+        if self.state.next > self.newton.first() {
+            self.newton.cancel();
+            return;
+        }
+        let raise = self.raise_squared();
+        self.newton
+            .advance(&mut self.plan, &self.samples, &self.rows, raise, left);
+        if self.newton.is_idle() {
+            self.state.steps = self.state.steps.saturating_add(1);
+            self.state.idle_steps = self.state.idle_steps.saturating_add(1);
+        }
+    }
+
+    fn continue_draft<R: Route>(&mut self, route: &R, left: &mut u32) {
+        // Interval `base` depends on the first coefficient that is changed.
+        if self.state.next > self.draft.base {
+            self.state.drafting = false;
+            self.state.lead = (2.0 * self.state.lead).min(LONGEST_LEAD);
+            return;
+        }
+        let context = DraftContext {
+            route,
+            rows: &self.rows,
+            plan: &self.plan,
+            raise_squared: self.raise_squared(),
+            oldest: self.state.next.saturating_sub(1),
+        };
+        match self.draft.advance(&context, &mut self.samples, left) {
+            DraftStep::More => {}
+            DraftStep::Ready => {
+                self.adopt();
+                *left = left.saturating_sub(cost::ADOPT);
+            }
+            DraftStep::Refused(refusal) => self.note_refusal(refusal),
+        }
+    }
+
+    fn adopt(&mut self) {
+        self.state.drafting = false;
+        let base = self.draft.base;
+        let added = self.draft.added();
+        self.state.spacing = added;
+        self.plan.copy(&self.draft.spline);
+        self.state.polished = base;
+        self.state.settled = self
+            .draft
+            .settled()
+            .max(self.state.settled.min(base))
+            .min(self.plan.last - 1);
+        self.state.braking = self.plan.final_braking(base + 1);
+        self.state.failures = 0;
+        self.state.lead = SHORTEST_LEAD;
+        self.state.idle_steps = 0;
+        if self.progress == Progress::Starting {
+            self.progress = Progress::Ready;
+            if self.state.slower < 1.0 {
+                self.state.slower = 1.0;
+                self.soften();
+            }
+        }
+    }
+
+    fn note_refusal(&mut self, refusal: Refusal) {
+        self.state.drafting = false;
+        self.state.failures += 1;
+        if self.progress != Progress::Starting {
+            self.state.pause = PATIENCE;
+            return;
+        }
+        let over = self.state.failures > SHORTER_FIRST_PLANS + SLOWER_FIRST_PLANS;
+        if over || refusal == Refusal::Unsound {
+            self.progress = Progress::Refused(refusal);
+        } else if self.state.failures > SHORTER_FIRST_PLANS {
+            self.state.slower *= SLOWER;
+        }
+    }
+
+    /// Makes room for caps that were raised.
+    fn soften(&mut self) {
+        self.newton.cancel();
+        self.state.idle_steps = 0;
+        for k in self.state.next..=self.plan.last {
+            let interval = self.plan.at_mut(k);
+            interval.barrier = interval.barrier.max(RAISED_BARRIER);
+            interval.resistance = 1.0;
+        }
+    }
+
+    /// The first interval that may be changed.
+    fn committed(&self) -> usize {
+        if self.state.next == 0 {
+            return 1;
+        }
+        self.interval_behind(COMMITTED_TIME)
+    }
+
+    /// The interval that begins `seconds` behind the frozen part, or a little later.
+    fn interval_behind(&self, seconds: f64) -> usize {
+        let mut time = 0.0;
+        let mut k = self.state.next;
+        for _ in 0..MOST_COMMITTED {
+            if k > self.plan.last || time >= seconds {
+                break;
+            }
+            time += self.plan.duration(k);
+            k += 1;
+        }
+        k
+    }
+
+    fn raise_squared(&self) -> f64 {
+        let factor = self.state.raise * self.state.slower;
+        factor * factor
+    }
+
+    fn context<'a, R: Route>(&'a mut self, route: &'a R) -> (DraftContext<'a, R>, &'a mut Draft) {
+        let raise_squared = self.raise_squared();
+        let context = DraftContext {
+            route,
+            rows: &self.rows,
+            plan: &self.plan,
+            raise_squared,
+            oldest: self.state.next.saturating_sub(1),
+        };
+        (context, &mut self.draft)
+    }
+}
+
+impl Default for LookAhead {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Which margin to sweep with after so many failures.
+fn context_failures(failures: u32) -> usize {
+    (failures & 3) as usize
+}

@@ -1,0 +1,42 @@
+//! Look-ahead: the speed along a path that becomes known move by move.
+//!
+//! The reference is b = v^2 over s as a quadratic [`spline`]: s, v and a are continuous by
+//! construction, and the limits of the axes ([`rows`]) are linear in three coefficients. It is made
+//! in two stages.
+//!
+//! 1. A [`draft`] places nodes ([`grid`]), sweeps forward and backward ([`sweep`]) with scalar
+//!    [`bounds`] and takes the [`hull`]. What comes out is not the fastest (1.1 to 1.4 times the
+//!    optimum), but it is checked against all rows and ends at rest inside what is known. It then
+//!    replaces the plan; where it fails, the plan stands.
+//! 2. Steps of Newton's method ([`newton`]) on duration and [`barrier`] polish the part that the
+//!    end of what is known hardly influences, to 1 or 2 % above the optimum.
+//!
+//! Both are done in slices of bounded work. What the executor takes is frozen as [`Piece`]s;
+//! everything else works behind them.
+
+mod barrier;
+mod bounds;
+mod context;
+mod cost;
+mod draft;
+mod feature;
+mod grid;
+mod hull;
+mod interval;
+#[allow(clippy::module_inception, reason = "the type that the folder is about")]
+mod look_ahead;
+mod newton;
+mod piece;
+mod refusal;
+mod rest_arc;
+mod route;
+mod rows;
+mod run_state;
+mod spline;
+mod sweep;
+mod sweeps;
+
+pub use look_ahead::{LookAhead, Progress};
+pub use piece::Piece;
+pub use refusal::Refusal;
+pub use route::{Route, SpeedCap, Vertex};

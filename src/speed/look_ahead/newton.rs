@@ -1,0 +1,331 @@
+//! The polish: a step of Newton's method over a window of the plan, a little at a time.
+//!
+//! Each interval joins three coefficients, so the second derivatives form a matrix with five
+//! diagonals. It is factorised as L D L' (Golub and Van Loan, Matrix Computations, section 4.3)
+//! while it is assembled, two columns behind. The step is taken as far as every interval still
+//! keeps its limits. An interval that refuses gets stiffer for the steps to come: its second
+//! derivatives are multiplied by a growing resistance.
+
+use super::barrier::Barrier;
+use super::cost;
+use super::draft::MARGIN;
+use super::rows::AxisRows;
+use super::spline::{SampleBanks, Spline};
+
+/// The most intervals in a window.
+pub(super) const MOST_INTERVALS: usize = 100;
+
+/// A power of two above the coefficients of a window, for masked indices.
+const SLOTS: usize = 128;
+const MASK: usize = SLOTS - 1;
+
+/// What a step is multiplied by when an interval refuses it.
+const SHORTER: f64 = 0.6;
+/// How often, before the step is given up.
+const MOST_SHORTENINGS: u32 = 14;
+/// A shortened step is shortened by this once more and checked again.
+const LAST_SHARE: f64 = 0.9;
+/// What the resistance of an interval is multiplied by each time it refuses.
+const RESISTANCE_GROWTH: f64 = 3.0;
+/// What it is multiplied by when a step succeeds.
+const RESISTANCE_DECAY: f64 = 0.6;
+const GREATEST_RESISTANCE: f64 = 1e6;
+/// What the weight of the barrier is multiplied by after a step of at least [`GOOD_STEP`].
+const BARRIER_DECAY: f64 = 0.6;
+const LEAST_BARRIER: f64 = 0.003;
+const GOOD_STEP: f64 = 0.3;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Idle,
+    Assemble,
+    Substitute,
+    Check,
+    Apply,
+}
+
+/// One coefficient of the window.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    /// The diagonal; when eliminated, its reciprocal.
+    diagonal: f64,
+    /// The first diagonal beside it; when eliminated, of L.
+    next: f64,
+    /// The second diagonal beside it.
+    second: f64,
+    /// The right side, later the step.
+    step: f64,
+    /// Product of the growths of resistance in this step.
+    refusals: f64,
+}
+
+impl Row {
+    const NONE: Self = Self {
+        diagonal: 0.0,
+        next: 0.0,
+        second: 0.0,
+        step: 0.0,
+        refusals: 1.0,
+    };
+}
+
+/// A step of Newton's method that is under way.
+#[derive(Debug)]
+pub(super) struct NewtonStep {
+    phase: Phase,
+    /// The first interval of the window; its coefficient and those before it are not changed.
+    first: usize,
+    /// The interval behind the window; its coefficient and the one before are not changed.
+    end: usize,
+    k: usize,
+    share: f64,
+    shortenings: u32,
+    clean: bool,
+    last_pass: bool,
+    rows: [Row; SLOTS],
+}
+
+impl NewtonStep {
+    pub const NONE: Self = Self {
+        phase: Phase::Idle,
+        first: 0,
+        end: 0,
+        k: 0,
+        share: 1.0,
+        shortenings: 0,
+        clean: true,
+        last_pass: false,
+        rows: [Row::NONE; SLOTS],
+    };
+
+    /// Begins a step on intervals `first` to `end - 1`, at most [`MOST_INTERVALS`] of them.
+    pub fn begin(&mut self, first: usize, end: usize) {
+        let end = end.min(first + MOST_INTERVALS);
+        if end < first + 4 {
+            self.phase = Phase::Idle;
+            return;
+        }
+        *self = Self {
+            phase: Phase::Assemble,
+            first,
+            end,
+            k: first,
+            ..Self::NONE
+        };
+    }
+
+    /// Whether there is nothing under way.
+    pub fn is_idle(&self) -> bool {
+        self.phase == Phase::Idle
+    }
+
+    pub fn cancel(&mut self) {
+        self.phase = Phase::Idle;
+    }
+
+    /// The first interval that the step changes.
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// Works until the step is done or the budget is spent.
+    pub fn advance(
+        &mut self,
+        plan: &mut Spline,
+        samples: &SampleBanks,
+        axes: &AxisRows,
+        raise_squared: f64,
+        budget: &mut u32,
+    ) {
+        while *budget > 0 && self.phase != Phase::Idle {
+            let price = match self.phase {
+                Phase::Assemble => cost::ASSEMBLE,
+                Phase::Check => cost::CHECK,
+                _ => cost::SUBSTITUTE,
+            };
+            *budget = budget.saturating_sub(price);
+            match self.phase {
+                Phase::Assemble => self.assemble(plan, samples, axes, raise_squared),
+                Phase::Substitute => self.substitute(),
+                Phase::Check => self.check(plan, samples, axes, raise_squared),
+                Phase::Apply => self.apply(plan),
+                Phase::Idle => {}
+            }
+        }
+    }
+
+    /// The first and the last coefficient that may change.
+    fn free(&self) -> (usize, usize) {
+        (self.first + 1, self.end - 2)
+    }
+
+    fn row(&self, k: usize) -> &Row {
+        &self.rows[(k + 1 - self.first) & MASK]
+    }
+
+    fn row_mut(&mut self, k: usize) -> &mut Row {
+        &mut self.rows[(k + 1 - self.first) & MASK]
+    }
+
+    /// Adds an interval and eliminates the coefficient before it, which is complete then.
+    fn assemble(
+        &mut self,
+        plan: &Spline,
+        samples: &SampleBanks,
+        axes: &AxisRows,
+        raise_squared: f64,
+    ) {
+        let k = self.k;
+        let interval = plan.at(k);
+        let barrier = Barrier {
+            weight: interval.barrier,
+            margin: MARGIN,
+            raise_squared,
+        };
+        let lengths = [
+            plan.at(k - 1).length,
+            interval.length,
+            plan.at(k + 1).length,
+        ];
+        let derivatives =
+            barrier.derivatives(axes, &plan.parabola(k), samples.of(plan, k), lengths);
+        let [g0, g1, g2] = derivatives.gradient;
+        let [h00, h01, h02, h11, h12, h22] = derivatives.hessian.map(|h| h * interval.resistance);
+        let before = self.row_mut(k - 1);
+        before.step -= g0;
+        before.diagonal += h00;
+        before.next += h01;
+        before.second += h02;
+        let here = self.row_mut(k);
+        here.step -= g1;
+        here.diagonal += h11;
+        here.next += h12;
+        let after = self.row_mut(k + 1);
+        after.step -= g2;
+        after.diagonal += h22;
+
+        let (first_free, last_free) = self.free();
+        if k > first_free {
+            self.eliminate(k - 1);
+        }
+        if k + 1 < self.end {
+            self.k = k + 1;
+        } else {
+            self.phase = Phase::Substitute;
+            self.k = last_free;
+        }
+    }
+
+    fn eliminate(&mut self, k: usize) {
+        let (_, last_free) = self.free();
+        let row = *self.row(k);
+        let inverse = 1.0 / row.diagonal;
+        let l1 = row.next * inverse;
+        let l2 = row.second * inverse;
+        if k < last_free {
+            let next = self.row_mut(k + 1);
+            next.diagonal -= l1 * row.next;
+            next.next -= l1 * row.second;
+            next.step -= l1 * row.step;
+        }
+        if k + 1 < last_free {
+            let second = self.row_mut(k + 2);
+            second.diagonal -= l2 * row.second;
+            second.step -= l2 * row.step;
+        }
+        *self.row_mut(k) = Row {
+            diagonal: inverse,
+            next: l1,
+            second: l2,
+            ..row
+        };
+    }
+
+    fn substitute(&mut self) {
+        let k = self.k;
+        let (first_free, last_free) = self.free();
+        let row = *self.row(k);
+        let mut step = row.step * row.diagonal;
+        if k < last_free {
+            step -= row.next * self.row(k + 1).step;
+        }
+        if k + 1 < last_free {
+            step -= row.second * self.row(k + 2).step;
+        }
+        self.row_mut(k).step = step;
+        if k > first_free {
+            self.k = k - 1;
+            return;
+        }
+        for fixed in [self.first - 1, self.first, self.end - 1, self.end] {
+            self.row_mut(fixed).step = 0.0;
+        }
+        self.phase = Phase::Check;
+        self.k = self.first;
+    }
+
+    fn check(&mut self, plan: &Spline, samples: &SampleBanks, axes: &AxisRows, raise_squared: f64) {
+        let k = self.k;
+        let moved = |k: usize| plan.at(k).coefficient + self.share * self.row(k).step;
+        let parabola = plan.parabola_with(k, [moved(k - 1), moved(k), moved(k + 1)]);
+        let margin = MARGIN * (1.0 - 1e-5);
+        if !axes.keeps(&parabola, samples.of(plan, k), raise_squared, margin) {
+            self.clean = false;
+            self.last_pass = false;
+            self.share *= SHORTER;
+            self.shortenings += 1;
+            self.row_mut(k).refusals *= RESISTANCE_GROWTH;
+            if self.shortenings > MOST_SHORTENINGS {
+                self.share = 0.0;
+                self.begin_apply();
+            }
+            return;
+        }
+        if k + 1 < self.end {
+            self.k = k + 1;
+        } else if !self.clean {
+            // Intervals before the refusing one have only seen a longer step.
+            self.clean = true;
+            self.k = self.first;
+        } else if self.share < 1.0 && !self.last_pass {
+            self.last_pass = true;
+            self.share *= LAST_SHARE;
+            self.k = self.first;
+        } else {
+            self.begin_apply();
+        }
+    }
+
+    fn begin_apply(&mut self) {
+        self.phase = Phase::Apply;
+        self.k = self.first;
+    }
+
+    /// Takes the step, all at once: half of a step would be no plan.
+    fn apply(&mut self, plan: &mut Spline) {
+        for k in self.first..self.end {
+            let refusals = self.row(k).refusals;
+            let step = self.share * self.row(k).step;
+            let interval = plan.at_mut(k);
+            // A step of share 0 was given up and need not even be a number.
+            if self.share > 0.0 {
+                interval.coefficient += step;
+            }
+            if self.share > GOOD_STEP {
+                interval.barrier = (interval.barrier * BARRIER_DECAY).max(LEAST_BARRIER);
+            }
+            if refusals > 1.0 {
+                let grown = (interval.resistance * refusals).min(GREATEST_RESISTANCE);
+                interval.resistance = grown;
+                let beside = grown.sqrt();
+                for neighbour in [k - 1, k + 1] {
+                    let interval = plan.at_mut(neighbour);
+                    interval.resistance = interval.resistance.max(beside);
+                }
+            } else if self.share > 0.05 {
+                interval.resistance = (interval.resistance * RESISTANCE_DECAY).max(1.0);
+            }
+        }
+        self.phase = Phase::Idle;
+    }
+}

@@ -1,0 +1,51 @@
+//! What the look-ahead has to know of a path.
+
+use crate::path::PathPoint;
+
+/// How fast the program lets a place of the path be run, as ds/dt. Positive, may be infinite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedCap {
+    /// What the program asks for at an override of 100 %.
+    pub programmed: f64,
+    /// What no override exceeds: at least `programmed`; equal to it where no override applies.
+    pub greatest: f64,
+}
+
+/// A place where the path or the program changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Where it is, as s.
+    pub position: f64,
+    /// How far the change of shape extends to both sides, 0 if there is none.
+    pub reach: f64,
+    /// Whether the speed cap differs on both sides.
+    pub cap_changes: bool,
+}
+
+/// A path that becomes known piece by piece.
+///
+/// What has been known once never changes: not the shape up to [`Self::known_end`], not the caps,
+/// not the vertices before it. Derivatives are by s, continuous up to the second; s grows along
+/// the path and need not be its arc length.
+pub trait Route {
+    /// The point at `s`, which lies between the start of the plan and the known end.
+    fn point(&self, s: f64) -> PathPoint;
+
+    /// How far the path is known for good.
+    fn known_end(&self) -> f64;
+
+    /// Whether the motion has to end at the known end. Once `true`, it stays so.
+    fn is_complete(&self) -> bool;
+
+    /// The speed cap at `s`, on a change the lower one of both sides.
+    fn speed_cap(&self, s: f64) -> SpeedCap;
+
+    /// The first vertex with a position greater than `s`.
+    fn vertex_after(&self, s: f64) -> Option<Vertex>;
+
+    /// The last vertex with a position less than `s`.
+    fn vertex_before(&self, s: f64) -> Option<Vertex>;
+
+    /// The greatest reach of all vertices.
+    fn greatest_reach(&self) -> f64;
+}

@@ -1,0 +1,67 @@
+//! How far a run from rest to rest has come.
+
+/// Seconds behind the frozen part at which a draft leaves the plan: more after each one that the
+/// machine has overtaken.
+pub(super) const SHORTEST_LEAD: f64 = 16e-3;
+
+/// What the planner keeps in mind besides the plan.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RunState {
+    /// Whether a draft is being made.
+    pub drafting: bool,
+    /// The next interval to be frozen.
+    pub next: usize,
+    /// The time at which it starts.
+    pub frozen_time: f64,
+    /// Intervals before this one have been polished.
+    pub polished: usize,
+    /// What the end of the plan hardly influences any more.
+    pub settled: usize,
+    /// Where the braking to the final rest begins.
+    pub braking: usize,
+    /// What the program's speeds are multiplied by.
+    pub raise: f64,
+    /// Share of them for a first plan that was refused otherwise.
+    pub slower: f64,
+    /// The length of the intervals of the last draft, in the mean.
+    pub spacing: f64,
+    /// The length that was known in the slice before the first plan.
+    pub seen: f64,
+    /// Slices since more of it became known.
+    pub quiet: u32,
+    /// Seconds behind the frozen part at which a draft leaves the plan at the earliest.
+    pub lead: f64,
+    /// Drafts refused since the last success.
+    pub failures: u32,
+    /// Slices until the next extension may be tried.
+    pub pause: u32,
+    /// Slices since the last extension.
+    pub waited: u32,
+    /// Steps of the polish since the last extension.
+    pub steps: u32,
+    /// Steps of the polish since anything changed.
+    pub idle_steps: u32,
+}
+
+impl RunState {
+    /// At rest, nothing planned.
+    pub const AT_REST: Self = Self {
+        drafting: false,
+        next: 0,
+        frozen_time: 0.0,
+        polished: 1,
+        settled: 1,
+        braking: 1,
+        raise: 1.0,
+        slower: 1.0,
+        spacing: 0.0,
+        seen: 0.0,
+        quiet: 0,
+        lead: SHORTEST_LEAD,
+        failures: 0,
+        pause: 0,
+        waited: 0,
+        steps: 0,
+        idle_steps: 0,
+    };
+}

@@ -1,0 +1,98 @@
+//! Sweeps over the coefficients: as fast as possible from the start, as fast as possible from the
+//! end backward, and the lower of both.
+//!
+//! The integration of the limits forward and backward (Bobrow, Dubowsky and Gibson, Time-optimal
+//! control of robotic manipulators along specified paths, IJRR 4(3), 1985) with a third order:
+//! the slope of the coefficients is an acceleration, its change over an interval a jerk.
+
+use super::bounds::Bounds;
+
+/// A sweep at one coefficient.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Front {
+    /// The coefficient.
+    pub value: f64,
+    /// The slope it was reached with in the direction of the sweep; `None` on the cap, from where
+    /// acceleration starts again at 0.
+    pub slope: Option<f64>,
+}
+
+/// What a step has to know of the two intervals it connects.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<'a> {
+    /// Where the sweep is.
+    pub here: &'a Bounds,
+    /// Where it goes.
+    pub next: &'a Bounds,
+    /// Length of the interval where it is.
+    pub length: f64,
+    /// Length of the interval where it goes.
+    pub next_length: f64,
+    /// The cap at the coefficient where it goes.
+    pub cap: f64,
+}
+
+impl Front {
+    pub const NONE: Self = Self {
+        value: 0.0,
+        slope: None,
+    };
+
+    /// The greatest coefficient in the next interval; `before` is the one in the interval before.
+    pub fn step(&self, before: f64, stretch: &Stretch) -> Self {
+        let Stretch {
+            here,
+            next,
+            length,
+            next_length,
+            cap,
+        } = *stretch;
+        let distance = length + next_length;
+        let c = self.value;
+        let free = match self.slope {
+            // From the cap on the acceleration grows within half of an interval at first.
+            None => 0.5 * length * jerk_step(here.jerk, c, 0.0, length),
+            Some(slope) => {
+                let fastest = if slope < 0.0 { c.max(before) } else { c };
+                slope + length * jerk_step(here.jerk, fastest, slope, length)
+            }
+        };
+        let mut slope = free.min(here.acceleration).min(next.acceleration);
+        if slope > 0.0 {
+            let across = here.across.min(next.across);
+            let fastest = (c + distance * slope).min(here.cap.min(next.cap)).max(c);
+            if slope * slope * fastest > across {
+                slope = (across / fastest).sqrt();
+            }
+        }
+        let value = c + distance * slope;
+        if value > cap {
+            let slope = (cap - c) / distance;
+            Self {
+                value: cap,
+                slope: (slope > 0.0).then_some(slope),
+            }
+        } else {
+            Self {
+                value,
+                slope: Some(slope),
+            }
+        }
+    }
+}
+
+/// The greatest change u of slope with `u sqrt(b) <= jerk` wherever an interval of this length
+/// takes b, from three rounds of a fixed point that stays below it.
+fn jerk_step(jerk: f64, b: f64, slope: f64, length: f64) -> f64 {
+    if b <= 0.0 {
+        return 0.0;
+    }
+    let mut u = jerk / b.sqrt();
+    if slope < 0.0 {
+        return u;
+    }
+    for _ in 0..3 {
+        u = jerk / (b + length * (slope + length * u)).max(b).sqrt();
+    }
+    u
+}

@@ -1,0 +1,237 @@
+//! The swept coefficients of a draft: bounds, both sweeps, the hull, one coefficient at a time.
+
+use super::bounds::Bounds;
+use super::hull::Hull;
+use super::spline::{CAPACITY, Spline};
+use super::sweep::{Front, Stretch};
+
+const MASK: usize = CAPACITY - 1;
+
+/// Relative differences that are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Why coefficients cannot be swept as they are.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum SweepFault {
+    /// The speed at the base cannot be kept up, or is too high to brake from.
+    Base,
+    /// The speed of the arc to rest cannot be reached, or not be left.
+    End,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Swept {
+    bounds: Bounds,
+    forward: Front,
+    backward: Front,
+    lower: f64,
+}
+
+/// The sweeps over a spline from a coefficient `base` that stays as it is.
+#[derive(Debug)]
+pub(super) struct Sweeps {
+    base: usize,
+    swept: [Swept; CAPACITY],
+    hull: Hull,
+    /// The corner of the hull that was come to from the end.
+    corner: usize,
+    settled: usize,
+    settled_candidate: usize,
+}
+
+impl Sweeps {
+    pub const NONE: Self = Self {
+        base: 1,
+        swept: [Swept {
+            bounds: Bounds::NONE,
+            forward: Front::NONE,
+            backward: Front::NONE,
+            lower: 0.0,
+        }; CAPACITY],
+        hull: Hull::NONE,
+        corner: 0,
+        settled: 0,
+        settled_candidate: 0,
+    };
+
+    /// Sets the bounds of interval k.
+    pub fn bound(&mut self, k: usize, bounds: Bounds) {
+        self.at_mut(k).bounds = bounds;
+    }
+
+    /// Begins at `base`, whose coefficient and the one before it the spline has.
+    pub fn begin_forward(&mut self, spline: &Spline, base: usize) {
+        self.base = base;
+        let (before, here) = (spline.at(base - 1), spline.at(base));
+        let slope = (here.coefficient - before.coefficient) / (before.length + here.length);
+        let (before, here) = (before.coefficient, here.coefficient);
+        self.at_mut(base - 1).lower = before;
+        self.at_mut(base - 1).forward = Front {
+            value: before,
+            slope: None,
+        };
+        self.at_mut(base).lower = here;
+        self.at_mut(base).forward = Front {
+            value: here,
+            slope: Some(slope),
+        };
+    }
+
+    /// From coefficient k, `base` to `last`, to the next one.
+    pub fn forward(&mut self, spline: &Spline, k: usize) -> Result<(), SweepFault> {
+        let before = self.at(k - 1).forward.value;
+        let front = self.at(k).forward;
+        let next = front.step(before, &self.stretch(spline, k, k + 1));
+        self.at_mut(k + 1).forward = next;
+        if next.value > 0.0 {
+            Ok(())
+        } else {
+            Err(SweepFault::Base)
+        }
+    }
+
+    /// Begins at the coefficients that the arc to rest asks for.
+    pub fn begin_backward(&mut self, spline: &Spline) {
+        let last = spline.last;
+        let [end, beyond] = end_coefficients(spline);
+        let length = spline.at(last).length;
+        self.at_mut(last + 1).backward = Front {
+            value: beyond,
+            slope: None,
+        };
+        self.at_mut(last).backward = Front {
+            value: end,
+            slope: Some((end - beyond) / (2.0 * length)),
+        };
+    }
+
+    /// From coefficient k, `last` to `base + 1`, to the one before it.
+    pub fn backward(&mut self, spline: &Spline, k: usize) {
+        let before = self.at(k + 1).backward.value;
+        let front = self.at(k).backward;
+        let next = front.step(before, &self.stretch(spline, k, k - 1));
+        self.at_mut(k - 1).backward = next;
+        let swept = self.at_mut(k);
+        swept.lower = swept.forward.value.min(swept.backward.value);
+    }
+
+    /// What both sweeps say of a coefficient at or behind the base, from the end.
+    pub fn backward_value(&self, k: usize) -> f64 {
+        self.at(k).backward.value
+    }
+
+    /// Begins the hull, if the sweeps have met both ends.
+    pub fn begin_hull(&mut self, spline: &Spline) -> Result<(), SweepFault> {
+        let last = spline.last;
+        let pinned = self.at(self.base).forward.value;
+        let [end, beyond] = end_coefficients(spline);
+        let brakes = self.at(self.base).backward.value >= pinned * (1.0 - ROUNDING);
+        if !brakes {
+            return Err(SweepFault::Base);
+        }
+        let arrives = self.at(last).lower >= end * (1.0 - ROUNDING);
+        if !arrives {
+            return Err(SweepFault::End);
+        }
+        self.at_mut(last).lower = end;
+        self.at_mut(last + 1).lower = beyond;
+        self.hull.restart(self.base, pinned);
+        self.settled = 0;
+        self.settled_candidate = 0;
+        self.corner = last + 1;
+        Ok(())
+    }
+
+    /// Appends coefficient k, `base + 1` to `last + 1`.
+    pub fn append(&mut self, spline: &Spline, k: usize) {
+        let before = self.at(k - 1);
+        let value = self.at(k).lower;
+        let most = self.at(k - 2).lower.max(before.lower).max(value);
+        let length = spline.at(k - 1).length;
+        let fall = length * before.bounds.jerk / most.sqrt();
+        let distance = length + spline.at(k).length;
+        self.hull.append(k, value, distance, fall);
+    }
+
+    /// The coefficient k, asked for from `last + 1` down to `base + 1`.
+    pub fn coefficient(&mut self, spline: &Spline, k: usize) -> Result<f64, SweepFault> {
+        if k == self.hull.previous(self.corner) {
+            self.corner = k;
+        }
+        let value = if k == self.corner {
+            self.note_settled(spline, k);
+            self.at(k).lower
+        } else {
+            self.hull.value(k, self.corner)
+        };
+        let [end, _] = end_coefficients(spline);
+        let wanted = k != spline.last || (value - end).abs() <= 100.0 * ROUNDING * end.abs();
+        if wanted {
+            Ok(value)
+        } else {
+            Err(SweepFault::End)
+        }
+    }
+
+    /// A coefficient that what comes behind the known end hardly changes any more; 0 if none.
+    pub fn settled(&self) -> usize {
+        self.settled
+    }
+
+    /// A corner of the hull on its cap, with three restarts of the backward sweep at and behind it,
+    /// depends on what comes later only through them. The second such corner from the end counts.
+    fn note_settled(&mut self, spline: &Spline, k: usize) {
+        if self.settled > 0 || k + 3 > spline.last {
+            return;
+        }
+        let on_cap = self.at(k).lower >= self.cap(spline, k) * (1.0 - 1e-12);
+        let restarts = (k..k + 3).all(|other| self.at(other).backward.slope.is_none());
+        if on_cap && restarts {
+            if self.settled_candidate == 0 {
+                self.settled_candidate = k;
+            } else if k + 6 <= self.settled_candidate {
+                self.settled = k;
+            }
+        }
+    }
+
+    /// The cap of a coefficient: it is never far from b in its own interval and the two beside it.
+    fn cap(&self, spline: &Spline, k: usize) -> f64 {
+        let last = spline.last;
+        if k > last {
+            return Bounds::NONE.cap;
+        }
+        let cap = |k: usize| self.at(k).bounds.cap;
+        let least = cap(k).min(cap(k - 1)).min(cap(k + 1));
+        if k == last {
+            let [end, _] = end_coefficients(spline);
+            return least.max(end);
+        }
+        least
+    }
+
+    fn stretch(&self, spline: &Spline, from: usize, to: usize) -> Stretch<'_> {
+        Stretch {
+            here: &self.at(from).bounds,
+            next: &self.at(to).bounds,
+            length: spline.at(from).length,
+            next_length: spline.at(to).length,
+            cap: self.cap(spline, to),
+        }
+    }
+
+    fn at(&self, k: usize) -> &Swept {
+        &self.swept[k & MASK]
+    }
+
+    fn at_mut(&mut self, k: usize) -> &mut Swept {
+        &mut self.swept[k & MASK]
+    }
+}
+
+/// The coefficients `last` and `last + 1`, which give the last node the speed of the end arc.
+fn end_coefficients(spline: &Spline) -> [f64; 2] {
+    let length = spline.at(spline.last).length;
+    let [beyond, end] = spline.end_arc.coefficients(length);
+    [end, beyond]
+}
