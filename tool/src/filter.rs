@@ -4,7 +4,8 @@
 //! could be translated; progress and errors go to standard error.
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::settings::{IncrementBase, Settings};
+use crate::dialects::guess::{guess, undecided};
+use crate::dialects::settings::{IncrementBase, MirrorOutsideXy, MirroredCircle, Settings};
 use crate::dialects::{Dialect, evaluate};
 use crate::encoding::decode;
 use crate::program::Program;
@@ -50,12 +51,24 @@ pub struct FilterArguments {
     /// M function that is passed on to LinuxCNC; may be given several times
     #[arg(long, value_name = "NUMBER", value_delimiter = ',')]
     pub pass_m: Vec<u32>,
-    /// Value of an R parameter before the program begins; may be given several times
+    /// Value of a variable (R5, P5, V.P.NAME) before the program begins; may be given several times
     #[arg(long, value_name = "R5=VALUE", value_parser = variable)]
     pub set: Vec<(String, f64)>,
+    /// Row of the tool table that holds a further edge (D2 to D9) of a tool; may be given several times
+    #[arg(long, value_name = "TOOL.EDGE=ROW", value_parser = edge)]
+    pub edge: Vec<((u32, u32), u32)>,
+    /// The feed in force when the program begins, machine units per minute
+    #[arg(long, value_name = "FEED", value_parser = feed)]
+    pub feed: Option<f64>,
     /// Number of a tool that the program calls by name; may be given several times
     #[arg(long, value_name = "NAME=NUMBER", value_parser = tool_name)]
     pub tool: Vec<(String, u32)>,
+    /// What G21, G22 and G23 of ISG programs mirror outside of G17
+    #[arg(long, value_enum, default_value = "refuse")]
+    pub mirror_outside_xy: MirrorOutsideXy,
+    /// What becomes of a full circle with an absolute centre right after a mirror of an ISG program
+    #[arg(long, value_enum, default_value = "refuse")]
+    pub mirrored_circle: MirroredCircle,
     /// Largest distance of the chords from the ellipse that unequal scales make of an arc, machine
     /// units
     #[arg(long, value_name = "LENGTH", default_value_t = 0.005, value_parser = tolerance)]
@@ -73,7 +86,11 @@ impl FilterArguments {
             skip_blocks: self.skip_blocks,
             passed_m: self.pass_m.clone(),
             variables: self.set.iter().cloned().collect(),
+            feed: self.feed,
+            tool_edges: self.edge.iter().copied().collect(),
             tool_names: self.tool.iter().cloned().collect(),
+            mirror_outside_xy: self.mirror_outside_xy,
+            mirrored_circle: self.mirrored_circle,
             ..Settings::default()
         }
     }
@@ -81,17 +98,39 @@ impl FilterArguments {
 
 fn variable(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("write R5=12.5")?;
-    let number = name
-        .strip_prefix(['R', 'r'])
-        .and_then(|number| number.parse::<u32>().ok());
+    let name = name.trim().to_ascii_uppercase();
+    let is_name = name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || "._[]".contains(c));
     let value: Option<f64> = value
         .trim()
         .parse()
         .ok()
         .filter(|value: &f64| value.is_finite());
-    match (number, value) {
-        (Some(number), Some(value)) => Ok((format!("R{number}"), value)),
+    match (is_name, value) {
+        (true, Some(value)) => Ok((name, value)),
         _ => Err("write R5=12.5".to_string()),
+    }
+}
+
+fn edge(text: &str) -> Result<((u32, u32), u32), String> {
+    let parse = || {
+        let (edge, row) = text.split_once('=')?;
+        let (tool, edge) = edge.split_once('.')?;
+        let numbers = [tool, edge, row].map(|number| number.trim().parse().ok());
+        match numbers {
+            [Some(tool), Some(edge @ 2..=9), Some(row)] => Some(((tool, edge), row)),
+            _ => None,
+        }
+    };
+    parse().ok_or_else(|| "write 3.2=13 for edge D2 of tool 3 in row 13".to_string())
+}
+
+fn feed(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if f64::is_finite(value) && value > 0.0 => Ok(value),
+        _ => Err("a feed above 0 is needed".to_string()),
     }
 }
 
@@ -120,25 +159,34 @@ impl std::fmt::Display for Refused {
 
 impl std::error::Error for Refused {}
 
-/// Translates a part program. `progress` is told percents.
-pub fn filter(
-    arguments: &FilterArguments,
-    progress: &mut dyn FnMut(u32),
-) -> Result<String, Refused> {
+/// What is told while a program is translated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Told {
+    /// How much is done, percent.
+    Progress(u32),
+    /// What the user should know.
+    Note(String),
+}
+
+/// Translates a part program.
+pub fn filter(arguments: &FilterArguments, tell: &mut dyn FnMut(Told)) -> Result<String, Refused> {
     let settings = arguments.settings();
-    progress(0);
+    tell(Told::Progress(0));
     let Evaluated {
         program,
         sources,
         mut diagnostics,
+        dialect,
+        note,
     } = read(arguments.dialect, &arguments.file, &settings)?;
-    progress(50);
+    note.into_iter().for_each(|note| tell(Told::Note(note)));
+    tell(Told::Progress(50));
     let warnings: Vec<String> = diagnostics
         .warnings()
         .map(|warning| format!("line {}: {}", sources.line(warning.span), warning.message))
         .collect();
     let write_settings = WriteSettings {
-        dialect: arguments.dialect.name(),
+        dialect: dialect.name(),
         machine_in_inch: arguments.machine_in_inch,
         sources: &sources,
         chord_tolerance: arguments.chord_tolerance,
@@ -150,7 +198,7 @@ pub fn filter(
         let percent = 50 + (50.0 * share) as u32;
         if percent > last {
             last = percent;
-            progress(percent);
+            tell(Told::Progress(percent));
         }
     };
     let text = match arguments.backend {
@@ -192,6 +240,9 @@ struct Evaluated {
     program: Program,
     sources: Sources,
     diagnostics: Diagnostics,
+    dialect: Dialect,
+    /// How the dialect was guessed.
+    note: Option<String>,
 }
 
 fn read(dialect: Dialect, file: &Path, settings: &Settings) -> Result<Evaluated, Refused> {
@@ -204,15 +255,45 @@ fn read(dialect: Dialect, file: &Path, settings: &Settings) -> Result<Evaluated,
     let mut sources = Sources::default();
     let mut diagnostics = Diagnostics::default();
     sources.add(file.display().to_string(), decode(&bytes));
+    let (dialect, note) = resolve(dialect, file, &sources, &mut diagnostics);
     let program = evaluate(dialect, file, settings, &mut sources, &mut diagnostics);
     if diagnostics.errors() > 0 {
-        return Err(refusal(&diagnostics, &sources));
+        let mut refused = refusal(&diagnostics, &sources);
+        if let Some(note) = note {
+            refused.0.insert_str(0, &format!("{note}\n"));
+        }
+        return Err(refused);
     }
     Ok(Evaluated {
         program,
         sources,
         diagnostics,
+        dialect,
+        note,
     })
+}
+
+/// The dialect that is meant, and how it was guessed if it was.
+fn resolve(
+    dialect: Dialect,
+    file: &Path,
+    sources: &Sources,
+    diagnostics: &mut Diagnostics,
+) -> (Dialect, Option<String>) {
+    if dialect != Dialect::Auto {
+        return (dialect, None);
+    }
+    let Some(guess) = guess(file, &sources.file(0).text) else {
+        diagnostics.push(undecided());
+        return (dialect, None);
+    };
+    let because = match guess.line {
+        Some(line) => format!("because of line {line}"),
+        None => "because of the ending of its file".to_string(),
+    };
+    let name = guess.dialect.name();
+    let note = format!("note: taken as a {name} program, {because}; --dialect says otherwise");
+    (guess.dialect, Some(note))
 }
 
 /// The contour of a part program, machine coordinates; see [`trace::contour`].
@@ -230,6 +311,7 @@ pub fn contour(
         program,
         sources,
         mut diagnostics,
+        ..
     } = read(dialect, file, settings)?;
     trace::contour(&program, setup, &settings.arc_tolerance).map_err(|error| {
         let (origin, message) = match error {

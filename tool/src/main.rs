@@ -1,9 +1,11 @@
 //! The command line of the tool.
 
 use clap::{Parser, Subcommand, ValueEnum};
+use framepath_tool::compare::{self, CompareArguments};
 use framepath_tool::dialects::Dialect;
 use framepath_tool::dialects::settings::Settings;
-use framepath_tool::filter::{FilterArguments, contour, filter};
+use framepath_tool::filter::{FilterArguments, Told, contour, filter};
+use framepath_tool::generate::{self, GenerateArguments};
 use framepath_tool::program::trace::Setup;
 use framepath_tool::report::{self, ReportArguments};
 use std::io::Write;
@@ -23,24 +25,41 @@ enum Command {
     Filter(FilterArguments),
     /// Show what the planner did with a program, from a recording
     Report(ReportArguments),
+    /// Drive planner modules with the same programs and compare what they do
+    Compare(CompareArguments),
+    /// Print a G-code program that shows what a planner does
+    Generate(GenerateArguments),
+    /// Drive a planner module in a process of its own
+    #[command(hide = true)]
+    CompareHost,
 }
 
 fn main() -> ExitCode {
     match Arguments::parse().command {
         Command::Filter(arguments) => run_filter(&arguments),
-        Command::Report(arguments) => match run_report(&arguments) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                eprintln!("{}", error.to_string().trim_end());
-                ExitCode::FAILURE
-            }
-        },
+        Command::Report(arguments) => finish(run_report(&arguments)),
+        Command::Compare(arguments) => finish(compare::run(&arguments)),
+        Command::Generate(arguments) => finish(generate::run(&arguments).map_err(Into::into)),
+        Command::CompareHost => compare::serve_as_host(),
+    }
+}
+
+fn finish(result: Result<(), Box<dyn std::error::Error>>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{}", error.to_string().trim_end());
+            ExitCode::FAILURE
+        }
     }
 }
 
 fn run_filter(arguments: &FilterArguments) -> ExitCode {
-    let mut progress = |percent: u32| eprintln!("FILTER_PROGRESS={percent}");
-    match filter(arguments, &mut progress) {
+    let mut tell = |told: Told| match told {
+        Told::Progress(percent) => eprintln!("FILTER_PROGRESS={percent}"),
+        Told::Note(note) => eprintln!("{note}"),
+    };
+    match filter(arguments, &mut tell) {
         Ok(text) => match std::io::stdout().lock().write_all(text.as_bytes()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {

@@ -51,6 +51,7 @@ pub enum Binary {
     Divide,
     WholeDivide,
     Remainder,
+    Power,
     And,
     Or,
     ExclusiveOr,
@@ -95,7 +96,14 @@ pub enum Function {
     Truncate,
     Round,
     NaturalLogarithm,
+    DecimalLogarithm,
     Exponential,
+    /// The next whole number upwards; of positive numbers only.
+    RoundUp,
+    /// The arc tangent from -90 to 90 degrees.
+    Atan,
+    /// `ARG(x, y)`: the direction of a point, from 0 to 360 degrees.
+    Direction,
     Minimum,
     Maximum,
     /// `BOUND(least, largest, value)`.
@@ -106,7 +114,7 @@ impl Function {
     /// How many arguments it takes.
     pub fn arguments(self) -> usize {
         match self {
-            Function::Atan2 | Function::Minimum | Function::Maximum => 2,
+            Function::Atan2 | Function::Direction | Function::Minimum | Function::Maximum => 2,
             Function::Bound => 3,
             _ => 1,
         }
@@ -223,6 +231,7 @@ impl Expression {
             Binary::Divide => a / b,
             Binary::WholeDivide => (a / b).trunc(),
             Binary::Remainder => a % b,
+            Binary::Power => a.powf(b),
             Binary::And => truth(a != 0.0 && b != 0.0),
             Binary::Or => truth(a != 0.0 || b != 0.0),
             Binary::ExclusiveOr => truth((a != 0.0) != (b != 0.0)),
@@ -279,6 +288,10 @@ fn apply(function: Function, arguments: &[f64]) -> Option<f64> {
         (Function::Truncate, [a]) => a.trunc(),
         (Function::Round, [a]) => a.round(),
         (Function::NaturalLogarithm, [a]) => a.ln(),
+        (Function::DecimalLogarithm, [a]) => a.log10(),
+        (Function::RoundUp, [a]) if *a >= 0.0 || a.fract() == 0.0 => a.ceil(),
+        (Function::Atan, [a]) => a.atan().to_degrees(),
+        (Function::Direction, [x, y]) => y.atan2(*x).to_degrees().rem_euclid(360.0),
         (Function::Exponential, [a]) => a.exp(),
         (Function::Minimum, [a, b]) => a.min(*b),
         (Function::Maximum, [a, b]) => a.max(*b),

@@ -1,9 +1,17 @@
 //! The languages that are read, and what they share.
 
+pub mod control;
+pub mod cursor;
 pub mod expression;
+pub mod fagor;
+pub mod guess;
+pub mod isg;
+pub mod library;
+pub mod mefi;
 pub mod scanner;
 pub mod settings;
 pub mod sinumerik;
+pub mod spelling;
 
 use crate::diagnostics::Diagnostics;
 use crate::program::Program;
@@ -16,6 +24,14 @@ use std::path::Path;
 pub enum Dialect {
     /// Sinumerik-like controls: TRANS, ROT, SCALE, MIRROR, subprograms L10.
     Sinumerik,
+    /// Fagor 8055: G10 to G14, G72, G73, (RPT N10,N20), (CALL 10), P parameters.
+    Fagor,
+    /// MEFI controls: G34 to G37, subprograms G79 L100, comments after a quotation mark.
+    Mefi,
+    /// ISG kernels and TwinCAT CNC: G20 to G23, #commands, $IF, subprograms %L NAME.
+    Isg,
+    /// Whichever of the others the program seems to be written in.
+    Auto,
 }
 
 impl Dialect {
@@ -23,6 +39,10 @@ impl Dialect {
     pub fn name(self) -> &'static str {
         match self {
             Dialect::Sinumerik => "sinumerik",
+            Dialect::Fagor => "fagor",
+            Dialect::Mefi => "mefi",
+            Dialect::Isg => "isg",
+            Dialect::Auto => "auto",
         }
     }
 }
@@ -38,5 +58,15 @@ pub fn evaluate(
 ) -> Program {
     match dialect {
         Dialect::Sinumerik => sinumerik::evaluate(path, settings, sources, diagnostics),
+        Dialect::Fagor => fagor::evaluate(path, settings, sources, diagnostics),
+        Dialect::Mefi => mefi::evaluate(path, settings, sources, diagnostics),
+        Dialect::Isg => isg::evaluate(path, settings, sources, diagnostics),
+        Dialect::Auto => match guess::guess(path, &sources.file(0).text) {
+            Some(guess) => evaluate(guess.dialect, path, settings, sources, diagnostics),
+            None => {
+                diagnostics.push(guess::undecided());
+                Program::default()
+            }
+        },
     }
 }

@@ -55,6 +55,11 @@ impl<'a> Scanner<'a> {
         &rest[..length]
     }
 
+    /// The text from a byte position to here.
+    pub fn text_from(&self, start: usize) -> &'a str {
+        self.text.get(start..self.at).unwrap_or("")
+    }
+
     /// The span from a byte position to here.
     pub fn span_from(&self, start: usize) -> Span {
         Span {

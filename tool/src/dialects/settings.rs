@@ -19,10 +19,18 @@ pub struct Settings {
     pub skip_blocks: bool,
     /// M functions that are passed on to LinuxCNC unchanged.
     pub passed_m: Vec<u32>,
+    /// The feed in force when the program begins, machine units per minute.
+    pub feed: Option<f64>,
     /// Values that variables have before the program begins, such as `R5`.
     pub variables: BTreeMap<String, f64>,
+    /// Rows of LinuxCNC's tool table that hold further edges of tools, by tool and edge.
+    pub tool_edges: BTreeMap<(u32, u32), u32>,
     /// Numbers of the tools that are called by name.
     pub tool_names: BTreeMap<String, u32>,
+    /// What ISG's G21 to G23 mirror outside of G17.
+    pub mirror_outside_xy: MirrorOutsideXy,
+    /// What becomes of a full circle with an absolute centre right after an ISG mirror.
+    pub mirrored_circle: MirroredCircle,
 }
 
 impl Default for Settings {
@@ -37,8 +45,12 @@ impl Default for Settings {
             increment_after_frame: IncrementBase::Programmed,
             skip_blocks: false,
             passed_m: Vec::new(),
+            feed: None,
             variables: BTreeMap::new(),
+            tool_edges: BTreeMap::new(),
             tool_names: BTreeMap::new(),
+            mirror_outside_xy: MirrorOutsideXy::Refuse,
+            mirrored_circle: MirroredCircle::Refuse,
         }
     }
 }
@@ -51,4 +63,25 @@ pub enum IncrementBase {
     Programmed,
     /// From where the tool is: the axis moves by the increment and nothing else (42440 = 0).
     Position,
+}
+
+/// What ISG's G21, G22 and G23 mirror outside of G17: the manual of the control says both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum MirrorOutsideXy {
+    /// Nothing: an error.
+    Refuse,
+    /// The first and the second axis of the plane that is active.
+    Plane,
+    /// X and Y, in every plane.
+    Xy,
+}
+
+/// What becomes of a full circle with an absolute centre (G161) whose start was not mirrored: the
+/// control cuts another radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum MirroredCircle {
+    /// An error.
+    Refuse,
+    /// A warning, and the circle that the control would cut.
+    Warn,
 }

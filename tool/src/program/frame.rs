@@ -20,6 +20,9 @@ pub enum FrameOperation {
     Scale([f64; 3]),
     /// Which of X Y Z are negated.
     Mirror([bool; 3]),
+    /// Factors for X Y Z that act on the finished path, after compensation, and on the feed with it.
+    /// The first operation of a frame, if it is there.
+    Stretch([f64; 3]),
 }
 
 /// Which two solid angles tilt the plane: the angles between its traces and the axes, in the order
@@ -66,6 +69,7 @@ impl FrameOperation {
             }
             FrameOperation::Scale(factors) => Operation::scale(Vector3::from(factors)),
             FrameOperation::Mirror(axes) => Ok(Operation::mirror(axes)),
+            FrameOperation::Stretch(factors) => Operation::scale(Vector3::from(factors)),
         }
     }
 }
@@ -87,6 +91,7 @@ pub struct Frame {
     operations: Vec<FrameOperation>,
     list: OperationList,
     map: AffineMap,
+    block_map: AffineMap,
 }
 
 impl Default for Frame {
@@ -95,6 +100,7 @@ impl Default for Frame {
             operations: Vec::new(),
             list: OperationList::new(),
             map: AffineMap::identity(),
+            block_map: AffineMap::identity(),
         }
     }
 }
@@ -125,6 +131,16 @@ impl Frame {
             }
         }
         next.map = *next.list.fold()?.map();
+        next.block_map = match next.operations.split_first() {
+            Some((FrameOperation::Stretch(_), rest)) => {
+                let mut list = OperationList::new();
+                for operation in rest {
+                    list.append(&operation.checked()?)?;
+                }
+                *list.fold()?.map()
+            }
+            _ => next.map,
+        };
         Ok(next)
     }
 
@@ -138,7 +154,18 @@ impl Frame {
         self.operations.is_empty()
     }
 
-    /// Whether a scale is active.
+    /// Whether factors act on the finished path.
+    pub fn has_stretch(&self) -> bool {
+        matches!(self.operations.first(), Some(FrameOperation::Stretch(_)))
+    }
+
+    /// The part of the map that acts on the coordinates of blocks, before compensation. The programmed
+    /// feed is that along its path.
+    pub fn block_map(&self) -> &AffineMap {
+        &self.block_map
+    }
+
+    /// Whether a scale is active that acts before compensation.
     pub fn has_scale(&self) -> bool {
         let scale = |operation: &FrameOperation| matches!(operation, FrameOperation::Scale(_));
         self.operations.iter().any(scale)

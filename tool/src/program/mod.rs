@@ -7,6 +7,8 @@
 
 pub mod arc;
 pub mod contour;
+pub mod corners;
+pub mod fillet;
 pub mod frame;
 pub mod moves;
 pub mod position;
@@ -21,6 +23,18 @@ use moves::Move;
 pub struct Program {
     /// The blocks in the order in which they run.
     pub blocks: Vec<Block>,
+    /// What the frames turn.
+    pub frame_scope: FrameScope,
+}
+
+/// What the frames of a program turn, mirror and scale.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FrameScope {
+    /// The machine: the length of the tool turns with the frame.
+    #[default]
+    Machine,
+    /// The coordinates of the blocks, before compensation: the tool stays as it is.
+    Block,
 }
 
 /// Where a block was written.
@@ -49,6 +63,10 @@ pub struct Block {
 
 /// One thing that a block does.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "nearly all actions of a program are moves"
+)]
 pub enum Action {
     /// Another plane for arcs and compensation.
     Plane(Plane),
@@ -68,6 +86,8 @@ pub enum Action {
     ToolChange,
     /// Tool length compensation on (of the tool in the spindle) or off.
     ToolLength(bool),
+    /// Length and radius compensation by this row of the tool table, whatever tool is in the spindle.
+    ToolOffset(u32),
     /// Coolant on or off.
     Coolant(Coolant),
     /// Cutter radius compensation.
@@ -82,6 +102,12 @@ pub enum Action {
     Move(Move),
     /// G92: the present position gets these coordinates (X Y Z A B C U V W).
     Preset([Option<f64>; 9]),
+    /// G52: the zero of the work offset lies at these coordinates.
+    LocalOffset([Option<f64>; 9]),
+    /// The rotary axes turn so that the tool stands normal to the plane of the frame.
+    ToolNormal,
+    /// The end of G92: coordinates are those of the work offset again.
+    PresetOff,
     /// M0, or M1 where the operator decides.
     Pause {
         /// Whether this is M1.
@@ -185,6 +211,8 @@ pub enum Compensation {
 pub enum PathControl {
     /// Every block ends at rest in its end point.
     ExactStop,
+    /// Corners are not rounded; where two blocks meet tangentially there is no stop.
+    ExactPath,
     /// Corners may be rounded; by how much at most, in machine units, or as the machine has it set.
     Continuous {
         /// Largest distance from the programmed path; `None`: the default of the machine.

@@ -22,6 +22,25 @@ pub struct Move {
     pub start: [Option<f64>; 9],
     /// Whether this block alone ends in an exact stop (G9).
     pub exact_stop: bool,
+    /// What is put between this motion and the next; see [`super::corners`].
+    pub corner: Option<Corner>,
+}
+
+/// What takes the place of the corner between two motions; lengths in machine units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Corner {
+    /// A tangent arc of this radius.
+    Round(f64),
+    /// A straight line that begins and ends at this distance from the corner.
+    ChamferFrom(f64),
+    /// A straight line of this length.
+    ChamferOf(f64),
+    /// Before the next motion, an arc of this radius that is tangent to it and to this line, whose
+    /// direction is changed for it.
+    TangentialEntry(f64),
+    /// At the end of this motion, an arc of this radius that is tangent to it and to the next line, whose
+    /// direction is changed for it.
+    TangentialExit(f64),
 }
 
 impl Move {

@@ -63,6 +63,7 @@ pub fn contour(
         feed: 0.0,
         feed_mode: FeedMode::PerMinute,
         spindle_speed: 0.0,
+        stretch: 1.0,
         contour: Vec::new(),
     };
     for block in &program.blocks {
@@ -85,6 +86,8 @@ struct Tracer<'a> {
     feed: f64,
     feed_mode: FeedMode,
     spindle_speed: f64,
+    /// How much longer the move that is being made is than its block says, with its feed.
+    stretch: f64,
     contour: Vec<ContourMove>,
 }
 
@@ -110,6 +113,12 @@ impl Tracer<'_> {
                     }
                 }
             }
+            Action::LocalOffset(values) => {
+                for (preset, value) in self.preset.iter_mut().zip(values) {
+                    *preset = value.unwrap_or(*preset);
+                }
+            }
+            Action::PresetOff => self.preset = Vector3::zeros(),
             Action::Move(motion) => return self.motion(motion, origin),
             _ => {}
         }
@@ -139,6 +148,10 @@ impl Tracer<'_> {
             .offset_map()
             .map_err(frame_error)?
             .compose(self.frame.map());
+        let block_map = self
+            .offset_map()
+            .map_err(frame_error)?
+            .compose(self.frame.block_map());
         let inverse = map.inverse().map_err(frame_error)?;
         let start = inverse.apply(&self.position);
         let mut end = start;
@@ -153,10 +166,23 @@ impl Tracer<'_> {
             MoveKind::Arc(arc) => {
                 let shape = frame_arc(arc, start, end, self.plane, self.tolerance)
                     .map_err(|error| TraceError::Arc(origin, error))?;
+                if self.frame.has_stretch() {
+                    let [finished, block] =
+                        [&map, &block_map].map(|map| arc_length(&mapped(&shape, map)));
+                    self.stretch = finished / block;
+                }
                 self.add_arc(&shape, &map, map.apply(&end), origin);
             }
-            _ => self.add_line(map.apply(&end), motion.kind == MoveKind::Rapid, origin),
+            _ => {
+                if self.frame.has_stretch() && end != start {
+                    let [finished, block] =
+                        [&map, &block_map].map(|map| map.apply_to_vector(&(end - start)).norm());
+                    self.stretch = finished / block;
+                }
+                self.add_line(map.apply(&end), motion.kind == MoveKind::Rapid, origin);
+            }
         }
+        self.stretch = 1.0;
         Ok(())
     }
 
@@ -173,13 +199,7 @@ impl Tracer<'_> {
     }
 
     fn add_arc(&mut self, arc: &FrameArc, map: &AffineMap, end: Vector3<f64>, origin: Origin) {
-        let shape = Shape::Arc {
-            centre: map.apply(&arc.centre).into(),
-            u: map.apply_to_vector(&arc.u).into(),
-            v: map.apply_to_vector(&arc.v).into(),
-            sweep: arc.sweep,
-            rise: map.apply_to_vector(&arc.rise).into(),
-        };
+        let shape = mapped(arc, map);
         self.position = end;
         let length = arc_length(&shape);
         self.add(shape, length, false, origin);
@@ -188,8 +208,8 @@ impl Tracer<'_> {
     fn add(&mut self, shape: Shape, length: f64, rapid: bool, origin: Origin) {
         let feed = match self.feed_mode {
             _ if rapid => 0.0,
-            FeedMode::PerMinute => self.feed,
-            FeedMode::PerRevolution => self.feed * self.spindle_speed,
+            FeedMode::PerMinute => self.feed * self.stretch,
+            FeedMode::PerRevolution => self.feed * self.stretch * self.spindle_speed,
             FeedMode::InverseTime => self.feed * length,
         };
         self.contour.push(ContourMove {
@@ -199,6 +219,17 @@ impl Tracer<'_> {
             feed,
             shape,
         });
+    }
+}
+
+/// The image of an arc.
+fn mapped(arc: &FrameArc, map: &AffineMap) -> Shape {
+    Shape::Arc {
+        centre: map.apply(&arc.centre).into(),
+        u: map.apply_to_vector(&arc.u).into(),
+        v: map.apply_to_vector(&arc.v).into(),
+        sweep: arc.sweep,
+        rise: map.apply_to_vector(&arc.rise).into(),
     }
 }
 
@@ -223,6 +254,17 @@ impl FrameArc {
     pub fn point(&self, t: f64) -> Vector3<f64> {
         let (sin, cos) = (self.sweep * t).sin_cos();
         self.centre + self.u * cos + self.v * sin + self.rise * t
+    }
+
+    /// The direction of motion at the start, not normalised.
+    pub fn start_direction(&self) -> Vector3<f64> {
+        self.v * self.sweep + self.rise
+    }
+
+    /// The direction of motion at the end, not normalised.
+    pub fn end_direction(&self) -> Vector3<f64> {
+        let (sin, cos) = self.sweep.sin_cos();
+        (self.v * cos - self.u * sin) * self.sweep + self.rise
     }
 }
 

@@ -53,7 +53,8 @@ pub fn begin(lines: &mut Lines, block: &Block, settings: &WriteSettings) -> bool
     }
     let mut remark = format!("line {}", origin.line);
     // A frame command may leave nothing else behind.
-    if let [Action::Frame(_)] = block.actions[..] {
+    let is_frame = |action: &Action| matches!(action, Action::Frame(_));
+    if !block.actions.is_empty() && block.actions.iter().all(is_frame) {
         let file = settings.sources.file(origin.span.file);
         let source = file
             .text

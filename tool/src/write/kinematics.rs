@@ -14,13 +14,15 @@ use super::blocks::{begin, header};
 use super::line::{Lines, Rank};
 use super::number::{coordinate, factor};
 use super::words::{
-    axis_word, centre_words, common_action, compensation_word, machine_move_words,
-    path_control_words,
+    axis_word, centre_words, common_action, compensation_words, machine_move_words,
+    path_control_words, radius_row,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::program::frame::{Frame, FrameCommand, FrameOperation, SolidAngles};
 use crate::program::moves::{Coordinate, Move, MoveKind};
-use crate::program::{Action, Block, Compensation, FeedMode, PathControl, Plane, Program};
+use crate::program::{
+    Action, Block, Compensation, FeedMode, FrameScope, PathControl, Plane, Program,
+};
 use crate::source::Span;
 use framepath::frame::AffineMap;
 use framepath::frame::singular_values::singular_values;
@@ -50,6 +52,8 @@ pub fn write(
         written_feed: None,
         path_control: None,
         tool_length: None,
+        scope: program.frame_scope,
+        radius_row: None,
     };
     header(&mut writer.lines, settings, "for the frame kinematics");
     // A program that was aborted may have left its frame.
@@ -76,6 +80,9 @@ struct Writer<'a> {
     written_feed: Option<f64>,
     path_control: Option<PathControl>,
     tool_length: Option<bool>,
+    scope: FrameScope,
+    /// Row of the tool table that G41 and G42 take the radius from, if it is not that of the tool.
+    radius_row: Option<u32>,
 }
 
 impl Writer<'_> {
@@ -102,8 +109,10 @@ impl Writer<'_> {
             }
             Action::PathControl(control) => self.path_control = Some(*control),
             Action::ToolLength(on) => self.tool_length = Some(*on),
+            Action::ToolOffset(_) => self.tool_length = Some(true),
             _ => {}
         }
+        self.radius_row = radius_row(action, self.radius_row);
         if common_action(action, &mut self.lines) {
             return;
         }
@@ -112,6 +121,12 @@ impl Writer<'_> {
             Action::Compensation(compensation) => self.compensation(*compensation, span),
             Action::Frame(command) => self.frame_command(*command, span),
             Action::Move(motion) => self.motion(motion),
+            Action::ToolNormal => {
+                self.resume();
+                self.lines.flush();
+                self.lines.line("o<tool_normal> call");
+                self.explicit = [true; 3];
+            }
             Action::End { rewind } => {
                 self.lines.flush();
                 if !self.frame_is_off() {
@@ -150,8 +165,10 @@ impl Writer<'_> {
             }
             self.resume();
         }
-        self.lines
-            .add(Rank::Compensation, compensation_word(compensation));
+        self.lines.add(
+            Rank::Compensation,
+            compensation_words(compensation, self.radius_row),
+        );
     }
 
     fn frame_command(&mut self, command: FrameCommand, span: Span) {
@@ -163,6 +180,12 @@ impl Writer<'_> {
         match command {
             FrameCommand::Additive(_) | FrameCommand::DropScales => self.resume(),
             FrameCommand::Cancel | FrameCommand::Absolute(_) => self.suspended = false,
+        }
+        if self.scope == FrameScope::Block && !frame.map().keeps_plane(Plane::Xy.into()) {
+            self.diagnostics.push(
+                Diagnostic::error(span, "the kinematics would tilt the tool with this frame")
+                    .help("use --backend program, which turns the coordinates only"),
+            );
         }
         self.lines.flush();
         self.frame = frame;
@@ -269,7 +292,7 @@ impl Writer<'_> {
             return None;
         }
         let feed = match self.frame.has_scale() {
-            true => self.feed? / stretch(self.frame.map(), motion),
+            true => self.feed? / stretch(self.frame.block_map(), motion, self.plane),
             false => self.feed?,
         };
         let same = self
@@ -286,19 +309,28 @@ impl Writer<'_> {
 /// Whether an action is only allowed, or only right, while no frame is set.
 fn needs_no_frame(action: &Action) -> bool {
     match action {
-        Action::ToolChange | Action::ToolLength(_) | Action::WorkOffset(_) => true,
+        Action::ToolChange
+        | Action::ToolLength(_)
+        | Action::ToolOffset(_)
+        | Action::WorkOffset(_)
+        | Action::Preset(_)
+        | Action::LocalOffset(_)
+        | Action::PresetOff => true,
         Action::Move(motion) => matches!(motion.kind, MoveKind::Machine { .. }),
         _ => false,
     }
 }
 
-/// How much longer a move is on the machine than in the frame: of a line, its own stretch; of an
-/// arc, or where the start is not known, the largest of all directions, so that the feed is never
-/// exceeded.
-fn stretch(map: &AffineMap, motion: &Move) -> f64 {
+/// How much longer a move is on the machine than in the frame: of a line, or of an arc that stays one,
+/// its own stretch; of other arcs, or where the start is not known, the largest of all directions, so
+/// that the feed is never exceeded.
+fn stretch(map: &AffineMap, motion: &Move, plane: Plane) -> f64 {
     let largest = singular_values(map.linear()).max();
     if matches!(motion.kind, MoveKind::Arc(_)) {
-        return largest;
+        let [_, _, normal] = plane.axes();
+        let flat = motion.target[normal] == Coordinate::Keep;
+        let similar = map.is_similarity_of_plane(plane.into()).filter(|_| flat);
+        return similar.unwrap_or(largest);
     }
     let mut delta = Vector3::zeros();
     for axis in 0..3 {
@@ -342,7 +374,9 @@ fn call(operation: &FrameOperation, additive: bool, plane: Plane) -> String {
             },
             angles.to_vec(),
         ),
-        FrameOperation::Scale(factors) => ("scale", factors.to_vec()),
+        FrameOperation::Scale(factors) | FrameOperation::Stretch(factors) => {
+            ("scale", factors.to_vec())
+        }
         FrameOperation::Mirror(axes) => (
             "mirror",
             axes.map(|axis| f64::from(u8::from(axis))).to_vec(),

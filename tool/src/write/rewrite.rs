@@ -10,15 +10,17 @@ use super::blocks::{begin, header};
 use super::line::{Lines, Rank};
 use super::number::coordinate;
 use super::words::{
-    axis_word, centre_words, common_action, compensation_word, machine_move_words,
-    path_control_words,
+    axis_word, centre_words, common_action, compensation_words, machine_move_words,
+    path_control_words, radius_row,
 };
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::program::frame::Frame;
 use crate::program::moves::{Arc, Centre, Coordinate, Move, MoveKind};
 use crate::program::position::apply_partly;
 use crate::program::trace::frame_arc;
-use crate::program::{Action, Block, Compensation, FeedMode, PathControl, Plane, Program};
+use crate::program::{
+    Action, Block, Compensation, FeedMode, FrameScope, PathControl, Plane, Program,
+};
 use crate::source::Span;
 use framepath::frame::Handedness;
 use nalgebra::Vector3;
@@ -46,6 +48,10 @@ pub fn write(
         path_control: None,
         feed_mode: FeedMode::PerMinute,
         tool_length: None,
+        feed: None,
+        written_feed: None,
+        scope: program.frame_scope,
+        radius_row: None,
     };
     header(
         &mut writer.lines,
@@ -69,6 +75,11 @@ struct Writer<'a> {
     path_control: Option<PathControl>,
     feed_mode: FeedMode,
     tool_length: Option<bool>,
+    feed: Option<f64>,
+    written_feed: Option<f64>,
+    scope: FrameScope,
+    /// Row of the tool table that G41 and G42 take the radius from, if it is not that of the tool.
+    radius_row: Option<u32>,
 }
 
 impl Writer<'_> {
@@ -88,17 +99,27 @@ impl Writer<'_> {
         match action {
             Action::Plane(plane) => self.plane = *plane,
             Action::PathControl(control) => self.path_control = Some(*control),
-            Action::FeedMode(mode) => self.feed_mode = *mode,
+            Action::FeedMode(mode) => {
+                self.feed_mode = *mode;
+                self.feed = None;
+                self.written_feed = None;
+            }
             Action::ToolLength(on) => self.tool_length = Some(*on),
+            Action::ToolOffset(_) => self.tool_length = Some(true),
             _ => {}
         }
+        self.radius_row = radius_row(action, self.radius_row);
         if common_action(action, &mut self.lines) {
             return Ok(());
         }
         match action {
-            Action::Feed(feed) => self
-                .lines
-                .add(Rank::Feed, format!("F{}", coordinate(*feed))),
+            Action::Feed(feed) => {
+                self.feed = Some(*feed);
+                // Under factors for the finished path the number depends on the move.
+                if !self.frame.has_stretch() {
+                    self.write_feed(*feed);
+                }
+            }
             Action::Compensation(compensation) => self.set_compensation(*compensation, span)?,
             Action::Frame(command) => {
                 // The interpreter has carried out the same command: it cannot fail here.
@@ -108,6 +129,12 @@ impl Writer<'_> {
                 self.check_tilt(span)?;
             }
             Action::Move(motion) => self.motion(motion, span)?,
+            Action::ToolNormal => {
+                return Err(Box::new(
+                    Diagnostic::error(span, "the tool is set normal to a turned plane")
+                        .help("use --backend kinematics on a machine with the frame kinematics"),
+                ));
+            }
             Action::End { rewind } => self
                 .lines
                 .add(Rank::Stop, if *rewind { "M30" } else { "M2" }),
@@ -117,7 +144,7 @@ impl Writer<'_> {
     }
 
     fn check_tilt(&self, span: Span) -> Result<(), Box<Diagnostic>> {
-        if self.frame.map().keeps_plane(Plane::Xy.into()) {
+        if self.scope == FrameScope::Block || self.frame.map().keeps_plane(Plane::Xy.into()) {
             return Ok(());
         }
         Err(Box::new(
@@ -130,12 +157,72 @@ impl Writer<'_> {
         self.frame.map().handedness_in_plane(self.plane.into()) == Some(Handedness::Left)
     }
 
+    fn write_feed(&mut self, feed: f64) {
+        self.lines.add(Rank::Feed, format!("F{}", coordinate(feed)));
+        self.written_feed = Some(feed);
+    }
+
+    /// Writes the feed of a move whose path the frame stretches together with its feed, or that of the
+    /// first move that it no longer stretches.
+    fn stretched_feed(&mut self, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
+        let mut delta = Vector3::zeros();
+        let kinds = [0, 1, 2].map(|axis| (motion.target[axis], motion.start[axis]));
+        for (delta, kind) in delta.iter_mut().zip(kinds) {
+            *delta = match kind {
+                (Coordinate::Keep, _) => 0.0,
+                (Coordinate::By(step), _) => step,
+                (Coordinate::At(end), Some(start)) => end - start,
+                (Coordinate::At(_), None) if self.frame.has_stretch() => {
+                    return Err(Box::new(
+                        Diagnostic::error(
+                            span,
+                            "the feed is scaled along this move, and its start is not known ahead \
+                             of time",
+                        )
+                        .help("program all axes with G0 before it"),
+                    ));
+                }
+                (Coordinate::At(_), None) => 0.0,
+            };
+        }
+        self.feed_along(&delta);
+        Ok(())
+    }
+
+    /// Writes the feed for a move along `delta` of the frame if it is another one than that in force.
+    fn feed_along(&mut self, delta: &Vector3<f64>) {
+        let Some(feed) = self
+            .feed
+            .filter(|_| self.feed_mode != FeedMode::InverseTime)
+        else {
+            return;
+        };
+        let block = self.frame.block_map().apply_to_vector(delta).norm();
+        let wanted = match self.frame.has_stretch() && block > 0.0 {
+            true => feed * self.frame.map().apply_to_vector(delta).norm() / block,
+            false => feed,
+        };
+        let same = |written: f64| (written - wanted).abs() <= 1e-9 * wanted;
+        if !self.written_feed.is_some_and(same) {
+            self.write_feed(wanted);
+        }
+    }
+
     fn set_compensation(
         &mut self,
         compensation: Compensation,
         span: Span,
     ) -> Result<(), Box<Diagnostic>> {
         self.compensation = compensation;
+        if compensation != Compensation::Off && self.frame.has_stretch() {
+            return Err(Box::new(
+                Diagnostic::error(
+                    span,
+                    "factors for the finished path act after cutter compensation",
+                )
+                .help("use --backend kinematics on a machine with the frame kinematics"),
+            ));
+        }
         if compensation != Compensation::Off && !self.frame.map().keeps_plane(self.plane.into()) {
             return Err(Box::new(
                 Diagnostic::error(span, "cutter compensation in a plane that the frame tilts")
@@ -147,8 +234,10 @@ impl Writer<'_> {
             (Compensation::Right, true) => Compensation::Left,
             (other, _) => other,
         };
-        self.lines
-            .add(Rank::Compensation, compensation_word(written));
+        self.lines.add(
+            Rank::Compensation,
+            compensation_words(written, self.radius_row),
+        );
         Ok(())
     }
 
@@ -158,6 +247,9 @@ impl Writer<'_> {
             self.lines
                 .add(Rank::Motion, machine_move_words(motion, rapid, tool_length));
             return Ok(());
+        }
+        if motion.kind == MoveKind::Line {
+            self.stretched_feed(motion, span)?;
         }
         let stops = motion.exact_stop && self.path_control != Some(PathControl::ExactStop);
         if stops {
@@ -254,13 +346,12 @@ impl Writer<'_> {
             return self.chords(arc, motion, span);
         };
         let [first, second, _] = self.plane.axes();
+        let (map, plane) = (*map, self.plane);
         let turned = |a: f64, b: f64| {
-            let mut offset = Vector3::zeros();
-            offset[first] = a;
-            offset[second] = b;
-            let image = map.apply_to_vector(&offset);
+            let image = map.apply_to_vector(&in_plane(plane, [a, b]));
             [image[first], image[second]]
         };
+        self.feed_along(&in_plane(self.plane, [1.0, 0.0]));
         let centre = match arc.centre {
             Centre::Offset([a, b]) => Centre::Offset(turned(a, b)),
             Centre::Radius(radius) => Centre::Radius(radius * scale),
@@ -348,6 +439,8 @@ impl Writer<'_> {
                     "an arc under unequal scales together with further axes",
                 )));
             }
+            let before = shape.point(f64::from(index - 1) / count);
+            self.feed_along(&(shape.point(f64::from(index) / count) - before));
             let words: Vec<String> = targets
                 .iter()
                 .enumerate()
@@ -357,6 +450,15 @@ impl Writer<'_> {
         }
         Ok(())
     }
+}
+
+/// A vector with these components along the first and the second axis of a plane.
+fn in_plane(plane: Plane, along: [f64; 2]) -> Vector3<f64> {
+    let [first, second, _] = plane.axes();
+    let mut vector = Vector3::zeros();
+    vector[first] = along[0];
+    vector[second] = along[1];
+    vector
 }
 
 fn joined(code: &str, words: &[String]) -> String {

@@ -32,6 +32,7 @@ pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
         Action::Tool(tool) => lines.add(Rank::Tool, format!("T{tool}")),
         Action::ToolChange => lines.add(Rank::ToolChange, "M6"),
         Action::ToolLength(on) => lines.add(Rank::ToolLength, if *on { "G43" } else { "G49" }),
+        Action::ToolOffset(row) => lines.add(Rank::ToolLength, format!("G43 H{row}")),
         Action::Coolant(coolant) => lines.add(
             Rank::Coolant,
             match coolant {
@@ -42,7 +43,12 @@ pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
         ),
         Action::WorkOffset(system) => lines.add(Rank::WorkOffset, work_offset_word(*system)),
         Action::PathControl(control) => lines.add(Rank::PathControl, path_control_words(*control)),
-        Action::Dwell(seconds) => lines.add(Rank::Dwell, format!("G4 P{}", coordinate(*seconds))),
+        Action::Dwell(seconds) => {
+            // Beside an arc its P would be a number of turns.
+            lines.flush();
+            lines.add(Rank::Dwell, format!("G4 P{}", coordinate(*seconds)));
+            lines.flush();
+        }
         Action::Pause { optional } => lines.add(Rank::Stop, if *optional { "M1" } else { "M0" }),
         Action::OtherM(number) => lines.add(Rank::Coolant, format!("M{number}")),
         Action::Message(text) => {
@@ -50,15 +56,21 @@ pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
             lines.flush();
             lines.raw(&message(text));
         }
-        Action::Preset(values) => {
+        Action::Preset(values) | Action::LocalOffset(values) => {
             let words = values.iter().enumerate().filter_map(|(axis, value)| {
                 value.map(|value| format!("{}{}", LETTERS[axis], coordinate(value)))
             });
             let words: Vec<String> = words.collect();
-            lines.add(Rank::Motion, format!("G92 {}", words.join(" ")));
+            let code = match action {
+                Action::Preset(_) => "G92",
+                _ => "G52",
+            };
+            lines.add(Rank::Motion, format!("{code} {}", words.join(" ")));
         }
+        Action::PresetOff => lines.add(Rank::Motion, "G92.1"),
         Action::Feed(_)
         | Action::Compensation(_)
+        | Action::ToolNormal
         | Action::Frame(_)
         | Action::Move(_)
         | Action::Enter { .. }
@@ -84,12 +96,26 @@ fn feed_mode_word(mode: FeedMode) -> &'static str {
     }
 }
 
-/// G40, G41, G42.
-pub fn compensation_word(compensation: Compensation) -> &'static str {
-    match compensation {
-        Compensation::Off => "G40",
+/// G40, G41, G42; with the row of the tool table that has the radius, if it is not that of the tool.
+pub fn compensation_words(compensation: Compensation, row: Option<u32>) -> String {
+    let word = match compensation {
+        Compensation::Off => return "G40".to_string(),
         Compensation::Left => "G41",
         Compensation::Right => "G42",
+    };
+    match row {
+        Some(row) => format!("{word} D{row}"),
+        None => word.to_string(),
+    }
+}
+
+/// The row of the tool table that G41 and G42 take the radius from after an action, if it is not
+/// that of the tool in the spindle.
+pub fn radius_row(action: &Action, before: Option<u32>) -> Option<u32> {
+    match action {
+        Action::ToolOffset(row) => Some(*row),
+        Action::ToolChange | Action::ToolLength(_) => None,
+        _ => before,
     }
 }
 
@@ -104,6 +130,7 @@ fn work_offset_word(system: u8) -> String {
 pub fn path_control_words(control: PathControl) -> String {
     match control {
         PathControl::ExactStop => "G61.1".to_string(),
+        PathControl::ExactPath => "G61".to_string(),
         PathControl::Continuous { tolerance: None } => "G64".to_string(),
         PathControl::Continuous {
             tolerance: Some(tolerance),

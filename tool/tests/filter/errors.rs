@@ -47,9 +47,9 @@ fn words_that_are_none() {
     one_error("M77\nM30\n", "1:1", "M77 is not defined");
     one_error("TRAORI\nM30\n", "1:1", "TRAORI is not supported");
     one_error(
-        "CYCLE81(10,0,2,-5)\nM30\n",
+        "CYCLE84(10,0,2,-5)\nM30\n",
         "1:1",
-        "the cycle CYCLE81 is not supported",
+        "the cycle CYCLE84 is not supported",
     );
     one_error(
         "R1=$AA_IW[X]\nM30\n",
@@ -148,9 +148,9 @@ fn motion() {
     );
     one_error("G1 X1 I5 F100\nM30\n", "1:4", "belong to arcs");
     one_error(
-        "G500\nM30\n",
-        "1:1",
-        "LinuxCNC has no state without a work offset",
+        "G500\nG2 X5 I5 F100\nM30\n",
+        "2:4",
+        "an arc while the work offset is off",
     );
     one_error("G4 X1\nM30\n", "1:1", "G4 stands alone");
     one_error(

@@ -207,15 +207,86 @@ fn coordinates_that_linuxcnc_works_out_are_understood() {
     assert_eq!(arc[..4], [10.0, 0.0, 7.5, 0.0]);
 }
 
+/// Everything that a Fagor program has at once; LinuxCNC would take half of it for comments.
+const FAGOR: &str = "\
+%PIEZA,MX--,
+T1 M6
+G43
+G90 G0 X0 Y0 Z10 S1000 M3
+(P1=0)
+N10 (P1=P1+1)
+(CALL 1)
+G11
+G73 Q30 I5 J5
+G72 S1.5
+(CALL 1)
+G10
+G73
+G72 S1
+(RPT N20,N30) N2
+(IF P1 LT 3 GOTO N10)
+N20 G90 G0 X5 Y5
+N30 G91 G1 X1 F200
+G90
+G93 I10 J10
+G1 R5 Q0
+G3 Q180
+G9 X10 Y0 I8 J3
+G8 X20 Y10
+G36 R2 G1 X40
+G39 R1 Y20
+X0
+G0 Z10
+G99 G81 X5 Y5 Z2 I-3 K20
+X15
+G80
+G92 X0
+G0 X3
+G54
+G53 G0 Z0
+M30
+(SUB 1)
+G90 G1 X10 Y0 Z-1 F100
+G3 X10 Y10 R5
+G2 X0 Y10 Z-2 I-5 J0
+G91 G1 Y-5
+G90 Y0
+G2 I-3 J0
+(RET)
+";
+
+#[test]
+fn fagor_programs_are_read_as_they_are_meant() {
+    let shop = Shop::new(&[("part.pim", FAGOR.as_bytes())]);
+    for backend in ["kinematics", "program"] {
+        let output = accepted(&shop.run_in("fagor", "part.pim", &["--backend", backend]));
+        let canon = interpret(&shop, &output);
+        let arcs = canon.iter().filter(|line| line.contains("ARC_FEED"));
+        // Three to a call, six calls; the polar arc, that over three points, the tangent, the rounding.
+        assert_eq!(arcs.count(), 22, "{backend}");
+        assert!(
+            canon.iter().any(|line| line.contains("DWELL(0.2")),
+            "{backend}"
+        );
+    }
+}
+
 /// What LinuxCNC drives for the rewritten program is the contour, move for move.
 #[test]
 fn rewritten_moves_are_the_contour() {
-    let shop = Shop::new(&[("part.mpf", PROGRAM.as_bytes())]);
-    let output = accepted(&shop.run("part.mpf", &["--backend", "program"]));
+    compare_with_contour(Dialect::Sinumerik, "part.mpf", PROGRAM);
+    // Without offsets, which LinuxCNC's canonical calls leave out.
+    let fagor = FAGOR.replace("G92 X0\n", "").replace("G53 G0 Z0\n", "");
+    compare_with_contour(Dialect::Fagor, "part.pim", &fagor);
+}
+
+fn compare_with_contour(dialect: Dialect, name: &str, program: &str) {
+    let shop = Shop::new(&[(name, program.as_bytes())]);
+    let output = accepted(&shop.run_in(dialect.name(), name, &["--backend", "program"]));
     let canon = interpret(&shop, &output);
     let moves: Vec<ContourMove> = contour(
-        Dialect::Sinumerik,
-        &shop.path("part.mpf"),
+        dialect,
+        &shop.path(name),
         &Settings::default(),
         &Setup::default(),
     )

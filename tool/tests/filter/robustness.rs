@@ -11,27 +11,21 @@ use proptest::prelude::*;
 use std::path::Path;
 
 /// Everything from the bytes to both outputs, the contour and the rendered messages.
-fn run_all(bytes: &[u8]) {
+pub fn run_all(dialect: Dialect, bytes: &[u8]) {
     let settings = Settings::default();
     let mut sources = Sources::default();
     let mut diagnostics = Diagnostics::default();
     sources.add("part.mpf".to_string(), decode(bytes));
     // The path lies nowhere: no subprogram file can be found.
     let path = Path::new("/nonexistent/part.mpf");
-    let program = evaluate(
-        Dialect::Sinumerik,
-        path,
-        &settings,
-        &mut sources,
-        &mut diagnostics,
-    );
+    let program = evaluate(dialect, path, &settings, &mut sources, &mut diagnostics);
     let shown = diagnostics.render(&sources);
     assert_eq!(shown.is_empty(), diagnostics.iter().next().is_none());
     if diagnostics.errors() > 0 {
         return;
     }
     let write_settings = WriteSettings {
-        dialect: "sinumerik",
+        dialect: dialect.name(),
         machine_in_inch: false,
         chord_tolerance: 0.01,
         arc_tolerance: &settings.arc_tolerance,
@@ -117,6 +111,30 @@ fn piece() -> impl Strategy<Value = String> {
         "\n",
         "\n",
         "\n",
+        "RND=1",
+        "CHF=2",
+        "RNDM=1",
+        "AR=90",
+        "CIP",
+        "CT",
+        "I1=3",
+        "J1=4",
+        "AP=30",
+        "RP=5",
+        "G110",
+        "G111",
+        "G500",
+        "G52",
+        "D2",
+        "MCALL",
+        "MCALL L10",
+        "MCALL CYCLE81(10,0,2,-5)",
+        "CYCLE83(10,0,2,-15,,-4,,1,1,1,1,1)",
+        "HOLES2(0,0,10,90,0,3)",
+        "CYCLE800(0,,0,57,1,2,3,0,0,30,0,0,0,1)",
+        "CYCLE800()",
+        "PROC L10(REAL A, VAR INT B)",
+        "L10(1,R1)",
         "%_N_L10_SPF\n",
         "%_N_M_MPF\n",
     ];
@@ -136,6 +154,12 @@ fn block() -> impl Strategy<Value = String> {
             .prop_map(|(x, y, z)| format!("G1 X{x} Y{y} Z{z} F100")),
         (number.clone(), number.clone()).prop_map(|(x, y)| format!("G2 X{x} Y{y} CR=40 F100")),
         (number.clone(), number.clone()).prop_map(|(i, j)| format!("G3 I{i} J{j} F100")),
+        (number.clone(), number.clone(), 0.1..5.0_f64)
+            .prop_map(|(x, y, r)| format!("G1 X{x} Y{y} F100 RND={r}")),
+        (number.clone(), number.clone()).prop_map(|(x, y)| format!("CT X{x} Y{y} F100\nG1 X0")),
+        (number.clone(), 1.0..359.0_f64).prop_map(|(x, angle)| format!("G3 X{x} AR={angle} F100")),
+        (number.clone(), number.clone())
+            .prop_map(|(angle, radius)| format!("G1 AP={angle} RP={radius} F100")),
         (number.clone(), number.clone()).prop_map(|(x, y)| format!("ATRANS X{x} Y{y}")),
         number.clone().prop_map(|angle| format!("AROT RPL={angle}")),
         (number.clone(), number.clone()).prop_map(|(x, y)| format!("AROT X{x} Y{y}")),
@@ -154,7 +178,7 @@ proptest! {
 
     #[test]
     fn any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
-        run_all(&bytes);
+        run_all(Dialect::Sinumerik, &bytes);
     }
 
     #[test]
@@ -162,11 +186,11 @@ proptest! {
         let text = pieces.join(" ");
         // Loops that never end take their time; one pass through the limit is tested elsewhere.
         prop_assume!(!text.contains("LOOP") && !text.contains("GOTOB"));
-        run_all(text.as_bytes());
+        run_all(Dialect::Sinumerik, text.as_bytes());
     }
 
     #[test]
     fn any_blocks(blocks in prop::collection::vec(block(), 0..30)) {
-        run_all(format!("G0 X0 Y0 Z0\n{}\nM30\n", blocks.join("\n")).as_bytes());
+        run_all(Dialect::Sinumerik, format!("G0 X0 Y0 Z0\n{}\nM30\n", blocks.join("\n")).as_bytes());
     }
 }

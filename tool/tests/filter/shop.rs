@@ -29,9 +29,14 @@ impl Shop {
 
     /// Runs `framepath filter --dialect sinumerik ARGUMENTS NAME`.
     pub fn run(&self, name: &str, arguments: &[&str]) -> Output {
+        self.run_in("sinumerik", name, arguments)
+    }
+
+    /// Runs `framepath filter --dialect DIALECT ARGUMENTS NAME`.
+    pub fn run_in(&self, dialect: &str, name: &str, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO_BIN_EXE_framepath"))
             .current_dir(self.folder.path())
-            .args(["filter", "--dialect", "sinumerik"])
+            .args(["filter", "--dialect", dialect])
             .args(arguments)
             .arg(name)
             .output()

@@ -2,31 +2,10 @@
 
 use super::syntax::{Word, WordValue};
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
 use crate::dialects::expression::{Value, Variables};
+use crate::program::moves::Corner;
 use crate::source::Span;
-
-/// The axes in the order of LinuxCNC.
-pub const AXES: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
-
-/// A value and where its word stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct At<T> {
-    /// The value.
-    pub value: T,
-    /// The word.
-    pub span: Span,
-}
-
-/// Whether a coordinate is absolute.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dimension {
-    /// As G90 and G91 say.
-    Modal,
-    /// `AC(..)`.
-    Absolute,
-    /// `IC(..)`.
-    Incremental,
-}
 
 /// The tool word.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,16 +22,26 @@ pub struct BlockWords {
     /// G numbers times ten: 591 is G59.1.
     pub g: Vec<At<u32>>,
     pub m: Vec<At<u32>>,
-    pub axes: [Option<At<(f64, Dimension)>>; 9],
-    /// I J K.
-    pub centre: [Option<At<(f64, Dimension)>>; 3],
-    pub radius: Option<At<f64>>,
-    pub turns: Option<At<f64>>,
+    pub motion: MotionWords,
     pub feed: Option<At<f64>>,
     pub speed: Option<At<f64>>,
     pub tool: Option<At<()>>,
     pub tool_word: Option<ToolWord>,
     pub offset: Option<At<f64>>,
+    /// I1 J1 K1: the intermediate point of CIP.
+    pub middle: [Option<At<(f64, Dimension)>>; 3],
+    /// AR: the angle of an arc, degrees.
+    pub opening: Option<At<f64>>,
+    /// AP and RP: polar coordinates.
+    pub polar_angle: Option<At<(f64, Dimension)>>,
+    pub polar_radius: Option<At<(f64, Dimension)>>,
+    /// RND, CHF, CHR: lengths in units of the program.
+    pub corner: Option<At<Corner>>,
+    /// RNDM.
+    pub rounding: Option<At<f64>>,
+    /// CIP, CT.
+    pub cip: Option<Span>,
+    pub ct: Option<Span>,
     /// ADIS or CTOL.
     pub tolerance: Option<At<f64>>,
     pub supa: Option<Span>,
@@ -86,7 +75,7 @@ impl BlockWords {
         let address = word.address.as_str();
         if let Some(axis) = AXES.iter().position(|axis| *axis == address) {
             return set(
-                &mut self.axes[axis],
+                &mut self.motion.axes[axis],
                 dimensioned(word, variables)?,
                 span,
                 address,
@@ -94,7 +83,7 @@ impl BlockWords {
         }
         if let Some(axis) = ["I", "J", "K"].iter().position(|axis| *axis == address) {
             return set(
-                &mut self.centre[axis],
+                &mut self.motion.centre[axis],
                 dimensioned(word, variables)?,
                 span,
                 address,
@@ -118,13 +107,42 @@ impl BlockWords {
                 self.m.push(At { value, span });
                 Ok(())
             }
-            "CR" => set(&mut self.radius, number(word, variables)?, span, address),
-            "TURN" => set(&mut self.turns, number(word, variables)?, span, address),
+            "CR" => set(&mut self.motion.radius, number(word, variables)?, span, address),
+            "TURN" => set(&mut self.motion.turns, number(word, variables)?, span, address),
             "F" => set(&mut self.feed, number(word, variables)?, span, address),
             "S" | "S1" => set(&mut self.speed, number(word, variables)?, span, "S"),
             "D" => set(&mut self.offset, number(word, variables)?, span, address),
             "ADIS" | "CTOL" => set(&mut self.tolerance, number(word, variables)?, span, address),
             "T" | "T1" => self.tool(word, variables),
+            "I1" | "J1" | "K1" => {
+                let axis = ["I1", "J1", "K1"].iter().position(|name| *name == address);
+                let axis = axis.unwrap_or(0);
+                set(&mut self.middle[axis], dimensioned(word, variables)?, span, address)
+            }
+            "AR" => set(&mut self.opening, number(word, variables)?, span, address),
+            "AP" => set(&mut self.polar_angle, dimensioned(word, variables)?, span, address),
+            "RP" => set(&mut self.polar_radius, dimensioned(word, variables)?, span, address),
+            "RND" | "CHF" | "CHR" => {
+                let length = number(word, variables)?;
+                if length <= 0.0 {
+                    return Err(error(span, "a rounding or chamfer must be above 0"));
+                }
+                let corner = match address {
+                    "RND" => Corner::Round(length),
+                    "CHF" => Corner::ChamferOf(length),
+                    _ => Corner::ChamferFrom(length),
+                };
+                set(&mut self.corner, corner, span, "a rounding or chamfer")
+            }
+            "RNDM" => set(&mut self.rounding, number(word, variables)?, span, address),
+            "CIP" => {
+                self.cip = Some(span);
+                Ok(())
+            }
+            "CT" => {
+                self.ct = Some(span);
+                Ok(())
+            }
             "SUPA" => {
                 self.supa = Some(span);
                 Ok(())
@@ -170,21 +188,15 @@ impl BlockWords {
         });
         Ok(())
     }
+}
 
-    /// Whether any axis is named.
-    pub fn names_an_axis(&self) -> bool {
-        self.axes.iter().any(Option::is_some)
-    }
-
-    /// Where the first axis word stands.
-    pub fn first_axis(&self) -> Option<Span> {
-        let spans = self.axes.iter().flatten().map(|axis| axis.span);
-        spans.min_by_key(|span| span.start)
-    }
-
-    /// Whether I, J, K or CR is there.
-    pub fn names_a_centre(&self) -> bool {
-        self.radius.is_some() || self.centre.iter().any(Option::is_some)
+impl BlockWords {
+    /// Whether there is anything to move.
+    pub fn is_motion(&self) -> bool {
+        self.motion.is_motion()
+            || self.opening.is_some()
+            || self.polar_angle.is_some()
+            || self.polar_radius.is_some()
     }
 }
 

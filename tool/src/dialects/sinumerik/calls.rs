@@ -1,132 +1,99 @@
 //! Subprogram calls.
 
-use super::interpreter::{Interpreter, Next};
-use super::syntax::{Block, Call, Statement};
+use super::interpreter::{Interpreter, Next, place};
+use super::procedures::{Argument, Returned};
+use super::routine::Routine;
+use super::syntax::{Block, Call};
 use super::words;
 use crate::diagnostics::Diagnostic;
-use crate::program::Action;
+use crate::dialects::control::calls::CallRules;
+use std::rc::Rc;
 
-/// How many subprograms may be inside each other.
-const NESTING_LIMIT: usize = 11;
-
-/// How often a subprogram may be repeated by one call.
-const PASS_LIMIT: u32 = 9999;
+const RULES: CallRules = CallRules {
+    nesting: 11,
+    passes: 9999,
+    instead_of_recursion: "repeat with P (L10 P3) or with a loop",
+};
 
 impl Interpreter<'_> {
-    pub(super) fn call(&mut self, call: &Call, block: &Block, file: usize, at: usize) -> Next {
-        let diagnostic = match self.try_call(call, block, file) {
+    pub(super) fn call(&mut self, call: &Call, block: &Block, at: usize) -> Next {
+        let diagnostic = match self.try_call(call, block) {
             Ok(true) => return Next::Block(at + 1),
             Ok(false) => return Next::Abort,
             Err(diagnostic) => diagnostic,
         };
-        self.diagnostics.push(*diagnostic);
+        self.control.diagnostics.push(*diagnostic);
         // What a subprogram would have done is unknown; what follows can be checked all the same.
-        self.modal.forget_position();
-        self.modal.has_feed = true;
+        self.control.modal.forget_position();
+        self.control.modal.has_feed = true;
         Next::Block(at + 1)
     }
 
-    fn try_call(
-        &mut self,
-        call: &Call,
-        block: &Block,
-        file: usize,
-    ) -> Result<bool, Box<Diagnostic>> {
+    pub(super) fn try_call(&mut self, call: &Call, block: &Block) -> Result<bool, Box<Diagnostic>> {
         let name = call.name.as_str();
-        if self.control_cycle(call)? {
-            self.finish_marker(block, file);
+        if self.control_cycle(call, block)? {
+            self.control.finish_marker(&place(block));
             return Ok(true);
         }
-        let Some(routine) = self.library.find(name, self.sources, self.diagnostics) else {
+        let Some(routine) = self
+            .library
+            .find(name, self.control.sources, self.control.diagnostics)
+        else {
             return Err(missing(call));
         };
-        if !call.arguments.is_empty() {
-            return Err(Box::new(
-                Diagnostic::error(call.span, format!("{name} takes no values in parentheses"))
-                    .help("pass values in R parameters"),
-            ));
-        }
-        if self.running.iter().any(|running| running == name) {
-            return Err(Box::new(
-                Diagnostic::error(call.span, format!("{name} calls itself"))
-                    .label(format!(
-                        "the calls are: {} > {name}",
-                        self.running.join(" > ")
-                    ))
-                    .help("repeat with P (L10 P3) or with a loop"),
-            ));
-        }
-        if self.running.len() > NESTING_LIMIT {
-            return Err(Box::new(Diagnostic::error(
-                call.span,
-                format!("more than {NESTING_LIMIT} subprograms inside each other"),
-            )));
-        }
+        let arguments = self.arguments(call, &routine)?;
         let passes = match &call.passes {
             Some(passes) => passes.whole(&self.variables, 1)?,
             None => 1,
         };
-        if passes > PASS_LIMIT {
-            return Err(Box::new(Diagnostic::error(
-                call.span,
-                format!("{passes} passes are more than the control allows ({PASS_LIMIT})"),
-            )));
-        }
-        self.running.push(name.to_string());
+        self.control.check_call(name, passes, call.span, &RULES)?;
+        let place = place(block);
         let mut goes_on = true;
         for pass in 1..=passes {
-            let file_name = self.sources.file(routine.file).name.clone();
-            self.actions.push(Action::Enter {
-                name: name.to_string(),
-                file: file_name,
-                pass,
-                passes,
-            });
-            self.finish_marker(block, file);
+            self.control
+                .enter(name, routine.file, [pass, passes], &place);
             self.variables.enter();
-            goes_on = self.run_routine(&routine);
+            let outcome = self.run_pass(&routine, &arguments);
             self.variables.leave();
-            self.actions.push(Action::Leave {
-                name: name.to_string(),
-            });
-            self.finish_marker(block, file);
+            self.control.leave(name, &place);
+            let returned;
+            (goes_on, returned) = outcome?;
+            self.assign_returned(returned)?;
             if !goes_on {
                 break;
             }
         }
-        self.running.pop();
         Ok(goes_on)
     }
 
-    /// Cycles of the control that set modes: `CYCLE832(tolerance, ..)` and `CYCLE800()`. `false` for
-    /// any other name.
-    fn control_cycle(&mut self, call: &Call) -> Result<bool, Box<Diagnostic>> {
+    /// Whether the program goes on, and what goes back to the caller.
+    fn run_pass(
+        &mut self,
+        routine: &Rc<Routine>,
+        arguments: &[Argument],
+    ) -> Result<(bool, Returned), Box<Diagnostic>> {
+        self.define_parameters(arguments)?;
+        let goes_on = self.run_routine(routine);
+        Ok((goes_on, self.returned(arguments)?))
+    }
+
+    /// Cycles of the control. `false` for any other name.
+    fn control_cycle(&mut self, call: &Call, block: &Block) -> Result<bool, Box<Diagnostic>> {
         match call.name.as_str() {
             "CYCLE832" => {
                 let tolerance = match call.arguments.first() {
                     Some(Some(tolerance)) => Some(tolerance.number(&self.variables)?),
                     _ => None,
                 };
-                self.continuous_path(tolerance, call.span)?;
+                self.control.continuous_path(tolerance, call.span)?;
+                self.control.apply_states(false);
             }
-            // With values it would tilt the plane; without, it ends what was never begun.
-            "CYCLE800" if call.arguments.iter().all(Option::is_none) => {
-                self.note("CYCLE800()", call.span);
-            }
+            "CYCLE800" => self.swivel(call)?,
+            "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE85" | "CYCLE89" => self.drill(call)?,
+            "HOLES1" | "HOLES2" => return self.holes(call, block).map(|()| true),
             _ => return Ok(false),
         }
         Ok(true)
-    }
-
-    /// A block for the beginning or the end of a subprogram: it has the line of the call.
-    fn finish_marker(&mut self, block: &Block, file: usize) {
-        let marker = Block {
-            number: None,
-            comment: None,
-            statement: Statement::Empty,
-            ..block.clone()
-        };
-        self.finish_block(&marker, file);
     }
 }
 

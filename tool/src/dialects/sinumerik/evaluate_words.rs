@@ -1,15 +1,13 @@
 //! What the words of a block do, in the order in which the control does it: modes, feed and speed,
 //! tool, spindle, coolant, offsets, motion, stop.
 
-use super::block_words::{At, BlockWords, ToolWord};
-use super::frame_commands::frame_error;
-use super::g_functions::order_of_state;
+use super::block_words::{BlockWords, ToolWord};
 use super::interpreter::Interpreter;
-use super::modal::Motion;
-use super::motion::{carry_out, path_move};
 use crate::diagnostics::Diagnostic;
-use crate::program::frame::FrameCommand;
-use crate::program::{Action, Compensation, Coolant, FeedMode, PathControl, Spindle};
+use crate::dialects::control::words::{AXES, At, Dimension};
+use crate::dialects::control::{Control, Done};
+use crate::program::moves::{Corner, MoveKind};
+use crate::program::{Action, Compensation};
 use crate::source::Span;
 
 /// How a block ends.
@@ -28,10 +26,11 @@ pub(super) struct OneShot {
     pub(super) exact_stop: bool,
     pub(super) machine_coordinates: Option<Span>,
     pub(super) preset: Option<Span>,
+    /// G110 to G112.
+    pub(super) pole: Option<At<u32>>,
+    /// G52.
+    pub(super) local_offset: Option<Span>,
 }
-
-/// The outcome of carrying out a part of a block.
-pub(super) type Done = Result<(), Box<Diagnostic>>;
 
 impl Interpreter<'_> {
     /// Runs the words of a block and appends what they do to the actions of the block.
@@ -41,28 +40,43 @@ impl Interpreter<'_> {
         block: Span,
     ) -> Result<BlockEnd, Box<Diagnostic>> {
         for noted in &words.noted {
-            self.note(&noted.value, noted.span);
+            self.control.note(&noted.value, noted.span);
         }
         let mut once = OneShot {
             machine_coordinates: words.supa,
             ..OneShot::default()
         };
-        let mut states = Vec::new();
-        let compensated = self.modal.compensation != Compensation::Off;
-        self.g_functions(words, &mut once, &mut states)?;
+        let compensated = self.control.modal.compensation != Compensation::Off;
+        self.g_functions(words, &mut once)?;
         if let Some(span) = once.dwell {
-            states.sort_by_key(|state| order_of_state(state, compensated));
-            self.actions.append(&mut states);
+            self.control.apply_states(compensated);
             self.dwell(words, span)?;
             return Ok(BlockEnd::Continue);
         }
-        self.feed_and_speed(words)?;
-        self.tool(words)?;
+        if let Some(feed) = words.feed {
+            self.control.feed(feed)?;
+        }
+        if let Some(speed) = words.speed {
+            self.control.speed(speed)?;
+        }
+        if let (Some(at), Some(tool)) = (words.tool, &words.tool_word) {
+            match tool {
+                ToolWord::Number(number) => self.control.tool(*number, at.span)?,
+                ToolWord::Name(name) => self.control.named_tool(name, at.span)?,
+            }
+            if let Some(Action::Tool(number)) = self.control.actions.last() {
+                self.selected = Some(*number);
+            }
+        }
         let end = self.m_functions(words)?;
-        self.offset(words, &mut states)?;
-        self.corner_tolerance(words, &mut states)?;
-        states.sort_by_key(|state| order_of_state(state, compensated));
-        self.actions.append(&mut states);
+        self.offset(words)?;
+        // `ADIS=` (distance at which G641 begins to round) and `CTOL=` (contour tolerance) become the
+        // tolerance of G64.
+        if let Some(tolerance) = words.tolerance {
+            self.control
+                .continuous_path(Some(tolerance.value), tolerance.span)?;
+        }
+        self.control.apply_states(compensated);
         self.motion(words, &once, block)?;
         self.stops(words);
         Ok(match end {
@@ -71,19 +85,8 @@ impl Interpreter<'_> {
         })
     }
 
-    /// LinuxCNC cannot change frames, offsets, planes or tools under cutter compensation.
-    pub(super) fn refuse_compensation(&self, span: Span, what: &str) -> Done {
-        if self.modal.compensation == Compensation::Off {
-            return Ok(());
-        }
-        Err(Box::new(
-            Diagnostic::error(span, format!("{what} while cutter compensation is on"))
-                .help("end the compensation with G40 before"),
-        ))
-    }
-
     fn dwell(&mut self, words: &BlockWords, span: Span) -> Done {
-        if words.names_an_axis()
+        if words.motion.names_an_axis()
             || !words.m.is_empty()
             || words.tool.is_some()
             || words.offset.is_some()
@@ -95,7 +98,7 @@ impl Interpreter<'_> {
         }
         let seconds = match (words.feed, words.speed) {
             (Some(seconds), None) => seconds.value,
-            (None, Some(revolutions)) => match self.modal.spindle_speed {
+            (None, Some(revolutions)) => match self.control.modal.spindle_speed {
                 Some(speed) if speed > 0.0 => 60.0 * revolutions.value / speed,
                 _ => {
                     return Err(Box::new(
@@ -114,170 +117,63 @@ impl Interpreter<'_> {
                 ));
             }
         };
-        if seconds < 0.0 {
-            return Err(Box::new(Diagnostic::error(
-                span,
-                "a dwell cannot be negative",
-            )));
-        }
-        self.actions.push(Action::Dwell(seconds));
-        Ok(())
-    }
-
-    fn feed_and_speed(&mut self, words: &BlockWords) -> Done {
-        if let Some(feed) = words.feed {
-            if feed.value <= 0.0 {
-                return Err(Box::new(Diagnostic::error(
-                    feed.span,
-                    "the feed must be above 0",
-                )));
-            }
-            let factor = match self.modal.feed_mode {
-                FeedMode::InverseTime => 1.0,
-                FeedMode::PerMinute | FeedMode::PerRevolution => self.modal.feed_factor,
-            };
-            self.modal.has_feed = true;
-            self.actions.push(Action::Feed(feed.value * factor));
-        }
-        if let Some(speed) = words.speed {
-            if speed.value < 0.0 {
-                return Err(Box::new(
-                    Diagnostic::error(speed.span, "the spindle speed cannot be negative")
-                        .help("M4 turns the other way"),
-                ));
-            }
-            self.modal.spindle_speed = Some(speed.value);
-            self.actions.push(Action::SpindleSpeed(speed.value));
-        }
-        Ok(())
-    }
-
-    fn tool(&mut self, words: &BlockWords) -> Done {
-        let (Some(at), Some(tool)) = (words.tool, &words.tool_word) else {
-            return Ok(());
-        };
-        let number = match tool {
-            ToolWord::Number(number)
-                if number.fract() == 0.0 && (0.0..=99999.0).contains(number) =>
-            {
-                *number as u32
-            }
-            ToolWord::Number(number) => {
-                return Err(Box::new(Diagnostic::error(
-                    at.span,
-                    format!("{number} is not the number of a tool"),
-                )));
-            }
-            ToolWord::Name(name) => *self.settings.tool_names.get(name).ok_or_else(|| {
-                Box::new(
-                    Diagnostic::error(at.span, format!("the tool \"{name}\" has no number"))
-                        .help(format!("give it: --tool \"{name}=3\"")),
-                )
-            })?,
-        };
-        self.actions.push(Action::Tool(number));
-        Ok(())
+        self.control.dwell(seconds, span)
     }
 
     /// M functions except the stops at the end of the block; returns the word that ends the routine.
     fn m_functions(&mut self, words: &BlockWords) -> Result<Option<Span>, Box<Diagnostic>> {
         let mut end = words.end_of_routine;
-        // LinuxCNC changes the tool first, then switches spindle and coolant; so do controls.
-        let mut list: Vec<&At<u32>> = words.m.iter().collect();
-        list.sort_by_key(|m| match m.value {
-            6 => 0,
-            3..=5 => 1,
-            7..=9 => 2,
-            _ => 3,
-        });
-        for &At { value, span } in list {
-            let action = match value {
-                0 | 1 => continue,
-                2 | 17 | 30 => {
-                    end = Some(span);
-                    continue;
-                }
-                3 => Action::Spindle(Spindle::Clockwise),
-                4 => Action::Spindle(Spindle::Counterclockwise),
-                5 => Action::Spindle(Spindle::Stop),
+        for At { value, span } in Control::in_order(&words.m) {
+            match value {
+                0 | 1 => {}
+                2 | 17 | 30 => end = Some(span),
+                // The control selects D1 with the new tool.
                 6 => {
-                    self.refuse_compensation(span, "the tool changes")?;
-                    self.modal.forget_position();
-                    self.actions.push(Action::ToolChange);
-                    // The control selects D1 with the new tool.
-                    Action::ToolLength(true)
+                    self.control.tool_change(span, true)?;
+                    self.tool = self.selected;
                 }
-                7 => Action::Coolant(Coolant::Mist),
-                8 => Action::Coolant(Coolant::Flood),
-                9 => Action::Coolant(Coolant::Off),
-                40..=45 => {
-                    self.note(&format!("M{value}"), span);
-                    continue;
-                }
-                _ if self.settings.passed_m.contains(&value) => Action::OtherM(value),
-                _ => {
-                    return Err(Box::new(
-                        Diagnostic::error(span, format!("M{value} is not defined")).help(format!(
-                            "if LinuxCNC has it on this machine, give --pass-m {value}"
-                        )),
-                    ));
-                }
-            };
-            self.actions.push(action);
+                40..=45 => self.control.note(&format!("M{value}"), span),
+                _ if self.control.switch(value) => {}
+                _ => self.control.other_m(value, span)?,
+            }
         }
         Ok(end)
     }
 
-    fn offset(&mut self, words: &BlockWords, states: &mut Vec<Action>) -> Done {
+    fn offset(&mut self, words: &BlockWords) -> Done {
         let Some(offset) = words.offset else {
             return Ok(());
         };
         let on = match offset.value {
             0.0 => false,
             1.0 => true,
+            edge if edge.fract() == 0.0 && (2.0..=9.0).contains(&edge) => {
+                let row = self.edge_row(edge as u32, offset.span)?;
+                return self.control.tool_offset(row, offset.span);
+            }
             value => {
                 return Err(Box::new(
-                    Diagnostic::error(offset.span, format!("D{value}: a tool has one offset in LinuxCNC"))
-                        .help("use D1 for the tool in the spindle, D0 for none; enter further edges as tools"),
+                    Diagnostic::error(offset.span, format!("D{value} is not an edge of a tool"))
+                        .help("the edges of a tool are D1 to D9, D0 is none"),
                 ));
             }
         };
-        self.refuse_compensation(offset.span, "the tool offset changes")?;
-        self.modal.forget_position();
-        if !matches!(self.actions.last(), Some(Action::ToolLength(last)) if *last == on) {
-            states.push(Action::ToolLength(on));
-        }
-        Ok(())
+        self.control.tool_length(on, offset.span)
     }
 
-    /// `ADIS=` (distance at which G641 begins to round) and `CTOL=` (contour tolerance) become the
-    /// tolerance of G64.
-    fn corner_tolerance(&mut self, words: &BlockWords, states: &mut Vec<Action>) -> Done {
-        let Some(tolerance) = words.tolerance else {
-            return Ok(());
-        };
-        states.retain(|state| !matches!(state, Action::PathControl(_)));
-        let before = self.actions.len();
-        self.continuous_path(Some(tolerance.value), tolerance.span)?;
-        states.extend(self.actions.drain(before..));
-        Ok(())
-    }
-
-    /// Corners may be rounded by so much, in units of the program; `None`: as the machine has it.
-    pub(super) fn continuous_path(&mut self, tolerance: Option<f64>, span: Span) -> Done {
-        if tolerance.is_some_and(|tolerance| tolerance < 0.0) {
-            return Err(Box::new(Diagnostic::error(
-                span,
-                "a tolerance cannot be negative",
-            )));
-        }
-        let tolerance = tolerance.filter(|tolerance| *tolerance > 0.0);
-        let control = PathControl::Continuous {
-            tolerance: tolerance.map(|tolerance| tolerance * self.modal.length_factor),
-        };
-        self.modal.path_control = Some(control);
-        self.actions.push(Action::PathControl(control));
-        Ok(())
+    /// The row of LinuxCNC's tool table that holds a further edge of the tool.
+    fn edge_row(&self, edge: u32, span: Span) -> Result<u32, Box<Diagnostic>> {
+        let tool = self.tool.unwrap_or(0);
+        let rows = &self.control.settings.tool_edges;
+        rows.get(&(tool, edge)).copied().ok_or_else(|| {
+            Box::new(
+                Diagnostic::error(span, format!("D{edge}: a tool has one offset in LinuxCNC")).help(
+                    format!(
+                        "enter the edge as a row of the tool table and name it: --edge {tool}.{edge}=ROW"
+                    ),
+                ),
+            )
+        })
     }
 
     fn motion(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
@@ -287,7 +183,22 @@ impl Interpreter<'_> {
         if let Some(span) = once.machine_coordinates {
             return self.machine_move(words, span);
         }
-        if !words.names_an_axis() && !words.names_a_centre() && words.turns.is_none() {
+        if let Some(pole) = once.pole {
+            return self.set_pole(words, pole);
+        }
+        if let Some(span) = once.local_offset {
+            return self.local_offset(words, span);
+        }
+        if let Some(rounding) = words.rounding {
+            self.modal_rounding(rounding)?;
+        }
+        if !words.is_motion() {
+            if let Some(corner) = words.corner {
+                return Err(Box::new(
+                    Diagnostic::error(corner.span, "a rounding or chamfer without a motion")
+                        .help("write it beside the axes of the motion before the corner"),
+                ));
+            }
             if once.exact_stop {
                 return Err(Box::new(
                     Diagnostic::error(
@@ -299,89 +210,121 @@ impl Interpreter<'_> {
             }
             return Ok(());
         }
-        let span = words.first_axis().unwrap_or(block);
-        let Some(motion) = self.modal.motion else {
-            return Err(Box::new(
-                Diagnostic::error(span, "no G0, G1, G2 or G3 before the first motion")
-                    .help("say how the axes are to move: G0 rapid, G1 with feed"),
-            ));
-        };
-        if motion != Motion::Rapid {
-            self.check_feed(words, span)?;
+        self.path_motion(words, once, block)?;
+        self.corner_after(words)
+    }
+
+    /// RNDM: every corner that follows is rounded; 0 ends it.
+    fn modal_rounding(&mut self, radius: At<f64>) -> Done {
+        if radius.value < 0.0 {
+            return Err(Box::new(Diagnostic::error(
+                radius.span,
+                "a rounding cannot be negative",
+            )));
         }
-        let mut path = path_move(
-            words,
-            motion,
-            &self.modal,
-            self.settings,
-            span,
-            self.diagnostics,
-        )?;
-        path.exact_stop = once.exact_stop;
-        if self.modal.compensation != Compensation::Off && path.depends_on_position() {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "under cutter compensation, from a place that is not known ahead of time",
-                )
-                .help("program the axes of the plane absolute before G41 or G42"),
-            ));
-        }
-        carry_out(&path, &mut self.modal);
-        self.actions.push(Action::Move(path));
+        let length = radius.value * self.control.modal.length_factor;
+        self.rounding = Some(length).filter(|length| *length > 0.0);
         Ok(())
     }
 
-    pub(super) fn check_feed(&mut self, words: &BlockWords, span: Span) -> Done {
-        let inverse = self.modal.feed_mode == FeedMode::InverseTime;
-        if self.modal.has_feed && (!inverse || words.feed.is_some()) {
+    /// Asks for the corner at the end of the motion of the block.
+    fn corner_after(&mut self, words: &BlockWords) -> Done {
+        let factor = self.control.modal.length_factor;
+        let corner = match words.corner {
+            Some(corner) => match corner.value {
+                Corner::Round(length) => Corner::Round(length * factor),
+                Corner::ChamferOf(length) => Corner::ChamferOf(length * factor),
+                Corner::ChamferFrom(length) => Corner::ChamferFrom(length * factor),
+                other => other,
+            },
+            None => match self.rounding {
+                Some(radius) => Corner::Round(radius),
+                None => return Ok(()),
+            },
+        };
+        if let Some(Action::Move(path)) = self.control.actions.last_mut() {
+            let rapid = path.kind == MoveKind::Rapid;
+            match (rapid, words.corner) {
+                (true, Some(word)) => {
+                    return Err(Box::new(
+                        Diagnostic::error(word.span, "a rounding or chamfer after a rapid motion")
+                            .help("corners are made between motions with feed"),
+                    ));
+                }
+                (true, None) => {}
+                (false, _) => path.corner = Some(corner),
+            }
+        }
+        Ok(())
+    }
+
+    /// `G52 X10`: the zero of the work offset lies there until another G52; `G52 X0` ends it.
+    fn local_offset(&mut self, words: &BlockWords, span: Span) -> Done {
+        self.control.refuse_compensation(span, "G52")?;
+        if !self.control.modal.frame.is_empty() {
+            return Err(Box::new(
+                Diagnostic::error(span, "G52 while a frame is active")
+                    .help("use TRANS or ATRANS, or clear the frame with TRANS before"),
+            ));
+        }
+        let mut values = [None; 9];
+        for (axis, word) in words.motion.axes.iter().enumerate() {
+            let Some(word) = word else {
+                continue;
+            };
+            let factor = match AXES[axis] {
+                "A" | "B" | "C" => 1.0,
+                _ => self.control.modal.length_factor,
+            };
+            values[axis] = Some(word.value.0 * factor);
+            self.control.modal.position.set(axis, None);
+        }
+        if values == [None; 9] {
+            return Err(Box::new(
+                Diagnostic::error(span, "G52 needs axes").help("G52 X0 Y0 Z0 ends it"),
+            ));
+        }
+        self.control.modal.tangent = None;
+        self.control.actions.push(Action::LocalOffset(values));
+        Ok(())
+    }
+
+    /// G53, G153, SUPA.
+    fn machine_move(&mut self, words: &BlockWords, span: Span) -> Done {
+        if !words.motion.names_an_axis() {
+            // SUPA D0 alone only suppresses what a motion in this block would use.
             return Ok(());
         }
-        // Said once; the blocks after it have the same fault.
-        self.modal.has_feed = true;
-        Err(Box::new(
-            Diagnostic::error(span, "a motion with feed, and no F is in force").help(
-                match inverse {
-                    true => "with G93 every block needs its own F",
-                    false => "add F to this block, in mm/min unless G95 says otherwise",
-                },
-            ),
-        ))
+        let increments = |axis: &At<(f64, Dimension)>| axis.value.1 != Dimension::Absolute;
+        let mut axes = words.motion.axes.iter().flatten();
+        if self.control.modal.incremental && axes.any(increments) {
+            return Err(Box::new(
+                Diagnostic::error(span, "an increment in machine coordinates")
+                    .help("write G90, or X=AC(..), in this block"),
+            ));
+        }
+        self.control
+            .machine_move(&words.motion, span, true, words.feed.is_some())
+    }
+
+    fn preset(&mut self, words: &BlockWords, span: Span) -> Done {
+        if !self.control.modal.frame.is_empty() {
+            return Err(Box::new(
+                Diagnostic::error(span, "G92 while a frame is active")
+                    .help("clear the frame with TRANS before, and set it again after"),
+            ));
+        }
+        self.control.preset(&words.motion, span)
     }
 
     /// M0 and M1 act when the motion is over.
     fn stops(&mut self, words: &BlockWords) {
         for m in &words.m {
             if matches!(m.value, 0 | 1) {
-                self.actions.push(Action::Pause {
+                self.control.actions.push(Action::Pause {
                     optional: m.value == 1,
                 });
             }
         }
-    }
-
-    /// Changes the frame.
-    pub(super) fn run_frame(&mut self, command: FrameCommand, span: Span) -> Done {
-        self.refuse_compensation(span, "the frame changes")?;
-        let frame = self
-            .modal
-            .frame
-            .after(command)
-            .map_err(|error| Box::new(frame_error(error, span)))?;
-        if frame.rotates_after_unequal_scale() && !self.modal.frame.rotates_after_unequal_scale() {
-            self.diagnostics.push(
-                Diagnostic::warning(
-                    span,
-                    "this rotation follows a scale that differs between axes",
-                )
-                .help(
-                    "it acts in the scaled frame, so that right angles are not kept; \
-                         controls that store scale and rotation apart would differ",
-                ),
-            );
-        }
-        self.modal.set_frame(frame);
-        self.actions.push(Action::Frame(command));
-        Ok(())
     }
 }

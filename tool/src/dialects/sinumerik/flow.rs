@@ -1,8 +1,8 @@
 //! Which block comes next: conditions, loops and jumps.
 
 use super::interpreter::{Interpreter, Next};
-use super::library::Routine;
-use super::syntax::{Assignment, Direction, Flow, Jump, Statement, Target};
+use super::routine::Routine;
+use super::syntax::{Assignment, Direction, Flow, Jump, Statement};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Expression, ExpressionKind, Value};
 
@@ -114,20 +114,15 @@ impl Interpreter<'_> {
     }
 
     fn jump(&self, jump: &Jump, routine: &Routine, at: usize) -> Result<Next, Box<Diagnostic>> {
-        let blocks = &routine.section.blocks;
-        let is_target = |index: &usize| {
-            let block = &blocks[*index];
-            match &jump.target {
-                Target::Label(label) => block.label.as_ref() == Some(label),
-                Target::Number(number) => block.number == Some(*number),
-            }
-        };
-        let forward = (at + 1..blocks.len()).find(is_target);
-        let backward = (0..=at).rev().find(is_target);
+        let targets = routine.targets(&jump.target);
+        // Those up to this block, and those after it.
+        let (before, after) = targets.split_at(targets.partition_point(|target| *target <= at));
+        let forward = after.first().copied();
+        let backward = before.last().copied();
         let found = match jump.direction {
             Direction::Forward => forward,
             Direction::Backward => backward,
-            Direction::Either | Direction::Optional => forward.or((0..=at).find(is_target)),
+            Direction::Either | Direction::Optional => forward.or(before.first().copied()),
         };
         match (found, jump.direction) {
             (Some(target), _) => Ok(Next::Block(target)),

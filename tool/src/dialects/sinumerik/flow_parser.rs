@@ -3,7 +3,9 @@
 use super::cursor::Parsed;
 use super::expressions::{arguments, expression};
 use super::parser::BlockParser;
-use super::syntax::{Definition, Direction, Flow, Jump, Statement, Target, VariableKind};
+use super::syntax::{
+    Definition, Direction, Flow, Jump, Parameter, Statement, Target, VariableKind,
+};
 use super::token::{Symbol, TokenKind};
 use super::words;
 
@@ -145,6 +147,50 @@ fn case(parser: &mut BlockParser) -> Parsed<Flow> {
 /// part programs.
 fn definitions(parser: &mut BlockParser) -> Parsed<Statement> {
     parser.cursor.advance();
+    let kind = variable_kind(parser)?;
+    if kind == VariableKind::Text && parser.cursor.take(Symbol::OpenBracket) {
+        // The length of a text does not matter here.
+        arguments(&mut parser.cursor, Symbol::CloseBracket, "]")?;
+    }
+    let mut list = Vec::new();
+    loop {
+        list.push(definition(parser, kind)?);
+        if !parser.cursor.take(Symbol::Comma) {
+            return Ok(Statement::Define(list));
+        }
+    }
+}
+
+/// `PROC NAME(REAL A, VAR INT B, REAL C=5)`; the name is taken.
+pub(super) fn parameters(parser: &mut BlockParser) -> Parsed<Vec<Parameter>> {
+    let mut list = Vec::new();
+    parser.cursor.expect(Symbol::Open, "(")?;
+    if parser.cursor.take(Symbol::Close) {
+        return Ok(list);
+    }
+    loop {
+        let returns = parser.cursor.take_name("VAR");
+        let kind = variable_kind(parser)?;
+        let definition = definition(parser, kind)?;
+        if !definition.size.is_empty() {
+            return Err(Box::new(crate::diagnostics::Diagnostic::error(
+                definition.span,
+                "arrays as parameters are not supported",
+            )));
+        }
+        list.push(Parameter {
+            returns,
+            definition,
+        });
+        if parser.cursor.take(Symbol::Close) {
+            return Ok(list);
+        }
+        parser.cursor.expect(Symbol::Comma, ",")?;
+    }
+}
+
+/// `REAL`, `INT`, `BOOL`, `STRING`.
+fn variable_kind(parser: &mut BlockParser) -> Parsed<VariableKind> {
     let kind = match parser.cursor.peek() {
         Some(TokenKind::Name(name)) => match name.as_str() {
             "INT" => VariableKind::Whole,
@@ -161,17 +207,7 @@ fn definitions(parser: &mut BlockParser) -> Parsed<Statement> {
         _ => return Err(parser.cursor.error("the type of the variable is missing")),
     };
     parser.cursor.advance();
-    if kind == VariableKind::Text && parser.cursor.take(Symbol::OpenBracket) {
-        // The length of a text does not matter here.
-        arguments(&mut parser.cursor, Symbol::CloseBracket, "]")?;
-    }
-    let mut list = Vec::new();
-    loop {
-        list.push(definition(parser, kind)?);
-        if !parser.cursor.take(Symbol::Comma) {
-            return Ok(Statement::Define(list));
-        }
-    }
+    Ok(kind)
 }
 
 fn definition(parser: &mut BlockParser, kind: VariableKind) -> Parsed<Definition> {

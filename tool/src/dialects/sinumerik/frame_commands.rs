@@ -1,13 +1,11 @@
 //! TRANS, ROT, ROTS, SCALE, MIRROR and their additive forms: from words to operations.
 
-use super::modal::Modal;
 use super::syntax::{FrameKeyword, Word, WordValue};
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::control::modal::Modal;
 use crate::dialects::expression::Variables;
 use crate::program::frame::{FrameCommand, FrameOperation, SolidAngles};
 use crate::source::Span;
-use framepath::frame::FrameError;
-use framepath::frame::affine::MAX_TRANSLATION;
 use framepath::frame::programmable::SCALE_RANGE;
 
 /// The axes and the angle of a frame command.
@@ -226,49 +224,4 @@ fn check_factor(factor: f64, span: Span) -> Result<(), Box<Diagnostic>> {
         ));
     }
     Ok(())
-}
-
-/// The words for a frame that the core refuses.
-pub fn frame_error(error: FrameError, span: Span) -> Diagnostic {
-    const CLEAR: &str = "clear the frame with TRANS, or combine several commands into one";
-    const FACTORS: &str = "check the scale factors";
-    match error {
-        FrameError::TooManyOperations { capacity } => Diagnostic::error(
-            span,
-            format!(
-                "too many frame commands: scales and others alternate more than {capacity} times"
-            ),
-        )
-        .help(CLEAR),
-        FrameError::TranslationTooLarge { value, .. } => {
-            Diagnostic::error(span, format!("a shift of {value} is out of range"))
-                .help(format!("shifts go up to {MAX_TRANSLATION}"))
-        }
-        FrameError::ScaleOutOfRange { smallest, greatest } => Diagnostic::error(
-            span,
-            format!("with this command the frame scales from {smallest} to {greatest} fold"),
-        )
-        .help(FACTORS),
-        FrameError::IllConditioned { condition } => Diagnostic::error(
-            span,
-            format!(
-                "with this command the scales of different directions differ {condition:.0} fold"
-            ),
-        )
-        .help(FACTORS),
-        FrameError::Singular | FrameError::ZeroScale { .. } => {
-            Diagnostic::error(span, "with this command the frame has no inverse").help(FACTORS)
-        }
-        FrameError::ImpossibleSolidAngles { first, second } => Diagnostic::error(
-            span,
-            format!("no plane has the solid angles {first} and {second} degrees"),
-        )
-        .help("solid angles lie between -90 and 90 degrees"),
-        FrameError::NotFinite
-        | FrameError::NoAngles
-        | FrameError::TooManyAngles
-        | FrameError::MirrorMismatch => {
-            Diagnostic::error(span, "the frame cannot be carried out with this command").help(CLEAR)
-        }
-    }
 }

@@ -1,22 +1,18 @@
 //! What the G functions of a block change.
 
-use super::block_words::{At, BlockWords};
-use super::evaluate_words::{Done, OneShot};
+use super::block_words::BlockWords;
+use super::evaluate_words::OneShot;
 use super::interpreter::Interpreter;
-use super::modal::Motion;
 use crate::diagnostics::Diagnostic;
-use crate::program::{Action, Compensation, FeedMode, PathControl, Plane};
+use crate::dialects::control::Done;
+use crate::dialects::control::modal::Motion;
+use crate::dialects::control::words::At;
+use crate::program::{Compensation, FeedMode, PathControl, Plane};
 use crate::source::Span;
 
 impl Interpreter<'_> {
-    /// Modes take effect in `self.modal` at once; the actions of those that LinuxCNC executes after
-    /// feed, tool and spindle are collected in `states`.
-    pub(super) fn g_functions(
-        &mut self,
-        words: &BlockWords,
-        once: &mut OneShot,
-        states: &mut Vec<Action>,
-    ) -> Done {
+    /// Carries out the G functions of a block that change modes; the others go to `once`.
+    pub(super) fn g_functions(&mut self, words: &BlockWords, once: &mut OneShot) -> Done {
         let mut groups: Vec<(u8, u32)> = Vec::new();
         // Whatever the order in the block: compensation ends before planes and offsets change, and
         // begins after.
@@ -27,7 +23,7 @@ impl Interpreter<'_> {
             _ => 1,
         });
         for &At { value: code, span } in list {
-            let group = self.g_function(code, span, once, states)?;
+            let group = self.g_function(code, span, once)?;
             if let Some((_, other)) = groups.iter().find(|(known, _)| *known == group) {
                 return Err(Box::new(Diagnostic::error(
                     span,
@@ -45,11 +41,11 @@ impl Interpreter<'_> {
         code: u32,
         span: Span,
         once: &mut OneShot,
-        states: &mut Vec<Action>,
     ) -> Result<u8, Box<Diagnostic>> {
         let group = match code {
             0 | 10 | 20 | 30 => {
-                self.modal.motion = Some(match code {
+                self.arc_form = None;
+                self.control.modal.motion = Some(match code {
                     0 => Motion::Rapid,
                     10 => Motion::Line,
                     20 => Motion::Clockwise,
@@ -71,11 +67,7 @@ impl Interpreter<'_> {
                     180 => Plane::Zx,
                     _ => Plane::Yz,
                 };
-                if plane != self.modal.plane {
-                    self.refuse_compensation(span, "the plane changes")?;
-                    self.modal.plane = plane;
-                }
-                states.push(Action::Plane(plane));
+                self.control.plane(plane, span)?;
                 6
             }
             400 | 410 | 420 => {
@@ -84,8 +76,7 @@ impl Interpreter<'_> {
                     410 => Compensation::Left,
                     _ => Compensation::Right,
                 };
-                self.modal.compensation = compensation;
-                states.push(Action::Compensation(compensation));
+                self.control.compensation(compensation);
                 7
             }
             530 | 1530 => {
@@ -93,35 +84,47 @@ impl Interpreter<'_> {
                 9
             }
             540..=599 | 5050..=5999 => {
-                self.work_offset(code, span, states)?;
+                self.work_offset(code, span)?;
                 8
             }
             5000 => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "G500: LinuxCNC has no state without a work offset")
-                        .help("write G54 with all its values 0, or move with SUPA"),
-                ));
+                self.control
+                    .refuse_compensation(span, "the work offset changes")?;
+                self.control.modal.forget_position();
+                self.offset_free.begin();
+                8
+            }
+            520 => {
+                once.local_offset = Some(span);
+                3
+            }
+            1100 | 1110 | 1120 => {
+                once.pole = Some(At {
+                    value: code / 10,
+                    span,
+                });
+                3
             }
             600 | 640 | 6410..=6450 => {
                 let path_control = match code {
                     600 => PathControl::ExactStop,
                     _ => PathControl::Continuous { tolerance: None },
                 };
-                self.modal.path_control = Some(path_control);
-                states.push(Action::PathControl(path_control));
+                self.control.path_control(path_control);
                 10
             }
             6010 | 6020 | 6030 | 4500 | 4510 => {
-                self.note(&format!("G{}", shown(code)), span);
+                self.control.note(&format!("G{}", shown(code)), span);
                 12
             }
             700 | 710 | 7000 | 7100 => {
                 let inch = matches!(code, 700 | 7000);
-                self.modal.use_inch(inch, code >= 7000, self.settings);
+                let settings = self.control.settings;
+                self.control.modal.use_inch(inch, code >= 7000, settings);
                 13
             }
             900 | 910 => {
-                self.modal.incremental = code == 910;
+                self.control.modal.incremental = code == 910;
                 14
             }
             930 | 940 | 950 => {
@@ -130,12 +133,7 @@ impl Interpreter<'_> {
                     940 => FeedMode::PerMinute,
                     _ => FeedMode::PerRevolution,
                 };
-                if mode != self.modal.feed_mode {
-                    self.modal.feed_mode = mode;
-                    // A number that meant mm/min must not go on as mm per revolution.
-                    self.modal.has_feed = false;
-                }
-                self.actions.push(Action::FeedMode(mode));
+                self.control.feed_mode(mode);
                 15
             }
             920 => {
@@ -147,7 +145,7 @@ impl Interpreter<'_> {
         Ok(group)
     }
 
-    fn work_offset(&mut self, code: u32, span: Span, states: &mut Vec<Action>) -> Done {
+    fn work_offset(&mut self, code: u32, span: Span) -> Done {
         let system = match code {
             540 | 550 | 560 | 570 | 580 | 590 => (code - 530) / 10,
             591..=593 => code - 584,
@@ -168,26 +166,12 @@ impl Interpreter<'_> {
                 .get((system as usize).saturating_sub(5))
                 .unwrap_or(&"G59.3");
             let message = format!("G{} runs as {name} of LinuxCNC", shown(code));
-            self.diagnostics.push(Diagnostic::warning(span, message));
+            self.control
+                .diagnostics
+                .push(Diagnostic::warning(span, message));
         }
-        self.refuse_compensation(span, "the work offset changes")?;
-        self.modal.forget_position();
-        states.push(Action::WorkOffset(system as u8));
-        Ok(())
-    }
-}
-
-/// In which order the states of one block are set. G40 comes before all that is not allowed under
-/// compensation, or, when there is none to end, where LinuxCNC has it.
-pub fn order_of_state(state: &Action, compensated: bool) -> u8 {
-    match state {
-        Action::Compensation(Compensation::Off) if compensated => 0,
-        Action::Plane(_) => 1,
-        Action::Compensation(Compensation::Off) => 2,
-        Action::ToolLength(_) => 3,
-        Action::WorkOffset(_) => 4,
-        Action::PathControl(_) => 5,
-        _ => 6,
+        self.offset_free.end();
+        self.control.work_offset(system as u8, span)
     }
 }
 
@@ -200,12 +184,8 @@ fn shown(tenfold: u32) -> String {
 
 fn unsupported_g(code: u32, span: Span) -> Box<Diagnostic> {
     let reason = match code {
-        520 => {
-            "LinuxCNC's G52 and this dialect's frames would act on top of each other: use TRANS or ATRANS"
-        }
         330 | 340 | 350 | 3310 | 3320 => "threads and rigid tapping are not supported",
         960 | 970 => "constant cutting speed is not supported",
-        1100..=1120 => "polar coordinates are not supported: write X and Y",
         580 | 590 => "programmable axis offsets are not supported",
         200 | 210 => "inch and millimetre are G70 and G71 in this dialect",
         _ => {

@@ -1,23 +1,24 @@
 //! Running the syntax tree, block by block. The result is the plain list of what the program does.
 
+use super::arc_words::ArcForm;
 use super::block_words::BlockWords;
 use super::evaluate_words::BlockEnd;
 use super::frame_commands::frame_command;
-use super::library::{Library, Routine};
-use super::modal::Modal;
+use super::polar::Pole;
+use super::procedures::ModalCall;
+use super::routine::Routine;
 use super::syntax::{Assignment, Block, Definition, Statement, Word};
 use super::variables::VariableStore;
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::control::offset_free::OffsetFree;
+use crate::dialects::control::{Control, Place};
 use crate::dialects::expression::{Expression, text};
+use crate::dialects::library::Library;
 use crate::dialects::settings::Settings;
-use crate::program::frame::FrameCommand;
-use crate::program::{self, Action, Origin, Program};
-use crate::source::{Sources, Span};
-use std::collections::BTreeSet;
+use crate::program::frame::FrameOperation;
+use crate::program::{Action, FrameScope, Program};
+use crate::source::Sources;
 use std::rc::Rc;
-
-/// How many blocks a program may run: a loop that never ends must not fill the memory.
-const BLOCK_LIMIT: u32 = 2_000_000;
 
 /// Where the flow goes after a block.
 pub(super) enum Next {
@@ -31,49 +32,56 @@ pub(super) enum Next {
 
 /// Runs a program.
 pub struct Interpreter<'a> {
-    pub(super) settings: &'a Settings,
-    pub(super) diagnostics: &'a mut Diagnostics,
-    pub(super) modal: Modal,
-    pub(super) actions: Vec<Action>,
-    pub(super) library: Library,
-    pub(super) sources: &'a mut Sources,
+    pub(super) control: Control<'a>,
+    pub(super) library: Library<Routine>,
     pub(super) variables: VariableStore,
-    program: Program,
-    pub(super) running: Vec<String>,
-    blocks_run: u32,
-    noted: BTreeSet<String>,
+    /// CIP or CT, while one of them is the modal motion.
+    pub(super) arc_form: Option<ArcForm>,
+    pub(super) pole: Pole,
+    /// RNDM, machine units.
+    pub(super) rounding: Option<f64>,
+    /// The tool that T selected, and the one in the spindle.
+    pub(super) selected: Option<u32>,
+    pub(super) tool: Option<u32>,
+    /// G500.
+    pub(super) offset_free: OffsetFree,
+    /// The frame of CYCLE800, in which that of TRANS and its like acts.
+    pub(super) swivelled: Vec<FrameOperation>,
+    pub(super) modal_call: Option<ModalCall>,
 }
 
 impl<'a> Interpreter<'a> {
     /// Ready to run the main program of the library.
     pub fn new(
         settings: &'a Settings,
-        library: Library,
+        library: Library<Routine>,
         sources: &'a mut Sources,
         diagnostics: &'a mut Diagnostics,
     ) -> Interpreter<'a> {
+        let mut control = Control::new(settings, sources, diagnostics, FrameScope::Machine);
+        control.modal.follows_setting = true;
         Interpreter {
-            settings,
-            diagnostics,
-            modal: Modal::new(settings),
-            actions: Vec::new(),
+            control,
             library,
-            sources,
             variables: VariableStore::new(&settings.variables),
-            program: Program::default(),
-            running: Vec::new(),
-            blocks_run: 0,
-            noted: BTreeSet::new(),
+            arc_form: None,
+            pole: Pole::default(),
+            rounding: None,
+            selected: None,
+            tool: None,
+            offset_free: OffsetFree::default(),
+            swivelled: Vec::new(),
+            modal_call: None,
         }
     }
 
     /// Runs the main program.
     pub fn run(mut self) -> Program {
         if let Some(main) = self.library.main() {
-            self.running.push(main.name.clone());
+            self.control.begin_main(&main.name);
             self.run_routine(&main);
         }
-        self.program
+        self.control.into_program()
     }
 
     /// Runs a program or subprogram; `false` when nothing can follow it.
@@ -81,18 +89,7 @@ impl<'a> Interpreter<'a> {
         let blocks = &routine.section.blocks;
         let mut at = 0;
         while let Some(block) = blocks.get(at) {
-            self.blocks_run += 1;
-            if self.blocks_run > BLOCK_LIMIT {
-                self.diagnostics.push(
-                    Diagnostic::error(
-                        block.span,
-                        format!("the program does not end: {BLOCK_LIMIT} blocks have run"),
-                    )
-                    .help("check the conditions of its loops and jumps"),
-                );
-                return false;
-            }
-            if self.diagnostics.is_full() {
+            if !self.control.count_block(block.span) {
                 return false;
             }
             match self.run_block(routine, at, block) {
@@ -106,7 +103,7 @@ impl<'a> Interpreter<'a> {
     }
 
     fn end_is_missing(&mut self, routine: &Rc<Routine>) {
-        let main = self.running.len() <= 1;
+        let main = self.control.is_in_main();
         let Some(last) = routine.section.blocks.last() else {
             return;
         };
@@ -114,37 +111,31 @@ impl<'a> Interpreter<'a> {
             true => ("program", "M30"),
             false => ("subprogram", "M17"),
         };
-        self.diagnostics.push(
+        self.control.diagnostics.push(
             Diagnostic::warning(last.span, format!("the {kind} ends without {word}"))
                 .help(format!("put {word} into its last block")),
         );
         if main {
-            self.end_of_program(false);
-            self.finish_block(last, routine.file);
+            self.control.end_of_program(false);
+            self.finish_block(last);
         }
-    }
-
-    fn end_of_program(&mut self, rewind: bool) {
-        if !self.modal.frame.is_empty() {
-            self.actions.push(Action::Frame(FrameCommand::Cancel));
-        }
-        self.actions.push(Action::End { rewind });
     }
 
     fn run_block(&mut self, routine: &Rc<Routine>, at: usize, block: &Block) -> Next {
-        if block.skip && self.settings.skip_blocks {
+        if block.skip && self.control.settings.skip_blocks {
             return Next::Block(at + 1);
         }
+        let finished = self.control.blocks_finished();
         let next = match &block.statement {
             Statement::Empty | Statement::Nothing => Ok(Next::Block(at + 1)),
             // Where the axes are after a block that was not understood is anybody's guess.
             Statement::Invalid => {
-                self.modal.forget_position();
-                self.modal.has_feed = true;
+                self.control.modal.forget_position();
+                self.control.modal.has_feed = true;
                 Ok(Next::Block(at + 1))
             }
             Statement::Noted(name) => {
-                self.note(name, block.span);
+                self.control.note(name, block.span);
                 Ok(Next::Block(at + 1))
             }
             Statement::Words(words) => self.words_block(words, block, at),
@@ -153,6 +144,11 @@ impl<'a> Interpreter<'a> {
             Statement::Message(message) => {
                 self.message(message.as_ref()).map(|()| Next::Block(at + 1))
             }
+            // It was read when the subprogram was called.
+            Statement::Procedure(_) => Ok(Next::Block(at + 1)),
+            Statement::ModalCall(call) => self
+                .set_modal_call(call.as_ref())
+                .map(|()| Next::Block(at + 1)),
             Statement::Frame {
                 command,
                 keyword,
@@ -162,35 +158,38 @@ impl<'a> Interpreter<'a> {
                     *command,
                     *keyword,
                     words,
-                    &self.modal,
+                    &self.control.modal,
                     &self.variables,
-                    self.diagnostics,
+                    self.control.diagnostics,
                 );
                 command.and_then(|command| {
                     if let Some(command) = command {
-                        self.run_frame(command, *keyword)?;
+                        self.programmable_frame(command, *keyword)?;
                     }
                     Ok(Next::Block(at + 1))
                 })
             }
             Statement::Call(call) => {
-                self.finish_block(block, routine.file);
-                return self.call(call, block, routine.file, at);
+                self.finish_block(block);
+                return self.call(call, block, at);
             }
             Statement::Flow(flow) => {
-                self.finish_block(block, routine.file);
+                self.finish_block(block);
                 return self.flow(flow, routine, at).unwrap_or_else(|diagnostic| {
-                    self.diagnostics.push(*diagnostic);
+                    self.control.diagnostics.push(*diagnostic);
                     Next::Abort
                 });
             }
         };
         let next = next.unwrap_or_else(|diagnostic| {
-            self.diagnostics.push(*diagnostic);
-            self.modal.forget_position();
+            self.control.diagnostics.push(*diagnostic);
+            self.control.modal.forget_position();
             Next::Block(at + 1)
         });
-        self.finish_block(block, routine.file);
+        // A modal subprogram has finished its block.
+        if !self.control.actions.is_empty() || self.control.blocks_finished() == finished {
+            self.finish_block(block);
+        }
         next
     }
 
@@ -200,50 +199,33 @@ impl<'a> Interpreter<'a> {
         block: &Block,
         at: usize,
     ) -> Result<Next, Box<Diagnostic>> {
-        let Some(words) = BlockWords::collect(words, &self.variables, self.diagnostics) else {
-            self.modal.forget_position();
+        let Some(words) = BlockWords::collect(words, &self.variables, self.control.diagnostics)
+        else {
+            self.control.modal.forget_position();
             return Ok(Next::Block(at + 1));
         };
         match self.run_words(&words, block.span)? {
-            BlockEnd::Continue => Ok(Next::Block(at + 1)),
+            BlockEnd::Continue => {
+                let moves = |action: &Action| matches!(action, Action::Move(_));
+                if self.modal_call.is_some() && self.control.actions.iter().any(moves) {
+                    self.finish_block(block);
+                    return self.run_modal_call(block, at);
+                }
+                Ok(Next::Block(at + 1))
+            }
             BlockEnd::Ends(_) => {
                 // M30 in a subprogram returns, M17 in a main program ends it: as on the control.
-                if self.running.len() <= 1 {
+                if self.control.is_in_main() {
                     let rewind = words.m.iter().any(|m| m.value == 30);
-                    self.end_of_program(rewind);
+                    self.control.end_of_program(rewind);
                 }
                 Ok(Next::Return)
             }
         }
     }
 
-    /// Puts the collected actions into the program, with the place of the block.
-    pub(super) fn finish_block(&mut self, block: &Block, file: usize) {
-        let actions = std::mem::take(&mut self.actions);
-        // Loops and jumps do nothing by themselves: there would be very many of them.
-        if actions.is_empty() && block.comment.is_none() {
-            return;
-        }
-        self.program.blocks.push(program::Block {
-            origin: Origin {
-                file,
-                line: self.sources.line(block.span),
-                number: block.number,
-                span: block.span,
-            },
-            actions,
-            comment: block.comment.clone(),
-        });
-    }
-
-    /// Says once of each kind of command that it is left out.
-    pub(super) fn note(&mut self, name: &str, span: Span) {
-        if self.noted.insert(name.to_string()) {
-            self.diagnostics.push(Diagnostic::warning(
-                span,
-                format!("{name} tunes the other control and is left out"),
-            ));
-        }
+    pub(super) fn finish_block(&mut self, block: &Block) {
+        self.control.finish_block(&place(block));
     }
 
     fn message(&mut self, message: Option<&Expression>) -> Result<(), Box<Diagnostic>> {
@@ -252,7 +234,7 @@ impl<'a> Interpreter<'a> {
         };
         let message = text(&message.evaluate(&self.variables)?);
         if !message.trim().is_empty() {
-            self.actions.push(Action::Message(message));
+            self.control.actions.push(Action::Message(message));
         }
         Ok(())
     }
@@ -291,5 +273,14 @@ impl<'a> Interpreter<'a> {
             )?;
         }
         Ok(())
+    }
+}
+
+/// Where the actions of a block belong.
+pub(super) fn place(block: &Block) -> Place {
+    Place {
+        span: block.span,
+        number: block.number,
+        comment: block.comment.clone(),
     }
 }

@@ -180,6 +180,9 @@ impl BlockParser<'_> {
         if name == "PROC" {
             return self.procedure().map(Some);
         }
+        if name == "MCALL" {
+            return self.modal_call().map(Some);
+        }
         if name == "CALL" {
             return self.call_by_text().map(Some);
         }
@@ -209,19 +212,33 @@ impl BlockParser<'_> {
     fn procedure(&mut self) -> Parsed<Statement> {
         self.cursor.advance();
         self.cursor.advance();
+        let parameters = match self.cursor.is_symbol(0, Symbol::Open) {
+            true => flow_parser::parameters(self)?,
+            false => Vec::new(),
+        };
         while let Some(TokenKind::Name(attribute)) = self.cursor.peek() {
             match attribute.as_str() {
-                "DISPLOF" | "DISPLON" | "SBLOF" | "SBLON" => self.cursor.advance(),
+                "DISPLOF" | "DISPLON" | "SBLOF" | "SBLON" | "SAVE" => self.cursor.advance(),
                 _ => break,
             };
         }
-        if self.cursor.is_symbol(0, Symbol::Open) {
-            return Err(self.error_with_help(
-                "subprograms with parameters are not supported",
-                "pass values in R parameters",
-            ));
+        Ok(Statement::Procedure(parameters))
+    }
+
+    /// `MCALL POCKET(5)`, `MCALL`.
+    fn modal_call(&mut self) -> Parsed<Statement> {
+        self.cursor.advance();
+        if self.cursor.is_at_end() {
+            return Ok(Statement::ModalCall(None));
         }
-        Ok(Statement::Nothing)
+        let statement = match self.cursor.peek() {
+            Some(TokenKind::Letter('L')) => self.numbered_call()?,
+            _ => self.call()?,
+        };
+        match statement {
+            Statement::Call(call) if call.passes.is_none() => Ok(Statement::ModalCall(Some(call))),
+            _ => Err(self.cursor.error("a modal call has no P")),
+        }
     }
 
     /// `CALL "NAME"`.

@@ -53,6 +53,10 @@ pub enum Statement {
     },
     /// A subprogram, or a command in the form of one.
     Call(Call),
+    /// `MCALL POCKET(5)`; `MCALL` alone ends it.
+    ModalCall(Option<Call>),
+    /// `PROC POCKET(REAL DEPTH)`: the head of a subprogram with parameters.
+    Procedure(Vec<Parameter>),
     /// `MSG("text")`; without a text, `MSG()` clears.
     Message(Option<Expression>),
     /// `STOPRE` and others that are part of the flow but need no evaluation ahead of time.
@@ -129,6 +133,15 @@ pub struct Call {
     pub arguments: Vec<Option<Expression>>,
     /// `P3`.
     pub passes: Option<Expression>,
+}
+
+/// A parameter of a subprogram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Whether its value goes back to the variable of the call (VAR).
+    pub returns: bool,
+    /// Name, kind, and the value where the call gives none.
+    pub definition: Definition,
 }
 
 /// One name of a `DEF`.

@@ -1,15 +1,9 @@
 //! The smallest pieces of a Sinumerik-like part program.
 
-use crate::source::Span;
+use crate::dialects::cursor;
 
 /// A token and where it stands.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Token {
-    /// What it is.
-    pub kind: TokenKind,
-    /// Where it stands.
-    pub span: Span,
-}
+pub type Token = cursor::Token<TokenKind>;
 
 /// The kinds of tokens.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,4 +55,36 @@ pub enum Symbol {
     Greater,
     GreaterOrEqual,
     Concatenate,
+}
+
+impl cursor::Kind for TokenKind {
+    type Symbol = Symbol;
+
+    fn symbol(&self) -> Option<Symbol> {
+        match self {
+            TokenKind::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        }
+    }
+
+    fn letter(&self) -> Option<char> {
+        match self {
+            TokenKind::Letter(letter) => Some(*letter),
+            _ => None,
+        }
+    }
+
+    fn name(&self) -> Option<&str> {
+        match self {
+            TokenKind::Name(name) => Some(name),
+            _ => None,
+        }
+    }
+
+    fn number(&self) -> Option<f64> {
+        match self {
+            TokenKind::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
 }

@@ -2,6 +2,7 @@
 //! refused.
 
 use super::syntax::FrameKeyword;
+use crate::dialects::spelling::nearest;
 
 /// The command of the programmable frame with this name.
 pub fn frame_keyword(name: &str) -> Option<FrameKeyword> {
@@ -189,27 +190,7 @@ pub fn similar(name: &str) -> Option<&'static str> {
         "SUPA", "GOTOF", "GOTOB", "GOTO", "ENDIF", "ELSE", "WHILE", "ENDWHILE", "ENDFOR", "LOOP",
         "ENDLOOP", "REPEAT", "UNTIL", "STOPRE", "MSG", "RET", "PROC", "MCALL", "CASE", "DEF",
     ];
-    let distance = |known: &&str| edit_distance(name, known);
-    NAMES
-        .into_iter()
-        .min_by_key(distance)
-        .filter(|known| distance(known) <= known.len() / 3)
-}
-
-/// How many characters must be changed, added or taken out (Levenshtein).
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, to) in b.iter().enumerate() {
-            let changed = diagonal + usize::from(from != *to);
-            diagonal = row[j + 1];
-            row[j + 1] = changed.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
+    nearest(name, &NAMES)
 }
 
 #[cfg(test)]

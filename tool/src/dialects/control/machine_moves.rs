@@ -1,22 +1,26 @@
 //! Motions in coordinates of the machine, and G92.
 
-use super::block_words::{BlockWords, Dimension};
-use super::evaluate_words::Done;
-use super::interpreter::Interpreter;
 use super::modal::Motion;
 use super::motion::targets;
+use super::words::{Dimension, MotionWords};
+use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
 use crate::program::Action;
+use crate::program::frame::Frame;
 use crate::program::moves::{Coordinate, Move, MoveKind};
 use crate::source::Span;
 
-impl Interpreter<'_> {
-    /// G53, G153, SUPA: to coordinates of the machine, without frame and work offset.
-    pub(super) fn machine_move(&mut self, words: &BlockWords, span: Span) -> Done {
-        if !words.names_an_axis() {
-            // SUPA D0 alone only suppresses what a motion in this block would use.
-            return Ok(());
-        }
+impl Control<'_> {
+    /// To coordinates of the machine, without frame and work offset. `tool_length`: the tip goes to
+    /// the coordinates if tool length compensation is on; else the spindle nose does. `own_feed`:
+    /// whether the block has an F.
+    pub fn machine_move(
+        &mut self,
+        words: &MotionWords,
+        span: Span,
+        tool_length: bool,
+        own_feed: bool,
+    ) -> Done {
         self.refuse_compensation(span, "a motion in machine coordinates")?;
         if self.modal.incremental
             && words
@@ -27,13 +31,13 @@ impl Interpreter<'_> {
         {
             return Err(Box::new(
                 Diagnostic::error(span, "an increment in machine coordinates")
-                    .help("write G90, or X=AC(..), in this block"),
+                    .help("write G90 in this block"),
             ));
         }
         let rapid = match self.modal.motion {
             Some(Motion::Rapid) => true,
             Some(Motion::Line) => {
-                self.check_feed(words, span)?;
+                self.check_feed(own_feed, span)?;
                 false
             }
             _ => {
@@ -52,37 +56,42 @@ impl Interpreter<'_> {
             }
         }
         self.modal.carried = [None; 3];
-        let kind = MoveKind::Machine {
-            rapid,
-            tool_length: true,
-        };
+        let kind = MoveKind::Machine { rapid, tool_length };
         self.actions.push(Action::Move(Move {
             kind,
             target,
             start,
             exact_stop: false,
+            corner: None,
         }));
         Ok(())
     }
 
-    pub(super) fn preset(&mut self, words: &BlockWords, span: Span) -> Done {
+    /// The end of G92.
+    pub fn preset_off(&mut self, span: Span) -> Done {
+        self.refuse_compensation(span, "the end of G92")?;
+        self.modal.forget_position();
+        self.states.push(Action::PresetOff);
+        Ok(())
+    }
+
+    /// G92: the present place gets these coordinates of the work offset. Frames act inside of the
+    /// work offset and are not seen by it: the values are neither mirrored, turned nor scaled.
+    pub fn preset(&mut self, words: &MotionWords, span: Span) -> Done {
         self.refuse_compensation(span, "G92")?;
-        if !self.modal.frame.is_empty() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G92 while a frame is active")
-                    .help("clear the frame with TRANS before, and set it again after"),
-            ));
-        }
         if !words.names_an_axis() {
             return Err(Box::new(
                 Diagnostic::error(span, "G92 needs axes").help("G92 X0 makes this place X0"),
             ));
         }
+        let factors = std::mem::replace(&mut self.modal.axis_factors, [1.0; 9]);
+        let targets = targets(words, &self.modal, self.settings, self.diagnostics);
+        self.modal.axis_factors = factors;
+        let frame = self.modal.frame.clone();
+        let mut position = self.modal.position.clone();
+        position.change_frame(&frame, &Frame::default());
         let mut values = [None; 9];
-        for (axis, target) in targets(words, &self.modal, self.settings, self.diagnostics)?
-            .into_iter()
-            .enumerate()
-        {
+        for (axis, target) in targets?.into_iter().enumerate() {
             match target {
                 Coordinate::Keep => continue,
                 Coordinate::At(value) if !self.modal.incremental => values[axis] = Some(value),
@@ -92,8 +101,10 @@ impl Interpreter<'_> {
                     ));
                 }
             }
-            self.modal.position.set(axis, values[axis]);
+            position.set(axis, values[axis]);
         }
+        position.change_frame(&Frame::default(), &frame);
+        self.modal.position = position;
         self.actions.push(Action::Preset(values));
         Ok(())
     }

@@ -3,7 +3,7 @@
 use crate::dialects::settings::Settings;
 use crate::program::frame::Frame;
 use crate::program::position::Position;
-use crate::program::{Compensation, FeedMode, PathControl, Plane};
+use crate::program::{Compensation, FeedMode, PathControl, Plane, Spindle};
 
 /// The motion that a block of axis words alone carries on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,16 +37,26 @@ pub struct Modal {
     pub has_feed: bool,
     /// S, revolutions per minute.
     pub spindle_speed: Option<f64>,
+    /// M3 to M5.
+    pub spindle: Option<Spindle>,
     /// G40 to G42.
     pub compensation: Compensation,
     /// G60 and G64.
     pub path_control: Option<PathControl>,
     /// The programmable frame.
     pub frame: Frame,
+    /// Coordinates of A B C U V W times these are those that are written: a mirrored axis has -1. The
+    /// entries of X Y Z are not used; their mirrors and scales are in the frame.
+    pub axis_factors: [f64; 9],
     /// Where the axes are.
     pub position: Position,
     /// Coordinates from before the last change of frame, for axes that have not moved since.
     pub carried: [Option<Option<f64>>; 3],
+    /// The direction in which the last motion ended, along X Y Z of the frame, if that is known.
+    pub tangent: Option<[f64; 3]>,
+    /// Whether an increment after a change of frame follows the setting. If not, it counts from where
+    /// the tool is.
+    pub follows_setting: bool,
 }
 
 impl Modal {
@@ -61,17 +71,21 @@ impl Modal {
             feed_mode: FeedMode::PerMinute,
             has_feed: false,
             spindle_speed: None,
+            spindle: None,
             compensation: Compensation::Off,
             path_control: None,
             frame: Frame::default(),
+            axis_factors: [1.0; 9],
             position: Position::default(),
             carried: [None; 3],
+            tangent: None,
+            follows_setting: false,
         };
         modal.use_inch(settings.machine_in_inch, true, settings);
         modal
     }
 
-    /// G70, G71 (lengths) and G700, G710 (feeds too).
+    /// The unit of lengths in the program, and where `feed_too` of feeds.
     pub fn use_inch(&mut self, inch: bool, feed_too: bool, settings: &Settings) {
         let factor = match (inch, settings.machine_in_inch) {
             (true, false) => 25.4,
@@ -86,15 +100,19 @@ impl Modal {
     pub fn forget_position(&mut self) {
         self.position.forget();
         self.carried = [None; 3];
+        self.tangent = None;
     }
 
     /// Another frame; the tool stays where it is.
     pub fn set_frame(&mut self, frame: Frame) {
-        for axis in 0..3 {
-            let before = self.position.get(axis);
-            self.carried[axis].get_or_insert(before);
+        if self.follows_setting {
+            for axis in 0..3 {
+                let before = self.position.get(axis);
+                self.carried[axis].get_or_insert(before);
+            }
         }
         self.position.change_frame(&self.frame, &frame);
+        self.tangent = None;
         self.frame = frame;
     }
 }

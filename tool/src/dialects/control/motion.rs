@@ -1,19 +1,97 @@
 //! From the axis words of a block to a move with explicit coordinates.
 
-use super::block_words::{AXES, At, BlockWords, Dimension};
 use super::modal::{Modal, Motion};
+use super::words::{AXES, At, Dimension, MotionWords};
+use super::{Control, Done};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::settings::{IncrementBase, Settings};
 use crate::program::arc::{ArcError, centre_from_radius, checked_centre};
 use crate::program::moves::{Arc, Centre, Coordinate, Move, MoveKind};
+use crate::program::trace::frame_arc;
+use crate::program::{Action, Compensation, Plane};
 use crate::source::Span;
+use nalgebra::Vector3;
 
 /// Coordinates that differ by less are the same place.
 const SAME_PLACE: f64 = 1e-9;
 
+impl Control<'_> {
+    /// Where an axis is, in units of the program, if that is known ahead of time.
+    pub fn present(&self, axis: usize) -> Option<f64> {
+        let factor = length_factor(axis, &self.modal) * written_factor(axis, &self.modal);
+        self.modal
+            .position
+            .get(axis)
+            .map(|position| position / factor)
+    }
+
+    /// The motion of a block with axis words, or with the centre of a full circle, by the modal G0 to
+    /// G3. `block`: the text of the block, for errors. `own_feed`: whether the block has an F.
+    pub fn motion(
+        &mut self,
+        words: &MotionWords,
+        block: Span,
+        own_feed: bool,
+        exact_stop: bool,
+    ) -> Done {
+        let span = words.first_axis().unwrap_or(block);
+        let Some(motion) = self.modal.motion else {
+            return Err(Box::new(
+                Diagnostic::error(span, "no G0, G1, G2 or G3 before the first motion")
+                    .help("say how the axes are to move: G0 rapid, G1 with feed"),
+            ));
+        };
+        if motion != Motion::Rapid {
+            self.check_feed(own_feed, span)?;
+        }
+        let mut path = path_move(
+            words,
+            motion,
+            &self.modal,
+            self.settings,
+            span,
+            self.diagnostics,
+        )?;
+        path.exact_stop = exact_stop;
+        self.add_move(path, span)
+    }
+
+    /// Moves one axis to an absolute coordinate, units of the program, rapid or with the feed in force:
+    /// a step of a cycle.
+    pub fn move_axis(&mut self, axis: usize, value: f64, rapid: bool, span: Span) -> Done {
+        let mut words = MotionWords::default();
+        words.axes[axis] = Some(At {
+            value: (value, Dimension::Absolute),
+            span,
+        });
+        let motion = if rapid { Motion::Rapid } else { Motion::Line };
+        let before = self.modal.motion.replace(motion);
+        let done = self.motion(&words, span, false, false);
+        self.modal.motion = before;
+        done
+    }
+
+    /// A motion whose coordinates are worked out.
+    pub fn add_move(&mut self, path: Move, span: Span) -> Done {
+        if self.modal.compensation != Compensation::Off && path.depends_on_position() {
+            return Err(Box::new(
+                Diagnostic::error(
+                    span,
+                    "under cutter compensation, from a place that is not known ahead of time",
+                )
+                .help("program the axes of the plane absolute before G41 or G42"),
+            ));
+        }
+        self.modal.tangent = end_direction(&path, self.modal.plane, self.settings);
+        carry_out(&path, &mut self.modal);
+        self.actions.push(Action::Move(path));
+        Ok(())
+    }
+}
+
 /// The targets of all axes.
-pub fn targets(
-    words: &BlockWords,
+pub(super) fn targets(
+    words: &MotionWords,
     modal: &Modal,
     settings: &Settings,
     diagnostics: &mut Diagnostics,
@@ -27,7 +105,7 @@ pub fn targets(
         else {
             continue;
         };
-        let factor = length_factor(axis, modal);
+        let factor = length_factor(axis, modal) * written_factor(axis, modal);
         let incremental = match dimension {
             Dimension::Modal => modal.incremental,
             Dimension::Absolute => false,
@@ -47,10 +125,18 @@ pub fn targets(
 }
 
 /// Rotary axes are in degrees whatever the unit of length.
-fn length_factor(axis: usize, modal: &Modal) -> f64 {
+pub(super) fn length_factor(axis: usize, modal: &Modal) -> f64 {
     match AXES[axis] {
         "A" | "B" | "C" => 1.0,
         _ => modal.length_factor,
+    }
+}
+
+/// X Y Z are mirrored and scaled by the frame, the other axes as they are written.
+fn written_factor(axis: usize, modal: &Modal) -> f64 {
+    match axis {
+        0..3 => 1.0,
+        _ => modal.axis_factors[axis],
     }
 }
 
@@ -66,6 +152,9 @@ fn increment_base(
     let Some(carried) = modal.carried.get(axis).copied().flatten() else {
         return Ok(position);
     };
+    if !modal.follows_setting {
+        return Ok(position);
+    }
     let unchanged = match (carried, position) {
         (Some(carried), Some(position)) => (carried - position).abs() < SAME_PLACE,
         _ => false,
@@ -119,8 +208,8 @@ fn increment_base(
 }
 
 /// The move of a block with axis words, or with the centre of a full circle.
-pub fn path_move(
-    words: &BlockWords,
+fn path_move(
+    words: &MotionWords,
     motion: Motion,
     modal: &Modal,
     settings: &Settings,
@@ -132,12 +221,13 @@ pub fn path_move(
         target: targets(words, modal, settings, diagnostics)?,
         start: modal.position.coordinates(),
         exact_stop: false,
+        corner: None,
     };
     let clockwise = match motion {
         Motion::Rapid | Motion::Line => {
             if words.names_a_centre() || words.turns.is_some() {
                 return Err(Box::new(
-                    Diagnostic::error(span, "I, J, K, CR and TURN belong to arcs")
+                    Diagnostic::error(span, "centres, radii and turns belong to arcs")
                         .help("write G2 (clockwise) or G3 (counterclockwise) in this block"),
                 ));
             }
@@ -158,7 +248,7 @@ pub fn path_move(
     Ok(result)
 }
 
-fn extra_turns(words: &BlockWords) -> Result<u32, Box<Diagnostic>> {
+fn extra_turns(words: &MotionWords) -> Result<u32, Box<Diagnostic>> {
     match words.turns {
         None => Ok(0),
         Some(turns) if turns.value.fract() == 0.0 && (0.0..=999.0).contains(&turns.value) => {
@@ -172,7 +262,7 @@ fn extra_turns(words: &BlockWords) -> Result<u32, Box<Diagnostic>> {
 }
 
 fn arc_centre(
-    words: &BlockWords,
+    words: &MotionWords,
     arc: &mut Move,
     clockwise: bool,
     modal: &Modal,
@@ -203,7 +293,7 @@ fn arc_centre(
         if let Some(centre) = given {
             return Err(Box::new(
                 Diagnostic::error(centre.span, "an arc has a centre or a radius, not both")
-                    .help("leave out either CR or I, J and K"),
+                    .help("leave out either the radius or I, J and K"),
             ));
         }
         let value = radius.value * modal.length_factor;
@@ -223,7 +313,7 @@ fn arc_centre(
     if words.centre[first].is_none() && words.centre[second].is_none() {
         return Err(Box::new(
             Diagnostic::error(span, "this arc has neither a centre nor a radius")
-                .help("add I, J or K (centre from the start) or CR=radius"),
+                .help("add I, J or K (centre from the start) or the radius"),
         ));
     }
     let centre = [first, second].map(|axis| centre_coordinate(words, arc, axis, modal));
@@ -250,7 +340,7 @@ fn chord(arc: &Move, axis: usize) -> Option<f64> {
 
 /// One coordinate of the centre, from the start as far as that is possible. The centre is incremental
 /// whatever G90 and G91 say.
-fn centre_coordinate(words: &BlockWords, arc: &Move, axis: usize, modal: &Modal) -> Coordinate {
+fn centre_coordinate(words: &MotionWords, arc: &Move, axis: usize, modal: &Modal) -> Coordinate {
     let Some(At {
         value: (value, dimension),
         ..
@@ -273,7 +363,7 @@ fn arc_error(error: ArcError, span: Span) -> Box<Diagnostic> {
             span,
             format!("the radius {radius:.4} does not reach the end: at least {least:.4} is needed"),
         )
-        .help("check CR= and the end point"),
+        .help("check the radius and the end point"),
         ArcError::FullCircleByRadius => Diagnostic::error(
             span,
             "a full circle by its radius: the centre could be anywhere",
@@ -285,13 +375,37 @@ fn arc_error(error: ArcError, span: Span) -> Box<Diagnostic> {
         )
         .help("check the end point and the centre; I, J and K count from the start"),
         ArcError::NoRadius => Diagnostic::error(span, "the centre of this arc is its start")
-            .help("I, J and K count from the start; absolute centres are I=AC(..)"),
+            .help("I, J and K count from the start"),
     };
     Box::new(error)
 }
 
+/// The direction at the end of a move, if it is known ahead of time.
+fn end_direction(path: &Move, plane: Plane, settings: &Settings) -> Option<[f64; 3]> {
+    let point = |coordinates: [Option<f64>; 3]| match coordinates {
+        [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
+        _ => None,
+    };
+    if let MoveKind::Arc(arc) = &path.kind {
+        let start = point([0, 1, 2].map(|axis| path.start[axis]))?;
+        let end = point([0, 1, 2].map(|axis| path.end(axis)))?;
+        let shape = frame_arc(arc, start, end, plane, &settings.arc_tolerance).ok()?;
+        return Some(shape.end_direction().into());
+    }
+    let mut direction = [0.0; 3];
+    for (axis, along) in direction.iter_mut().enumerate() {
+        *along = match (path.target[axis], path.start[axis]) {
+            (Coordinate::Keep, _) => 0.0,
+            (Coordinate::By(step), _) => step,
+            (Coordinate::At(end), start) => end - start?,
+        };
+    }
+    let moves = direction.iter().any(|along| *along != 0.0);
+    moves.then_some(direction)
+}
+
 /// Takes the axes to the end of a move.
-pub fn carry_out(result: &Move, modal: &mut Modal) {
+fn carry_out(result: &Move, modal: &mut Modal) {
     for axis in 0..9 {
         if result.target[axis] == Coordinate::Keep {
             continue;

@@ -1,0 +1,15 @@
+/* What the interpreter's calls leave behind for the main program.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#pragma once
+#include <cstdio>
+
+/* Where the calls are printed to. */
+extern FILE *output;
+
+/* The file of numbered parameters. */
+void parameter_file(const char *name);
+
+/* Name of the first call that cannot be printed, or a null pointer. */
+const char *unsupported_call();

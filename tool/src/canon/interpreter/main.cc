@@ -1,0 +1,119 @@
+/* Runs a program through LinuxCNC's interpreter (librs274) and prints what it asks of the machine, one call a line, with
+ * all digits (rs274 prints four decimals).
+ *
+ *   interpreter FILE [PARAMETERS]
+ *
+ * PARAMETERS is the file of numbered parameters; it is written anew at the end, so the caller gives a copy.
+ * The calls themselves are in calls.cc. A refusal is printed as two lines, REFUSED with line number and message, SOURCE
+ * with the text of the line, and the exit code is 1.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <unistd.h>
+#include "interp_base.hh"
+#include "interp_return.hh"
+#include "calls.hh"
+
+/* The interpreter's own Python module, which it imports when it is made. */
+struct _object;
+extern "C" _object *PyInit_interpreter(void);
+struct _inittab {
+    const char *name;
+    _object *(*start)(void);
+};
+extern "C" {
+_inittab builtin_modules[] = {{"interpreter", PyInit_interpreter}, {nullptr, nullptr}};
+}
+
+/* Tells remapped codes that no task controller is there. */
+int _task = 0;
+
+static std::string one_line(const char *text)
+{
+    std::string line(text);
+    for (char &c : line)
+        if (c == '\n' || c == '\r')
+            c = ' ';
+    return line;
+}
+
+static int refuse(InterpBase &interpreter, int status)
+{
+    char message[1024] = "", line[1024] = "";
+    interpreter.error_text(status, message, sizeof message);
+    interpreter.line_text(line, sizeof line);
+    if (!message[0])
+        snprintf(message, sizeof message, "the interpreter gives up with code %d", status);
+    fprintf(output, "REFUSED %d %s\n", interpreter.sequence_number(), one_line(message).c_str());
+    fprintf(output, "SOURCE %s\n", one_line(line).c_str());
+    return 1;
+}
+
+static bool failed(int status)
+{
+    return status > INTERP_MIN_ERROR;
+}
+
+static int interpret(InterpBase &interpreter, const char *file)
+{
+    int status = interpreter.init();
+    if (failed(status))
+        return refuse(interpreter, status);
+    status = interpreter.open(file);
+    if (failed(status))
+        return refuse(interpreter, status);
+    for (;;) {
+        status = interpreter.read();
+        if (status == INTERP_ENDFILE || status == INTERP_EXIT)
+            break;
+        if (failed(status))
+            return refuse(interpreter, status);
+        if (status == INTERP_OK)
+            status = interpreter.execute();
+        if (failed(status))
+            return refuse(interpreter, status);
+        if (unsupported_call()) {
+            fprintf(output, "REFUSED %d %s is not supported here\n", interpreter.sequence_number(), unsupported_call());
+            char line[1024] = "";
+            interpreter.line_text(line, sizeof line);
+            fprintf(output, "SOURCE %s\n", one_line(line).c_str());
+            return 1;
+        }
+        if (status == INTERP_EXIT)
+            break;
+        /* The program wants to know the state of the machine at this point: all motion counts as done. */
+        if (status == INTERP_EXECUTE_FINISH && failed(status = interpreter.synch()))
+            return refuse(interpreter, status);
+    }
+    interpreter.close();
+    return 0;
+}
+
+int main(int count, char **arguments)
+{
+    if (count < 2) {
+        fputs("usage: interpreter FILE [PARAMETERS]\n", stderr);
+        return 2;
+    }
+    /* Programs may print, too: (PRINT, ..) goes to where errors go. */
+    output = fdopen(dup(STDOUT_FILENO), "w");
+    if (!output || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
+        perror("interpreter");
+        return 2;
+    }
+    static char buffer[1 << 16];
+    setvbuf(output, buffer, _IOFBF, sizeof buffer);
+    if (count > 2)
+        parameter_file(arguments[2]);
+    InterpBase *interpreter = makeInterp();
+    int result = interpret(*interpreter, arguments[1]);
+    if (result == 0)
+        fputs("END\n", output);
+    /* Straight out: the destructors of Python's objects gain nothing here. */
+    if (fflush(output))
+        result = 3;
+    _Exit(result);
+}

@@ -1,0 +1,45 @@
+/* Where the program stands while it is interpreted.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#pragma once
+#include "canon.hh"
+
+const int AXES = 9;
+
+struct Pose {
+    double at[AXES] = {};
+};
+
+struct Where {
+    double unit = 1;
+    CANON_UNITS units = CANON_UNITS_MM;
+    CANON_PLANE plane = CANON_PLANE_XY;
+    CANON_MOTION_MODE mode = CANON_CONTINUOUS;
+    double tolerance = 0, naive_cam = 0;
+    Pose work, shift, tool;         /* offsets: G5x, G92, tool; mm and degrees */
+    EmcPose tool_in_program_units = {};
+    double rotation = 0;            /* degrees about Z */
+    Pose here;                      /* of the machine */
+    double rate = 0;
+    bool feed_override = true, block_delete = false, optional_stop = false;
+    double speed[EMCMOT_MAX_SPINDLES] = {};
+    int turning[EMCMOT_MAX_SPINDLES] = {};
+    int selected_tool = 0, tool_number = 0;
+    int flood = 0, mist = 0;
+};
+
+extern Where now;
+
+inline bool rotary(int axis)
+{
+    return axis >= 3 && axis <= 5;
+}
+
+inline bool known(int spindle)
+{
+    return spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES;
+}
+
+/* Where the program believes an axis is, in its units. */
+double program_position(int axis);

@@ -1,0 +1,17 @@
+//! Programs as LinuxCNC's own interpreter reads them, with all digits.
+//!
+//! `rs274` prints the canonical calls of a program with four decimals, and the Python module
+//! `gcode` passes on neither G64's tolerances nor the state tags. So this folder has a canon of
+//! its own: a small C++ program (`interpreter/`), linked with LinuxCNC's interpreter library
+//! (librs274) against LinuxCNC's headers, that prints each call with 17 digits. The build script
+//! compiles it and puts it into the executable; it runs in a process of its own, from memory, with
+//! an empty file of numbered parameters and with a tool table in which every number is a tool
+//! without length and radius.
+//!
+//! [`call`] are the calls, [`interpreter`] runs a program.
+
+pub mod call;
+pub mod interpreter;
+
+pub use call::Call;
+pub use interpreter::{CanonError, read_program, read_text};

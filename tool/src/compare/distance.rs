@@ -1,0 +1,298 @@
+//! Distance between the executed and the programmed path, both ways, and against the tolerance.
+
+use super::figures::EXCEEDED;
+use super::kinematics::{moves, step};
+use super::program::{Piece, Program};
+use super::recording::Sample;
+use super::segment::{Segment, largest_difference};
+use crate::canon::call::PathMode;
+use serde::Serialize;
+
+/// Moves on each side of the one that runs in which the path is looked for.
+const NEIGHBOURS: usize = 2;
+
+/// Pieces on each side, at most.
+const MOST_PIECES: usize = 20_000;
+
+/// Distance of points in which a programmed piece is looked at, mm or degrees.
+const SPACING: f64 = 0.1;
+
+/// What the measuring itself may be off, mm: the executed path is known at the end of each cycle only.
+const RESOLUTION: f64 = 1e-3;
+
+/// The largest distance found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct Distance {
+    /// mm (or degrees of rotary axes).
+    pub largest: f64,
+    /// Line of the program there.
+    pub line: i32,
+    /// The largest ratio to the tolerance; `None` where no tolerance was in force at all.
+    pub ratio: Option<f64>,
+    /// Line of the program there.
+    pub ratio_line: i32,
+    /// The largest distance in exact path and exact stop.
+    pub exact: Option<f64>,
+    /// Somewhere it is more than 1 % and a micrometre beyond the tolerance.
+    pub exceeds: bool,
+}
+
+impl Distance {
+    fn note(&mut self, path: &Path, piece: usize, distance: f64) {
+        let line = path.pieces[piece].line;
+        if distance > self.largest || distance.is_nan() {
+            self.largest = distance;
+            self.line = line;
+        }
+        match path.tolerance(piece) {
+            Tolerance::Given(tolerance) => {
+                let ratio = distance / tolerance;
+                self.exceeds |= distance > EXCEEDED * tolerance + RESOLUTION;
+                if self.ratio.is_none_or(|worst| ratio > worst) {
+                    self.ratio = Some(ratio);
+                    self.ratio_line = line;
+                }
+            }
+            Tolerance::Exact => {
+                self.exact = Some(self.exact.unwrap_or(0.0).max(distance));
+                self.exceeds |= distance > RESOLUTION;
+            }
+            Tolerance::None => {}
+        }
+    }
+}
+
+enum Tolerance {
+    Given(f64),
+    Exact,
+    None,
+}
+
+/// A path to compare with.
+pub(crate) struct Path<'a> {
+    pieces: &'a [Piece],
+    /// First and last piece of each move.
+    ranges: Vec<(usize, usize)>,
+    /// Length before each piece, and at the end.
+    before: Vec<f64>,
+    all_axes: bool,
+}
+
+impl<'a> Path<'a> {
+    /// The path as programmed.
+    pub(crate) fn programmed(program: &'a Program) -> Path<'a> {
+        Path::new(
+            &program.programmed,
+            program.ranges.clone(),
+            program.other_axes,
+        )
+    }
+
+    /// The path as it was handed to the planner: after merging.
+    pub(crate) fn handed(program: &'a Program) -> Path<'a> {
+        let ranges = (0..program.handed.len())
+            .map(|index| (index, index))
+            .collect();
+        Path::new(&program.handed, ranges, program.other_axes)
+    }
+
+    fn new(pieces: &'a [Piece], ranges: Vec<(usize, usize)>, all_axes: bool) -> Path<'a> {
+        let mut before = vec![0.0];
+        let mut length = 0.0;
+        for piece in pieces {
+            let segment = &piece.segment;
+            length += segment
+                .length
+                .max(largest_difference(&segment.start, &segment.end));
+            before.push(length);
+        }
+        Path {
+            pieces,
+            ranges,
+            before,
+            all_axes,
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.pieces.is_empty() || self.ranges.is_empty()
+    }
+
+    /// Near a piece its own tolerance holds, at its start that of the one before.
+    fn tolerance(&self, index: usize) -> Tolerance {
+        let own = &self.pieces[index];
+        let before = &self.pieces[index.saturating_sub(1)];
+        let continuous = |piece: &Piece| piece.mode == PathMode::Continuous;
+        if !continuous(own) && !continuous(before) {
+            return Tolerance::Exact;
+        }
+        let unbounded = |piece: &Piece| continuous(piece) && piece.tolerance <= 0.0;
+        if unbounded(own) || unbounded(before) {
+            return Tolerance::None;
+        }
+        let merged = own.merged_within.max(before.merged_within);
+        Tolerance::Given(own.tolerance.max(before.tolerance) + merged)
+    }
+
+    /// Pieces near a move: its neighbours, and as far as `reach` goes.
+    fn window(&self, move_index: usize, reach: f64) -> (usize, usize) {
+        let last = self.ranges.len() - 1;
+        let most = self.pieces.len() - 1;
+        let middle = self.ranges[move_index.min(last)];
+        let mut low = self.ranges[move_index.saturating_sub(NEIGHBOURS).min(last)].0;
+        let mut high = self.ranges[(move_index + NEIGHBOURS).min(last)].1.min(most);
+        let lowest = low.saturating_sub(MOST_PIECES);
+        while low > lowest && self.before[middle.0] - self.before[low] < reach {
+            low -= 1;
+        }
+        let highest = (high + MOST_PIECES).min(most);
+        while high < highest && self.before[high + 1] - self.before[middle.1 + 1] < reach {
+            high += 1;
+        }
+        (low, high)
+    }
+
+    fn reach(&self, piece: usize, travel: f64) -> f64 {
+        let tolerance = match self.tolerance(piece) {
+            Tolerance::Given(tolerance) => tolerance,
+            Tolerance::Exact | Tolerance::None => 0.0,
+        };
+        4.0 * tolerance + 3.0 * travel
+    }
+}
+
+/// The executed path, matched with a path to compare with.
+pub(crate) struct Matched<'a> {
+    samples: &'a [Sample],
+    /// For each sample the piece nearest to it.
+    pieces: Vec<usize>,
+}
+
+/// Distance of every executed position from the path.
+pub(crate) fn executed_to_path<'a>(path: &Path, samples: &'a [Sample]) -> (Distance, Matched<'a>) {
+    let mut distance = Distance::default();
+    let mut pieces = Vec::with_capacity(samples.len());
+    if path.is_empty() {
+        return (distance, Matched { samples, pieces });
+    }
+    let mut last = 0;
+    for (k, sample) in samples.iter().enumerate() {
+        let travel = step(samples, k);
+        if k > 0 && !moves(&travel) {
+            pieces.push(last);
+            continue;
+        }
+        let reach = path.reach(last, largest_difference(&travel, &[0.0; 9]));
+        let mut best = (f64::INFINITY, last);
+        let mut look = |from: usize, to: usize| {
+            for (index, piece) in path.pieces.iter().enumerate().take(to + 1).skip(from) {
+                let found = piece.segment.deviation(&sample.position, path.all_axes).0;
+                if found < best.0 {
+                    best = (found, index);
+                }
+            }
+        };
+        // Around where it was, in case the module's numbers mislead.
+        let most = path.pieces.len() - 1;
+        let (near_low, near_high) = (
+            last.saturating_sub(NEIGHBOURS),
+            (last + NEIGHBOURS).min(most),
+        );
+        look(near_low, near_high);
+        if let Some(index) = usize::try_from(sample.id)
+            .ok()
+            .and_then(|id| id.checked_sub(1))
+        {
+            let (low, high) = path.window(index, reach);
+            if low < near_low {
+                look(low, high.min(near_low - 1));
+            }
+            if high > near_high {
+                look(low.max(near_high + 1), high);
+            }
+        }
+        let found = if best.0.is_finite() { best.0 } else { f64::NAN };
+        last = best.1;
+        pieces.push(last);
+        distance.note(path, last, found);
+    }
+    (distance, Matched { samples, pieces })
+}
+
+/// Distance of the points of the path from the executed path: it grows where moves are left out.
+pub(crate) fn path_to_executed(path: &Path, matched: &Matched) -> Distance {
+    let mut distance = Distance::default();
+    let samples = matched.samples;
+    if path.is_empty() || samples.is_empty() {
+        return distance;
+    }
+    let (first, last, travelled, longest) = extents(path, matched);
+    let mut guess = 0;
+    for (index, piece) in path.pieces.iter().enumerate() {
+        let reach = path.reach(index, longest);
+        let (low, high) = path.window(piece.move_index, reach);
+        let from = first[low].saturating_sub(1);
+        let to = (last[high] + 1).min(samples.len() - 1).max(from);
+        let segment = &piece.segment;
+        let size = segment
+            .length
+            .max(largest_difference(&segment.start, &segment.end));
+        let count = ((size / SPACING).ceil() as usize).clamp(2, 100);
+        for part in usize::from(index > 0)..=count {
+            let point = segment.point(part as f64 / count as f64);
+            let chord = |k: usize| {
+                let start = k.checked_sub(1).map_or([0.0; 9], |k| samples[k].position);
+                Segment::line(start, samples[k].position)
+                    .deviation(&point, path.all_axes)
+                    .0
+            };
+            let mut at = guess.clamp(from, to);
+            let mut best = chord(at);
+            let mut k = from;
+            while k <= to {
+                let found = chord(k);
+                if found < best {
+                    best = found;
+                    at = k;
+                }
+                // Nothing is nearer before the path has come nearer by the difference.
+                let needed = travelled[k] + (found - best);
+                k = if found > best {
+                    let next = travelled[k + 1..=to].partition_point(|&length| length < needed);
+                    k + 1 + next
+                } else {
+                    k + 1
+                };
+            }
+            guess = at;
+            distance.note(path, index, best);
+        }
+    }
+    distance
+}
+
+/// First sample that belongs to each piece or a later one, last that belongs to it or an earlier
+/// one; length executed up to each sample, and the longest step.
+fn extents(path: &Path, matched: &Matched) -> (Vec<usize>, Vec<usize>, Vec<f64>, f64) {
+    let samples = matched.samples;
+    let count = path.pieces.len();
+    let mut first = vec![samples.len() - 1; count];
+    let mut last = vec![0; count];
+    let mut travelled = Vec::with_capacity(samples.len());
+    let (mut length, mut longest) = (0.0, 0.0);
+    for (k, &piece) in matched.pieces.iter().enumerate() {
+        first[piece] = first[piece].min(k);
+        last[piece] = last[piece].max(k);
+        let travel = largest_difference(&step(samples, k), &[0.0; 9]);
+        longest = f64::max(longest, travel);
+        length += travel;
+        travelled.push(length);
+    }
+    for index in (1..count).rev() {
+        first[index - 1] = first[index - 1].min(first[index]);
+    }
+    for index in 1..count {
+        last[index] = last[index].max(last[index - 1]);
+    }
+    (first, last, travelled, longest)
+}

@@ -1,0 +1,43 @@
+//! What can go wrong before anything is measured.
+
+use crate::canon::CanonError;
+use std::io;
+use std::path::PathBuf;
+
+/// Why there is no comparison.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareError {
+    /// Neither a file nor --generated was given.
+    #[error(
+        "nothing to compare with: name a program, or one of the generated ones with --generated ({0})"
+    )]
+    NoProgram(String),
+    /// No generated program has this name.
+    #[error("--generated {name}: there is no such program; there are {known}")]
+    UnknownProgram {
+        /// The name.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// The program cannot be read.
+    #[error(transparent)]
+    Canon(#[from] CanonError),
+    /// The program does not move.
+    #[error("{0}: the program has no moves")]
+    NoMoves(String),
+    /// A module file does not exist.
+    #[error("{}: there is no such module{hint}", file.display())]
+    NoModule {
+        /// The file.
+        file: PathBuf,
+        /// What to do.
+        hint: &'static str,
+    },
+    /// Something that is not the module's doing.
+    #[error("a module cannot be run: {0}")]
+    Run(io::Error),
+    /// The output cannot be written.
+    #[error("the result cannot be written: {0}")]
+    Write(io::Error),
+}

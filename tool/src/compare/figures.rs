@@ -1,0 +1,248 @@
+//! All figures of one run of a module.
+
+use super::cost::Cost;
+use super::distance::{Distance, Path, executed_to_path, path_to_executed};
+use super::holds::{Holds, holds};
+use super::job::Job;
+use super::kinematics::{Motion, motion};
+use super::limits::Jerk;
+use super::program::Program;
+use super::recording::{ABORTED, Ending, Recording};
+use super::rests::{Rests, rests};
+use super::segment::largest_difference;
+use super::supervise::Outcome;
+use serde::Serialize;
+
+/// Beyond this ratio a limit or a tolerance counts as exceeded.
+pub(crate) const EXCEEDED: f64 = 1.01;
+
+/// Farther than this from the programmed end a program was not finished, mm or degrees.
+const OFF_THE_END: f64 = 1e-3;
+
+/// How a run went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "state", content = "detail")]
+pub(crate) enum State {
+    Complete,
+    Aborted,
+    /// A move was refused.
+    Refused(String),
+    /// It stands still with moves to go.
+    Stuck(String),
+    TooLong,
+    /// The module cannot be loaded or is none.
+    NotUsable(String),
+    Crashed(String),
+    Hung(String),
+}
+
+impl State {
+    fn of(outcome: Outcome, recording: &Recording, period: f64) -> State {
+        let module_says = || match recording.first_error.as_str() {
+            "" => String::new(),
+            text => format!(": {text}"),
+        };
+        match (outcome, &recording.ending) {
+            (Outcome::Crashed(detail), _) => State::Crashed(detail),
+            (Outcome::Hung(detail), _) => State::Hung(detail),
+            (Outcome::Ended, ending) => match ending {
+                Ending::Complete => State::Complete,
+                Ending::Aborted => State::Aborted,
+                Ending::Stuck => {
+                    let end = recording.samples.len() as f64 * period;
+                    State::Stuck(format!("no motion any more at {end:.1} s{}", module_says()))
+                }
+                Ending::TooLong => State::TooLong,
+                Ending::Refused { line, code } => State::Refused(format!(
+                    "the move of line {line}, code {code}{}",
+                    module_says()
+                )),
+                Ending::NotUsable(problem) => State::NotUsable(problem.clone()),
+                Ending::Missing => State::Crashed("the record has no end".to_owned()),
+            },
+        }
+    }
+}
+
+/// What was measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Figures {
+    /// Name of the module's file.
+    pub module: String,
+    pub jerk: Jerk,
+    /// The module has pins for the jerk of its axes.
+    pub takes_jerk: bool,
+    #[serde(flatten)]
+    pub state: State,
+    pub motion: Motion,
+    /// Executed positions from the program.
+    pub deviation: Distance,
+    /// Executed positions from the moves as they were handed over, after merging.
+    pub deviation_from_moves: Distance,
+    /// Points of the program from the executed path.
+    pub missed: Distance,
+    /// Points of the moves as they were handed over from the executed path.
+    pub missed_of_moves: Distance,
+    /// Distance of the last position from the programmed end, mm or degrees.
+    pub final_error: f64,
+    pub rests: Rests,
+    pub holds: Holds,
+    /// tpRunCycle while moves are queued.
+    pub run: Cost,
+    /// tpAddLine and tpAddCircle.
+    pub add: Cost,
+    /// The clock itself, microseconds.
+    pub clock: f64,
+    /// Heap functions called in planner calls.
+    pub heap_calls: u64,
+    /// Error messages of the module, and the first of them.
+    pub errors: u64,
+    pub first_error: String,
+    /// How often the number of the running move went back.
+    pub id_backwards: usize,
+}
+
+impl Figures {
+    /// It came to the end of the program, at the programmed end: its time counts.
+    pub(crate) fn came_through(&self) -> bool {
+        self.state == State::Complete && !self.motion.not_finite && self.final_error <= OFF_THE_END
+    }
+
+    /// A limit or a tolerance is exceeded by more than 1 %.
+    pub(crate) fn exceeds(&self) -> bool {
+        self.motion.not_finite
+            || self.motion.velocity.ratio > EXCEEDED
+            || self.motion.acceleration.ratio > EXCEEDED
+            || self.motion.jerk.ratio > EXCEEDED
+            || self.deviation.exceeds
+            || self.missed.exceeds
+    }
+
+    /// Measures a run.
+    pub(crate) fn measure(
+        module: &str,
+        jerk: Jerk,
+        job: &Job,
+        program: &Program,
+        outcome: Outcome,
+        recording: &Recording,
+    ) -> Figures {
+        let state = State::of(outcome, recording, job.period);
+        let jerk_limits = if recording.takes_jerk {
+            job.jerk
+        } else {
+            [0.0; 9]
+        };
+        let motion = motion(recording, &job.limits, &jerk_limits, job.period);
+        let samples = recording.samples.as_slice();
+        let aborted = samples
+            .iter()
+            .position(|sample| sample.flags & ABORTED != 0);
+        let complete = state == State::Complete;
+        let along = |path: &Path| {
+            if motion.not_finite {
+                return (Distance::default(), Distance::default());
+            }
+            let (there, matched) = executed_to_path(path, samples);
+            let back = if complete {
+                path_to_executed(path, &matched)
+            } else {
+                Distance::default()
+            };
+            (there, back)
+        };
+        let (deviation_from_moves, missed_of_moves) = along(&Path::handed(program));
+        let (deviation, missed) = along(&Path::programmed(program));
+        let final_error = match samples.last() {
+            Some(sample) if aborted.is_none() => {
+                largest_difference(&sample.position, &program.end())
+            }
+            _ => 0.0,
+        };
+        Figures {
+            module: module.to_owned(),
+            jerk,
+            takes_jerk: recording.takes_jerk,
+            rests: rests(recording, program, &job.limits, job.period, motion.range),
+            holds: holds(recording, &job.limits, &jerk_limits, job.period),
+            state,
+            motion,
+            deviation,
+            deviation_from_moves,
+            missed,
+            missed_of_moves,
+            final_error,
+            run: Cost::of(
+                samples
+                    .iter()
+                    .map(|sample| sample.run)
+                    .filter(|&run| run > 0),
+            ),
+            add: Cost::of(recording.adds.iter().copied()),
+            clock: f64::from(recording.clock) / 1e3,
+            heap_calls: recording.heap_calls,
+            errors: recording.errors,
+            first_error: recording.first_error.clone(),
+            id_backwards: ids_going_back(recording, program.handed.len()),
+        }
+    }
+}
+
+fn ids_going_back(recording: &Recording, count: usize) -> usize {
+    let mut last = 0;
+    let mut backwards = 0;
+    for sample in &recording.samples {
+        let id = usize::try_from(sample.id).unwrap_or(0);
+        if (1..=count).contains(&id) {
+            backwards += usize::from(id < last);
+            last = id;
+        }
+    }
+    backwards
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// Figures of a run without a fault.
+    pub(crate) fn finished(module: &str, time: f64) -> Figures {
+        Figures {
+            module: module.to_owned(),
+            jerk: Jerk::Unlimited,
+            takes_jerk: false,
+            state: State::Complete,
+            motion: Motion {
+                time,
+                ..Motion::default()
+            },
+            deviation: Distance::default(),
+            deviation_from_moves: Distance::default(),
+            missed: Distance::default(),
+            missed_of_moves: Distance::default(),
+            final_error: 0.0,
+            rests: Rests::default(),
+            holds: Holds::default(),
+            run: Cost::default(),
+            add: Cost::default(),
+            clock: 0.0,
+            heap_calls: 0,
+            errors: 0,
+            first_error: String::new(),
+            id_backwards: 0,
+        }
+    }
+
+    #[test]
+    fn what_counts_as_exceeded() {
+        assert!(!finished("a", 1.0).exceeds());
+        let mut fast = finished("a", 1.0);
+        fast.motion.velocity.ratio = 1.02;
+        assert!(fast.exceeds());
+        let mut off = finished("a", 1.0);
+        off.missed.exceeds = true;
+        assert!(off.exceeds() && off.came_through());
+        off.final_error = 0.01;
+        assert!(!off.came_through());
+    }
+}

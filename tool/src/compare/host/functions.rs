@@ -1,0 +1,120 @@
+//! The functions of a planner module (LinuxCNC's `tp.h`), found by name as motmod's loader does.
+
+use framepath::abi::linuxcnc::{
+    EmcPose, PmCartesian, TC_QUEUE_STRUCT, TP_STRUCT, emcmot_config_t, emcmot_status_t, state_tag_t,
+};
+use std::ffi::{CStr, CString, c_char, c_int, c_long, c_uchar};
+
+macro_rules! planner_functions {
+    ($($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
+        /// The functions of a module.
+        #[allow(non_snake_case, reason = "the names are LinuxCNC's")]
+        pub(super) struct Functions {
+            $(pub $name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
+        }
+
+        impl Functions {
+            fn find(module: Module) -> Result<Self, String> {
+                Ok(Self {
+                    $($name: {
+                        let name = concat!(stringify!($name), "\0");
+                        let address = module.symbol(name).ok_or(concat!(
+                            "it is not a planner: ", stringify!($name), " is missing"
+                        ))?;
+                        // SAFETY: a planner module has this function with the type of tp.h.
+                        unsafe {
+                            std::mem::transmute::<
+                                *mut libc::c_void,
+                                unsafe extern "C" fn($($argument),*) $(-> $result)?,
+                            >(address)
+                        }
+                    },)*
+                })
+            }
+        }
+    };
+}
+
+type Tp = *mut TP_STRUCT;
+
+planner_functions! {
+    tpMotFunctions: fn(
+        extern "C" fn(c_int, c_char),
+        extern "C" fn(c_int, f64),
+        extern "C" fn(c_int, c_int),
+        extern "C" fn(c_int) -> c_int,
+        extern "C" fn(c_int) -> f64,
+        extern "C" fn(c_int) -> f64
+    );
+    tpMotData: fn(*mut emcmot_status_t, *mut emcmot_config_t);
+    tpCreate: fn(Tp, c_int, c_int) -> c_int;
+    tpSetCycleTime: fn(Tp, f64) -> c_int;
+    tpSetVmax: fn(Tp, f64, f64) -> c_int;
+    tpSetVlimit: fn(Tp, f64) -> c_int;
+    tpSetAmax: fn(Tp, f64) -> c_int;
+    tpSetId: fn(Tp, c_int) -> c_int;
+    tpSetTermCond: fn(Tp, c_int, f64) -> c_int;
+    tpSetPos: fn(Tp, *const EmcPose) -> c_int;
+    tpSetSpindleSync: fn(Tp, c_int, f64, c_int) -> c_int;
+    tpAddLine: fn(
+        Tp, EmcPose, c_int, f64, f64, f64, c_uchar, c_char, c_int, state_tag_t
+    ) -> c_int;
+    tpAddCircle: fn(
+        Tp, EmcPose, PmCartesian, PmCartesian, c_int, c_int, f64, f64, f64, c_uchar, c_char,
+        state_tag_t
+    ) -> c_int;
+    tpAddRigidTap: fn(Tp, EmcPose, f64, f64, f64, c_uchar, f64, state_tag_t) -> c_int;
+    tpRunCycle: fn(Tp, c_long) -> c_int;
+    tpPause: fn(Tp) -> c_int;
+    tpResume: fn(Tp) -> c_int;
+    tpAbort: fn(Tp) -> c_int;
+    tpGetPos: fn(*const TP_STRUCT, *mut EmcPose) -> c_int;
+    tpGetExecId: fn(Tp) -> c_int;
+    tpGetExecTag: fn(Tp) -> state_tag_t;
+    tpGetMotionType: fn(Tp) -> c_int;
+    tpIsDone: fn(Tp) -> c_int;
+    tpQueueDepth: fn(Tp) -> c_int;
+    tpActiveDepth: fn(Tp) -> c_int;
+    tcqFull: fn(*const TC_QUEUE_STRUCT) -> c_int;
+}
+
+/// A module that was loaded; it stays loaded.
+#[derive(Clone, Copy)]
+struct Module(*mut libc::c_void);
+
+impl Module {
+    fn open(file: &str) -> Result<Module, String> {
+        let path = CString::new(file).map_err(|error| error.to_string())?;
+        // SAFETY: a string that ends with 0; the flags are those of LinuxCNC's rtapi_app.
+        let handle = unsafe { libc::dlopen(path.as_ptr(), libc::RTLD_NOW | libc::RTLD_GLOBAL) };
+        if handle.is_null() {
+            // SAFETY: after a failure there is a text that ends with 0.
+            let text = unsafe { CStr::from_ptr(libc::dlerror()) };
+            return Err(text.to_string_lossy().into_owned());
+        }
+        Ok(Module(handle))
+    }
+
+    fn symbol(self, name: &str) -> Option<*mut libc::c_void> {
+        let name = CStr::from_bytes_with_nul(name.as_bytes()).ok()?;
+        // SAFETY: a module that is loaded, a string that ends with 0.
+        let address = unsafe { libc::dlsym(self.0, name.as_ptr()) };
+        (!address.is_null()).then_some(address)
+    }
+}
+
+/// Loads a module and starts it as LinuxCNC does.
+pub(super) fn load(file: &str) -> Result<Functions, String> {
+    let module = Module::open(file)?;
+    let functions = Functions::find(module)?;
+    if let Some(start) = module.symbol("rtapi_app_main\0") {
+        // SAFETY: every module has this function with this type.
+        let start: unsafe extern "C" fn() -> c_int = unsafe { std::mem::transmute(start) };
+        // SAFETY: called once, before all others.
+        let result = unsafe { start() };
+        if result < 0 {
+            return Err(format!("rtapi_app_main returned {result}"));
+        }
+    }
+    Ok(functions)
+}

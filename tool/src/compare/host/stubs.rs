@@ -1,0 +1,88 @@
+//! The functions of `stubs.c`, found in this process.
+
+use std::ffi::{CStr, CString, c_char, c_int, c_long, c_ulong};
+
+type SetFlag = unsafe extern "C" fn(c_int);
+type SetNumber = unsafe extern "C" fn(c_long);
+type SetNamed = unsafe extern "C" fn(*const c_char, f64) -> c_int;
+type Count = unsafe extern "C" fn() -> c_ulong;
+type Text = unsafe extern "C" fn() -> *const c_char;
+type Run = unsafe extern "C" fn();
+
+/// What `stubs.c` offers to the driver.
+pub(super) struct Stubs {
+    watch_heap: SetFlag,
+    heap_calls: Count,
+    first_error: Text,
+    errors: Count,
+    set_period: SetNumber,
+    set: SetNamed,
+    run_functions: Run,
+}
+
+impl Stubs {
+    /// `None` if `stubs.c` is not loaded.
+    pub(super) fn find() -> Option<Self> {
+        macro_rules! find {
+            ($name:literal as $type:ty) => {{
+                // SAFETY: a string that ends with 0; the name stands for this type in stubs.c.
+                unsafe {
+                    let address = libc::dlsym(libc::RTLD_DEFAULT, $name.as_ptr());
+                    if address.is_null() {
+                        return None;
+                    }
+                    std::mem::transmute::<*mut libc::c_void, $type>(address)
+                }
+            }};
+        }
+        Some(Self {
+            watch_heap: find!(c"framepath_host_watch_heap" as SetFlag),
+            heap_calls: find!(c"framepath_host_heap_calls" as Count),
+            first_error: find!(c"framepath_host_first_error" as Text),
+            errors: find!(c"framepath_host_errors" as Count),
+            set_period: find!(c"framepath_host_set_period" as SetNumber),
+            set: find!(c"framepath_host_set" as SetNamed),
+            run_functions: find!(c"framepath_host_run_functions" as Run),
+        })
+    }
+
+    pub(super) fn watch_heap(&self, on: bool) {
+        // SAFETY: sets a number.
+        unsafe { (self.watch_heap)(c_int::from(on)) };
+    }
+
+    pub(super) fn heap_calls(&self) -> u64 {
+        // SAFETY: reads a number.
+        unsafe { (self.heap_calls)() }
+    }
+
+    pub(super) fn errors(&self) -> u64 {
+        // SAFETY: reads a number.
+        unsafe { (self.errors)() }
+    }
+
+    pub(super) fn first_error(&self) -> String {
+        // SAFETY: a text that ends with 0 and stays where it is.
+        let text = unsafe { CStr::from_ptr((self.first_error)()) };
+        text.to_string_lossy().trim().to_owned()
+    }
+
+    pub(super) fn set_period(&self, nanoseconds: c_long) {
+        // SAFETY: sets a number.
+        unsafe { (self.set_period)(nanoseconds) };
+    }
+
+    /// Sets all pins whose name after that of the component is `ending`; how many there are.
+    pub(super) fn set(&self, ending: &str, value: f64) -> c_int {
+        let Ok(ending) = CString::new(ending) else {
+            return 0;
+        };
+        // SAFETY: a string that ends with 0.
+        unsafe { (self.set)(ending.as_ptr(), value) }
+    }
+
+    pub(super) fn run_functions(&self) {
+        // SAFETY: the module exported them for this.
+        unsafe { (self.run_functions)() };
+    }
+}

@@ -1,0 +1,60 @@
+//! What the operator does while a program runs: overrides, the velocity slider, pauses, an abort.
+
+use serde::Serialize;
+
+/// One action.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Action {
+    /// Of moves at feed, not of rapids; 1 = 100 %.
+    FeedOverride(f64),
+    /// Pause for so many seconds.
+    Pause(f64),
+    /// Greatest velocity, mm/s.
+    MaxVelocity(f64),
+    Abort,
+}
+
+/// An action at its time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct Event {
+    /// Seconds from the start.
+    pub time: f64,
+    pub action: Action,
+}
+
+/// Reads `T:VALUE`.
+pub(crate) fn at_time(text: &str) -> Result<(f64, f64), String> {
+    let (time, value) = text
+        .split_once(':')
+        .ok_or_else(|| format!("`{text}`: TIME:VALUE is needed"))?;
+    Ok((seconds(time)?, seconds(value)?))
+}
+
+/// Reads a number from 0 up.
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
+        _ => Err(format!("`{text}`: a number from 0 up is needed")),
+    }
+}
+
+/// A restless operator: an action every 0.02 to 1.5 s, for ten minutes, the same for the same seed.
+/// There is no abort among them, so that programs come to their end.
+pub(crate) fn random_events(seed: u64) -> Vec<Event> {
+    const DURATION: f64 = 600.0;
+    let mut random = crate::generate::random::Random::new(seed);
+    let mut events = Vec::new();
+    let mut time = 0.0;
+    while time < DURATION {
+        time += random.between(0.02, 1.5);
+        let action = match random.below(10) {
+            0..=5 => Action::FeedOverride(random.between(0.05, 2.0)),
+            6 => Action::FeedOverride(1.0),
+            7 => Action::Pause(random.between(0.01, 0.8)),
+            _ => Action::MaxVelocity(random.between(5.0, 200.0)),
+        };
+        events.push(Event { time, action });
+    }
+    events
+}

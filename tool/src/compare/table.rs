@@ -1,0 +1,165 @@
+//! The figures as a table for people.
+
+use super::distance::Distance;
+use super::figures::{EXCEEDED, Figures, State};
+use super::holds::Holds;
+use super::program::Program;
+use std::fmt::Write;
+
+const HEAD: [&str; 18] = [
+    "module", "jerk", "time s", "v/V", "a/A", "jerk", "dev mm", "/tol", "miss mm", "/tol", "rests",
+    "run us", "p99.9", "max", "add us", "p99.9", "max", "heap",
+];
+
+/// What the columns mean, for the end of the output.
+pub(crate) const LEGEND: &str = "\
+v/V a/A     largest velocity and acceleration of an axis over its limit
+jerk        the same for jerk; without a limit in units of the acceleration per second (..A)
+dev, miss   largest distance of the executed path from the program, and of the program from the
+            executed path; /tol: over the tolerance there (G64 P, and what merging took of Q)
+rests       standstills in the middle that nothing explains
+run, add    tpRunCycle and tpAddLine/tpAddCircle, microseconds: mean, 99.9th percentile, greatest
+heap        calls of the heap in planner calls
+!           a limit is exceeded by more than 1 %, a tolerance by more than 1 % and a micrometre
+";
+
+/// One program with the runs of all modules.
+pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
+    let length: f64 = program
+        .programmed
+        .iter()
+        .map(|piece| piece.segment.length)
+        .sum();
+    let mut text = format!("{name}: {} moves, {length:.1} mm\n", program.handed.len());
+    let mut rows = vec![HEAD.map(str::to_owned)];
+    rows.extend(runs.iter().map(row));
+    let mut widths = [0; HEAD.len()];
+    for row in &rows {
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = (*width).max(cell.chars().count());
+        }
+    }
+    for (index, row) in rows.iter().enumerate() {
+        let mut line = String::new();
+        for (column, (cell, &width)) in row.iter().zip(&widths).enumerate() {
+            // Writing to a string does not fail.
+            let _ = match column {
+                0 => write!(line, "  {cell:<width$}"),
+                _ => write!(line, "  {cell:>width$}"),
+            };
+        }
+        if let Some(note) = index
+            .checked_sub(1)
+            .and_then(|index| runs.get(index))
+            .and_then(note)
+        {
+            line.push_str("  ");
+            line.push_str(&note);
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+fn row(figures: &Figures) -> [String; HEAD.len()] {
+    let jerk = if figures.takes_jerk {
+        figures.jerk.to_string()
+    } else {
+        "-".to_owned()
+    };
+    if matches!(figures.state, State::NotUsable(_)) {
+        let mut row = [const { String::new() }; HEAD.len()];
+        row[0].clone_from(&figures.module);
+        return row;
+    }
+    let motion = &figures.motion;
+    let jerk_ratio = if motion.jerk.ratio > 0.0 {
+        ratio(motion.jerk.ratio)
+    } else {
+        format!("{:.0}A", motion.jerk_in_accelerations)
+    };
+    let path_ratio = |distance: &Distance| {
+        let mark = if distance.exceeds { "!" } else { "" };
+        let ratio = distance.ratio.map_or("-".to_owned(), number);
+        format!("{ratio}{mark}")
+    };
+    [
+        figures.module.clone(),
+        jerk,
+        format!("{:.3}", motion.time),
+        ratio(motion.velocity.ratio),
+        ratio(motion.acceleration.ratio),
+        jerk_ratio,
+        format!("{:.4}", figures.deviation.largest),
+        path_ratio(&figures.deviation),
+        format!("{:.4}", figures.missed.largest),
+        path_ratio(&figures.missed),
+        figures.rests.count.to_string(),
+        format!("{:.2}", figures.run.mean),
+        format!("{:.1}", figures.run.p999),
+        format!("{:.0}", figures.run.max),
+        format!("{:.2}", figures.add.mean),
+        format!("{:.1}", figures.add.p999),
+        format!("{:.0}", figures.add.max),
+        figures.heap_calls.to_string(),
+    ]
+}
+
+fn ratio(value: f64) -> String {
+    let mark = if value > EXCEEDED { "!" } else { "" };
+    format!("{}{mark}", number(value))
+}
+
+fn number(value: f64) -> String {
+    if value < 99.95 {
+        format!("{value:.3}")
+    } else {
+        format!("{value:.0}")
+    }
+}
+
+/// What is to be said of a run that did not simply come to its end.
+fn note(figures: &Figures) -> Option<String> {
+    let text = match &figures.state {
+        State::Complete if figures.motion.not_finite => "a position was not a number".to_owned(),
+        State::Complete if figures.final_error > 1e-6 => {
+            format!(
+                "ends {:.6} mm off {}",
+                figures.final_error, figures.first_error
+            )
+        }
+        State::Complete if figures.errors > 0 => figures.first_error.clone(),
+        State::Complete if figures.holds.count + figures.holds.not_at_rest > 0 => {
+            holds(&figures.holds)
+        }
+        State::Complete => return None,
+        State::Aborted => "aborted".to_owned(),
+        State::Refused(detail) => format!("REFUSED: {detail}"),
+        State::Stuck(detail) => format!("STUCK: {detail}"),
+        State::TooLong => "TOO LONG".to_owned(),
+        State::NotUsable(detail) => format!("NOT USABLE: {detail}"),
+        State::Crashed(detail) => format!("CRASHED: {detail}"),
+        State::Hung(detail) => format!("HUNG: {detail}"),
+    };
+    Some(text)
+}
+
+fn holds(holds: &Holds) -> String {
+    let mut text = format!("{} holds", holds.count);
+    if holds.count > 0 {
+        let (ratio, late) = (holds.mean_ratio, holds.latest * 1e3);
+        // Writing to a string does not fail.
+        let _ = write!(
+            text,
+            ": rest in {ratio:.2} of the shortest stop, {late:.0} ms late at most"
+        );
+    }
+    if holds.not_at_rest > 0 {
+        let _ = write!(text, ", {} too short for a rest", holds.not_at_rest);
+    }
+    if holds.drift > 0.0 {
+        let _ = write!(text, ", drifts by {:.6} mm", holds.drift);
+    }
+    text
+}

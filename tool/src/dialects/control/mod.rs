@@ -1,0 +1,203 @@
+//! The control that is imitated: what the commands of every dialect do.
+//!
+//! The interpreters of the dialects understand the words; what a feed, an offset, an arc or a frame
+//! then changes, and what LinuxCNC cannot do in which state, is the same for all and stands here.
+
+mod arc_forms;
+pub mod calls;
+pub mod frame;
+mod machine_moves;
+pub mod modal;
+mod modes;
+mod motion;
+pub mod offset_free;
+pub mod offset_row;
+pub mod words;
+
+use super::settings::Settings;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::program::corners;
+use crate::program::frame::FrameCommand;
+use crate::program::{self, Action, Compensation, FrameScope, Origin, Program};
+use crate::source::{SourceFile, Sources, Span};
+use modal::Modal;
+use std::collections::BTreeSet;
+
+/// How many blocks a program may run more than it has: a loop that never ends must not fill the memory.
+const BLOCK_LIMIT: usize = 2_000_000;
+
+/// The outcome of carrying out a part of a block.
+pub type Done = Result<(), Box<Diagnostic>>;
+
+/// A block of the source, to which actions belong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The text of the block.
+    pub span: Span,
+    /// Its number.
+    pub number: Option<u32>,
+    /// Its comment.
+    pub comment: Option<String>,
+}
+
+/// The control and the program that it has run so far.
+pub struct Control<'a> {
+    /// How the control was set up.
+    pub settings: &'a Settings,
+    /// The files of the program.
+    pub sources: &'a mut Sources,
+    /// What was found wrong.
+    pub diagnostics: &'a mut Diagnostics,
+    /// What stays in force from block to block.
+    pub modal: Modal,
+    /// What the block that is running does.
+    pub actions: Vec<Action>,
+    /// Modes that the block sets, until [`Control::apply_states`] puts them in order.
+    pub states: Vec<Action>,
+    program: Program,
+    running: Vec<String>,
+    blocks_run: usize,
+    block_limit: usize,
+    noted: BTreeSet<String>,
+}
+
+impl<'a> Control<'a> {
+    /// As it is after power on. `scope` is what the frames of the dialect turn.
+    pub fn new(
+        settings: &'a Settings,
+        sources: &'a mut Sources,
+        diagnostics: &'a mut Diagnostics,
+        scope: FrameScope,
+    ) -> Control<'a> {
+        Control {
+            settings,
+            sources,
+            diagnostics,
+            modal: Modal::new(settings),
+            actions: Vec::new(),
+            states: Vec::new(),
+            program: Program {
+                frame_scope: scope,
+                ..Program::default()
+            },
+            running: Vec::new(),
+            blocks_run: 0,
+            block_limit: BLOCK_LIMIT,
+            noted: BTreeSet::new(),
+        }
+    }
+
+    /// Changes what the frames of the program turn.
+    pub fn set_frame_scope(&mut self, scope: FrameScope) {
+        self.program.frame_scope = scope;
+    }
+
+    /// Counts a block, or a step of a cycle, that is about to run; `false` when the program must not go on, because it does
+    /// not end or has too many errors.
+    pub fn count_block(&mut self, block: Span) -> bool {
+        self.blocks_run += 1;
+        if self.blocks_run > self.block_limit {
+            let lines = |file: &SourceFile| file.text.matches('\n').count();
+            let written: usize = self.sources.iter().map(lines).sum();
+            self.block_limit = BLOCK_LIMIT + 2 * written;
+        }
+        if self.blocks_run > self.block_limit {
+            self.diagnostics.push(
+                Diagnostic::error(
+                    block,
+                    format!(
+                        "the program does not end: {} blocks have run",
+                        self.block_limit
+                    ),
+                )
+                .help("check the conditions of its loops and jumps"),
+            );
+            return false;
+        }
+        !self.diagnostics.is_full()
+    }
+
+    /// Puts the collected actions into the program, with the place of the block.
+    pub fn finish_block(&mut self, place: &Place) {
+        let mut actions = std::mem::take(&mut self.actions);
+        self.states.clear();
+        // Loops and jumps do nothing by themselves: there would be very many of them.
+        if actions.is_empty() && place.comment.is_none() {
+            return;
+        }
+        // There may be very many blocks, and most have one action.
+        actions.shrink_to_fit();
+        self.program.blocks.push(program::Block {
+            origin: Origin {
+                file: place.span.file,
+                line: self.sources.line(place.span),
+                number: place.number,
+                span: place.span,
+            },
+            actions,
+            comment: place.comment.clone(),
+        });
+    }
+
+    /// How many blocks are finished.
+    pub fn blocks_finished(&self) -> usize {
+        self.program.blocks.len()
+    }
+
+    /// Reports an error. Where the axes are after a block that could not be carried out is anybody's
+    /// guess.
+    pub fn fail(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+        self.modal.forget_position();
+    }
+
+    /// Says once of each kind of command that it is left out.
+    pub fn note(&mut self, name: &str, span: Span) {
+        if self.noted.insert(name.to_string()) {
+            self.diagnostics.push(Diagnostic::warning(
+                span,
+                format!("{name} tunes the other control and is left out"),
+            ));
+        }
+    }
+
+    /// Puts the modes of the block behind its other actions, in the order in which LinuxCNC can set
+    /// them. `was_compensated`: whether cutter compensation was on when the block began.
+    pub fn apply_states(&mut self, was_compensated: bool) {
+        let mut states = std::mem::take(&mut self.states);
+        states.sort_by_key(|state| order_of_state(state, was_compensated));
+        self.actions.append(&mut states);
+    }
+
+    /// The end of the program; frames end with it.
+    pub fn end_of_program(&mut self, rewind: bool) {
+        if !self.modal.frame.is_empty() {
+            self.actions.push(Action::Frame(FrameCommand::Cancel));
+        }
+        self.actions.push(Action::End { rewind });
+    }
+
+    /// The program that was run, with its roundings and chamfers.
+    pub fn into_program(self) -> Program {
+        let mut program = self.program;
+        // What follows an error may not be where it belongs.
+        if self.diagnostics.errors() == 0 {
+            corners::resolve(&mut program, self.diagnostics);
+        }
+        program
+    }
+}
+
+/// In which order the states of one block are set. G40 comes before all that is not allowed under
+/// compensation, or, when there is none to end, where LinuxCNC has it.
+fn order_of_state(state: &Action, compensated: bool) -> u8 {
+    match state {
+        Action::Compensation(Compensation::Off) if compensated => 0,
+        Action::Plane(_) => 1,
+        Action::Compensation(Compensation::Off) => 2,
+        Action::ToolLength(_) | Action::ToolOffset(_) => 3,
+        Action::PresetOff | Action::WorkOffset(_) => 4,
+        Action::PathControl(_) => 5,
+        _ => 6,
+    }
+}

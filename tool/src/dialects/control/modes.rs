@@ -1,0 +1,241 @@
+//! Feed, speed, tool, plane, offsets, compensation, corners: modes of the control.
+
+use super::words::At;
+use super::{Control, Done};
+use crate::diagnostics::Diagnostic;
+use crate::program::{Action, Compensation, Coolant, FeedMode, PathControl, Plane, Spindle};
+use crate::source::Span;
+
+impl Control<'_> {
+    /// LinuxCNC cannot change frames, offsets, planes or tools under cutter compensation.
+    pub fn refuse_compensation(&self, span: Span, what: &str) -> Done {
+        if self.modal.compensation == Compensation::Off {
+            return Ok(());
+        }
+        Err(Box::new(
+            Diagnostic::error(span, format!("{what} while cutter compensation is on"))
+                .help("end the compensation with G40 before"),
+        ))
+    }
+
+    /// G93 to G95.
+    pub fn feed_mode(&mut self, mode: FeedMode) {
+        if mode != self.modal.feed_mode {
+            self.modal.feed_mode = mode;
+            // A number that meant mm/min must not go on as mm per revolution.
+            self.modal.has_feed = false;
+        }
+        self.actions.push(Action::FeedMode(mode));
+    }
+
+    /// F, in units of the program.
+    pub fn feed(&mut self, feed: At<f64>) -> Done {
+        if feed.value <= 0.0 {
+            return Err(Box::new(Diagnostic::error(
+                feed.span,
+                "the feed must be above 0",
+            )));
+        }
+        let factor = match self.modal.feed_mode {
+            FeedMode::InverseTime => 1.0,
+            FeedMode::PerMinute | FeedMode::PerRevolution => self.modal.feed_factor,
+        };
+        self.modal.has_feed = true;
+        self.actions.push(Action::Feed(feed.value * factor));
+        Ok(())
+    }
+
+    /// S, revolutions per minute.
+    pub fn speed(&mut self, speed: At<f64>) -> Done {
+        if speed.value < 0.0 {
+            return Err(Box::new(
+                Diagnostic::error(speed.span, "the spindle speed cannot be negative")
+                    .help("M4 turns the other way"),
+            ));
+        }
+        self.modal.spindle_speed = Some(speed.value);
+        self.actions.push(Action::SpindleSpeed(speed.value));
+        Ok(())
+    }
+
+    /// T by its number.
+    pub fn tool(&mut self, number: f64, span: Span) -> Done {
+        if number.fract() != 0.0 || !(0.0..=99999.0).contains(&number) {
+            return Err(Box::new(Diagnostic::error(
+                span,
+                format!("{number} is not the number of a tool"),
+            )));
+        }
+        self.actions.push(Action::Tool(number as u32));
+        Ok(())
+    }
+
+    /// T by its name, with the number that the settings give it.
+    pub fn named_tool(&mut self, name: &str, span: Span) -> Done {
+        let number = *self.settings.tool_names.get(name).ok_or_else(|| {
+            Box::new(
+                Diagnostic::error(span, format!("the tool \"{name}\" has no number"))
+                    .help(format!("give it: --tool \"{name}=3\"")),
+            )
+        })?;
+        self.actions.push(Action::Tool(number));
+        Ok(())
+    }
+
+    /// M6. With `with_length` the length of the new tool is compensated at once.
+    pub fn tool_change(&mut self, span: Span, with_length: bool) -> Done {
+        self.refuse_compensation(span, "the tool changes")?;
+        self.modal.forget_position();
+        self.actions.push(Action::ToolChange);
+        if with_length {
+            self.actions.push(Action::ToolLength(true));
+        }
+        Ok(())
+    }
+
+    /// The M functions of a block in the order in which controls and LinuxCNC execute them: tool change,
+    /// spindle, coolant, others.
+    pub fn in_order(m: &[At<u32>]) -> Vec<At<u32>> {
+        let mut list = m.to_vec();
+        list.sort_by_key(|m| match m.value {
+            6 => 0,
+            3..=5 => 1,
+            7..=9 => 2,
+            _ => 3,
+        });
+        list
+    }
+
+    /// M3 to M5, M7 to M9; `false` for any other number.
+    pub fn switch(&mut self, m: u32) -> bool {
+        self.actions.push(match m {
+            3 => Action::Spindle(Spindle::Clockwise),
+            4 => Action::Spindle(Spindle::Counterclockwise),
+            5 => Action::Spindle(Spindle::Stop),
+            7 => Action::Coolant(Coolant::Mist),
+            8 => Action::Coolant(Coolant::Flood),
+            9 => Action::Coolant(Coolant::Off),
+            _ => return false,
+        });
+        if let Some(Action::Spindle(spindle)) = self.actions.last() {
+            self.modal.spindle = Some(*spindle);
+        }
+        true
+    }
+
+    /// An M function that neither the dialect nor LinuxCNC defines: passed on if the settings say so.
+    pub fn other_m(&mut self, m: u32, span: Span) -> Done {
+        if !self.settings.passed_m.contains(&m) {
+            return Err(Box::new(
+                Diagnostic::error(span, format!("M{m} is not defined")).help(format!(
+                    "if LinuxCNC has it on this machine, give --pass-m {m}"
+                )),
+            ));
+        }
+        self.actions.push(Action::OtherM(m));
+        Ok(())
+    }
+
+    /// Tool length compensation of the tool in the spindle, on or off.
+    pub fn tool_length(&mut self, on: bool, span: Span) -> Done {
+        self.refuse_compensation(span, "the tool offset changes")?;
+        self.modal.forget_position();
+        if !matches!(self.actions.last(), Some(Action::ToolLength(last)) if *last == on) {
+            self.states.push(Action::ToolLength(on));
+        }
+        Ok(())
+    }
+
+    /// Length and radius by a row of the tool table; 0 for none.
+    pub fn tool_offset(&mut self, number: u32, span: Span) -> Done {
+        if number == 0 {
+            return self.tool_length(false, span);
+        }
+        self.refuse_compensation(span, "the tool offset changes")?;
+        self.modal.forget_position();
+        self.states.push(Action::ToolOffset(number));
+        Ok(())
+    }
+
+    /// G17 to G19.
+    pub fn plane(&mut self, plane: Plane, span: Span) -> Done {
+        if plane != self.modal.plane {
+            self.refuse_compensation(span, "the plane changes")?;
+            self.modal.plane = plane;
+        }
+        self.states.push(Action::Plane(plane));
+        Ok(())
+    }
+
+    /// G40 to G42.
+    pub fn compensation(&mut self, compensation: Compensation) {
+        self.modal.compensation = compensation;
+        self.states.push(Action::Compensation(compensation));
+    }
+
+    /// Work offset 1 to 9: G54 to G59.3 of LinuxCNC.
+    pub fn work_offset(&mut self, system: u8, span: Span) -> Done {
+        self.refuse_compensation(span, "the work offset changes")?;
+        self.modal.forget_position();
+        self.states.push(Action::WorkOffset(system));
+        Ok(())
+    }
+
+    /// How corners are passed.
+    pub fn path_control(&mut self, control: PathControl) {
+        self.modal.path_control = Some(control);
+        let other = |state: &Action| !matches!(state, Action::PathControl(_));
+        self.states.retain(other);
+        self.states.push(Action::PathControl(control));
+    }
+
+    /// Corners may be rounded by so much, in units of the program; `None` or 0: as the machine has it.
+    pub fn continuous_path(&mut self, tolerance: Option<f64>, span: Span) -> Done {
+        if tolerance.is_some_and(|tolerance| tolerance < 0.0) {
+            return Err(Box::new(Diagnostic::error(
+                span,
+                "a tolerance cannot be negative",
+            )));
+        }
+        let tolerance = tolerance.filter(|tolerance| *tolerance > 0.0);
+        self.path_control(PathControl::Continuous {
+            tolerance: tolerance.map(|tolerance| tolerance * self.modal.length_factor),
+        });
+        Ok(())
+    }
+
+    /// A pause in seconds.
+    pub fn dwell(&mut self, seconds: f64, span: Span) -> Done {
+        if seconds < 0.0 {
+            return Err(Box::new(Diagnostic::error(
+                span,
+                "a dwell cannot be negative",
+            )));
+        }
+        self.actions.push(Action::Dwell(seconds));
+        Ok(())
+    }
+
+    /// A motion with feed needs one. `has_own`: whether the block has an F.
+    pub fn check_feed(&mut self, has_own: bool, span: Span) -> Done {
+        let inverse = self.modal.feed_mode == FeedMode::InverseTime;
+        if self.modal.has_feed && (!inverse || has_own) {
+            return Ok(());
+        }
+        if let (Some(feed), FeedMode::PerMinute) = (self.settings.feed, self.modal.feed_mode) {
+            self.modal.has_feed = true;
+            self.actions.push(Action::Feed(feed));
+            return Ok(());
+        }
+        // Said once; the blocks after it have the same fault.
+        self.modal.has_feed = true;
+        Err(Box::new(
+            Diagnostic::error(span, "a motion with feed, and no F is in force").help(
+                match inverse {
+                    true => "with G93 every block needs its own F",
+                    false => "add F to this block, in mm/min unless G95 says otherwise",
+                },
+            ),
+        ))
+    }
+}

@@ -1,0 +1,145 @@
+//! Motions while the work offset is switched off for good: controls whose G53 is modal.
+//!
+//! LinuxCNC's G53 holds for its own line only. Every motion therefore gets one, and its coordinates
+//! are those of the machine after the frame of the program.
+
+use super::modal::Motion;
+use super::motion::length_factor;
+use super::words::{AXES, At, Dimension, MotionWords};
+use super::{Control, Done};
+use crate::diagnostics::Diagnostic;
+use crate::program::{Action, PathControl};
+use crate::source::Span;
+
+/// Whether the work offset is off, and where the axes are since, as they were programmed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OffsetFree {
+    /// Whether it is.
+    pub active: bool,
+    programmed: [Option<f64>; 9],
+}
+
+impl OffsetFree {
+    /// The work offset is switched off.
+    pub fn begin(&mut self) {
+        if !self.active {
+            *self = OffsetFree {
+                active: true,
+                ..OffsetFree::default()
+            };
+        }
+    }
+
+    /// A work offset acts again.
+    pub fn end(&mut self) {
+        *self = OffsetFree::default();
+    }
+
+    /// The frame or the tool changed: where the axes are in its coordinates is not known.
+    pub fn forget(&mut self) {
+        self.programmed = [None; 9];
+    }
+}
+
+impl Control<'_> {
+    /// The motion of a block while the work offset is off; see [`Control::motion`]. G53 alone cannot
+    /// turn arcs into something else: they are refused, and so are increments from a place that is
+    /// not known, and frames that turn.
+    pub fn offset_free_motion(
+        &mut self,
+        words: &MotionWords,
+        state: &mut OffsetFree,
+        block: Span,
+        own_feed: bool,
+        exact_stop: bool,
+    ) -> Done {
+        let span = words.first_axis().unwrap_or(block);
+        let arc = matches!(
+            self.modal.motion,
+            Some(Motion::Clockwise | Motion::Counterclockwise)
+        );
+        if arc || words.names_a_centre() {
+            return Err(Box::new(
+                Diagnostic::error(span, "an arc while the work offset is off (G53)").help(
+                    "LinuxCNC moves in straight lines only there: set a work offset of the machine to \
+                     0 and select it (G59) instead of G53",
+                ),
+            ));
+        }
+        let mut machine = *words;
+        let mut programmed = state.programmed;
+        for (axis, word) in machine.axes.iter_mut().enumerate() {
+            if let Some(word) = word {
+                let value = self.offset_free_coordinate(axis, word, &programmed)?;
+                programmed[axis] = Some(value);
+                word.value = (self.framed(axis, value, word.span)?, Dimension::Absolute);
+            }
+        }
+        let restored = self
+            .modal
+            .path_control
+            .unwrap_or(PathControl::Continuous { tolerance: None });
+        let stops = exact_stop && restored != PathControl::ExactStop;
+        if stops {
+            self.actions
+                .push(Action::PathControl(PathControl::ExactStop));
+        }
+        self.machine_move(&machine, span, true, own_feed)?;
+        if stops {
+            self.actions.push(Action::PathControl(restored));
+        }
+        state.programmed = programmed;
+        Ok(())
+    }
+
+    fn offset_free_coordinate(
+        &self,
+        axis: usize,
+        word: &At<(f64, Dimension)>,
+        programmed: &[Option<f64>; 9],
+    ) -> Result<f64, Box<Diagnostic>> {
+        let (value, dimension) = word.value;
+        let incremental = match dimension {
+            Dimension::Modal => self.modal.incremental,
+            Dimension::Absolute => false,
+            Dimension::Incremental => true,
+        };
+        if !incremental {
+            return Ok(value);
+        }
+        let letter = AXES[axis];
+        programmed[axis].map(|base| base + value).ok_or_else(|| {
+            Box::new(
+                Diagnostic::error(
+                    word.span,
+                    format!(
+                        "an increment while the work offset is off (G53), and where {letter} is there \
+                         is not known ahead of time"
+                    ),
+                )
+                .help(format!("program {letter} with G90 once after G53")),
+            )
+        })
+    }
+
+    /// A coordinate after the frame, in units of the program. A frame that turns would need all axes.
+    fn framed(&self, axis: usize, value: f64, span: Span) -> Result<f64, Box<Diagnostic>> {
+        if axis >= 3 {
+            return Ok(value);
+        }
+        let map = self.modal.frame.map();
+        let turns = (0..3).any(|other| other != axis && map.linear()[(axis, other)] != 0.0);
+        if turns {
+            return Err(Box::new(
+                Diagnostic::error(
+                    span,
+                    "a rotation is active while the work offset is off (G53)",
+                )
+                .help("end the rotation before G53, or select a work offset"),
+            ));
+        }
+        let factor = length_factor(axis, &self.modal);
+        let shift = map.translation()[axis] / factor;
+        Ok(map.linear()[(axis, axis)] * value + shift)
+    }
+}

@@ -1,0 +1,171 @@
+//! The words of one block, evaluated and sorted by address.
+
+use super::syntax::Word;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::control::words::{AXES, At};
+use crate::dialects::expression::Variables;
+use crate::source::Span;
+
+/// All words of a block.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BlockWords {
+    /// G numbers.
+    pub g: Vec<At<u32>>,
+    /// M numbers.
+    pub m: Vec<At<u32>>,
+    /// X Y Z A B C U V W; without a value where an axis is only named.
+    pub axes: [Option<At<Option<f64>>>; 9],
+    /// I J K.
+    pub centre: [Option<At<f64>>; 3],
+    /// R.
+    pub radius: Option<At<f64>>,
+    /// Q.
+    pub angle: Option<At<f64>>,
+    /// F.
+    pub feed: Option<At<f64>>,
+    /// S.
+    pub speed: Option<At<f64>>,
+    /// T, and the offset behind its point.
+    pub tool: Option<At<(f64, Option<u32>)>>,
+    /// D.
+    pub offset: Option<At<f64>>,
+    /// N at the end of the block: how often it is repeated.
+    pub times: Option<At<f64>>,
+}
+
+impl BlockWords {
+    /// Evaluates the words in their order. `None` when something was wrong with one of them; that has
+    /// been reported.
+    pub fn collect(
+        words: &[Word],
+        variables: &dyn Variables,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<BlockWords> {
+        let mut block = BlockWords::default();
+        let mut failed = false;
+        for word in words {
+            if let Err(diagnostic) = block.add(word, variables) {
+                diagnostics.push(*diagnostic);
+                failed = true;
+            }
+        }
+        (!failed).then_some(block)
+    }
+
+    fn add(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Box<Diagnostic>> {
+        let span = word.span;
+        let letter = word.letter;
+        let value = match &word.value {
+            Some(value) => Some(value.number(variables)?),
+            None => None,
+        };
+        if let Some(axis) = AXES.iter().position(|axis| axis.starts_with(letter)) {
+            return set(&mut self.axes[axis], value, word);
+        }
+        let value = value.ok_or_else(|| missing(letter, span))?;
+        if let Some(axis) = ['I', 'J', 'K'].iter().position(|axis| *axis == letter) {
+            return set(&mut self.centre[axis], value, word);
+        }
+        match letter {
+            'G' => {
+                let value = code(value, span)?;
+                self.g.push(At { value, span });
+                Ok(())
+            }
+            'M' => {
+                let value = code(value, span)?;
+                self.m.push(At { value, span });
+                Ok(())
+            }
+            'R' => set(&mut self.radius, value, word),
+            'Q' => set(&mut self.angle, value, word),
+            'F' => set(&mut self.feed, value, word),
+            'S' => set(&mut self.speed, value, word),
+            'D' => set(&mut self.offset, value, word),
+            'T' => set(&mut self.tool, tool(word, value)?, word),
+            'N' => set(&mut self.times, value, word),
+            'L' | 'H' | 'E' | 'O' => Err(Box::new(
+                Diagnostic::error(span, format!("the address {letter} is not supported")).help(
+                    "axes are X Y Z A B C U V W; parameters are P1 and stand behind an address",
+                ),
+            )),
+            _ => Err(Box::new(Diagnostic::error(
+                span,
+                format!("the address {letter} is not supported"),
+            ))),
+        }
+    }
+
+    /// Where the first axis word stands.
+    pub fn first_axis(&self) -> Option<Span> {
+        let spans = self.axes.iter().flatten().map(|axis| axis.span);
+        spans.min_by_key(|span| span.start)
+    }
+
+    /// Whether any coordinate is there, of whatever kind.
+    pub fn names_a_place(&self) -> bool {
+        self.first_axis().is_some() || self.names_a_centre() || self.angle.is_some()
+    }
+
+    /// Whether I, J, K or R is there.
+    pub fn names_a_centre(&self) -> bool {
+        self.radius.is_some() || self.centre.iter().any(Option::is_some)
+    }
+}
+
+/// What is said where a word has no value.
+pub fn missing(letter: char, span: Span) -> Box<Diagnostic> {
+    Box::new(
+        Diagnostic::error(span, format!("the value of {letter} is missing"))
+            .help(format!("write {letter}10 or {letter}P1")),
+    )
+}
+
+fn set<T>(place: &mut Option<At<T>>, value: T, word: &Word) -> Result<(), Box<Diagnostic>> {
+    if place.is_some() {
+        return Err(Box::new(Diagnostic::error(
+            word.span,
+            format!("{} is in this block twice", word.letter),
+        )));
+    }
+    *place = Some(At {
+        value,
+        span: word.span,
+    });
+    Ok(())
+}
+
+fn code(value: f64, span: Span) -> Result<u32, Box<Diagnostic>> {
+    if value.fract() != 0.0 || !(0.0..=9999.0).contains(&value) {
+        return Err(Box::new(Diagnostic::error(
+            span,
+            "this is not the number of a function",
+        )));
+    }
+    Ok(value as u32)
+}
+
+/// `T5.10`: tool 5 with offset 10.
+fn tool(word: &Word, value: f64) -> Result<(f64, Option<u32>), Box<Diagnostic>> {
+    if value < 0.0 {
+        return Err(Box::new(Diagnostic::error(
+            word.span,
+            format!("{value} is not the number of a tool"),
+        )));
+    }
+    let Some((_, offset)) = word.digits.split_once('.') else {
+        return Ok((value, None));
+    };
+    if offset.is_empty() {
+        return Ok((value.trunc(), None));
+    }
+    offset
+        .parse()
+        .map(|offset| (value.trunc(), Some(offset)))
+        .map_err(|_| {
+            Box::new(
+                Diagnostic::error(word.span, "this is not a tool and its offset")
+                    .help("write T5.3 for tool 5 with offset 3"),
+            )
+        })
+}

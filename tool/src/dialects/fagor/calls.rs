@@ -1,0 +1,176 @@
+//! Subroutines and repetitions.
+
+use super::interpreter::{Interpreter, Next, find_label, place};
+use super::parameters::checked;
+use super::routine::{Routine, defines, subroutine_name};
+use super::syntax::{Block, Call, CallKind, Label};
+use crate::diagnostics::Diagnostic;
+use crate::dialects::control::calls::CallRules;
+use crate::source::Span;
+use std::rc::Rc;
+
+const RULES: CallRules = CallRules {
+    nesting: 15,
+    passes: 9999,
+    instead_of_recursion: "repeat with (RPT N10,N20) N3 or with IF and GOTO",
+};
+
+/// How many RPT may be inside each other.
+const REPEAT_NESTING: usize = 15;
+
+/// A subroutine that runs after each motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalCall {
+    number: u32,
+    arguments: Vec<(u32, f64)>,
+    span: Span,
+    running: bool,
+}
+
+impl Interpreter<'_> {
+    /// CALL, PCALL, MCALL.
+    pub(super) fn call(
+        &mut self,
+        call: &Call,
+        block: &Block,
+        at: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        self.control.finish_block(&place(block));
+        let number = call.number.whole(&self.parameters, 0)?;
+        let mut arguments = Vec::new();
+        for argument in &call.arguments {
+            let parameter = argument.parameter.number(&self.parameters)?;
+            let value = argument.value.number(&self.parameters)?;
+            arguments.push((checked(parameter, argument.span)?, value));
+        }
+        if call.kind == CallKind::Modal {
+            self.subroutine(number, call.span)?;
+            self.modal_call = Some(ModalCall {
+                number,
+                arguments,
+                span: call.span,
+                running: false,
+            });
+            return Ok(Next::Block(at + 1));
+        }
+        let arguments = (call.kind == CallKind::Parameters).then_some(arguments.as_slice());
+        self.run_subroutine(number, arguments, call.span, block, at)
+    }
+
+    /// The modal subroutine after a motion. What it moves itself does not call it again.
+    pub(super) fn run_modal_call(&mut self, block: &Block, at: usize) -> Next {
+        let next = Next::Block(at + 1);
+        let Some(modal) = self.modal_call.clone().filter(|modal| !modal.running) else {
+            return next;
+        };
+        if let Some(modal) = &mut self.modal_call {
+            modal.running = true;
+        }
+        let done = self.run_subroutine(modal.number, Some(&modal.arguments), modal.span, block, at);
+        if let Some(modal) = &mut self.modal_call {
+            modal.running = false;
+        }
+        done.unwrap_or_else(|diagnostic| {
+            self.control.fail(*diagnostic);
+            next
+        })
+    }
+
+    fn subroutine(&mut self, number: u32, span: Span) -> Result<Rc<Routine>, Box<Diagnostic>> {
+        let name = subroutine_name(number);
+        let found = self.library.find_defined(
+            &name,
+            defines,
+            self.control.sources,
+            self.control.diagnostics,
+        );
+        found.ok_or_else(|| {
+            Box::new(
+                Diagnostic::error(span, format!("the subroutine {number} was not found")).help(
+                    format!(
+                        "it is looked for as (SUB {number}) .. (RET) in this file, in the program \
+                         files beside it and in the folders of --subprograms"
+                    ),
+                ),
+            )
+        })
+    }
+
+    /// With `arguments`, the subroutine gets local parameters of its own.
+    fn run_subroutine(
+        &mut self,
+        number: u32,
+        arguments: Option<&[(u32, f64)]>,
+        span: Span,
+        block: &Block,
+        at: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        let routine = self.subroutine(number, span)?;
+        self.control.check_call(&routine.name, 1, span, &RULES)?;
+        let place = place(block);
+        self.control
+            .enter(&routine.name, routine.file, [1, 1], &place);
+        if let Some(arguments) = arguments {
+            self.parameters.enter(arguments);
+        }
+        let end = self.run_blocks(&routine, 0, routine.blocks.len());
+        if arguments.is_some() {
+            self.parameters.leave();
+        }
+        self.control.leave(&routine.name, &place);
+        Ok(match end {
+            Next::Block(_) | Next::Return => Next::Block(at + 1),
+            other => other,
+        })
+    }
+
+    /// `(RPT N10,N20) N3`.
+    pub(super) fn repeat(
+        &mut self,
+        routine: &Rc<Routine>,
+        labels: [Label; 2],
+        times: u32,
+        span: Span,
+        at: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        let [first, last] = labels.map(|label| find_label(routine, label, at));
+        let (first, last) = (first?, last?);
+        if last < first {
+            return Err(Box::new(
+                Diagnostic::error(labels[1].span, "the last block stands before the first one")
+                    .help("write (RPT N10,N20) with the block first that comes first"),
+            ));
+        }
+        if (first..=last).contains(&at) || self.repeats.contains(&span) {
+            return Err(Box::new(
+                Diagnostic::error(span, "these blocks contain the repetition itself")
+                    .help("let the repeated blocks end before it"),
+            ));
+        }
+        if self.repeats.len() >= REPEAT_NESTING {
+            return Err(Box::new(Diagnostic::error(
+                span,
+                format!("more than {REPEAT_NESTING} repetitions inside each other"),
+            )));
+        }
+        if times > RULES.passes {
+            return Err(Box::new(Diagnostic::error(
+                span,
+                format!("{times} passes are more than the control allows (9999)"),
+            )));
+        }
+        self.repeats.push(span);
+        let mut end = Next::Block(at + 1);
+        for _ in 0..times {
+            end = self.run_blocks(routine, first, last + 1);
+            if !matches!(end, Next::Block(_)) {
+                break;
+            }
+        }
+        self.repeats.pop();
+        Ok(match end {
+            Next::Block(_) => Next::Block(at + 1),
+            other => other,
+        })
+    }
+}

@@ -1,0 +1,291 @@
+//! Canned cycles: drilling (G81, G82), deep hole drilling (G83), reaming (G85) and boring (G86, G89).
+//!
+//! A cycle that is defined runs at its own place and then at every place that the blocks after it move
+//! to, until G80, another cycle or another plane. Z is the reference plane and I the bottom; with G91 Z
+//! counts from the starting plane and I from the reference plane. (Fagor, CNC 8055 Programming Manual,
+//! "Canned cycles".)
+
+use super::block_words::BlockWords;
+use super::g_functions::OneShot;
+use super::interpreter::Interpreter;
+use crate::diagnostics::Diagnostic;
+use crate::dialects::control::Done;
+use crate::dialects::control::words::At;
+use crate::program::moves::MoveKind;
+use crate::program::{Action, Spindle};
+use crate::source::Span;
+
+/// How far before the last bottom a deep hole cycle ends its rapid motion, machine units.
+const CLEARANCE: f64 = 1.0;
+
+/// How often a block can be repeated.
+const REPEAT_LIMIT: u32 = 9999;
+
+/// A cycle that is in force; coordinates along the normal of the plane, machine units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycle {
+    code: u32,
+    /// Where the tool was when the cycle was defined.
+    start: f64,
+    /// The reference plane.
+    reference: f64,
+    /// The bottom; of G83, that of the first step.
+    bottom: f64,
+    /// G83: how many steps.
+    steps: u32,
+    /// Seconds at the bottom.
+    dwell: f64,
+    /// G98.
+    to_start: bool,
+    span: Span,
+}
+
+impl Interpreter<'_> {
+    /// A block with the G function of a cycle: the cycle is defined, and runs if a place is named.
+    pub(super) fn define_cycle(
+        &mut self,
+        words: &BlockWords,
+        g: At<u32>,
+        withdrawal: Option<At<u32>>,
+        block: Span,
+    ) -> Done {
+        let [_, _, normal] = self.control.modal.plane.axes();
+        let factor = self.control.modal.length_factor;
+        let old = match (g.value, self.cycle.take()) {
+            (79, None) => {
+                return Err(Box::new(
+                    Diagnostic::error(g.span, "G79 changes a canned cycle, and none is active")
+                        .help("define it before: G81 X10 Y10 Z2 I-5 F100"),
+                ));
+            }
+            (79, old) => old,
+            _ => None,
+        };
+        let code = old.as_ref().map_or(g.value, |old| old.code);
+        let start = match &old {
+            Some(old) => old.start,
+            None => self.control.modal.position.get(normal).ok_or_else(|| {
+                Box::new(
+                    Diagnostic::error(
+                        g.span,
+                        "a canned cycle, and where the tool is above the plane is not known ahead of time",
+                    )
+                    .help("program the axis of the tool absolute before the cycle"),
+                )
+            })?,
+        };
+        let incremental = self.control.modal.incremental;
+        let reference = match (words.axes[normal], &old) {
+            (Some(word), _) => {
+                let value = word.value.unwrap_or(0.0) * factor;
+                if incremental { start + value } else { value }
+            }
+            (None, Some(old)) => old.reference,
+            (None, None) => start,
+        };
+        let bottom = match (words.centre[0], &old) {
+            // The steps of G83 are increments whatever G90 says.
+            (Some(word), _) if incremental || code == 83 => reference + word.value * factor,
+            (Some(word), _) => word.value * factor,
+            (None, Some(old)) => old.bottom,
+            (None, None) => {
+                return Err(Box::new(
+                    Diagnostic::error(g.span, format!("G{code} needs the depth I"))
+                        .help(format!("write G{code} X10 Y10 Z2 I-5 F100")),
+                ));
+            }
+        };
+        let steps = match (code, words.centre[1], &old) {
+            (83, Some(steps), _)
+                if steps.value.fract() == 0.0 && (1.0..=9999.0).contains(&steps.value) =>
+            {
+                steps.value as u32
+            }
+            (83, None, Some(old)) => old.steps,
+            (83, steps, _) => {
+                return Err(Box::new(
+                    Diagnostic::error(
+                        steps.map_or(g.span, |steps| steps.span),
+                        "G83 needs J, the number of its steps",
+                    )
+                    .help("write G83 X10 Y10 Z2 I-5 J4: four steps of 5"),
+                ));
+            }
+            (_, Some(word), _) => {
+                return Err(Box::new(
+                    Diagnostic::error(word.span, format!("J has no meaning with G{code}"))
+                        .help("J is the number of steps of G83"),
+                ));
+            }
+            _ => 1,
+        };
+        if let Some(other) = words.radius.or(words.angle).or(words.offset) {
+            return Err(Box::new(
+                Diagnostic::error(
+                    other.span,
+                    format!("this parameter of G{code} is not supported"),
+                )
+                .help("Z, I, J, K and the place are supported"),
+            ));
+        }
+        let direction = start - reference;
+        if (bottom - reference) * direction > 0.0 || bottom == reference {
+            return Err(Box::new(
+                Diagnostic::error(
+                    g.span,
+                    "the bottom does not lie beyond the reference plane, seen from the starting plane",
+                )
+                .help("check Z (reference plane) and I (bottom)"),
+            ));
+        }
+        let dwell = match (words.centre[2], &old) {
+            (Some(dwell), _) if dwell.value >= 0.0 => dwell.value / 100.0,
+            (Some(dwell), _) => {
+                return Err(Box::new(Diagnostic::error(
+                    dwell.span,
+                    "a dwell cannot be negative",
+                )));
+            }
+            (None, old) => old.as_ref().map_or(0.0, |old| old.dwell),
+        };
+        self.cycle = Some(Cycle {
+            code,
+            start,
+            reference,
+            bottom,
+            steps,
+            dwell,
+            to_start: match (withdrawal, &old) {
+                (Some(g), _) => g.value == 98,
+                (None, old) => old.as_ref().is_none_or(|old| old.to_start),
+            },
+            span: g.span,
+        });
+        if g.value == 79 {
+            return Ok(());
+        }
+        let mut place = words.clone();
+        place.axes[normal] = None;
+        place.centre = [None; 3];
+        self.run_at(&place, block)
+    }
+
+    /// A block while a cycle is in force.
+    pub(super) fn cycle_block(&mut self, words: &BlockWords, block: Span) -> Done {
+        let [_, _, normal] = self.control.modal.plane.axes();
+        if let Some(word) = words.axes[normal] {
+            return Err(Box::new(
+                Diagnostic::error(
+                    word.span,
+                    "the axis of the tool moves while a canned cycle is in force",
+                )
+                .help("end the cycle with G80 before, or change it with G79"),
+            ));
+        }
+        self.run_at(words, block)
+    }
+
+    fn run_at(&mut self, words: &BlockWords, block: Span) -> Done {
+        let times = match words.times {
+            None => 1,
+            Some(times)
+                if times.value.fract() == 0.0
+                    && (0.0..=f64::from(REPEAT_LIMIT)).contains(&times.value) =>
+            {
+                times.value as u32
+            }
+            Some(times) => {
+                return Err(Box::new(Diagnostic::error(
+                    times.span,
+                    "N here is how often the block is repeated: a whole number up to 9999",
+                )));
+            }
+        };
+        let mut place = words.clone();
+        place.times = None;
+        for _ in 0..times.max(1) {
+            if !self.control.count_block(block) {
+                return Ok(());
+            }
+            if place.names_a_place() {
+                self.motion(&place, &OneShot::default(), block)?;
+            }
+            // N0 moves to the place only.
+            if times > 0 {
+                self.run_cycle()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn run_cycle(&mut self) -> Done {
+        let Some(cycle) = self.cycle.clone() else {
+            return Ok(());
+        };
+        self.to(cycle.reference, &MoveKind::Rapid, &cycle)?;
+        match cycle.code {
+            83 => self.deep_hole(&cycle)?,
+            _ => {
+                self.to(cycle.bottom, &MoveKind::Line, &cycle)?;
+                self.wait(&cycle);
+            }
+        }
+        let spindle = self.last_spindle();
+        if cycle.code == 86 {
+            self.control.actions.push(Action::Spindle(Spindle::Stop));
+        }
+        let back = match cycle.code {
+            85 | 89 => MoveKind::Line,
+            _ => MoveKind::Rapid,
+        };
+        self.to(cycle.reference, &back, &cycle)?;
+        if cycle.to_start {
+            self.to(cycle.start, &MoveKind::Rapid, &cycle)?;
+        }
+        if cycle.code == 86 {
+            self.control.actions.push(Action::Spindle(spindle));
+        }
+        Ok(())
+    }
+
+    /// Steps of equal depth, out to the reference plane after each.
+    fn deep_hole(&mut self, cycle: &Cycle) -> Done {
+        let step = cycle.bottom - cycle.reference;
+        let clearance = CLEARANCE.min(step.abs()) * step.signum();
+        let mut depth = cycle.reference;
+        for number in 1..=cycle.steps {
+            if !self.control.count_block(cycle.span) {
+                return Ok(());
+            }
+            if number > 1 {
+                self.to(cycle.reference, &MoveKind::Rapid, cycle)?;
+                self.to(depth - clearance, &MoveKind::Rapid, cycle)?;
+            }
+            depth = cycle.reference + step * f64::from(number);
+            self.to(depth, &MoveKind::Line, cycle)?;
+            self.wait(cycle);
+        }
+        Ok(())
+    }
+
+    /// Moves along the normal of the plane to a coordinate in machine units, unless it is there.
+    fn to(&mut self, place: f64, kind: &MoveKind, cycle: &Cycle) -> Done {
+        let [_, _, normal] = self.control.modal.plane.axes();
+        if self.control.modal.position.get(normal) == Some(place) {
+            return Ok(());
+        }
+        let value = place / self.control.modal.length_factor;
+        self.control
+            .move_axis(normal, value, *kind == MoveKind::Rapid, cycle.span)
+    }
+
+    fn wait(&mut self, cycle: &Cycle) {
+        if cycle.dwell > 0.0 {
+            self.control.actions.push(Action::Dwell(cycle.dwell));
+        }
+    }
+
+    fn last_spindle(&self) -> Spindle {
+        self.control.modal.spindle.unwrap_or(Spindle::Clockwise)
+    }
+}

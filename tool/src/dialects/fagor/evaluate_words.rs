@@ -1,0 +1,351 @@
+//! What the words of a block do, in the order in which the control does it: mirrors, modes, feed and
+//! speed, tool, spindle, coolant, offsets, motion, stop.
+
+use super::block_words::{BlockWords, missing};
+use super::g_functions::OneShot;
+use super::interpreter::Interpreter;
+use crate::diagnostics::Diagnostic;
+use crate::dialects::control::modal::Motion;
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
+use crate::dialects::control::{Control, Done};
+use crate::program::moves::Corner;
+use crate::program::{Action, Compensation};
+use crate::source::Span;
+
+impl Interpreter<'_> {
+    /// Runs the words of a block and appends what they do to the actions of the block. `true` when the
+    /// program ends here.
+    pub(super) fn run_words(
+        &mut self,
+        words: &BlockWords,
+        block: Span,
+    ) -> Result<bool, Box<Diagnostic>> {
+        self.mirror_functions(words)?;
+        for g in &words.g {
+            match g.value {
+                14 => self.mirror_axes(words, g.span)?,
+                72 => self.scale(words, g.span)?,
+                73 => self.rotation(words, g.span)?,
+                93 => self.polar_origin(words, g.span)?,
+                _ => continue,
+            }
+            return Ok(false);
+        }
+        let compensated = self.control.modal.compensation != Compensation::Off;
+        let once = self.g_functions(words)?;
+        if let Some(span) = once.dwell {
+            self.control.apply_states(compensated);
+            self.dwell(words, span)?;
+            return Ok(false);
+        }
+        if let Some(feed) = words.feed {
+            self.control.feed(feed)?;
+        }
+        if let Some(speed) = words.speed {
+            if let Some(span) = once.preset {
+                return Err(Box::new(
+                    Diagnostic::error(
+                        span,
+                        "G92 S, a limit of the spindle speed, is not supported",
+                    )
+                    .help("leave S out: G92 X0 makes this place X0"),
+                ));
+            }
+            self.control.speed(speed)?;
+        }
+        let end = self.tool_and_m(words, &once)?;
+        self.control.apply_states(compensated);
+        if let (Some(times), None) = (
+            words.times,
+            self.cycle.as_ref().map(|_| ()).or(once.cycle.map(|_| ())),
+        ) {
+            return Err(Box::new(
+                Diagnostic::error(
+                    times.span,
+                    "the block number stands at the beginning of the block",
+                )
+                .help("N at the end repeats a canned cycle, and none is active"),
+            ));
+        }
+        self.place(words, &once, block)?;
+        for m in &words.m {
+            if matches!(m.value, 0 | 1) {
+                self.control.actions.push(Action::Pause {
+                    optional: m.value == 1,
+                });
+            }
+        }
+        if let Some(m) = end {
+            self.control.end_of_program(m == 30);
+        }
+        Ok(end.is_some())
+    }
+
+    /// `G4 K100`: hundredths of a second.
+    fn dwell(&mut self, words: &BlockWords, span: Span) -> Done {
+        let Some(hundredths) = words.centre[2] else {
+            return Err(Box::new(
+                Diagnostic::error(span, "G4 needs a time")
+                    .help("G4 K250 waits 2.5 seconds: K is in hundredths"),
+            ));
+        };
+        if words.first_axis().is_some() || !words.m.is_empty() || words.tool.is_some() {
+            return Err(Box::new(
+                Diagnostic::error(span, "G4 stands alone in its block")
+                    .help("put axes, T, D and M functions in another block"),
+            ));
+        }
+        self.control.dwell(hundredths.value / 100.0, span)
+    }
+
+    /// T, D, M functions and the length compensation; returns the M function that ends the program.
+    fn tool_and_m(
+        &mut self,
+        words: &BlockWords,
+        once: &OneShot,
+    ) -> Result<Option<u32>, Box<Diagnostic>> {
+        let mut end = None;
+        let mut rows_change = None;
+        if let Some(tool) = words.tool {
+            let (number, offset) = tool.value;
+            self.control.tool(number, tool.span)?;
+            self.tool.number = Some(number as u32);
+            self.tool.offset = offset.filter(|offset| Some(*offset) != self.tool.number);
+        }
+        if let Some(offset) = words.offset {
+            if offset.value.fract() != 0.0 || !(0.0..=99999.0).contains(&offset.value) {
+                return Err(Box::new(Diagnostic::error(
+                    offset.span,
+                    format!("D{}: this is not the number of an offset", offset.value),
+                )));
+            }
+            let row = offset.value as u32;
+            self.tool.offset = Some(row).filter(|row| Some(*row) != self.tool.number);
+            rows_change = Some(offset.span);
+        }
+        for At { value, span } in Control::in_order(&words.m) {
+            match value {
+                0 | 1 => {}
+                2 | 30 => end = Some(value),
+                6 => {
+                    self.control.tool_change(span, false)?;
+                    self.tool.changed.get_or_insert(span);
+                    rows_change = Some(span);
+                }
+                41..=44 => self.control.note(&format!("M{value}"), span),
+                _ if self.control.switch(value) => {}
+                _ => self.control.other_m(value, span)?,
+            }
+        }
+        if let Some(length) = once.length {
+            self.tool.length_chosen = true;
+            let changes = self.tool.length_on != length.value;
+            self.tool.length_on = length.value;
+            match length.value {
+                true => rows_change = rows_change.or(changes.then_some(length.span)),
+                false => self.control.tool_length(false, length.span)?,
+            }
+        }
+        if let (Some(span), true) = (rows_change, self.tool.length_on) {
+            match self.tool.offset {
+                Some(row) => self.control.tool_offset(row, span)?,
+                None => self.control.tool_length(true, span)?,
+            }
+        }
+        Ok(end)
+    }
+
+    /// The coordinates of a block: a preset, a motion, a canned cycle.
+    fn place(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
+        if let Some(span) = once.preset {
+            return self.preset(words, span);
+        }
+        if let Some(span) = once.machine_coordinates {
+            return self.machine_move(words, span);
+        }
+        if let Some(cycle) = once.cycle {
+            return self.define_cycle(words, cycle, once.withdrawal, block);
+        }
+        if let Some(withdrawal) = once.withdrawal {
+            return Err(Box::new(
+                Diagnostic::error(
+                    withdrawal.span,
+                    format!("G{} without a canned cycle", withdrawal.value),
+                )
+                .help("G98 and G99 say how far a cycle withdraws: G99 G81 X10 Y10 Z2 I-5 F100"),
+            ));
+        }
+        if !words.names_a_place() {
+            let unused = once.corner.or(once.arc_form);
+            return match unused {
+                Some(g) => Err(Box::new(
+                    Diagnostic::error(g.span, format!("G{} needs a motion in its block", g.value))
+                        .help(format!("write G{} beside the axes", g.value)),
+                )),
+                None => Ok(()),
+            };
+        }
+        if self.cycle.is_some() {
+            return self.cycle_block(words, block);
+        }
+        self.motion(words, once, block)
+    }
+
+    /// A motion with the corner at its end.
+    pub(super) fn motion(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
+        let corner = self.corner(words, once)?;
+        let has_corner = corner.is_some();
+        let mut motion = self.motion_words(words, once)?;
+        if has_corner {
+            motion.radius = None;
+        }
+        let own_feed = words.feed.is_some();
+        let kind = self.control.modal.motion;
+        let span = motion.first_axis().unwrap_or(block);
+        match once.arc_form {
+            None => {
+                let mut polar = words.clone();
+                if has_corner {
+                    polar.radius = None;
+                }
+                self.resolve_polar(&polar, &mut motion, kind)?;
+                if matches!(kind, Some(Motion::Rapid | Motion::Line)) && motion.radius.is_some() {
+                    // R beside axes is no polar radius.
+                    let at = motion.radius.map_or(span, |radius| radius.span);
+                    return Err(Box::new(
+                        Diagnostic::error(at, "R beside axes belongs to arcs")
+                            .help("write G2 or G3, or R and Q for a place in polar coordinates"),
+                    ));
+                }
+                self.control.motion(&motion, block, own_feed, false)?;
+            }
+            Some(form) => {
+                self.resolve_polar(words, &mut motion, Some(Motion::Line))?;
+                let [first, second, _] = self.control.modal.plane.axes();
+                let middle = [motion.centre[first], motion.centre[second]];
+                let mut ends = motion;
+                ends.centre = [None; 3];
+                ends.radius = None;
+                if form.value == 8 {
+                    if let Some(centre) = middle.into_iter().flatten().next() {
+                        return Err(Box::new(
+                            Diagnostic::error(centre.span, "a tangent arc has no centre")
+                                .help("G8 needs the end point only"),
+                        ));
+                    }
+                    self.control.tangent_arc(&ends, own_feed, span)?;
+                } else {
+                    self.control.arc_through(&ends, middle, own_feed, span)?;
+                }
+            }
+        }
+        if let (Some(corner), Some(Action::Move(path))) = (corner, self.control.actions.last_mut())
+        {
+            path.corner = Some(corner);
+        }
+        Ok(())
+    }
+
+    /// G36 R, G39 R.
+    fn corner(
+        &mut self,
+        words: &BlockWords,
+        once: &OneShot,
+    ) -> Result<Option<Corner>, Box<Diagnostic>> {
+        let Some(g) = once.corner else {
+            return Ok(None);
+        };
+        let Some(radius) = words.radius.filter(|radius| radius.value > 0.0) else {
+            return Err(Box::new(
+                Diagnostic::error(g.span, format!("G{} needs R above 0", g.value))
+                    .help(format!("write G{} R5", g.value)),
+            ));
+        };
+        let length = radius.value * self.control.modal.length_factor;
+        match g.value {
+            36 => Ok(Some(Corner::Round(length))),
+            39 => Ok(Some(Corner::ChamferFrom(length))),
+            37 => Ok(Some(Corner::TangentialEntry(length))),
+            _ => Ok(Some(Corner::TangentialExit(length))),
+        }
+    }
+
+    /// The words of a motion as the shared code has them.
+    pub(super) fn motion_words(
+        &self,
+        words: &BlockWords,
+        once: &OneShot,
+    ) -> Result<MotionWords, Box<Diagnostic>> {
+        let mut motion = MotionWords {
+            radius: words.radius,
+            ..MotionWords::default()
+        };
+        for (axis, word) in words.axes.iter().enumerate() {
+            let Some(word) = word else {
+                continue;
+            };
+            let letter = AXES[axis].chars().next().unwrap_or('X');
+            let value = word.value.ok_or_else(|| missing(letter, word.span))?;
+            motion.axes[axis] = Some(At {
+                value: (value, Dimension::Modal),
+                span: word.span,
+            });
+        }
+        let dimension = match once.absolute_centre {
+            true => Dimension::Absolute,
+            false => Dimension::Modal,
+        };
+        motion.centre = words.centre.map(|word| {
+            word.map(|word| At {
+                value: (word.value, dimension),
+                span: word.span,
+            })
+        });
+        let [first, second, _] = self.control.modal.plane.axes();
+        let given = [first, second].map(|axis| motion.centre[axis]);
+        if let ([Some(word), None] | [None, Some(word)], true) = (given, once.absolute_centre) {
+            return Err(Box::new(
+                Diagnostic::error(word.span, "an absolute centre (G6) needs both coordinates")
+                    .help("write I and J"),
+            ));
+        }
+        Ok(motion)
+    }
+
+    /// G53: in its block only, without tool length.
+    fn machine_move(&mut self, words: &BlockWords, span: Span) -> Done {
+        if words.first_axis().is_none() {
+            return Err(Box::new(
+                Diagnostic::error(span, "G53 needs axes in its block")
+                    .help("it moves in coordinates of the machine; G54 to G57 choose a part zero"),
+            ));
+        }
+        let motion = self.motion_words(words, &OneShot::default())?;
+        if self.control.modal.incremental {
+            return Err(Box::new(
+                Diagnostic::error(span, "an increment in machine coordinates")
+                    .help("write G90 in this block"),
+            ));
+        }
+        let factors = std::mem::replace(&mut self.control.modal.axis_factors, [1.0; 9]);
+        let done = self
+            .control
+            .machine_move(&motion, span, false, words.feed.is_some());
+        self.control.modal.axis_factors = factors;
+        done
+    }
+
+    /// G92: not mirrored; what it would mean under a scale or a rotation is not said by the manual.
+    fn preset(&mut self, words: &BlockWords, span: Span) -> Done {
+        if self.transforms.rotates() || self.transforms.scales() {
+            return Err(Box::new(
+                Diagnostic::error(span, "G92 while a scale or a rotation is in force")
+                    .help("end them with G72 S1 and G73 before, and set them again after"),
+            ));
+        }
+        let motion = self.motion_words(words, &OneShot::default())?;
+        self.control.preset(&motion, span)?;
+        self.preset = true;
+        Ok(())
+    }
+}

@@ -1,0 +1,243 @@
+//! What the G functions of a block change.
+
+use super::block_words::BlockWords;
+use super::interpreter::Interpreter;
+use crate::diagnostics::Diagnostic;
+use crate::dialects::control::Done;
+use crate::dialects::control::modal::Motion;
+use crate::dialects::control::words::At;
+use crate::program::{Compensation, FeedMode, PathControl, Plane};
+use crate::source::Span;
+
+/// What the G functions of a block ask for besides changing modes.
+#[derive(Clone, Copy, Default)]
+pub(super) struct OneShot {
+    /// G4.
+    pub(super) dwell: Option<Span>,
+    /// G53.
+    pub(super) machine_coordinates: Option<Span>,
+    /// G92.
+    pub(super) preset: Option<Span>,
+    /// G6: the centre of the arc is absolute.
+    pub(super) absolute_centre: bool,
+    /// G8 or G9.
+    pub(super) arc_form: Option<At<u32>>,
+    /// G36 to G39.
+    pub(super) corner: Option<At<u32>>,
+    /// G79 and G81 to G89.
+    pub(super) cycle: Option<At<u32>>,
+    /// G43 or G44.
+    pub(super) length: Option<At<bool>>,
+    /// G98 or G99.
+    pub(super) withdrawal: Option<At<u32>>,
+}
+
+impl Interpreter<'_> {
+    /// Carries out the G functions of a block that change modes; the others go to the result.
+    pub(super) fn g_functions(&mut self, words: &BlockWords) -> Result<OneShot, Box<Diagnostic>> {
+        let mut once = OneShot::default();
+        let mut groups: Vec<(u8, u32)> = Vec::new();
+        // Whatever the order in the block: compensation ends before planes and offsets change, and
+        // begins after.
+        let mut list: Vec<&At<u32>> = words.g.iter().collect();
+        list.sort_by_key(|g| match g.value {
+            40 => 0,
+            41 | 42 => 2,
+            _ => 1,
+        });
+        for &At { value: code, span } in list {
+            let group = self.g_function(code, span, &mut once)?;
+            if let Some((_, other)) = groups.iter().find(|(known, _)| *known == group) {
+                return Err(Box::new(Diagnostic::error(
+                    span,
+                    format!("G{other} and G{code} exclude each other"),
+                )));
+            }
+            // Several mirrors may stand together.
+            if group != 0 {
+                groups.push((group, code));
+            }
+        }
+        Ok(once)
+    }
+
+    /// One G function; returns the number of its group, of which a block may hold one.
+    fn g_function(
+        &mut self,
+        code: u32,
+        span: Span,
+        once: &mut OneShot,
+    ) -> Result<u8, Box<Diagnostic>> {
+        let at = At { value: code, span };
+        let group = match code {
+            0..=3 => {
+                self.control.modal.motion = Some(match code {
+                    0 => Motion::Rapid,
+                    1 => Motion::Line,
+                    2 => Motion::Clockwise,
+                    _ => Motion::Counterclockwise,
+                });
+                1
+            }
+            8 | 9 => {
+                once.arc_form = Some(at);
+                1
+            }
+            4 => {
+                once.dwell = Some(span);
+                2
+            }
+            5 | 7 | 50 => {
+                let control = match code {
+                    7 => PathControl::ExactStop,
+                    _ => PathControl::Continuous { tolerance: None },
+                };
+                if code == 50 {
+                    self.control.note("G50", span);
+                }
+                self.control.path_control(control);
+                3
+            }
+            6 => {
+                once.absolute_centre = true;
+                4
+            }
+            // Carried out before.
+            10..=13 => 0,
+            17..=19 => {
+                let plane = match code {
+                    17 => Plane::Xy,
+                    18 => Plane::Zx,
+                    _ => Plane::Yz,
+                };
+                if plane != self.control.modal.plane {
+                    self.reset_polar_origin();
+                    self.cycle = None;
+                }
+                self.control.plane(plane, span)?;
+                5
+            }
+            36..=39 => {
+                once.corner = Some(at);
+                6
+            }
+            40..=42 => {
+                let compensation = match code {
+                    40 => Compensation::Off,
+                    41 => Compensation::Left,
+                    _ => Compensation::Right,
+                };
+                self.check_radius_row(compensation, span)?;
+                self.control.compensation(compensation);
+                7
+            }
+            43 | 44 => {
+                once.length = Some(At {
+                    value: code == 43,
+                    span,
+                });
+                8
+            }
+            51 => {
+                self.control.note("G51", span);
+                9
+            }
+            53 => {
+                once.machine_coordinates = Some(span);
+                10
+            }
+            54..=57 => {
+                if self.preset {
+                    self.control.preset_off(span)?;
+                    self.preset = false;
+                }
+                self.control.work_offset((code - 53) as u8, span)?;
+                10
+            }
+            70 | 71 => {
+                let settings = self.control.settings;
+                self.control.modal.use_inch(code == 70, true, settings);
+                11
+            }
+            79 | 81..=83 | 85 | 86 | 89 => {
+                once.cycle = Some(at);
+                12
+            }
+            80 => {
+                self.cycle = None;
+                12
+            }
+            90 | 91 => {
+                self.control.modal.incremental = code == 91;
+                13
+            }
+            92 => {
+                once.preset = Some(span);
+                10
+            }
+            94 | 95 => {
+                self.control.feed_mode(match code {
+                    94 => FeedMode::PerMinute,
+                    _ => FeedMode::PerRevolution,
+                });
+                14
+            }
+            97 => 15,
+            98 | 99 => {
+                once.withdrawal = Some(at);
+                16
+            }
+            _ => return Err(unsupported(code, span)),
+        };
+        Ok(group)
+    }
+
+    /// LinuxCNC takes length and radius from the same row.
+    fn check_radius_row(&self, compensation: Compensation, span: Span) -> Done {
+        let row = self.tool.offset;
+        if compensation == Compensation::Off || row.is_none() || self.tool.length_on {
+            return Ok(());
+        }
+        let row = row.unwrap_or(0);
+        Err(Box::new(
+            Diagnostic::error(
+                span,
+                format!("the radius of offset D{row} while its length is not compensated"),
+            )
+            .help("write G43 before, or take the offset of the tool itself"),
+        ))
+    }
+}
+
+fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
+    let reason = match code {
+        15 | 16 | 49 => "only the planes G17, G18 and G19 are supported",
+        20..=22 => {
+            "the work zones of this control are not kept, and to LinuxCNC G20 and G21 mean inch and \
+             millimetre: take them out, set limits at the machine"
+        }
+        23..=27 | 75 | 76 => "tracing and probing cannot be evaluated ahead of time",
+        28..=30 => "switching spindles and synchronising axes is not supported",
+        32 => "feed as a function of time is not supported: use G94",
+        33 | 84 => "threads and tapping are not supported: post the program with another cycle",
+        52 => "a motion up to a stop cannot be evaluated ahead of time",
+        58 | 59 => {
+            "in this dialect it is added to G54 to G57, in LinuxCNC it would take their place: enter the \
+             sum of both into one of G54 to G57"
+        }
+        159 => "further zero offsets are not supported: use G54 to G57",
+        60..=65 => {
+            "multiple machining is not supported: write the places, or a loop with IF and GOTO"
+        }
+        66..=69 | 87 | 88 => {
+            "pockets and deep holes with variable steps are not supported: post the moves"
+        }
+        74 => "a reference search is done at the machine: take it out, or move with G53",
+        77 | 78 => "slaved axes are not supported",
+        96 => "constant cutting speed is not supported: program S with G97",
+        _ => {
+            "look it up in the manual of the control, and write it with functions that are supported"
+        }
+    };
+    Box::new(Diagnostic::error(span, format!("G{code} is not supported")).help(reason))
+}

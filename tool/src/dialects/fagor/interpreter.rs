@@ -1,0 +1,304 @@
+//! Running the syntax tree, block by block. The result is the plain list of what the program does.
+
+use super::block_words::BlockWords;
+use super::calls::ModalCall;
+use super::cycles::Cycle;
+use super::parameters::Parameters;
+use super::polar::PolarOrigin;
+use super::routine::Routine;
+use super::syntax::{Assignment, Block, HighLevel, Statement, Word};
+use super::transforms::Transforms;
+use crate::diagnostics::Diagnostic;
+use crate::diagnostics::Diagnostics;
+use crate::dialects::control::{Control, Done, Place};
+use crate::dialects::library::Library;
+use crate::dialects::settings::Settings;
+use crate::program::{Action, FrameScope, Program};
+use crate::source::{Sources, Span};
+use std::rc::Rc;
+
+/// Where the flow goes after a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// To the block with this index.
+    Block(usize),
+    /// Out of the subroutine.
+    Return,
+    /// The program has ended.
+    End,
+    /// Nowhere: what follows cannot be known after an error.
+    Abort,
+}
+
+/// What the program has said about its tool.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ToolState {
+    /// T.
+    pub(super) number: Option<u32>,
+    /// D, while it is not that of the tool.
+    pub(super) offset: Option<u32>,
+    /// G43.
+    pub(super) length_on: bool,
+    /// Whether G43 or G44 was ever there.
+    pub(super) length_chosen: bool,
+    /// Where a tool was changed first.
+    pub(super) changed: Option<Span>,
+}
+
+/// Runs a program.
+pub struct Interpreter<'a> {
+    pub(super) control: Control<'a>,
+    pub(super) library: Library<Routine>,
+    pub(super) parameters: Parameters,
+    pub(super) transforms: Transforms,
+    pub(super) polar: PolarOrigin,
+    pub(super) tool: ToolState,
+    /// Whether G92 is in force.
+    pub(super) preset: bool,
+    pub(super) cycle: Option<Cycle>,
+    pub(super) modal_call: Option<ModalCall>,
+    /// The RPT statements that are running.
+    pub(super) repeats: Vec<Span>,
+}
+
+impl<'a> Interpreter<'a> {
+    /// Ready to run the main program of the library.
+    pub fn new(
+        settings: &'a Settings,
+        library: Library<Routine>,
+        sources: &'a mut Sources,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Interpreter<'a> {
+        Interpreter {
+            control: Control::new(settings, sources, diagnostics, FrameScope::Block),
+            library,
+            parameters: Parameters::new(&settings.variables),
+            transforms: Transforms::default(),
+            polar: PolarOrigin::default(),
+            tool: ToolState::default(),
+            preset: false,
+            cycle: None,
+            modal_call: None,
+            repeats: Vec::new(),
+        }
+    }
+
+    /// Runs the main program.
+    pub fn run(mut self) -> Program {
+        let Some(main) = self.library.main() else {
+            return self.control.into_program();
+        };
+        self.control.begin_main(&main.name);
+        let end = self.run_blocks(&main, 0, main.blocks.len());
+        if let (Next::Block(_) | Next::Return, Some(last)) = (end, main.blocks.last()) {
+            self.control.diagnostics.push(
+                Diagnostic::warning(last.span, "the program ends without M30")
+                    .help("put M30 into its last block"),
+            );
+            self.control.end_of_program(false);
+            self.control.finish_block(&place(last));
+        }
+        self.check_tool_length();
+        self.control.into_program()
+    }
+
+    /// Whether the control switches the length compensation on by itself is a setting of the machine.
+    fn check_tool_length(&mut self) {
+        if let (Some(span), false) = (self.tool.changed, self.tool.length_chosen) {
+            self.control.diagnostics.push(
+                Diagnostic::warning(
+                    span,
+                    "the program changes the tool and says neither G43 nor G44: \
+                     the tool length stays as LinuxCNC has it",
+                )
+                .help("write G43 after the tool change"),
+            );
+        }
+    }
+
+    /// Runs the blocks from `first` up to the one before `end`.
+    pub(super) fn run_blocks(&mut self, routine: &Rc<Routine>, first: usize, end: usize) -> Next {
+        let mut at = first;
+        while let Some(block) = routine.blocks[..end].get(at) {
+            if !self.control.count_block(block.span) {
+                return Next::Abort;
+            }
+            match self.run_block(routine, at, block) {
+                Next::Block(next) if next < first || next > end => {
+                    self.control.fail(
+                        Diagnostic::error(
+                            block.span,
+                            "this jump leaves the blocks that are repeated",
+                        )
+                        .help("let the repetition end before the jump"),
+                    );
+                    return Next::Abort;
+                }
+                Next::Block(next) => at = next,
+                other => return other,
+            }
+        }
+        Next::Block(at)
+    }
+
+    fn run_block(&mut self, routine: &Rc<Routine>, at: usize, block: &Block) -> Next {
+        if block.skip && self.control.settings.skip_blocks {
+            return Next::Block(at + 1);
+        }
+        let next = Next::Block(at + 1);
+        let finished = self.control.blocks_finished();
+        let done = match &block.statement {
+            Statement::Empty => Ok(next),
+            // Where the axes are after a block that was not understood is anybody's guess.
+            Statement::Invalid | Statement::Subroutine(_) => {
+                self.control.modal.forget_position();
+                self.control.modal.has_feed = true;
+                Ok(next)
+            }
+            Statement::Words(words) => return self.words_block(words, block, at),
+            Statement::High(statement) => self.high_level(statement, routine, at, block),
+        };
+        let next = done.unwrap_or_else(|diagnostic| {
+            let is_jump = matches!(
+                block.statement,
+                Statement::High(HighLevel::Goto(_) | HighLevel::If(..) | HighLevel::Error(..))
+            );
+            self.control.fail(*diagnostic);
+            if is_jump { Next::Abort } else { next }
+        });
+        // A call finishes its block before the subroutine begins.
+        match self.control.blocks_finished() == finished {
+            true => self.control.finish_block(&place(block)),
+            false => self.control.finish_marker(&place(block)),
+        }
+        next
+    }
+
+    fn words_block(&mut self, words: &[Word], block: &Block, at: usize) -> Next {
+        let words = BlockWords::collect(words, &self.parameters, self.control.diagnostics);
+        let ends = match words {
+            None => {
+                self.control.modal.forget_position();
+                false
+            }
+            Some(words) => self
+                .run_words(&words, block.span)
+                .unwrap_or_else(|diagnostic| {
+                    self.control.fail(*diagnostic);
+                    self.control.modal.has_feed = true;
+                    false
+                }),
+        };
+        let moved = |action: &Action| matches!(action, Action::Move(_));
+        let has_moved = self.control.actions.iter().any(moved);
+        self.control.finish_block(&place(block));
+        if ends {
+            return Next::End;
+        }
+        if has_moved && self.modal_call.is_some() {
+            return self.run_modal_call(block, at);
+        }
+        Next::Block(at + 1)
+    }
+
+    fn high_level(
+        &mut self,
+        statement: &HighLevel,
+        routine: &Rc<Routine>,
+        at: usize,
+        block: &Block,
+    ) -> Result<Next, Box<Diagnostic>> {
+        let next = Next::Block(at + 1);
+        match statement {
+            HighLevel::Assign(list) => self.assign(list).map(|()| next),
+            HighLevel::If(condition, then, otherwise) => {
+                let holds = condition.number(&self.parameters)? != 0.0;
+                match (holds, otherwise) {
+                    (true, _) => self.high_level(then, routine, at, block),
+                    (false, Some(otherwise)) => self.high_level(otherwise, routine, at, block),
+                    (false, None) => Ok(next),
+                }
+            }
+            HighLevel::Goto(label) => find_label(routine, *label, at).map(Next::Block),
+            HighLevel::Repeat {
+                first,
+                last,
+                times,
+                span,
+            } => {
+                self.control.finish_block(&place(block));
+                let times = match times {
+                    Some(times) => times.whole(&self.parameters, 0)?,
+                    None => 1,
+                };
+                self.repeat(routine, [*first, *last], times, *span, at)
+            }
+            HighLevel::Call(call) => self.call(call, block, at),
+            HighLevel::ModalOff => {
+                self.modal_call = None;
+                Ok(next)
+            }
+            HighLevel::Return(span) => match self.control.is_in_main() {
+                true => Err(Box::new(
+                    Diagnostic::error(*span, "(RET) outside of a subroutine")
+                        .help("a subroutine begins with (SUB n)"),
+                )),
+                false => Ok(Next::Return),
+            },
+            HighLevel::Message(text) => {
+                if !text.trim().is_empty() {
+                    self.control.actions.push(Action::Message(text.clone()));
+                }
+                Ok(next)
+            }
+            HighLevel::Error(number, text, span) => {
+                let number = match number {
+                    Some(number) => format!(" {}", number.number(&self.parameters)?),
+                    None => String::new(),
+                };
+                Err(Box::new(
+                    Diagnostic::error(
+                        *span,
+                        format!("the program stops itself here with error{number}: {text}"),
+                    )
+                    .help("the values that lead here are in the program or were given with --set"),
+                ))
+            }
+        }
+    }
+
+    fn assign(&mut self, list: &[Assignment]) -> Done {
+        for assignment in list {
+            let number = assignment.parameter.number(&self.parameters)?;
+            let value = assignment.value.number(&self.parameters)?;
+            self.parameters.assign(number, value, assignment.span)?;
+        }
+        Ok(())
+    }
+}
+
+/// The block that a jump names.
+pub(super) fn find_label(
+    routine: &Routine,
+    label: super::syntax::Label,
+    at: usize,
+) -> Result<usize, Box<Diagnostic>> {
+    routine.label(label.number, at).ok_or_else(|| {
+        Box::new(
+            Diagnostic::error(
+                label.span,
+                format!("there is no block N{} here", label.number),
+            )
+            .help("jumps and repetitions stay in their program or subroutine"),
+        )
+    })
+}
+
+/// Where the actions of a block belong.
+pub(super) fn place(block: &Block) -> Place {
+    Place {
+        span: block.span,
+        number: block.number,
+        comment: block.comment.clone(),
+    }
+}

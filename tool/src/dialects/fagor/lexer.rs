@@ -1,0 +1,212 @@
+//! From the text of a Fagor part program to tokens.
+//!
+//! Outside of parentheses a program consists of letters and numbers: `G01XP1` is four tokens. Inside,
+//! in high level blocks, letters make names.
+
+use super::token::{Token, TokenKind};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::scanner::Scanner;
+
+/// All tokens of a file. What is no token is reported and left out; the rest of its line is left out
+/// too, so that one wrong character gives one error.
+pub fn tokens(file: usize, text: &str, diagnostics: &mut Diagnostics) -> Vec<Token> {
+    let mut lexer = Lexer {
+        scanner: Scanner::new(file, text),
+        tokens: Vec::new(),
+        depth: 0,
+    };
+    while lexer.scanner.peek().is_some() {
+        lexer.depth = 0;
+        if let Err(diagnostic) = lexer.line() {
+            diagnostics.push(*diagnostic);
+            let start = lexer.scanner.position();
+            lexer.scanner.take_while(|c| c != '\n');
+            lexer.push(start, TokenKind::Invalid);
+        }
+        let start = lexer.scanner.position();
+        lexer.scanner.take("\n");
+        lexer.push(start, TokenKind::EndOfLine);
+    }
+    lexer.tokens
+}
+
+struct Lexer<'a> {
+    scanner: Scanner<'a>,
+    tokens: Vec<Token>,
+    /// How many parentheses are open on this line.
+    depth: u32,
+}
+
+impl Lexer<'_> {
+    fn push(&mut self, start: usize, kind: TokenKind) {
+        let span = self.scanner.span_from(start);
+        self.tokens.push(Token { kind, span });
+    }
+
+    fn line(&mut self) -> Result<(), Box<Diagnostic>> {
+        self.scanner.take_while(is_blank);
+        if self.scanner.peek() == Some('%') {
+            let start = self.scanner.position();
+            let line = self.scanner.take_while(|c| c != '\n');
+            // A bare % is the end of a transmission and says nothing.
+            let name = line.trim_start_matches('%').split(',').next();
+            let name = name.unwrap_or("").trim().to_ascii_uppercase();
+            if !name.is_empty() {
+                self.push(start, TokenKind::Header(name));
+            }
+            return Ok(());
+        }
+        while let Some(next) = self.scanner.peek() {
+            if next == '\n' {
+                break;
+            }
+            if is_blank(next) {
+                self.scanner.advance();
+                continue;
+            }
+            self.token(next)?;
+        }
+        Ok(())
+    }
+
+    fn token(&mut self, next: char) -> Result<(), Box<Diagnostic>> {
+        let start = self.scanner.position();
+        let kind = match next {
+            ';' => {
+                self.scanner.advance();
+                TokenKind::Comment(self.scanner.take_while(|c| c != '\n').trim().to_string())
+            }
+            '"' => self.text()?,
+            c if c.is_ascii_alphabetic() => self.letters(),
+            c if c.is_ascii_digit() || c == '.' => self.number()?,
+            '+' | '-' | '*' | '/' | '(' | ')' | '=' | ',' => {
+                self.scanner.advance();
+                match next {
+                    '(' => self.depth += 1,
+                    ')' => self.depth = self.depth.saturating_sub(1),
+                    _ => {}
+                }
+                TokenKind::Symbol(next)
+            }
+            _ => {
+                self.scanner.advance();
+                let shown = next.escape_default();
+                return Err(self.error(
+                    start,
+                    format!("the character `{shown}` has no meaning in a part program"),
+                ));
+            }
+        };
+        self.push(start, kind);
+        Ok(())
+    }
+
+    fn letters(&mut self) -> TokenKind {
+        let mut rest = self.scanner.rest().chars();
+        let first = rest.next().unwrap_or(' ').to_ascii_uppercase();
+        let joined = rest.next().is_some_and(|c| c.is_ascii_alphabetic());
+        if self.depth == 0 || !joined {
+            self.scanner.advance();
+            return TokenKind::Letter(first);
+        }
+        let name = self.scanner.take_while(|c| c.is_ascii_alphabetic());
+        TokenKind::Name(name.to_ascii_uppercase())
+    }
+
+    fn number(&mut self) -> Result<TokenKind, Box<Diagnostic>> {
+        let start = self.scanner.position();
+        let Some(digits) = self.scanner.decimal() else {
+            self.scanner.advance();
+            return Err(self.error(start, "a point without digits is not a number"));
+        };
+        if self.scanner.peek() == Some('.') {
+            self.scanner.take_while(|c| c.is_ascii_digit() || c == '.');
+            return Err(self.error(start, "a number with two decimal points"));
+        }
+        match digits.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(TokenKind::Number(number)),
+            _ => Err(self.error(start, "this is not a number")),
+        }
+    }
+
+    fn text(&mut self) -> Result<TokenKind, Box<Diagnostic>> {
+        let start = self.scanner.position();
+        self.scanner.advance();
+        let text = self.scanner.take_while(|c| c != '"' && c != '\n');
+        if !self.scanner.take("\"") {
+            let span = self.scanner.span_from(start);
+            return Err(Box::new(
+                Diagnostic::error(span, "this text does not end")
+                    .help("put a \" at its end, on the same line"),
+            ));
+        }
+        Ok(TokenKind::Text(text.to_string()))
+    }
+
+    fn error(&self, start: usize, message: impl Into<String>) -> Box<Diagnostic> {
+        Box::new(Diagnostic::error(self.scanner.span_from(start), message))
+    }
+}
+
+fn is_blank(c: char) -> bool {
+    // Programs that were sent over a serial line begin and end with NULs and other fillers.
+    matches!(c, ' ' | '\t' | '\0' | '\u{1a}' | '\u{11}' | '\u{13}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn kinds(text: &str) -> Vec<TokenKind> {
+        let mut diagnostics = Diagnostics::default();
+        let tokens = tokens(0, text, &mut diagnostics);
+        assert_eq!(diagnostics.errors(), 0, "{text}");
+        tokens.into_iter().map(|token| token.kind).collect()
+    }
+
+    #[test]
+    fn letters_are_addresses_outside_of_parentheses_and_names_inside() {
+        use TokenKind::*;
+        assert_eq!(
+            kinds("G1XP2(IF P1 GT.5)"),
+            [
+                Letter('G'),
+                Number(1.0),
+                Letter('X'),
+                Letter('P'),
+                Number(2.0),
+                Symbol('('),
+                Name("IF".into()),
+                Letter('P'),
+                Number(1.0),
+                Name("GT".into()),
+                Number(0.5),
+                Symbol(')'),
+                EndOfLine,
+            ]
+        );
+    }
+
+    #[test]
+    fn the_header_names_the_program() {
+        assert_eq!(
+            kinds("%part 1,MX--,")[0],
+            TokenKind::Header("PART 1".into())
+        );
+        assert_eq!(kinds("%\n"), [TokenKind::EndOfLine]);
+    }
+
+    proptest! {
+        #[test]
+        fn spans_lie_in_the_text_in_order(text in "\\PC*") {
+            let mut diagnostics = Diagnostics::default();
+            let mut last = 0;
+            for token in tokens(0, &text, &mut diagnostics) {
+                prop_assert!(last <= token.span.start && token.span.start <= token.span.end);
+                prop_assert!(text.get(token.span.start..token.span.end).is_some());
+                last = token.span.end;
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! The language of the Fagor 8055 milling control.
+//!
+//! Text is cut into tokens ([`lexer`]), tokens are made into a tree ([`parser`]), and the tree is run
+//! ([`interpreter`]) into the form that all dialects share ([`crate::program`]).
+
+mod block_words;
+mod calls;
+mod cursor;
+mod cycles;
+mod evaluate_words;
+mod expressions;
+mod g_functions;
+mod high_level;
+mod interpreter;
+pub mod lexer;
+mod parameters;
+pub mod parser;
+mod polar;
+mod routine;
+pub mod syntax;
+pub mod token;
+mod transforms;
+
+use super::guess::Evidence;
+use super::library::Library;
+use super::settings::Settings;
+use crate::diagnostics::Diagnostics;
+use crate::program::Program;
+use crate::source::Sources;
+use std::path::Path;
+
+/// Evaluates the part program in file 0 of `sources`; see [`super::evaluate`].
+pub fn evaluate(
+    path: &Path,
+    settings: &Settings,
+    sources: &mut Sources,
+    diagnostics: &mut Diagnostics,
+) -> Program {
+    let library = Library::new(
+        path,
+        &routine::EXTENSIONS,
+        settings,
+        sources,
+        diagnostics,
+        routine::routines,
+    );
+    interpreter::Interpreter::new(settings, library, sources, diagnostics).run()
+}
+
+/// What speaks for this dialect; see [`super::guess`].
+pub fn evidence(lines: &[String], extension: &str) -> Evidence {
+    const STATEMENTS: [&str; 10] = [
+        "(RPT", "(SUB", "(CALL", "(PCALL", "(MCALL", "(MDOFF", "(GOTO", "(IF", "(RET", "(ERROR",
+    ];
+    let mut evidence = Evidence::default();
+    if matches!(extension, "pim" | "pit") {
+        evidence.add_extension(50);
+    }
+    for (at, line) in lines.iter().enumerate() {
+        let code: String = line
+            .split(';')
+            .next()
+            .unwrap_or("")
+            .replace(char::is_whitespace, "");
+        let code = code.strip_prefix('N').map_or(code.as_str(), |rest| {
+            rest.trim_start_matches(|c: char| c.is_ascii_digit())
+        });
+        if code.starts_with('%') && code.contains(",MX") {
+            evidence.add(100, at);
+        }
+        if STATEMENTS
+            .iter()
+            .any(|statement| code.starts_with(statement))
+        {
+            evidence.add(40, at);
+        }
+        let assigns = code.strip_prefix("(P").is_some_and(|rest| {
+            rest.starts_with(|c: char| c.is_ascii_digit()) && rest.contains('=')
+        });
+        if assigns {
+            evidence.add(40, at);
+        }
+        if code.starts_with("G72S") || code.starts_with("G73Q") || code.starts_with("G14") {
+            evidence.add(10, at);
+        }
+    }
+    evidence
+}

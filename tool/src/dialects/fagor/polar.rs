@@ -1,0 +1,195 @@
+//! Polar coordinates: G93, and places given by R and Q.
+
+use super::block_words::BlockWords;
+use super::interpreter::Interpreter;
+use crate::diagnostics::Diagnostic;
+use crate::dialects::control::Done;
+use crate::dialects::control::modal::Motion;
+use crate::dialects::control::words::{At, Dimension, MotionWords};
+use crate::source::Span;
+use framepath::frame::angle::sin_cos_degrees;
+
+/// The origin of polar coordinates along the axes of the plane, machine units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PolarOrigin(pub [f64; 2]);
+
+impl Interpreter<'_> {
+    /// `G93 I10 J20`; G93 alone takes the present place.
+    pub(super) fn polar_origin(&mut self, words: &BlockWords, span: Span) -> Done {
+        self.alone(words, 93, span)?;
+        let [i, j, k] = words.centre;
+        if let Some(other) = k.map(|k| k.span).or(words.first_axis()) {
+            return Err(Box::new(
+                Diagnostic::error(other, "G93 has I and J only")
+                    .help("G93 I10 J20 sets the origin of polar coordinates"),
+            ));
+        }
+        self.polar = PolarOrigin(
+            match (i, j) {
+                (None, None) => self.present_in_plane(span)?,
+                (i, j) => [i, j].map(|word| word.map_or(0.0, |word| word.value)),
+            }
+            .map(|value| value * self.control.modal.length_factor),
+        );
+        Ok(())
+    }
+
+    /// Where the tool is along the axes of the plane, units of the program.
+    fn present_in_plane(&self, span: Span) -> Result<[f64; 2], Box<Diagnostic>> {
+        let [first, second, _] = self.control.modal.plane.axes();
+        match [first, second].map(|axis| self.control.present(axis)) {
+            [Some(a), Some(b)] => Ok([a, b]),
+            _ => Err(Box::new(
+                Diagnostic::error(
+                    span,
+                    "polar coordinates from a place that is not known ahead of time",
+                )
+                .help("program both axes of the plane absolute before"),
+            )),
+        }
+    }
+
+    /// Replaces R and Q of a block by coordinates of the axes, absolute.
+    pub(super) fn resolve_polar(
+        &mut self,
+        words: &BlockWords,
+        motion: &mut MotionWords,
+        kind: Option<Motion>,
+    ) -> Done {
+        let Some(angle) = words.angle else {
+            let polar_radius = words.radius.filter(|_| words.first_axis().is_none());
+            return match (polar_radius, kind) {
+                (Some(radius), Some(Motion::Rapid | Motion::Line)) => {
+                    let present = self.present_in_plane(radius.span)?;
+                    let from = self.relative_to_origin(present);
+                    self.place_at(motion, radius, from[1].atan2(from[0]).to_degrees())
+                }
+                _ => Ok(()),
+            };
+        };
+        let [first, second, _] = self.control.modal.plane.axes();
+        if let Some(axis) = motion.axes[first].or(motion.axes[second]) {
+            return Err(Box::new(
+                Diagnostic::error(axis.span, "polar and rectangular coordinates in one block")
+                    .help("a place is given by R and Q or by the axes of the plane"),
+            ));
+        }
+        match kind {
+            Some(Motion::Clockwise | Motion::Counterclockwise) => self.polar_arc(angle, motion),
+            _ => self.polar_place(angle, words.radius, motion),
+        }
+    }
+
+    /// The origin in units of the program.
+    fn origin(&self) -> [f64; 2] {
+        let PolarOrigin(origin) = self.polar;
+        origin.map(|value| value / self.control.modal.length_factor)
+    }
+
+    fn relative_to_origin(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+        let origin = self.origin();
+        [a - origin[0], b - origin[1]]
+    }
+
+    /// G91: R and Q count from the present place. A missing R keeps the distance from the origin.
+    fn polar_place(
+        &mut self,
+        angle: At<f64>,
+        radius: Option<At<f64>>,
+        motion: &mut MotionWords,
+    ) -> Done {
+        let incremental = self.control.modal.incremental;
+        let (mut distance, mut direction) = (0.0, 0.0);
+        if incremental || radius.is_none() {
+            let from = self.relative_to_origin(self.present_in_plane(angle.span)?);
+            distance = from[0].hypot(from[1]);
+            direction = from[1].atan2(from[0]).to_degrees();
+        }
+        let distance = match (radius, incremental) {
+            (Some(radius), true) => distance + radius.value,
+            (Some(radius), false) => radius.value,
+            (None, _) => distance,
+        };
+        let direction = match incremental {
+            true => direction + angle.value,
+            false => angle.value,
+        };
+        let distance = At {
+            value: distance,
+            span: radius.unwrap_or(angle).span,
+        };
+        self.place_at(motion, distance, direction)
+    }
+
+    fn place_at(&self, motion: &mut MotionWords, distance: At<f64>, direction: f64) -> Done {
+        let [first, second, _] = self.control.modal.plane.axes();
+        let (sin, cos) = sin_cos_degrees(direction);
+        let [a, b] = self.origin();
+        let place = [a + distance.value * cos, b + distance.value * sin];
+        for (axis, value) in [first, second].into_iter().zip(place) {
+            motion.axes[axis] = Some(At {
+                value: (value, Dimension::Absolute),
+                span: distance.span,
+            });
+        }
+        motion.radius = None;
+        Ok(())
+    }
+
+    /// An arc to the direction Q, seen from its centre: I and J, or the polar origin.
+    fn polar_arc(&mut self, angle: At<f64>, motion: &mut MotionWords) -> Done {
+        if let Some(radius) = motion.radius {
+            return Err(Box::new(
+                Diagnostic::error(radius.span, "an arc to an angle Q has no R")
+                    .help("give the centre with I and J, or the polar origin with G93"),
+            ));
+        }
+        let [first, second, _] = self.control.modal.plane.axes();
+        let start = self.present_in_plane(angle.span)?;
+        let given = motion.centre[first].is_some() || motion.centre[second].is_some();
+        let centre = match given {
+            true => {
+                let along = |axis: usize, start: f64| match motion.centre[axis] {
+                    Some(At {
+                        value: (value, Dimension::Absolute),
+                        ..
+                    }) => value,
+                    Some(word) => start + word.value.0,
+                    None => start,
+                };
+                [along(first, start[0]), along(second, start[1])]
+            }
+            false => self.origin(),
+        };
+        let from = [start[0] - centre[0], start[1] - centre[1]];
+        let radius = from[0].hypot(from[1]);
+        let begin = from[1].atan2(from[0]).to_degrees();
+        let end = match self.control.modal.incremental {
+            true => begin + angle.value,
+            false => angle.value,
+        };
+        let turn = (end - begin).rem_euclid(360.0);
+        let closes = turn.min(360.0 - turn) < 1e-9;
+        let (sin, cos) = sin_cos_degrees(end);
+        let end = match closes {
+            true => start,
+            false => [centre[0] + radius * cos, centre[1] + radius * sin],
+        };
+        for (index, axis) in [first, second].into_iter().enumerate() {
+            motion.axes[axis] = Some(At {
+                value: (end[index], Dimension::Absolute),
+                span: angle.span,
+            });
+            motion.centre[axis] = Some(At {
+                value: (centre[index] - start[index], Dimension::Modal),
+                span: angle.span,
+            });
+        }
+        Ok(())
+    }
+
+    /// The origin of polar coordinates is the part zero again.
+    pub(super) fn reset_polar_origin(&mut self) {
+        self.polar = PolarOrigin::default();
+    }
+}

@@ -1,0 +1,123 @@
+//! Which language a part program is written in: by the ending of its file and by words that only one
+//! language has.
+
+use super::{Dialect, fagor, isg, mefi, sinumerik};
+use crate::diagnostics::Diagnostic;
+use crate::source::Span;
+use std::path::Path;
+
+/// How many lines are looked at.
+const LINES: usize = 400;
+
+/// How sure a guess must be.
+const LEAST: u32 = 10;
+
+/// A guess.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Guess {
+    /// The language.
+    pub dialect: Dialect,
+    /// The first line, 1 for the first, with a word that speaks for it; `None` where the ending of the
+    /// file decided.
+    pub line: Option<usize>,
+}
+
+/// What speaks for a dialect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Evidence {
+    score: u32,
+    line: Option<usize>,
+}
+
+impl Evidence {
+    /// Something in this line, counted from 0, speaks for the dialect with this weight: 100 for what
+    /// no other dialect could have.
+    pub fn add(&mut self, weight: u32, line: usize) {
+        self.score = self.score.saturating_add(weight);
+        if weight > 0 {
+            self.line.get_or_insert(line + 1);
+        }
+    }
+
+    /// The ending of the file speaks for the dialect.
+    pub fn add_extension(&mut self, weight: u32) {
+        self.score = self.score.saturating_add(weight);
+    }
+}
+
+/// Looks at the lines of a program, in upper case and without blanks at their ends, and at the ending of
+/// its file in lower case.
+type Look = fn(&[String], &str) -> Evidence;
+
+/// The dialect that most speaks for; `None` where nothing speaks for one, or as much for two.
+pub fn guess(path: &Path, text: &str) -> Option<Guess> {
+    const LOOKS: [(Dialect, Look); 4] = [
+        (Dialect::Sinumerik, sinumerik::evidence),
+        (Dialect::Fagor, fagor::evidence),
+        (Dialect::Mefi, mefi::evidence),
+        (Dialect::Isg, isg::evidence),
+    ];
+    let lines: Vec<String> = text
+        .lines()
+        .take(LINES)
+        .map(|line| line.trim().to_ascii_uppercase())
+        .collect();
+    let extension = path.extension().unwrap_or_default();
+    let extension = extension.to_string_lossy().to_ascii_lowercase();
+    let mut found: Vec<(Evidence, Dialect)> = LOOKS
+        .iter()
+        .map(|(dialect, look)| (look(&lines, &extension), *dialect))
+        .collect();
+    found.sort_by_key(|(evidence, _)| std::cmp::Reverse(evidence.score));
+    match found[..] {
+        [(first, _), (second, _), ..] if first.score == second.score => None,
+        [(first, dialect), ..] if first.score >= LEAST => Some(Guess {
+            dialect,
+            line: first.line,
+        }),
+        _ => None,
+    }
+}
+
+/// The error where no guess can be made.
+pub fn undecided() -> Diagnostic {
+    let start = Span {
+        file: 0,
+        start: 0,
+        end: 0,
+    };
+    Diagnostic::error(
+        start,
+        "nothing in this program tells in which language it is written",
+    )
+    .help("give --dialect sinumerik, fagor, mefi or isg")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn guessed(name: &str, text: &str) -> Option<Dialect> {
+        guess(Path::new(name), text).map(|guess| guess.dialect)
+    }
+
+    #[test]
+    fn words_of_one_language_decide() {
+        for (text, dialect) in [
+            ("G0 X1\nTRANS X10\n", Dialect::Sinumerik),
+            ("%_N_PART_MPF\nG0\n", Dialect::Sinumerik),
+            ("G90\n(RPT N10,20)\n", Dialect::Fagor),
+            ("%PART,MX--,\nG0 X1\n", Dialect::Fagor),
+            ("(P1 = 3)\n", Dialect::Fagor),
+        ] {
+            assert_eq!(guessed("part.nc", text), Some(dialect), "{text}");
+        }
+    }
+
+    #[test]
+    fn endings_decide_where_words_do_not() {
+        assert_eq!(guessed("part.MPF", "G0 X1\n"), Some(Dialect::Sinumerik));
+        assert_eq!(guessed("part.pim", "G0 X1\n"), Some(Dialect::Fagor));
+        assert_eq!(guessed("part.nc", "G0 X1\nM30\n"), None);
+    }
+}

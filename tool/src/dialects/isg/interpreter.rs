@@ -1,0 +1,216 @@
+//! Running the syntax tree, block by block. The result is the plain list of what the program does.
+
+use super::block_words::BlockWords;
+use super::frames::Frames;
+use super::modes::Modes;
+use super::syntax::{Block, Declaration, Item, Routine, Statement};
+use super::variables::VariableStore;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::control::offset_free::OffsetFree;
+use crate::dialects::control::offset_row::OffsetRow;
+use crate::dialects::control::{Control, Done, Place};
+use crate::dialects::expression::Expression;
+use crate::dialects::library::Library;
+use crate::dialects::settings::Settings;
+use crate::program::{FrameScope, Program};
+use crate::source::Sources;
+use std::rc::Rc;
+
+/// Where the flow goes after a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// To the block with this index.
+    Block(usize),
+    /// Out of the routine.
+    Return,
+    /// The program is at its end.
+    End,
+    /// Nowhere: what follows cannot be known after an error.
+    Abort,
+}
+
+/// Runs a program.
+pub struct Interpreter<'a> {
+    pub(super) control: Control<'a>,
+    pub(super) library: Library<Routine>,
+    pub(super) variables: VariableStore,
+    pub(super) frames: Frames,
+    /// Axes that have not moved since the mirror or the rotation changed.
+    pub(super) unsettled: [bool; 3],
+    pub(super) offset_free: OffsetFree,
+    pub(super) offset_row: OffsetRow,
+    pub(super) modes: Modes,
+}
+
+impl<'a> Interpreter<'a> {
+    /// Ready to run the main program of the library.
+    pub fn new(
+        settings: &'a Settings,
+        library: Library<Routine>,
+        sources: &'a mut Sources,
+        diagnostics: &'a mut Diagnostics,
+    ) -> Interpreter<'a> {
+        Interpreter {
+            control: Control::new(settings, sources, diagnostics, FrameScope::Block),
+            library,
+            variables: VariableStore::new(&settings.variables),
+            frames: Frames::default(),
+            unsettled: [false; 3],
+            offset_free: OffsetFree::default(),
+            offset_row: OffsetRow::default(),
+            modes: Modes::default(),
+        }
+    }
+
+    /// Runs the main program.
+    pub fn run(mut self) -> Program {
+        if let Some(main) = self.library.main() {
+            self.control.begin_main(&main.title);
+            self.run_routine(&main);
+        }
+        self.control.into_program()
+    }
+
+    /// Runs a program or subprogram.
+    pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> Next {
+        let mut at = 0;
+        while let Some(block) = routine.blocks.get(at) {
+            if !self.control.count_block(block.span) {
+                return Next::Abort;
+            }
+            match self.run_block(routine, at, block) {
+                Next::Block(next) => at = next,
+                Next::Return if self.control.is_in_main() => {
+                    self.control.end_of_program(false);
+                    self.control.finish_block(&place(block));
+                    return Next::End;
+                }
+                other => return other,
+            }
+        }
+        self.end_is_missing(routine)
+    }
+
+    /// M17 and M29 may be left out of subprograms.
+    fn end_is_missing(&mut self, routine: &Rc<Routine>) -> Next {
+        let last = routine.blocks.last();
+        let Some(last) = last.filter(|_| self.control.is_in_main()) else {
+            return Next::Return;
+        };
+        self.control.diagnostics.push(
+            Diagnostic::warning(last.span, "the program ends without M30")
+                .help("put M30 into its last block"),
+        );
+        self.control.end_of_program(false);
+        self.control.finish_block(&place(last));
+        Next::End
+    }
+
+    fn run_block(&mut self, routine: &Rc<Routine>, at: usize, block: &Block) -> Next {
+        if block.skip && self.control.settings.skip_blocks {
+            return Next::Block(at + 1);
+        }
+        let here = place(block);
+        let next = match &block.statement {
+            Statement::Empty => Ok(Next::Block(at + 1)),
+            // Where the axes are after a block that was not understood is anybody's guess.
+            Statement::Invalid => {
+                self.control.modal.forget_position();
+                self.control.modal.has_feed = true;
+                Ok(Next::Block(at + 1))
+            }
+            Statement::Items(items) => self.run_items(items, &here, at),
+            Statement::Declare(declaration) => {
+                self.declare(declaration).map(|()| Next::Block(at + 1))
+            }
+            Statement::Command(command) => self
+                .run_command(command, block.span)
+                .map(|()| Next::Block(at + 1)),
+            Statement::Call(call) => {
+                self.control.finish_block(&here);
+                return self.call(call, &here, at).unwrap_or_else(|diagnostic| {
+                    self.control.fail(*diagnostic);
+                    self.control.modal.has_feed = true;
+                    Next::Block(at + 1)
+                });
+            }
+            Statement::Flow(flow) => {
+                self.control.finish_block(&here);
+                return self.flow(flow, routine, at).unwrap_or_else(|diagnostic| {
+                    self.control.diagnostics.push(*diagnostic);
+                    Next::Abort
+                });
+            }
+        };
+        let next = next.unwrap_or_else(|diagnostic| {
+            self.control.fail(*diagnostic);
+            Next::Block(at + 1)
+        });
+        self.control.finish_block(&here);
+        next
+    }
+
+    /// Words are evaluated in their order, and variables get their values on the way.
+    fn run_items(
+        &mut self,
+        items: &[Item],
+        place: &Place,
+        at: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        let mut words = BlockWords::default();
+        let mut failed = false;
+        let mut has_words = false;
+        for item in items {
+            let done = match item {
+                Item::Word(word) => {
+                    has_words = true;
+                    words.add(word, &self.variables)
+                }
+                Item::Assign(assignment) => {
+                    let value = assignment.value.number(&self.variables);
+                    let index = self.numbers(&assignment.index);
+                    match (index, value) {
+                        (Ok(index), Ok(value)) => {
+                            let name = assignment.name.as_str();
+                            self.variables.assign(name, &index, value, assignment.span)
+                        }
+                        (Err(error), _) | (_, Err(error)) => Err(error),
+                    }
+                }
+            };
+            if let Err(diagnostic) = done {
+                self.control.fail(*diagnostic);
+                failed = true;
+            }
+        }
+        if failed || !has_words {
+            return Ok(Next::Block(at + 1));
+        }
+        self.carry_out(words, place, at)
+    }
+
+    pub(super) fn numbers(&self, list: &[Expression]) -> Result<Vec<f64>, Box<Diagnostic>> {
+        list.iter()
+            .map(|item| item.number(&self.variables))
+            .collect()
+    }
+
+    fn declare(&mut self, declaration: &Declaration) -> Done {
+        let size: Result<Vec<usize>, _> = declaration
+            .size
+            .iter()
+            .map(|size| size.whole(&self.variables, 1).map(|size| size as usize))
+            .collect();
+        let values = self.numbers(&declaration.values)?;
+        self.variables.declare(declaration, size?, values)
+    }
+}
+
+/// The block to which what it does belongs.
+pub(super) fn place(block: &Block) -> Place {
+    Place {
+        span: block.span,
+        number: block.number,
+        comment: block.comment.clone(),
+    }
+}

@@ -1,0 +1,238 @@
+//! Where programs and subprograms come from: sections of the file itself, files beside it, files in
+//! the folders of the settings.
+
+use super::settings::Settings;
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::encoding::decode;
+use crate::source::{Sources, Span};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// A program or subprogram, ready to run.
+pub trait Routine {
+    /// The name that calls use, in upper case.
+    fn name(&self) -> &str;
+    /// Whether it was declared a main program, or is not declared at all.
+    fn is_main(&self) -> bool;
+    /// Whether it holds nothing but comments.
+    fn is_empty(&self) -> bool;
+    /// Where its first block stands.
+    fn first_span(&self) -> Span;
+}
+
+/// Parses the file with this index in the sources, whose name without its ending, in upper case, is
+/// the second argument.
+pub type Parse<R> = fn(usize, &str, &Sources, &mut Diagnostics) -> Vec<R>;
+
+/// All programs that are known so far.
+#[derive(Debug)]
+pub struct Library<R> {
+    main: Option<Rc<R>>,
+    routines: Vec<Rc<R>>,
+    folders: Vec<PathBuf>,
+    /// Files that were read, and names that were looked for in vain.
+    read: Vec<PathBuf>,
+    missing: Vec<String>,
+    extensions: &'static [&'static str],
+    parse: Parse<R>,
+}
+
+impl<R: Routine> Library<R> {
+    /// Parses file 0 of `sources`, which lies at `path`. Subprogram files have one of the
+    /// `extensions`; where several have the same name, the earlier ending counts.
+    pub fn new(
+        path: &Path,
+        extensions: &'static [&'static str],
+        settings: &Settings,
+        sources: &Sources,
+        diagnostics: &mut Diagnostics,
+        parse: Parse<R>,
+    ) -> Library<R> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let folder = match folder.as_os_str().is_empty() {
+            true => Path::new("."),
+            false => folder,
+        };
+        let mut library = Library {
+            main: None,
+            routines: Vec::new(),
+            folders: std::iter::once(folder.to_path_buf())
+                .chain(settings.subprogram_folders.iter().cloned())
+                .collect(),
+            read: vec![folder.join(path.file_name().unwrap_or_default())],
+            missing: Vec::new(),
+            extensions,
+            parse,
+        };
+        library.add_file(0, path, sources, diagnostics);
+        let main = |routine: &&Rc<R>| routine.is_main() && !routine.is_empty();
+        let mut candidates = library.routines.iter().filter(main);
+        let first = candidates.next().cloned();
+        if let Some(second) = candidates.next() {
+            diagnostics.push(
+                Diagnostic::error(
+                    second.first_span(),
+                    "a second main program begins in the same file",
+                )
+                .help("keep one program in the file, or declare this one as a subprogram"),
+            );
+        }
+        library.main = first.or(library.routines.first().cloned());
+        library
+    }
+
+    /// The main program.
+    pub fn main(&self) -> Option<Rc<R>> {
+        self.main.clone()
+    }
+
+    /// The subprogram with this name, in upper case. Looks into the folders if need be.
+    pub fn find(
+        &mut self,
+        name: &str,
+        sources: &mut Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Rc<R>> {
+        if let Some(known) = self.known(name) {
+            return Some(known);
+        }
+        let path = self
+            .folders
+            .iter()
+            .find_map(|folder| in_folder(folder, name, self.extensions))?;
+        // A file that holds something else than its name says is not read at every call.
+        if self.read.contains(&path) {
+            return None;
+        }
+        self.read.push(path.clone());
+        let bytes = match std::fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let span = Span {
+                    file: 0,
+                    start: 0,
+                    end: 0,
+                };
+                diagnostics.push(Diagnostic::error(
+                    span,
+                    format!("{} cannot be read: {error}", path.display()),
+                ));
+                return None;
+            }
+        };
+        let file = sources.add(path.display().to_string(), decode(&bytes));
+        self.add_file(file, &path, sources, diagnostics);
+        self.known(name)
+    }
+
+    /// The subprogram with this name, wherever it is defined: in the file itself or in any program file
+    /// of the folders. `defines` tells by a quick look whether a text defines a name. Two files that
+    /// define it are an error.
+    pub fn find_defined(
+        &mut self,
+        name: &str,
+        defines: fn(&str, &str) -> bool,
+        sources: &mut Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Rc<R>> {
+        let known = self.known(name);
+        if known.is_some() || self.missing.iter().any(|missing| missing == name) {
+            return known;
+        }
+        let mut found: Option<(PathBuf, String)> = None;
+        for path in self.folders.iter().flat_map(|folder| files(folder)) {
+            let extension = path.extension().unwrap_or_default().to_string_lossy();
+            let is_program = |wanted: &&str| extension.eq_ignore_ascii_case(wanted);
+            if !self.extensions.iter().any(is_program) || self.read.contains(&path) {
+                continue;
+            }
+            let Ok(bytes) = std::fs::read(&path) else {
+                continue;
+            };
+            let text = decode(&bytes);
+            if !defines(&text, name) {
+                continue;
+            }
+            if let Some((first, _)) = &found {
+                let span = Span {
+                    file: 0,
+                    start: 0,
+                    end: 0,
+                };
+                diagnostics.push(
+                    Diagnostic::error(
+                        span,
+                        format!(
+                            "{name} is defined in {} and in {}",
+                            first.display(),
+                            path.display()
+                        ),
+                    )
+                    .help("move one of the files into another folder"),
+                );
+                break;
+            }
+            found = Some((path, text));
+        }
+        let Some((path, text)) = found else {
+            self.missing.push(name.to_string());
+            return None;
+        };
+        self.read.push(path.clone());
+        let file = sources.add(path.display().to_string(), text);
+        self.add_file(file, &path, sources, diagnostics);
+        self.known(name)
+    }
+
+    fn known(&self, name: &str) -> Option<Rc<R>> {
+        let wanted = |routine: &&Rc<R>| routine.name() == name;
+        self.routines.iter().find(wanted).cloned()
+    }
+
+    fn add_file(
+        &mut self,
+        file: usize,
+        path: &Path,
+        sources: &Sources,
+        diagnostics: &mut Diagnostics,
+    ) {
+        let stem = path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().to_ascii_uppercase())
+            .unwrap_or_default();
+        let routines = (self.parse)(file, &stem, sources, diagnostics);
+        self.routines.extend(routines.into_iter().map(Rc::new));
+    }
+}
+
+/// The file with this name and one of the endings, upper or lower case in any mixture. With several
+/// that differ in case only, the first in alphabetical order: the choice must not depend on the file
+/// system.
+fn in_folder(folder: &Path, name: &str, extensions: &[&str]) -> Option<PathBuf> {
+    let rank = |path: &PathBuf| {
+        let extension = path.extension()?.to_string_lossy();
+        extensions
+            .iter()
+            .position(|wanted| extension.eq_ignore_ascii_case(wanted))
+    };
+    let mut found: Vec<PathBuf> = files(folder)
+        .into_iter()
+        .filter(|path| {
+            let stem = path.file_stem();
+            stem.is_some_and(|stem| stem.to_string_lossy().eq_ignore_ascii_case(name))
+                && rank(path).is_some()
+        })
+        .collect();
+    found.sort_by_key(|path| (rank(path), path.clone()));
+    found.into_iter().next()
+}
+
+/// What a folder holds, in alphabetical order.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut found: Vec<PathBuf> = entries
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+        .collect();
+    found.sort();
+    found
+}

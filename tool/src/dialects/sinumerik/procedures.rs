@@ -1,0 +1,178 @@
+//! Subprograms with parameters (PROC), and those that run after each motion (MCALL).
+
+use super::interpreter::{Interpreter, Next};
+use super::routine::Routine;
+use super::syntax::{Block, Call, Parameter, Statement, VariableKind};
+use crate::diagnostics::Diagnostic;
+use crate::dialects::control::Done;
+use crate::dialects::expression::{Expression, ExpressionKind, Value};
+use crate::source::Span;
+
+/// A subprogram that runs after each motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalCall {
+    call: Call,
+    running: bool,
+}
+
+/// Variables of the caller and the values that they get at the end.
+pub(super) type Returned = Vec<(String, Vec<f64>, Value, Span)>;
+
+/// A parameter with the value that a call gives it.
+pub(super) struct Argument {
+    name: String,
+    kind: VariableKind,
+    value: Option<Value>,
+    span: Span,
+    /// The variable of the caller that gets the value at the end (VAR).
+    returns_to: Option<(String, Vec<f64>)>,
+}
+
+impl Interpreter<'_> {
+    /// The values for the parameters of a subprogram, worked out where it is called.
+    pub(super) fn arguments(
+        &self,
+        call: &Call,
+        routine: &Routine,
+    ) -> Result<Vec<Argument>, Box<Diagnostic>> {
+        let head = routine
+            .section
+            .blocks
+            .iter()
+            .find_map(|block| match &block.statement {
+                Statement::Empty => None,
+                Statement::Procedure(parameters) => Some(Some(parameters)),
+                _ => Some(None),
+            });
+        let none = Vec::new();
+        let parameters: &Vec<Parameter> = head.flatten().unwrap_or(&none);
+        if call.arguments.len() > parameters.len() {
+            let name = &call.name;
+            return Err(Box::new(match parameters.len() {
+                0 => Diagnostic::error(call.span, format!("{name} takes no values in parentheses"))
+                    .help("declare them: PROC NAME(REAL DEPTH), or pass them in R parameters"),
+                count => Diagnostic::error(
+                    call.span,
+                    format!(
+                        "{name} takes {count} values, and {} are given",
+                        call.arguments.len()
+                    ),
+                ),
+            }));
+        }
+        let given = call.arguments.iter().chain(std::iter::repeat(&None));
+        parameters
+            .iter()
+            .zip(given)
+            .map(|(parameter, given)| self.argument(parameter, given.as_ref(), call.span))
+            .collect()
+    }
+
+    fn argument(
+        &self,
+        parameter: &Parameter,
+        given: Option<&Expression>,
+        span: Span,
+    ) -> Result<Argument, Box<Diagnostic>> {
+        let definition = &parameter.definition;
+        let returns_to = match (parameter.returns, given.map(|given| &given.kind)) {
+            (false, _) => None,
+            (true, Some(ExpressionKind::Variable(name, index))) => {
+                let index: Result<Vec<f64>, _> = index
+                    .iter()
+                    .map(|index| index.number(&self.variables))
+                    .collect();
+                Some((name.clone(), index?))
+            }
+            (true, _) => {
+                return Err(Box::new(
+                    Diagnostic::error(
+                        given.map_or(span, |given| given.span),
+                        format!(
+                            "{} returns a value: a variable is needed here",
+                            definition.name
+                        ),
+                    )
+                    .help("declare a variable with DEF and name it in the call"),
+                ));
+            }
+        };
+        let value = match given.or(definition.value.as_ref()) {
+            Some(value) => Some(value.evaluate(&self.variables)?),
+            None => None,
+        };
+        Ok(Argument {
+            name: definition.name.clone(),
+            kind: definition.kind,
+            value,
+            span,
+            returns_to,
+        })
+    }
+
+    /// Declares the parameters in the subprogram that has begun.
+    pub(super) fn define_parameters(&mut self, arguments: &[Argument]) -> Done {
+        for argument in arguments {
+            self.variables.define(
+                &argument.name,
+                argument.kind,
+                Vec::new(),
+                argument.value.clone(),
+                argument.span,
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The values that go back to the caller, while the subprogram still has its variables.
+    pub(super) fn returned(&self, arguments: &[Argument]) -> Result<Returned, Box<Diagnostic>> {
+        use crate::dialects::expression::Variables;
+        let mut list = Vec::new();
+        for argument in arguments {
+            if let Some((name, index)) = &argument.returns_to {
+                let value = self.variables.value(&argument.name, &[], argument.span)?;
+                list.push((name.clone(), index.clone(), value, argument.span));
+            }
+        }
+        Ok(list)
+    }
+
+    /// Gives them to its variables.
+    pub(super) fn assign_returned(&mut self, list: Returned) -> Done {
+        for (name, index, value, span) in list {
+            self.variables.assign(&name, &index, value, span)?;
+        }
+        Ok(())
+    }
+
+    /// `MCALL NAME(..)`, `MCALL`.
+    pub(super) fn set_modal_call(&mut self, call: Option<&Call>) -> Done {
+        self.modal_call = call.map(|call| ModalCall {
+            call: call.clone(),
+            running: false,
+        });
+        Ok(())
+    }
+
+    /// Runs the modal subprogram after a motion. What it moves itself does not call it again.
+    pub(super) fn run_modal_call(
+        &mut self,
+        block: &Block,
+        at: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        let next = Next::Block(at + 1);
+        let Some(modal) = self.modal_call.clone().filter(|modal| !modal.running) else {
+            return Ok(next);
+        };
+        self.set_running(true);
+        let goes_on = self.try_call(&modal.call, block);
+        self.set_running(false);
+        Ok(if goes_on? { next } else { Next::Abort })
+    }
+
+    fn set_running(&mut self, running: bool) {
+        if let Some(modal) = &mut self.modal_call {
+            modal.running = running;
+        }
+    }
+}

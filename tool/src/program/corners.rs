@@ -1,0 +1,218 @@
+//! Roundings and chamfers between two motions: moves that ask for a [`Corner`] are shortened, and the
+//! arc or the line between them is added.
+
+use super::fillet::{Element, Joint, JointError, chamfer_from, chamfer_of, enter, leave, round};
+use super::moves::{Arc, Centre, Coordinate, Corner, Move, MoveKind};
+use super::{Action, Plane, Program};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::source::Span;
+
+/// The place of an action: its block and its index there.
+type Place = [usize; 2];
+
+/// Puts roundings and chamfers into a program. What cannot be done is reported at the motion that asks
+/// for it.
+pub fn resolve(program: &mut Program, diagnostics: &mut Diagnostics) {
+    let mut open: Option<Place> = None;
+    let mut plane = Plane::Xy;
+    let mut block = 0;
+    while block < program.blocks.len() {
+        let mut index = 0;
+        while let Some(action) = program.blocks[block].actions.get(index) {
+            if let Action::Plane(next) = action {
+                plane = *next;
+            }
+            let is_move = matches!(action, Action::Move(_));
+            let ends = open.is_some() && !is_move && interrupts(action);
+            let has_corner = matches!(action, Action::Move(motion) if motion.corner.is_some());
+            if ends && let Some(first) = open.take() {
+                let span = program.blocks[first[0]].origin.span;
+                diagnostics.push(
+                    Diagnostic::error(span, "no motion follows that the corner could be made with")
+                        .help("the next motion must follow in the same plane and frame"),
+                );
+            }
+            if is_move {
+                if let Some(first) = open.take() {
+                    let second = [block, index];
+                    let span = program.blocks[first[0]].origin.span;
+                    match join(program, first, second, plane, span) {
+                        Err(diagnostic) => diagnostics.push(*diagnostic),
+                        // The joint stands in the block of the first motion, which may be this one.
+                        Ok(true) if first[0] == block => index += 1,
+                        Ok(_) => {}
+                    }
+                }
+                open = has_corner.then_some([block, index]);
+            }
+            index += 1;
+        }
+        block += 1;
+    }
+    if let Some([block, _]) = open {
+        let span = program.blocks[block].origin.span;
+        diagnostics.push(Diagnostic::error(
+            span,
+            "no motion follows that the corner could be made with",
+        ));
+    }
+}
+
+/// Whether coordinates before and after an action do not belong together.
+fn interrupts(action: &Action) -> bool {
+    !matches!(
+        action,
+        Action::Feed(_)
+            | Action::SpindleSpeed(_)
+            | Action::Spindle(_)
+            | Action::Coolant(_)
+            | Action::Message(_)
+            | Action::PathControl(_)
+            | Action::OtherM(_)
+            | Action::Enter { .. }
+            | Action::Leave { .. }
+    )
+}
+
+/// Makes the corner between two moves; whether a joint was added.
+fn join(
+    program: &mut Program,
+    first_place: Place,
+    second_place: Place,
+    plane: Plane,
+    span: Span,
+) -> Result<bool, Box<Diagnostic>> {
+    let (Some(first), Some(second)) = (
+        move_at(program, first_place).cloned(),
+        move_at(program, second_place).cloned(),
+    ) else {
+        return Ok(false);
+    };
+    let Some(corner) = first.corner else {
+        return Ok(false);
+    };
+    let elements = [&first, &second].map(|motion| element(motion, plane));
+    let [Some(a), Some(b)] = elements else {
+        return Err(Box::new(
+            Diagnostic::error(
+                span,
+                "a corner is made between two motions with feed in the plane, with known coordinates",
+            )
+            .help("program both axes of the plane absolute before, and no other axis in these blocks"),
+        ));
+    };
+    let joint = match corner {
+        Corner::Round(radius) => round(&a, &b, radius),
+        Corner::ChamferFrom(distance) => chamfer_from(&a, &b, distance),
+        Corner::ChamferOf(length) => chamfer_of(&a, &b, length),
+        Corner::TangentialEntry(radius) => enter(&a, &b, radius).map(Some),
+        Corner::TangentialExit(radius) => leave(&a, &b, radius).map(Some),
+    };
+    let joint = joint.map_err(|error| joint_error(error, span))?;
+    if let Some(motion) = move_at(program, first_place) {
+        motion.corner = None;
+    }
+    let Some(joint) = joint else {
+        return Ok(false);
+    };
+    if let Some(motion) = move_at(program, second_place) {
+        begin_at(motion, &b, &joint, plane);
+    }
+    if let Some(motion) = move_at(program, first_place) {
+        end_at(motion, joint.start, plane);
+    }
+    let between = joint_move(&first, &joint, plane);
+    let [block, index] = first_place;
+    program.blocks[block]
+        .actions
+        .insert(index + 1, Action::Move(between));
+    Ok(true)
+}
+
+fn move_at(program: &mut Program, [block, index]: Place) -> Option<&mut Move> {
+    match program.blocks.get_mut(block)?.actions.get_mut(index)? {
+        Action::Move(motion) => Some(motion),
+        _ => None,
+    }
+}
+
+/// A move as a motion of the plane; `None` for one that leaves the plane, is rapid, or goes nowhere or
+/// to a place that is not known.
+fn element(motion: &Move, plane: Plane) -> Option<Element> {
+    let [first, second, normal] = plane.axes();
+    let stays = |axis: usize| match motion.target[axis] {
+        Coordinate::Keep => true,
+        _ => motion.start[axis].is_some() && motion.start[axis] == motion.end(axis),
+    };
+    if !stays(normal) || !(3..9).all(stays) {
+        return None;
+    }
+    let start = [motion.start[first]?, motion.start[second]?];
+    let end = [motion.end(first)?, motion.end(second)?];
+    let arc = match &motion.kind {
+        MoveKind::Line => None,
+        MoveKind::Arc(Arc {
+            clockwise,
+            centre: Centre::Offset(offset),
+            extra_turns: 0,
+        }) => Some(([start[0] + offset[0], start[1] + offset[1]], *clockwise)),
+        _ => return None,
+    };
+    (arc.is_some() || start != end).then_some(Element { start, end, arc })
+}
+
+fn end_at(motion: &mut Move, place: [f64; 2], plane: Plane) {
+    let [first, second, _] = plane.axes();
+    motion.target[first] = Coordinate::At(place[0]);
+    motion.target[second] = Coordinate::At(place[1]);
+}
+
+fn begin_at(motion: &mut Move, element: &Element, joint: &Joint, plane: Plane) {
+    let [first, second, _] = plane.axes();
+    end_at(motion, element.end, plane);
+    motion.start[first] = Some(joint.end[0]);
+    motion.start[second] = Some(joint.end[1]);
+    if let (MoveKind::Arc(arc), Some((centre, _))) = (&mut motion.kind, element.arc) {
+        arc.centre = Centre::Offset([centre[0] - joint.end[0], centre[1] - joint.end[1]]);
+    }
+}
+
+fn joint_move(before: &Move, joint: &Joint, plane: Plane) -> Move {
+    let [first, second, _] = plane.axes();
+    let mut motion = Move {
+        kind: match joint.arc {
+            None => MoveKind::Line,
+            Some((centre, clockwise)) => MoveKind::Arc(Arc {
+                clockwise,
+                centre: Centre::Offset([centre[0] - joint.start[0], centre[1] - joint.start[1]]),
+                extra_turns: 0,
+            }),
+        },
+        target: [Coordinate::Keep; 9],
+        start: std::array::from_fn(|axis| before.end(axis)),
+        exact_stop: false,
+        corner: None,
+    };
+    motion.start[first] = Some(joint.start[0]);
+    motion.start[second] = Some(joint.start[1]);
+    end_at(&mut motion, joint.end, plane);
+    motion
+}
+
+fn joint_error(error: JointError, span: Span) -> Box<Diagnostic> {
+    let (message, help) = match error {
+        JointError::DoesNotFit => (
+            "the rounding or chamfer does not fit between these two motions",
+            "make it smaller, or the motions longer",
+        ),
+        JointError::Reversal => (
+            "the next motion leads straight back: there is no corner to make",
+            "leave the rounding or chamfer out",
+        ),
+        JointError::NeedsLine => (
+            "a chamfer is made between two lines, a tangential entry or exit with a line",
+            "round the corner instead",
+        ),
+    };
+    Box::new(Diagnostic::error(span, message).help(help))
+}

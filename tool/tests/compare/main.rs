@@ -1,0 +1,10 @@
+//! Tests of `framepath compare` and `framepath generate` as a user runs them.
+
+mod bad_modules;
+mod canon;
+mod errors;
+mod measuring;
+mod operator;
+mod programs;
+mod stock;
+mod support;

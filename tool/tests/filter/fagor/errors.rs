@@ -1,0 +1,253 @@
+//! What is refused, and with which words.
+
+use super::errors;
+
+/// Checks that a program has exactly one error, at this line and column, with this text in it.
+fn one_error(program: &str, place: &str, text: &str) {
+    let shown = errors(program, &["--backend", "program"]);
+    assert!(
+        shown.contains(&format!("part.pim:{place}\n")),
+        "{program}\n{shown}"
+    );
+    assert!(shown.contains(text), "{program}\n{shown}");
+    assert!(
+        shown.contains("\n1 error: nothing was written"),
+        "{program}\n{shown}"
+    );
+}
+
+#[test]
+fn words() {
+    one_error("G0 X1.2.3\nM30\n", "1:5", "two decimal points");
+    one_error("G0 X1 ?\nM30\n", "1:7", "the character `?` has no meaning");
+    one_error("G0 X\nM30\n", "1:4", "the value of X is missing");
+    one_error("G0 X-\nM30\n", "1:6", "the value of X is missing");
+    one_error("G0 X1 X2\nM30\n", "1:7", "X is in this block twice");
+    one_error("G0 L5\nM30\n", "1:4", "the address L is not supported");
+    one_error("G0 G1 X1\nM30\n", "1:4", "G0 and G1 exclude each other");
+    one_error("M77\nM30\n", "1:1", "M77 is not defined");
+    one_error("P1=5\nM30\n", "1:1", "without an address");
+    one_error(
+        "G0 X1 (MSG \"a\")\nM30\n",
+        "1:7",
+        "stands alone in its block",
+    );
+    one_error("(MSG \"a)\nM30\n", "1:6", "this text does not end");
+    one_error("G0 X1 N3\nM30\n", "1:7", "at the beginning of the block");
+    one_error(
+        "%A,MX--,\nG0 X1\n%B,MX--,\nM30\n",
+        "3:1",
+        "a second program begins",
+    );
+}
+
+#[test]
+fn functions_that_mean_something_else_to_linuxcnc_or_nothing() {
+    for (g, text) in [
+        (20, "inch and millimetre"),
+        (21, "work zones"),
+        (58, "added to G54"),
+        (59, "added to G54"),
+        (52, "up to a stop"),
+        (74, "reference search"),
+        (33, "threads"),
+        (84, "tapping"),
+        (66, "pockets"),
+        (87, "pockets"),
+        (60, "multiple machining"),
+        (77, "slaved"),
+        (96, "cutting speed"),
+        (100, "is not supported"),
+    ] {
+        one_error(
+            &format!("G{g}\nM30\n"),
+            "1:1",
+            &format!("G{g} is not supported"),
+        );
+        one_error(&format!("G{g}\nM30\n"), "1:1", text);
+    }
+}
+
+#[test]
+fn statements() {
+    one_error("(PIEZA 1)\nM30\n", "1:2", "not a statement that is known");
+    one_error("(GOT N10)\nM30\n", "1:2", "did you mean GOTO?");
+    one_error("(DIGIT 1,2)\nM30\n", "1:2", "(DIGIT ..) is not supported");
+    one_error(
+        "(P1 = POSX)\nM30\n",
+        "1:7",
+        "POSX cannot be evaluated ahead of time",
+    );
+    one_error("(P1 = 1/0)\nM30\n", "1:9", "division by zero");
+    one_error("(P400 = 1)\nM30\n", "1:3", "there is no parameter P400");
+    one_error("G0 XP7\nM30\n", "1:5", "P7 has no value here");
+    one_error(
+        "(IF P1 GOTO N10)\nM30\n",
+        "1:5",
+        "a comparison is needed here",
+    );
+    one_error("(GOTO N77)\nM30\n", "1:7", "there is no block N77 here");
+    one_error(
+        "(RPT N20,N10)\nN10\nN20\nM30\n",
+        "1:10",
+        "stands before the first one",
+    );
+    one_error(
+        "N10 G0 X1\nN20 (RPT N10,N20)\nM30\n",
+        "2:5",
+        "contain the repetition itself",
+    );
+    one_error("(CALL 5)\nM30\n", "1:2", "the subroutine 5 was not found");
+    one_error(
+        "(SUB 5)\nG0 X1\nM30\n",
+        "1:1",
+        "this subroutine does not end",
+    );
+    one_error("(SUB 5)\n(SUB 6)\n(RET)\nM30\n", "2:1", "inside of another");
+    one_error("(RET)\nM30\n", "1:2", "outside of a subroutine");
+    one_error(
+        "(CALL 1)\nM30\n(SUB 1)\n(CALL 1)\n(RET)\n",
+        "4:2",
+        "SUB 1 calls itself",
+    );
+    one_error("(ERROR 5, \"no stock\")\nM30\n", "1:2", "error 5: no stock");
+    one_error("N10 (GOTO N10)\nM30\n", "1:1", "the program does not end");
+    one_error(
+        "(GOTO N5)\nN10 G0 X1\n(GOTO N30)\nN20 X2\nN5 (RPT N10,N20)\nN30 M30\n",
+        "3:1",
+        "leaves the blocks that are repeated",
+    );
+}
+
+#[test]
+fn transforms() {
+    one_error("G72 S0\nM30\n", "1:5", "the scale factor 0 is out of range");
+    one_error(
+        "G72 S-1\nM30\n",
+        "1:5",
+        "the scale factor -1 is out of range",
+    );
+    one_error("G72\nM30\n", "1:1", "G72 needs either S or axes");
+    one_error("G72 A2\nM30\n", "1:5", "a factor for A alone");
+    one_error("G72 S2 G0\nM30\n", "1:8", "G72 stands alone");
+    one_error("G73 I5\nM30\n", "1:5", "needs the angle Q");
+    one_error("G73 Q30 X5\nM30\n", "1:9", "G73 has Q, I and J only");
+    one_error("G73 Q30\nG73 Q30 I5\nM30\n", "2:1", "about another centre");
+    one_error("G14\nM30\n", "1:1", "G14 needs axes");
+    one_error("G14 X5\nM30\n", "1:5", "axes without values");
+    one_error("G14 X G0\nM30\n", "1:7", "G14 stands alone");
+    one_error(
+        "G73 Q30\nG92 X5\nM30\n",
+        "2:1",
+        "a scale or a rotation is in force",
+    );
+    one_error(
+        "G90 G0 X0 Y0 Z0\nG41 G1 X1 F100\nG11\nM30\n",
+        "3:1",
+        "the frame changes while cutter compensation is on",
+    );
+}
+
+#[test]
+fn motion() {
+    one_error(
+        "G90 G0 X0 Y0\nG1 X10\nX20\nM30\n",
+        "2:4",
+        "no F is in force",
+    );
+    one_error("X10\nM30\n", "1:1", "no G0, G1, G2 or G3 before");
+    one_error(
+        "G0 X0 Y0\nG2 X10 Y0 I4 F100\nM30\n",
+        "2:4",
+        "the radius is 4.0000",
+    );
+    one_error(
+        "G0 X0 Y0\nG6 G2 X10 Y0 I4 F100\nM30\n",
+        "2:14",
+        "needs both coordinates",
+    );
+    one_error(
+        "G1 X5 R3 F100\nM30\n",
+        "1:7",
+        "R beside axes belongs to arcs",
+    );
+    one_error("G1 R5 Q30 X3 F100\nM30\n", "1:11", "polar and rectangular");
+    one_error(
+        "G8 X5 Y5 F100\nM30\n",
+        "1:4",
+        "where this arc begins is not known",
+    );
+    one_error(
+        "G0 X0 Y0 Z0\nG72 S2\nG8 X5 Y5 F100\nM30\n",
+        "3:4",
+        "the direction before it",
+    );
+    one_error(
+        "G0 X0 Y0\nG9 X10 Y0 I5 J0 F100\nM30\n",
+        "2:4",
+        "do not lie on a circle",
+    );
+    one_error("G53\nM30\n", "1:1", "G53 needs axes");
+    one_error(
+        "G91 G53 G0 X1\nM30\n",
+        "1:5",
+        "an increment in machine coordinates",
+    );
+    one_error("G4\nM30\n", "1:1", "G4 needs a time");
+    one_error(
+        "T5 D7 M6\nG0 X0 Y0\nG41 G1 X5 F100\nM30\n",
+        "3:1",
+        "the radius of offset D7",
+    );
+    one_error("G36 X5\nM30\n", "1:1", "G36 needs R");
+    one_error(
+        "G0 X0 Y0 Z0\nG36 R5 G1 X3 F100\nY9\nM30\n",
+        "2:1",
+        "does not fit between",
+    );
+    one_error(
+        "G0 X0 Y0 Z0\nG36 R5 G1 X30 F100\nG11\nY9\nM30\n",
+        "2:1",
+        "no motion follows",
+    );
+    one_error(
+        "G0 X0 Y0 Z0\nG36 R1 G1 X30 F100\nZ9\nM30\n",
+        "2:1",
+        "a corner is made between two motions",
+    );
+}
+
+#[test]
+fn cycles() {
+    one_error(
+        "G0 X0 Y0 Z5\nG81 X5 Z2 F100\nM30\n",
+        "2:1",
+        "G81 needs the depth I",
+    );
+    one_error(
+        "G0 X0 Y0\nG81 X5 Z2 I-5 F100\nM30\n",
+        "2:1",
+        "above the plane is not known",
+    );
+    one_error(
+        "G0 X0 Y0 Z5\nG83 X5 Z2 I-5 F100\nM30\n",
+        "2:1",
+        "G83 needs J",
+    );
+    one_error(
+        "G0 X0 Y0 Z5\nG81 X5 Z2 I8 F100\nM30\n",
+        "2:1",
+        "does not lie beyond",
+    );
+    one_error(
+        "G0 X0 Y0 Z5\nG81 X5 Z2 I-5 B3 F100\nG80\nZ5 G98\nM30\n",
+        "4:4",
+        "without a canned cycle",
+    );
+    one_error("G79 Z5\nM30\n", "1:1", "none is active");
+    one_error(
+        "G0 X0 Y0 Z5\nG81 X5 Z2 I-5 F100\nZ3\nM30\n",
+        "3:1",
+        "the axis of the tool moves",
+    );
+}

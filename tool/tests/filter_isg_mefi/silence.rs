@@ -1,0 +1,131 @@
+//! Words that LinuxCNC would obey in silence, as something else. LinuxCNC's own interpreter reads what
+//! the filter makes of them, with work offsets that show the difference.
+
+use crate::linuxcnc::{interpret, positions};
+use crate::shop::Shop;
+use framepath_tool::dialects::Dialect;
+
+/// The words of the output without comments and the first lines.
+fn code(output: &str) -> String {
+    let lines = output
+        .lines()
+        .filter(|line| !line.starts_with("G21 G17 G40"));
+    lines
+        .map(|line| line.split('(').next().unwrap_or(""))
+        .collect::<Vec<&str>>()
+        .join("\n")
+}
+
+/// The positions of all motions in LinuxCNC, in machine coordinates: G54 is (100, 200, 10), G55 is
+/// (1000, 0, 0).
+fn machine_positions(shop: &Shop, backend: &str) -> Vec<[f64; 3]> {
+    let output = shop.accepted(&["--backend", backend]);
+    let offsets = "G10 L2 P1 X100 Y200 Z10\nG10 L2 P2 X1000 Y0 Z0\n";
+    let canon = interpret(shop, &format!("{offsets}{output}"));
+    positions(&canon)
+}
+
+/// To LinuxCNC, G20 and G21 are inch and millimetre.
+#[test]
+fn isg_g20_and_g21_are_mirrors() {
+    let shop = Shop::with(
+        Dialect::Isg,
+        "G54\nG21\nG01 X10 Y20 Z0 F100\nG20\nX10 Y20\nM30\n",
+    );
+    let output = shop.accepted(&["--backend", "program"]);
+    assert!(
+        !code(&output).contains("G20") && !code(&output).contains("G21"),
+        "{output}"
+    );
+    let wanted = [[90.0, 220.0, 10.0], [110.0, 220.0, 10.0]];
+    assert_eq!(machine_positions(&shop, "program"), wanted);
+    let framed = shop.accepted(&["--backend", "kinematics"]);
+    assert!(
+        !code(&framed).contains("G20") && !code(&framed).contains("G21"),
+        "{framed}"
+    );
+    assert!(framed.contains("o<mirror> call [1] [0] [0]") && framed.contains("o<frame_off> call"));
+}
+
+/// To LinuxCNC, G92 gives the present place these coordinates, and keeps that when the program is over.
+#[test]
+fn isg_g92_is_an_offset() {
+    let shop = Shop::with(
+        Dialect::Isg,
+        "G54\nG01 X7 Y7 Z0 F100\nG92 X60 Y40\nX10 Y20\nG91 X1\nG90 G92 X0 Y0\nX10\nM30\n",
+    );
+    let output = shop.accepted(&["--backend", "program"]);
+    assert!(!code(&output).contains("G92"), "{output}");
+    let wanted = [
+        [107.0, 207.0, 10.0],
+        [170.0, 260.0, 10.0],
+        [171.0, 260.0, 10.0],
+        [110.0, 260.0, 10.0],
+    ];
+    assert_eq!(machine_positions(&shop, "program"), wanted);
+    let framed = shop.accepted(&["--backend", "kinematics"]);
+    assert!(!code(&framed).contains("G92"), "{framed}");
+}
+
+/// To LinuxCNC, G53 holds for its own line: the lines after it would run in G54.
+#[test]
+fn modal_g53_holds_on() {
+    let program =
+        "G54\nG01 X1 Y1 Z1 F100\nG53\nX10 Y20\nZ5\nG91 X5\nG90 G00 X2\nG55\nG01 X1\nM30\n";
+    let wanted = [
+        [101.0, 201.0, 11.0],
+        [10.0, 20.0, 11.0],
+        [10.0, 20.0, 5.0],
+        [15.0, 20.0, 5.0],
+        [2.0, 20.0, 5.0],
+        [1001.0, 20.0, 5.0],
+    ];
+    for dialect in [Dialect::Isg, Dialect::Mefi] {
+        let shop = Shop::with(dialect, program);
+        for backend in ["program", "kinematics"] {
+            assert_eq!(
+                machine_positions(&shop, backend),
+                wanted,
+                "{dialect:?} {backend}"
+            );
+        }
+    }
+}
+
+/// With a mirror and an offset of the program: they act without the work offset too.
+#[test]
+fn modal_g53_leaves_mirror_and_shift_in_force() {
+    let isg = "G54\nG92 X1 Y2\nG21\nG53\nG01 X10 Y20 F100\nG91 Y1\nM30\n";
+    let mefi = "G54\nG37 X1 Y2\nG35 X0\nG36 X2\nG53\nG01 X10 Y20 F100\nG91 Y1\nM30\n";
+    let ends = |dialect, program| -> Vec<[f64; 2]> {
+        let shop = Shop::with(dialect, program);
+        let positions = machine_positions(&shop, "program");
+        positions.iter().map(|[x, y, _]| [*x, *y]).collect()
+    };
+    assert_eq!(ends(Dialect::Isg, isg), [[-9.0, 22.0], [-9.0, 23.0]]);
+    assert_eq!(ends(Dialect::Mefi, mefi), [[-19.0, 42.0], [-19.0, 44.0]]);
+}
+
+#[test]
+fn what_g53_cannot_carry_is_refused() {
+    for (program, text) in [
+        (
+            "G53\nG02 X10 Y0 R5 F100\nM30\n",
+            "an arc while the work offset is off",
+        ),
+        ("G53\nG91 G00 X1\nM30\n", "where X is there is not known"),
+        (
+            "G53\nG41 G01 X1 F100\nM30\n",
+            "while cutter compensation is on",
+        ),
+        (
+            "G53\n#ROTATION ON [ANGLE=30]\nG00 X1\nM30\n",
+            "a rotation is active",
+        ),
+        ("#CS ON [1]\nM30\n", "is not defined"),
+        ("#CS ON [1,2]\nG53\nM30\n", "while #CS is active"),
+    ] {
+        let shown = Shop::with(Dialect::Isg, program).refused(&["--backend", "kinematics"]);
+        assert!(shown.contains(text), "{program}\n{shown}");
+    }
+}
