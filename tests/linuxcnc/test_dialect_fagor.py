@@ -23,7 +23,8 @@ def filtered(program, backend):
         path = os.path.join(folder, "part.pim")
         with open(path, "w", encoding="utf-8") as file:
             file.write(program)
-        done = subprocess.run([TOOL, "filter", "--dialect", "fagor", "--backend", backend, path],
+        done = subprocess.run([TOOL, "filter", "--dialect", "fagor", "--backend", backend,
+                               "--path-mode", "G61.1", path],
                               capture_output=True, text=True, check=False)
     if done.returncode:
         raise AssertionError(done.stderr)

@@ -114,7 +114,8 @@ def translate(program, dialect, backend):
         path = os.path.join(folder, "part.nc")
         with open(path, "w", encoding="utf-8") as file:
             file.write(program)
-        done = subprocess.run([TOOL, "filter", "--dialect", dialect, "--backend", backend, path],
+        done = subprocess.run([TOOL, "filter", "--dialect", dialect, "--backend", backend,
+                               "--path-mode", "G61.1", path],
                               capture_output=True, text=True, check=False)
     if done.returncode:
         raise AssertionError(done.stderr)
@@ -202,7 +203,7 @@ class Examples(unittest.TestCase):
         """programs: part program, and a function from the point where the tool is to the shapes expected."""
         files, steps, shapes, last = {"tools.tbl": TOOLS}, [], [], ORIGIN
         for number, (program, expected) in enumerate(programs):
-            files[f"part{number}.ngc"] = "G61.1\n" + before + translate(program, dialect, backend)
+            files[f"part{number}.ngc"] = before + translate(program, dialect, backend)
             steps.append(["run", f"PROGRAMS/part{number}.ngc"])
             shapes += expected(last)
             last = tuple(shapes[-1].end)

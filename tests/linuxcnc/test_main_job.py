@@ -42,7 +42,8 @@ def expected():
 
 def filtered():
     """The part program as LinuxCNC gets it."""
-    done = subprocess.run([TOOL, "filter", "--dialect", "sinumerik", "--backend", "kinematics", PROGRAM],
+    done = subprocess.run([TOOL, "filter", "--dialect", "sinumerik", "--backend", "kinematics",
+                           "--path-mode", "G61.1", PROGRAM],
                           capture_output=True, text=True, check=False)
     if done.returncode:
         raise AssertionError(done.stderr)

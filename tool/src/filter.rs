@@ -5,12 +5,14 @@
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::guess::{guess, undecided};
-use crate::dialects::settings::{IncrementBase, MirrorOutsideXy, MirroredCircle, Settings};
+use crate::dialects::settings::{
+    IncrementBase, MOST_BLOCKS, MirrorOutsideXy, MirroredCircle, Settings,
+};
 use crate::dialects::{Dialect, evaluate};
 use crate::encoding::decode;
-use crate::program::Program;
 use crate::program::contour::ContourMove;
 use crate::program::trace::{self, Setup, TraceError};
+use crate::program::{PathControl, Program};
 use crate::source::Sources;
 use crate::write::{self, WriteSettings};
 use clap::Args;
@@ -60,6 +62,15 @@ pub struct FilterArguments {
     /// The feed in force when the program begins, machine units per minute
     #[arg(long, value_name = "FEED", value_parser = feed)]
     pub feed: Option<f64>,
+    /// How corners are passed until the program changes it: exactly (G61, with stops at corners only),
+    /// with a stop at the end of every move (G61.1), rounded as the machine has it (G64), or rounded by
+    /// at most so many mm (a number: G64 with that P)
+    #[arg(long, value_name = "G61|G61.1|G64|P", default_value = "G61", value_parser = path_mode)]
+    pub path_mode: PathControl,
+    /// How many blocks the program may run, besides twice the lines that it has, before it is taken
+    /// for one that never ends
+    #[arg(long, value_name = "NUMBER", default_value_t = MOST_BLOCKS, value_parser = most_blocks)]
+    pub most_blocks: usize,
     /// Number of a tool that the program calls by name; may be given several times
     #[arg(long, value_name = "NAME=NUMBER", value_parser = tool_name)]
     pub tool: Vec<(String, u32)>,
@@ -87,11 +98,25 @@ impl FilterArguments {
             passed_m: self.pass_m.clone(),
             variables: self.set.iter().cloned().collect(),
             feed: self.feed,
+            path_mode: self.path_mode_of_machine(),
+            most_blocks: self.most_blocks,
             tool_edges: self.edge.iter().copied().collect(),
             tool_names: self.tool.iter().cloned().collect(),
             mirror_outside_xy: self.mirror_outside_xy,
             mirrored_circle: self.mirrored_circle,
             ..Settings::default()
+        }
+    }
+
+    /// The path mode with its tolerance in machine units.
+    fn path_mode_of_machine(&self) -> PathControl {
+        match self.path_mode {
+            PathControl::Continuous {
+                tolerance: Some(tolerance),
+            } if self.machine_in_inch => PathControl::Continuous {
+                tolerance: Some(tolerance / 25.4),
+            },
+            mode => mode,
         }
     }
 }
@@ -138,6 +163,28 @@ fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(value) if (1e-6..=10.0).contains(&value) => Ok(value),
         _ => Err("a length from 0.000001 to 10 is needed".to_string()),
+    }
+}
+
+fn path_mode(text: &str) -> Result<PathControl, String> {
+    match text.to_ascii_uppercase().as_str() {
+        "G61" => return Ok(PathControl::ExactPath),
+        "G61.1" => return Ok(PathControl::ExactStop),
+        "G64" => return Ok(PathControl::Continuous { tolerance: None }),
+        _ => {}
+    }
+    match text.parse() {
+        Ok(value) if (0.001..=10.0).contains(&value) => Ok(PathControl::Continuous {
+            tolerance: Some(value),
+        }),
+        _ => Err("write G61, G61.1, G64 or a tolerance from 0.001 to 10 mm".to_string()),
+    }
+}
+
+fn most_blocks(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(value) if (1..=100_000_000).contains(&value) => Ok(value),
+        _ => Err("a number from 1 to 100000000 is needed".to_string()),
     }
 }
 
@@ -188,6 +235,7 @@ pub fn filter(arguments: &FilterArguments, tell: &mut dyn FnMut(Told)) -> Result
     let write_settings = WriteSettings {
         dialect: dialect.name(),
         machine_in_inch: arguments.machine_in_inch,
+        path_mode: settings.path_mode,
         sources: &sources,
         chord_tolerance: arguments.chord_tolerance,
         arc_tolerance: &settings.arc_tolerance,

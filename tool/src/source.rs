@@ -15,6 +15,15 @@ pub struct Span {
 }
 
 impl Span {
+    /// The beginning of a file.
+    pub fn start_of(file: usize) -> Span {
+        Span {
+            file,
+            start: 0,
+            end: 0,
+        }
+    }
+
     /// From the beginning of `self` to the end of `last`, which must lie in the same file.
     pub fn to(self, last: Span) -> Span {
         Span {

@@ -1,56 +1,33 @@
 //! Walking over the tokens of one block: what the parsers of dialects share.
 
+use super::token::{Token, TokenKind};
 use crate::diagnostics::Diagnostic;
 use crate::source::Span;
 
 /// The outcome of parsing a part of a block.
 pub type Parsed<T> = Result<T, Box<Diagnostic>>;
 
-/// A token and where it stands.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Token<K> {
-    /// What it is.
-    pub kind: K,
-    /// Where it stands.
-    pub span: Span,
-}
-
-/// What the kinds of tokens of a dialect have in common.
-pub trait Kind {
-    /// An operator or a punctuation mark.
-    type Symbol: PartialEq;
-
-    /// The symbol, if it is one.
-    fn symbol(&self) -> Option<Self::Symbol>;
-    /// The letter, if it stands alone.
-    fn letter(&self) -> Option<char>;
-    /// The name of several letters, if it is one.
-    fn name(&self) -> Option<&str>;
-    /// The value, if it is a number.
-    fn number(&self) -> Option<f64>;
-}
-
 /// The tokens of one block, without its comment and its end.
 #[derive(Clone, Debug)]
-pub struct Cursor<'a, K> {
-    tokens: &'a [Token<K>],
+pub struct Cursor<'a, S, P> {
+    tokens: &'a [Token<S, P>],
     at: usize,
     end: Span,
 }
 
-impl<'a, K: Kind> Cursor<'a, K> {
+impl<'a, S: Copy + PartialEq, P> Cursor<'a, S, P> {
     /// At the first of `tokens`; `end` is where the block ends, for messages.
-    pub fn new(tokens: &'a [Token<K>], end: Span) -> Cursor<'a, K> {
+    pub fn new(tokens: &'a [Token<S, P>], end: Span) -> Cursor<'a, S, P> {
         Cursor { tokens, at: 0, end }
     }
 
     /// The next token.
-    pub fn peek(&self) -> Option<&'a K> {
+    pub fn peek(&self) -> Option<&'a TokenKind<S, P>> {
         self.peek_at(0)
     }
 
     /// The token after `ahead` others.
-    pub fn peek_at(&self, ahead: usize) -> Option<&'a K> {
+    pub fn peek_at(&self, ahead: usize) -> Option<&'a TokenKind<S, P>> {
         self.tokens.get(self.at + ahead).map(|token| &token.kind)
     }
 
@@ -75,27 +52,27 @@ impl<'a, K: Kind> Cursor<'a, K> {
     }
 
     /// Takes the next token.
-    pub fn advance(&mut self) -> Option<&'a Token<K>> {
+    pub fn advance(&mut self) -> Option<&'a Token<S, P>> {
         let token = self.tokens.get(self.at)?;
         self.at += 1;
         Some(token)
     }
 
     /// Takes the next token if it is `wanted`.
-    fn take_if(&mut self, wanted: impl Fn(&K) -> bool) -> bool {
+    fn take_if(&mut self, wanted: impl Fn(&TokenKind<S, P>) -> bool) -> bool {
         let found = self.peek().is_some_and(wanted);
         self.at += usize::from(found);
         found
     }
 
     /// Takes `symbol` if it comes next.
-    pub fn take(&mut self, symbol: K::Symbol) -> bool {
-        self.take_if(|kind| kind.symbol().as_ref() == Some(&symbol))
+    pub fn take(&mut self, symbol: S) -> bool {
+        self.take_if(|kind| kind.symbol() == Some(symbol))
     }
 
     /// Whether `symbol` comes after `ahead` other tokens.
-    pub fn is_symbol(&self, ahead: usize, symbol: K::Symbol) -> bool {
-        let next = self.peek_at(ahead).and_then(K::symbol);
+    pub fn is_symbol(&self, ahead: usize, symbol: S) -> bool {
+        let next = self.peek_at(ahead).and_then(TokenKind::symbol);
         next == Some(symbol)
     }
 
@@ -110,7 +87,7 @@ impl<'a, K: Kind> Cursor<'a, K> {
     }
 
     /// Takes `symbol`, or says that it is missing.
-    pub fn expect(&mut self, symbol: K::Symbol, shown: &str) -> Parsed<()> {
+    pub fn expect(&mut self, symbol: S, shown: &str) -> Parsed<()> {
         if self.take(symbol) {
             return Ok(());
         }
@@ -119,7 +96,7 @@ impl<'a, K: Kind> Cursor<'a, K> {
 
     /// Takes a whole number without sign.
     pub fn whole(&mut self, what: &str) -> Parsed<u32> {
-        match self.peek().and_then(K::number) {
+        match self.peek().and_then(TokenKind::number) {
             Some(number) if number.fract() == 0.0 && number <= f64::from(u32::MAX) => {
                 self.at += 1;
                 Ok(number as u32)

@@ -5,13 +5,16 @@ pub mod cursor;
 pub mod expression;
 pub mod fagor;
 pub mod guess;
+pub mod indices;
 pub mod isg;
 pub mod library;
 pub mod mefi;
+pub mod operators;
 pub mod scanner;
 pub mod settings;
 pub mod sinumerik;
 pub mod spelling;
+pub mod token;
 
 use crate::diagnostics::Diagnostics;
 use crate::program::Program;

@@ -1,5 +1,6 @@
 //! Reading the characters of one line: what the lexers of all dialects share.
 
+use crate::diagnostics::Diagnostic;
 use crate::source::Span;
 
 /// A place in a source text, moving forward.
@@ -86,6 +87,54 @@ impl<'a> Scanner<'a> {
         }
         self.text.get(start..self.at)
     }
+}
+
+impl<'a> Scanner<'a> {
+    /// Takes a decimal number; a point without digits is an error.
+    pub fn digits(&mut self) -> Result<&'a str, Box<Diagnostic>> {
+        let start = self.at;
+        self.decimal().ok_or_else(|| {
+            self.advance();
+            self.error(start, "a point without digits is not a number")
+        })
+    }
+
+    /// The value of the number `text` that began at `start` and ends here; another point is an error.
+    pub fn number(&mut self, start: usize, text: &str) -> Result<f64, Box<Diagnostic>> {
+        if self.peek() == Some('.') {
+            self.take_while(|c| c.is_ascii_digit() || c == '.');
+            return Err(self.error(start, "a number with two decimal points"));
+        }
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => Err(self.error(start, "this is not a number")),
+        }
+    }
+
+    /// Takes a text between double quotes, which must end on its line.
+    pub fn quoted(&mut self) -> Result<&'a str, Box<Diagnostic>> {
+        let start = self.at;
+        self.advance();
+        let text = self.take_while(|c| c != '"' && c != '\n');
+        if self.take("\"") {
+            return Ok(text);
+        }
+        Err(Box::new(
+            Diagnostic::error(self.span_from(start), "this text does not end")
+                .help("put a \" at its end, on the same line"),
+        ))
+    }
+
+    /// An error about what stands from a byte position to here.
+    pub fn error(&self, start: usize, message: impl Into<String>) -> Box<Diagnostic> {
+        Box::new(Diagnostic::error(self.span_from(start), message))
+    }
+}
+
+/// Whether a character says nothing. Programs that were sent over a serial line begin and end with NULs
+/// and other fillers.
+pub fn is_blank(c: char) -> bool {
+    matches!(c, ' ' | '\t' | '\0' | '\u{1a}' | '\u{11}' | '\u{13}')
 }
 
 #[cfg(test)]

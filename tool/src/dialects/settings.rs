@@ -1,8 +1,12 @@
 //! What a program means can depend on how the control was set up: the settings that say so.
 
+use crate::program::PathControl;
 use crate::program::arc::ArcTolerance;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+/// The default of [`Settings::most_blocks`]: about 200 MB where nearly every block moves.
+pub const MOST_BLOCKS: usize = 500_000;
 
 /// Settings of the control that is imitated.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +25,11 @@ pub struct Settings {
     pub passed_m: Vec<u32>,
     /// The feed in force when the program begins, machine units per minute.
     pub feed: Option<f64>,
+    /// How corners are passed until the program says otherwise.
+    pub path_mode: PathControl,
+    /// How many blocks a program may run besides twice the lines that it has: a loop that never ends
+    /// must not fill the memory.
+    pub most_blocks: usize,
     /// Values that variables have before the program begins, such as `R5`.
     pub variables: BTreeMap<String, f64>,
     /// Rows of LinuxCNC's tool table that hold further edges of tools, by tool and edge.
@@ -46,6 +55,8 @@ impl Default for Settings {
             skip_blocks: false,
             passed_m: Vec::new(),
             feed: None,
+            path_mode: PathControl::ExactPath,
+            most_blocks: MOST_BLOCKS,
             variables: BTreeMap::new(),
             tool_edges: BTreeMap::new(),
             tool_names: BTreeMap::new(),

@@ -3,6 +3,7 @@
 
 use super::comment::{comment, message};
 use super::line::Lines;
+use super::words::path_control_words;
 use super::{WriteSettings, file_name};
 use crate::program::{Action, Block};
 
@@ -22,7 +23,9 @@ pub fn header(lines: &mut Lines, settings: &WriteSettings, purpose: &str) {
     } else {
         "G21"
     };
-    lines.raw(&format!("{unit} G17 G40 G80 G90 G91.1 G94"));
+    // Without it LinuxCNC would cut corners by as much as its feed asks for.
+    let path_mode = path_control_words(settings.path_mode);
+    lines.raw(&format!("{unit} G17 G40 G80 G90 G91.1 G94 {path_mode}"));
 }
 
 /// Begins a block of the source. `false` for the mark of a subprogram, which is then written.

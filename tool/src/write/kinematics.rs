@@ -50,7 +50,7 @@ pub fn write(
         feed_mode: FeedMode::PerMinute,
         feed: None,
         written_feed: None,
-        path_control: None,
+        path_control: settings.path_mode,
         tool_length: None,
         scope: program.frame_scope,
         radius_row: None,
@@ -78,7 +78,7 @@ struct Writer<'a> {
     feed_mode: FeedMode,
     feed: Option<f64>,
     written_feed: Option<f64>,
-    path_control: Option<PathControl>,
+    path_control: PathControl,
     tool_length: Option<bool>,
     scope: FrameScope,
     /// Row of the tool table that G41 and G42 take the radius from, if it is not that of the tool.
@@ -107,7 +107,7 @@ impl Writer<'_> {
                 self.feed = None;
                 self.written_feed = None;
             }
-            Action::PathControl(control) => self.path_control = Some(*control),
+            Action::PathControl(control) => self.path_control = *control,
             Action::ToolLength(on) => self.tool_length = Some(*on),
             Action::ToolOffset(_) => self.tool_length = Some(true),
             _ => {}
@@ -235,7 +235,7 @@ impl Writer<'_> {
             return;
         }
         self.resume();
-        if motion.exact_stop && self.path_control != Some(PathControl::ExactStop) {
+        if motion.exact_stop && self.path_control != PathControl::ExactStop {
             self.lines.add(Rank::PathControl, "G61.1");
         }
         let mut words = Vec::new();
@@ -260,12 +260,9 @@ impl Writer<'_> {
             words.push(format!("F{}", coordinate(feed)));
         }
         self.lines.add(Rank::Motion, words.join(" "));
-        if motion.exact_stop && self.path_control != Some(PathControl::ExactStop) {
+        if motion.exact_stop && self.path_control != PathControl::ExactStop {
             self.lines.flush();
-            let mode = self
-                .path_control
-                .unwrap_or(PathControl::Continuous { tolerance: None });
-            self.lines.line(&path_control_words(mode));
+            self.lines.line(&path_control_words(self.path_control));
         }
     }
 

@@ -8,6 +8,7 @@ mod number;
 pub mod rewrite;
 mod words;
 
+use crate::program::PathControl;
 use crate::program::arc::ArcTolerance;
 use crate::source::Sources;
 
@@ -18,6 +19,8 @@ pub struct WriteSettings<'a> {
     pub dialect: &'a str,
     /// Whether LinuxCNC's unit of length is the inch.
     pub machine_in_inch: bool,
+    /// How corners are passed until the program says otherwise.
+    pub path_mode: PathControl,
     /// The files of the program, for their names.
     pub sources: &'a Sources,
     /// Largest distance of the chords from the ellipse that unequal scales make of an arc, machine

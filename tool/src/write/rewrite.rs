@@ -45,7 +45,7 @@ pub fn write(
         frame: Frame::default(),
         plane: Plane::Xy,
         compensation: Compensation::Off,
-        path_control: None,
+        path_control: settings.path_mode,
         feed_mode: FeedMode::PerMinute,
         tool_length: None,
         feed: None,
@@ -72,7 +72,7 @@ struct Writer<'a> {
     frame: Frame,
     plane: Plane,
     compensation: Compensation,
-    path_control: Option<PathControl>,
+    path_control: PathControl,
     feed_mode: FeedMode,
     tool_length: Option<bool>,
     feed: Option<f64>,
@@ -98,7 +98,7 @@ impl Writer<'_> {
     fn action(&mut self, action: &Action, span: Span) -> Result<(), Box<Diagnostic>> {
         match action {
             Action::Plane(plane) => self.plane = *plane,
-            Action::PathControl(control) => self.path_control = Some(*control),
+            Action::PathControl(control) => self.path_control = *control,
             Action::FeedMode(mode) => {
                 self.feed_mode = *mode;
                 self.feed = None;
@@ -251,7 +251,7 @@ impl Writer<'_> {
         if motion.kind == MoveKind::Line {
             self.stretched_feed(motion, span)?;
         }
-        let stops = motion.exact_stop && self.path_control != Some(PathControl::ExactStop);
+        let stops = motion.exact_stop && self.path_control != PathControl::ExactStop;
         if stops {
             self.lines.add(Rank::PathControl, "G61.1");
         }
@@ -265,10 +265,7 @@ impl Writer<'_> {
         }
         if stops {
             self.lines.flush();
-            let mode = self
-                .path_control
-                .unwrap_or(PathControl::Continuous { tolerance: None });
-            self.lines.line(&path_control_words(mode));
+            self.lines.line(&path_control_words(self.path_control));
         }
         Ok(())
     }

@@ -126,9 +126,13 @@ fn work_offset_word(system: u8) -> String {
     }
 }
 
-/// G61.1 or G64.
+/// G61.1, G61 or G64.
 pub fn path_control_words(control: PathControl) -> String {
     match control {
+        // LinuxCNC takes P0 for no limit at all.
+        PathControl::Continuous {
+            tolerance: Some(tolerance),
+        } if coordinate(tolerance) == "0" => "G61".to_string(),
         PathControl::ExactStop => "G61.1".to_string(),
         PathControl::ExactPath => "G61".to_string(),
         PathControl::Continuous { tolerance: None } => "G64".to_string(),

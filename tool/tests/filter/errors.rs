@@ -1,5 +1,6 @@
 //! What is refused, and with which words.
 
+use crate::one_error::assert_one_error;
 use crate::shop::{Shop, refused};
 
 /// Runs a program that must be refused and returns the error text.
@@ -11,15 +12,7 @@ fn errors(program: &str) -> String {
 /// Checks that a program has exactly one error, at this line and column, with this text in it.
 fn one_error(program: &str, place: &str, text: &str) {
     let shown = errors(program);
-    assert!(
-        shown.contains(&format!("part.mpf:{place}\n")),
-        "{program}\n{shown}"
-    );
-    assert!(shown.contains(text), "{program}\n{shown}");
-    assert!(
-        shown.contains("\n1 error: nothing was written"),
-        "{program}\n{shown}"
-    );
+    assert_one_error(&shown, program, &format!("part.mpf:{place}"), text);
 }
 
 #[test]

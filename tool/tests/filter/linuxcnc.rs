@@ -1,13 +1,12 @@
 //! LinuxCNC's own interpreter reads what the filter writes.
 
+use crate::rs274::{self, numbers};
 use crate::shop::{Shop, accepted};
 use framepath_tool::dialects::Dialect;
 use framepath_tool::dialects::settings::Settings;
 use framepath_tool::filter::contour;
 use framepath_tool::program::contour::{ContourMove, Shape};
 use framepath_tool::program::trace::Setup;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
 /// Everything at once, in G17 so that both backends can do it.
 const PROGRAM: &str = "\
@@ -48,100 +47,9 @@ G2 I-3 J0
 M17
 ";
 
-/// The names of all subroutines that the kinematics backend calls.
-const SUBROUTINES: [&str; 19] = [
-    "frame_off",
-    "trans",
-    "atrans",
-    "rot",
-    "arot",
-    "rot_rpl",
-    "arot_rpl",
-    "rots_xy",
-    "rots_zx",
-    "rots_yz",
-    "arots_xy",
-    "arots_zx",
-    "arots_yz",
-    "scale",
-    "ascale",
-    "ascale_off",
-    "mirror",
-    "amirror",
-    "unused",
-];
-
-/// The canonical calls that LinuxCNC makes of a program. Fails on any error of the interpreter.
+/// The canonical calls that LinuxCNC makes of a program.
 fn interpret(shop: &Shop, program: &str) -> Vec<String> {
-    for name in SUBROUTINES {
-        let text = format!("o<{name}> sub\n(MSG, called {name} #1 #2 #3)\no<{name}> endsub\nM2\n");
-        std::fs::write(shop.path(&format!("{name}.ngc")), text).expect("a file");
-    }
-    let folder = shop.path("");
-    let ini = format!("[RS274NGC]\nSUBROUTINE_PATH={}\n", folder.display());
-    std::fs::write(shop.path("machine.ini"), ini).expect("a file");
-    std::fs::write(shop.path("tool.tbl"), "T1 P1 Z12.5 D6\n").expect("a file");
-    std::fs::write(shop.path("out.ngc"), program).expect("a file");
-    let log = std::fs::File::create(shop.path("canon.txt")).expect("a file");
-    let errors = std::fs::File::create(shop.path("errors.txt")).expect("a file");
-    let mut interpreter = Command::new("rs274")
-        .current_dir(&folder)
-        // LinuxCNC's tool table lies in a file of the home folder: the tests run at the same time
-        .env("HOME", &folder)
-        .args([
-            "-n",
-            "0",
-            "-g",
-            "-i",
-            "machine.ini",
-            "-t",
-            "tool.tbl",
-            "out.ngc",
-        ])
-        .stdin(Stdio::null())
-        .stdout(log)
-        .stderr(errors)
-        .spawn()
-        .expect("rs274 of LinuxCNC is installed");
-    let begun = Instant::now();
-    loop {
-        match interpreter
-            .try_wait()
-            .expect("the interpreter can be waited for")
-        {
-            Some(_) => break,
-            None if begun.elapsed() > Duration::from_secs(30) => {
-                interpreter.kill().expect("the interpreter can be stopped");
-                panic!("rs274 does not end");
-            }
-            None => std::thread::sleep(Duration::from_millis(10)),
-        }
-    }
-    let read = |name| std::fs::read_to_string(shop.path(name)).expect("a file");
-    let errors: Vec<String> = read("errors.txt")
-        .lines()
-        .filter(|line| !line.trim().is_empty() && !line.contains("executing"))
-        .map(String::from)
-        .collect();
-    assert!(errors.is_empty(), "rs274 says: {errors:?}");
-    let canon: Vec<String> = read("canon.txt").lines().map(String::from).collect();
-    let ended = canon.iter().any(|line| line.contains("PROGRAM_END"));
-    assert!(
-        ended,
-        "the program did not reach its end: {:?}",
-        canon.last()
-    );
-    canon
-}
-
-/// The numbers of a canonical call with this name.
-fn numbers(line: &str, name: &str) -> Option<Vec<f64>> {
-    let (_, rest) = line.split_once(&format!("{name}("))?;
-    let list = rest.trim_end_matches(')').split(',');
-    Some(
-        list.filter_map(|number| number.trim().parse().ok())
-            .collect(),
-    )
+    rs274::interpret(&shop.path(""), "T1 P1 Z12.5 D6\n", program)
 }
 
 #[test]

@@ -1,20 +1,13 @@
 //! What is refused, where, and with which words.
 
+use crate::one_error::assert_one_error;
 use crate::shop::Shop;
 use framepath_tool::dialects::Dialect;
 
 /// Checks that a program has exactly one error, at this line and column, with this text in it.
 fn one_error(dialect: Dialect, program: &str, place: &str, text: &str) {
     let shown = Shop::with(dialect, program).refused(&["--backend", "kinematics"]);
-    assert!(
-        shown.contains(&format!("part.nc:{place}\n")),
-        "{program}\n{shown}"
-    );
-    assert!(shown.contains(text), "{program}\n{shown}");
-    assert!(
-        shown.contains("\n1 error: nothing was written"),
-        "{program}\n{shown}"
-    );
+    assert_one_error(&shown, program, &format!("part.nc:{place}"), text);
 }
 
 #[test]

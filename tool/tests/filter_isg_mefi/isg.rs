@@ -1,7 +1,7 @@
 //! The rest of the language of ISG kernels.
 
 use crate::machine::{self, Machine};
-use crate::path::{Step, assert_same, clockwise, counterclockwise, line, steps};
+use crate::path::{Step, assert_same, clockwise, counterclockwise, line};
 use crate::shop::Shop;
 use framepath_tool::dialects::Dialect;
 
@@ -11,12 +11,7 @@ fn shop(program: &str) -> Shop {
 
 /// The path of a program, which both backends must give.
 fn path(program: &str) -> Vec<Step> {
-    let shop = shop(program);
-    let rewritten = machine::run(&shop.accepted(&["--backend", "program"]));
-    let framed = machine::run(&shop.accepted(&["--backend", "kinematics"]));
-    assert_same(&framed, &rewritten, program);
-    assert_same(&steps(&shop.contour()), &rewritten, program);
-    rewritten
+    machine::path_of(&shop(program))
 }
 
 /// X of each step.
@@ -396,4 +391,13 @@ fn parameters_may_come_from_outside() {
     assert!(shop.refused(&[]).contains("--set P7=VALUE"));
     let output = shop.accepted(&["--set", "P7=12.5", "--set", "V.P.DEPTH=3"]);
     assert!(output.contains("G0 X12.5 Y3"), "{output}");
+}
+
+/// LinuxCNC would take G64 P0 for no limit at all.
+#[test]
+fn a_tolerance_that_rounds_to_nothing_keeps_the_path_exact() {
+    let program = "#HSC ON [CONTERROR 0.0000001]\nG01 X1 F100\nX2 Y2\n#HSC OFF\nM30\n";
+    let output = Shop::with(Dialect::Isg, program).accepted(&[]);
+    assert!(!output.contains("G64"), "{output}");
+    assert_eq!(output.matches("G61").count(), 3, "{output}");
 }

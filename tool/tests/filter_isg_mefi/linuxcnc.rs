@@ -2,99 +2,15 @@
 
 use crate::examples;
 use crate::path::Step;
+use crate::rs274::{self, numbers};
 use crate::shop::Shop;
 use framepath_tool::dialects::Dialect;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
-/// The names of all subroutines that frames of these dialects need.
-const SUBROUTINES: [&str; 11] = [
-    "frame_off",
-    "trans",
-    "atrans",
-    "rot",
-    "arot",
-    "rot_rpl",
-    "arot_rpl",
-    "scale",
-    "ascale",
-    "mirror",
-    "amirror",
-];
-
-/// The canonical calls that LinuxCNC makes of a program. Fails on any error of the interpreter.
+/// The canonical calls that LinuxCNC makes of a program.
 pub fn interpret(shop: &Shop, program: &str) -> Vec<String> {
-    for name in SUBROUTINES {
-        let text = format!("o<{name}> sub\n(MSG, called {name} #1 #2 #3)\no<{name}> endsub\nM2\n");
-        std::fs::write(shop.path(&format!("{name}.ngc")), text).expect("a file");
-    }
-    let folder = shop.path("");
-    let ini = format!("[RS274NGC]\nSUBROUTINE_PATH={}\n", folder.display());
-    std::fs::write(shop.path("machine.ini"), ini).expect("a file");
-    // In inches, as the interpreter has it without a machine: 5.08 mm.
+    // 5.08 mm
     let tools = "T3 P3 D0.2\nT4 P4 D0.2\nT5 P5 D0.2\n";
-    std::fs::write(shop.path("tool.tbl"), tools).expect("a file");
-    std::fs::write(shop.path("out.ngc"), program).expect("a file");
-    let log = std::fs::File::create(shop.path("canon.txt")).expect("a file");
-    let errors = std::fs::File::create(shop.path("errors.txt")).expect("a file");
-    let mut interpreter = Command::new("rs274")
-        .current_dir(&folder)
-        // LinuxCNC's tool table lies in a file of the home folder: the tests run at the same time
-        .env("HOME", &folder)
-        .args([
-            "-n",
-            "0",
-            "-g",
-            "-i",
-            "machine.ini",
-            "-t",
-            "tool.tbl",
-            "out.ngc",
-        ])
-        .stdin(Stdio::null())
-        .stdout(log)
-        .stderr(errors)
-        .spawn()
-        .expect("rs274 of LinuxCNC is installed");
-    let begun = Instant::now();
-    loop {
-        match interpreter
-            .try_wait()
-            .expect("the interpreter can be waited for")
-        {
-            Some(_) => break,
-            None if begun.elapsed() > Duration::from_secs(30) => {
-                interpreter.kill().expect("the interpreter can be stopped");
-                panic!("rs274 does not end");
-            }
-            None => std::thread::sleep(Duration::from_millis(10)),
-        }
-    }
-    let read = |name| std::fs::read_to_string(shop.path(name)).expect("a file");
-    let errors: Vec<String> = read("errors.txt")
-        .lines()
-        .filter(|line| !line.trim().is_empty() && !line.contains("executing"))
-        .map(String::from)
-        .collect();
-    assert!(errors.is_empty(), "rs274 says: {errors:?}\n{program}");
-    let canon: Vec<String> = read("canon.txt").lines().map(String::from).collect();
-    let ended = canon.iter().any(|line| line.contains("PROGRAM_END"));
-    assert!(
-        ended,
-        "the program did not reach its end: {:?}\n{program}",
-        canon.last()
-    );
-    canon
-}
-
-/// The numbers of a canonical call with this name.
-pub fn numbers(line: &str, name: &str) -> Option<Vec<f64>> {
-    let (_, rest) = line.split_once(&format!("{name}("))?;
-    let list = rest.trim_end_matches(')').split(',');
-    Some(
-        list.filter_map(|number| number.trim().parse().ok())
-            .collect(),
-    )
+    rs274::interpret(&shop.path(""), tools, program)
 }
 
 /// The ends of all straight motions, machine coordinates. The interpreter leaves out the work offset.

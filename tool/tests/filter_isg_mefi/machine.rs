@@ -1,7 +1,8 @@
 //! A machine that reads the G-code that was written: LinuxCNC in miniature, at full precision, for the
 //! words that these programs have. Frames are carried out as the subroutines of framekins define them.
 
-use crate::path::Step;
+use crate::path::{Step, assert_same, steps};
+use crate::shop::Shop;
 use nalgebra::{Matrix3, Vector3};
 
 /// Shorter moves are none.
@@ -238,4 +239,13 @@ fn sum(text: &str, present: &[f64; 9]) -> f64 {
         rest = &term[end..];
     }
     total
+}
+
+/// The path of a program, which both backends and the contour must give.
+pub fn path_of(shop: &Shop) -> Vec<Step> {
+    let rewritten = run(&shop.accepted(&["--backend", "program"]));
+    let framed = run(&shop.accepted(&["--backend", "kinematics"]));
+    assert_same(&framed, &rewritten, "the frame kinematics");
+    assert_same(&steps(&shop.contour()), &rewritten, "the contour");
+    rewritten
 }

@@ -2,12 +2,18 @@
 
 mod errors;
 mod examples;
+#[path = "../filter/front_end.rs"]
+mod front_end;
 mod isg;
 mod linuxcnc;
 mod machine;
 mod mefi;
+#[path = "../filter/one_error.rs"]
+mod one_error;
 mod path;
 mod random;
 mod robustness;
+#[path = "../filter/rs274.rs"]
+mod rs274;
 mod shop;
 mod silence;

@@ -11,12 +11,7 @@ fn shop(program: &str) -> Shop {
 
 /// The path of a program, which both backends must give.
 fn path(program: &str) -> Vec<Step> {
-    let shop = shop(program);
-    let rewritten = machine::run(&shop.accepted(&["--backend", "program"]));
-    let framed = machine::run(&shop.accepted(&["--backend", "kinematics"]));
-    assert_same(&framed, &rewritten, program);
-    assert_same(&steps(&shop.contour()), &rewritten, program);
-    rewritten
+    machine::path_of(&shop(program))
 }
 
 #[test]

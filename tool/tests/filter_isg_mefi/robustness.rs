@@ -1,45 +1,10 @@
 //! No input makes the front ends panic, hang or fill the memory.
 
-use framepath_tool::diagnostics::Diagnostics;
+use crate::front_end::{run_all, run_with};
+use framepath_tool::dialects::Dialect;
 use framepath_tool::dialects::settings::Settings;
-use framepath_tool::dialects::{Dialect, evaluate};
-use framepath_tool::encoding::decode;
-use framepath_tool::program::trace::{Setup, contour};
-use framepath_tool::source::Sources;
-use framepath_tool::write::{WriteSettings, kinematics, rewrite};
 use proptest::prelude::*;
-use std::path::Path;
 use std::time::{Duration, Instant};
-
-/// Everything from the bytes to both outputs, the contour and the rendered messages.
-fn run_all(dialect: Dialect, bytes: &[u8]) {
-    let settings = Settings::default();
-    let mut sources = Sources::default();
-    let mut diagnostics = Diagnostics::default();
-    sources.add("part.nc".to_string(), decode(bytes));
-    // The path lies nowhere: no subprogram file can be found.
-    let path = Path::new("/nonexistent/part.nc");
-    let program = evaluate(dialect, path, &settings, &mut sources, &mut diagnostics);
-    let shown = diagnostics.render(&sources);
-    assert_eq!(shown.is_empty(), diagnostics.iter().next().is_none());
-    if diagnostics.errors() > 0 {
-        return;
-    }
-    let write_settings = WriteSettings {
-        dialect: dialect.name(),
-        machine_in_inch: false,
-        chord_tolerance: 0.01,
-        arc_tolerance: &settings.arc_tolerance,
-        sources: &sources,
-        warnings: &[],
-    };
-    for write in [kinematics::write, rewrite::write] {
-        let text = write(&program, &write_settings, &mut diagnostics, &mut |_| {});
-        assert!(text.lines().all(|line| line.len() < 255));
-        assert!(!text.contains("NaN") && !text.contains("inf"));
-    }
-    let _ = contour(&program, &Setup::default(), &settings.arc_tolerance);
-}
 
 /// Pieces of programs, so that much of what is made gets past the parser.
 fn piece(fixed: &'static [&'static str]) -> impl Strategy<Value = String> {
@@ -201,7 +166,7 @@ fn loops_that_never_end_are_stopped() {
         "G00\nP1=0\nN5 P1=P1+1\nXP1\n$GOTO N5\nM30\n",
     ] {
         let begun = Instant::now();
-        run_all(Dialect::Isg, program.as_bytes());
+        run_with(&Settings::default(), Dialect::Isg, program.as_bytes());
         assert!(begun.elapsed() < LONGEST, "{program}");
     }
 }

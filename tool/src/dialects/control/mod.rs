@@ -6,6 +6,7 @@
 mod arc_forms;
 pub mod calls;
 pub mod frame;
+pub mod groups;
 mod machine_moves;
 pub mod modal;
 mod modes;
@@ -22,9 +23,6 @@ use crate::program::{self, Action, Compensation, FrameScope, Origin, Program};
 use crate::source::{SourceFile, Sources, Span};
 use modal::Modal;
 use std::collections::BTreeSet;
-
-/// How many blocks a program may run more than it has: a loop that never ends must not fill the memory.
-const BLOCK_LIMIT: usize = 2_000_000;
 
 /// The outcome of carrying out a part of a block.
 pub type Done = Result<(), Box<Diagnostic>>;
@@ -82,7 +80,7 @@ impl<'a> Control<'a> {
             },
             running: Vec::new(),
             blocks_run: 0,
-            block_limit: BLOCK_LIMIT,
+            block_limit: settings.most_blocks,
             noted: BTreeSet::new(),
         }
     }
@@ -99,7 +97,7 @@ impl<'a> Control<'a> {
         if self.blocks_run > self.block_limit {
             let lines = |file: &SourceFile| file.text.matches('\n').count();
             let written: usize = self.sources.iter().map(lines).sum();
-            self.block_limit = BLOCK_LIMIT + 2 * written;
+            self.block_limit = self.settings.most_blocks + 2 * written;
         }
         if self.blocks_run > self.block_limit {
             self.diagnostics.push(
@@ -110,7 +108,9 @@ impl<'a> Control<'a> {
                         self.block_limit
                     ),
                 )
-                .help("check the conditions of its loops and jumps"),
+                .help(
+                    "check the conditions of its loops and jumps; --most-blocks raises the limit",
+                ),
             );
             return false;
         }

@@ -41,8 +41,8 @@ pub struct Modal {
     pub spindle: Option<Spindle>,
     /// G40 to G42.
     pub compensation: Compensation,
-    /// G60 and G64.
-    pub path_control: Option<PathControl>,
+    /// How corners are passed.
+    pub path_control: PathControl,
     /// The programmable frame.
     pub frame: Frame,
     /// Coordinates of A B C U V W times these are those that are written: a mirrored axis has -1. The
@@ -73,7 +73,7 @@ impl Modal {
             spindle_speed: None,
             spindle: None,
             compensation: Compensation::Off,
-            path_control: None,
+            path_control: settings.path_mode,
             frame: Frame::default(),
             axis_factors: [1.0; 9],
             position: Position::default(),

@@ -183,7 +183,7 @@ impl Control<'_> {
 
     /// How corners are passed.
     pub fn path_control(&mut self, control: PathControl) {
-        self.modal.path_control = Some(control);
+        self.modal.path_control = control;
         let other = |state: &Action| !matches!(state, Action::PathControl(_));
         self.states.retain(other);
         self.states.push(Action::PathControl(control));

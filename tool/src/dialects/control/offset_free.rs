@@ -75,10 +75,7 @@ impl Control<'_> {
                 word.value = (self.framed(axis, value, word.span)?, Dimension::Absolute);
             }
         }
-        let restored = self
-            .modal
-            .path_control
-            .unwrap_or(PathControl::Continuous { tolerance: None });
+        let restored = self.modal.path_control;
         let stops = exact_stop && restored != PathControl::ExactStop;
         if stops {
             self.actions

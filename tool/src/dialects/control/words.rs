@@ -1,6 +1,9 @@
 //! What the words of a motion say, evaluated, before it is known what they mean.
 
+use super::Done;
+use crate::diagnostics::Diagnostic;
 use crate::source::Span;
+use std::fmt::Display;
 
 /// The axes in the order of LinuxCNC.
 pub const AXES: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
@@ -12,6 +15,22 @@ pub struct At<T> {
     pub value: T,
     /// The word.
     pub span: Span,
+}
+
+/// Puts the value of a word into its place; a block may have one of each.
+///
+/// # Errors
+///
+/// When there is one already.
+pub fn set<T>(place: &mut Option<At<T>>, value: T, span: Span, address: impl Display) -> Done {
+    if place.is_some() {
+        return Err(Box::new(Diagnostic::error(
+            span,
+            format!("{address} is in this block twice"),
+        )));
+    }
+    *place = Some(At { value, span });
+    Ok(())
 }
 
 /// Whether a coordinate is absolute.

@@ -2,7 +2,7 @@
 
 use super::syntax::Word;
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::control::words::{AXES, At};
+use crate::dialects::control::words::{AXES, At, set};
 use crate::dialects::expression::Variables;
 use crate::source::Span;
 
@@ -60,11 +60,11 @@ impl BlockWords {
             None => None,
         };
         if let Some(axis) = AXES.iter().position(|axis| axis.starts_with(letter)) {
-            return set(&mut self.axes[axis], value, word);
+            return set(&mut self.axes[axis], value, span, letter);
         }
         let value = value.ok_or_else(|| missing(letter, span))?;
         if let Some(axis) = ['I', 'J', 'K'].iter().position(|axis| *axis == letter) {
-            return set(&mut self.centre[axis], value, word);
+            return set(&mut self.centre[axis], value, span, letter);
         }
         match letter {
             'G' => {
@@ -77,13 +77,13 @@ impl BlockWords {
                 self.m.push(At { value, span });
                 Ok(())
             }
-            'R' => set(&mut self.radius, value, word),
-            'Q' => set(&mut self.angle, value, word),
-            'F' => set(&mut self.feed, value, word),
-            'S' => set(&mut self.speed, value, word),
-            'D' => set(&mut self.offset, value, word),
-            'T' => set(&mut self.tool, tool(word, value)?, word),
-            'N' => set(&mut self.times, value, word),
+            'R' => set(&mut self.radius, value, span, letter),
+            'Q' => set(&mut self.angle, value, span, letter),
+            'F' => set(&mut self.feed, value, span, letter),
+            'S' => set(&mut self.speed, value, span, letter),
+            'D' => set(&mut self.offset, value, span, letter),
+            'T' => set(&mut self.tool, tool(word, value)?, span, letter),
+            'N' => set(&mut self.times, value, span, letter),
             'L' | 'H' | 'E' | 'O' => Err(Box::new(
                 Diagnostic::error(span, format!("the address {letter} is not supported")).help(
                     "axes are X Y Z A B C U V W; parameters are P1 and stand behind an address",
@@ -119,20 +119,6 @@ pub fn missing(letter: char, span: Span) -> Box<Diagnostic> {
         Diagnostic::error(span, format!("the value of {letter} is missing"))
             .help(format!("write {letter}10 or {letter}P1")),
     )
-}
-
-fn set<T>(place: &mut Option<At<T>>, value: T, word: &Word) -> Result<(), Box<Diagnostic>> {
-    if place.is_some() {
-        return Err(Box::new(Diagnostic::error(
-            word.span,
-            format!("{} is in this block twice", word.letter),
-        )));
-    }
-    *place = Some(At {
-        value,
-        span: word.span,
-    });
-    Ok(())
 }
 
 fn code(value: f64, span: Span) -> Result<u32, Box<Diagnostic>> {

@@ -9,16 +9,18 @@ use super::cursor::{Cursor, Parsed};
 use super::token::TokenKind;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Binary, Expression, ExpressionKind, Function, Unary};
+use crate::dialects::operators::{DEPTH_LIMIT, Grammar};
 
-/// How deep parentheses and signs may be nested.
-const DEPTH_LIMIT: u32 = 64;
-
-/// Operators from the weakest level to the strongest.
-const LEVELS: usize = 6;
+const GRAMMAR: Grammar<char, String> = Grammar {
+    levels: 6,
+    operator,
+    check: check_logic,
+    operand: unary,
+};
 
 /// Parses one expression.
 pub fn expression(cursor: &mut Cursor) -> Parsed<Expression> {
-    level(cursor, 0, 0)
+    GRAMMAR.parse(cursor, 0, 0)
 }
 
 /// Parses `P1` or a number, with a sign: the value of a word.
@@ -75,27 +77,12 @@ fn operator(token: Option<&TokenKind>, at_level: usize) -> Option<Binary> {
     (its_level == at_level).then_some(operator)
 }
 
-fn level(cursor: &mut Cursor, at_level: usize, depth: u32) -> Parsed<Expression> {
-    if depth > DEPTH_LIMIT {
-        return Err(cursor.error("parentheses are nested too deep"));
+/// AND, OR and XOR stand between comparisons.
+fn check_logic(binary: Binary, operand: &Expression) -> Parsed<()> {
+    match binary.is_logic() {
+        true => need_truth(operand),
+        false => Ok(()),
     }
-    if at_level == LEVELS {
-        return unary(cursor, depth);
-    }
-    let mut left = level(cursor, at_level + 1, depth)?;
-    while let Some(binary) = operator(cursor.peek(), at_level) {
-        cursor.advance();
-        let right = level(cursor, at_level + 1, depth)?;
-        if binary.is_logic() {
-            need_truth(&left)?;
-            need_truth(&right)?;
-        }
-        left = Expression {
-            span: left.span.to(right.span),
-            kind: ExpressionKind::Binary(binary, Box::new(left), Box::new(right)),
-        };
-    }
-    Ok(left)
 }
 
 /// Whether an expression is a comparison or made of comparisons.
@@ -155,7 +142,7 @@ fn primary(cursor: &mut Cursor, depth: u32) -> Parsed<Expression> {
         }
         Some(TokenKind::Symbol('(')) => {
             cursor.advance();
-            let inner = level(cursor, 0, depth + 1)?;
+            let inner = GRAMMAR.parse(cursor, 0, depth + 1)?;
             cursor.expect(')', ")")?;
             ExpressionKind::Group(Box::new(inner))
         }
@@ -179,7 +166,7 @@ pub fn parameter(cursor: &mut Cursor, depth: u32) -> Parsed<Expression> {
     cursor.take_letter('P');
     let span = cursor.span();
     let index = if cursor.take('(') {
-        let index = level(cursor, 0, depth + 1)?;
+        let index = GRAMMAR.parse(cursor, 0, depth + 1)?;
         cursor.expect(')', ")")?;
         index
     } else {
@@ -207,10 +194,10 @@ fn function_call(cursor: &mut Cursor, name: &str, depth: u32) -> Parsed<Expressi
         vec![unary(cursor, depth + 1)?]
     } else {
         cursor.expect('(', "(")?;
-        let mut list = vec![level(cursor, 0, depth + 1)?];
+        let mut list = vec![GRAMMAR.parse(cursor, 0, depth + 1)?];
         while list.len() < function.arguments() {
             cursor.expect(',', ",")?;
-            list.push(level(cursor, 0, depth + 1)?);
+            list.push(GRAMMAR.parse(cursor, 0, depth + 1)?);
         }
         cursor.expect(')', ")")?;
         list

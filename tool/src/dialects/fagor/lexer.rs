@@ -5,7 +5,7 @@
 
 use super::token::{Token, TokenKind};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::scanner::Scanner;
+use crate::dialects::scanner::{Scanner, is_blank};
 
 /// All tokens of a file. What is no token is reported and left out; the rest of its line is left out
 /// too, so that one wrong character gives one error.
@@ -52,7 +52,7 @@ impl Lexer<'_> {
             let name = line.trim_start_matches('%').split(',').next();
             let name = name.unwrap_or("").trim().to_ascii_uppercase();
             if !name.is_empty() {
-                self.push(start, TokenKind::Header(name));
+                self.push(start, TokenKind::Program(name));
             }
             return Ok(());
         }
@@ -76,7 +76,7 @@ impl Lexer<'_> {
                 self.scanner.advance();
                 TokenKind::Comment(self.scanner.take_while(|c| c != '\n').trim().to_string())
             }
-            '"' => self.text()?,
+            '"' => TokenKind::Text(self.scanner.quoted()?.to_string()),
             c if c.is_ascii_alphabetic() => self.letters(),
             c if c.is_ascii_digit() || c == '.' => self.number()?,
             '+' | '-' | '*' | '/' | '(' | ')' | '=' | ',' => {
@@ -91,7 +91,7 @@ impl Lexer<'_> {
             _ => {
                 self.scanner.advance();
                 let shown = next.escape_default();
-                return Err(self.error(
+                return Err(self.scanner.error(
                     start,
                     format!("the character `{shown}` has no meaning in a part program"),
                 ));
@@ -115,42 +115,9 @@ impl Lexer<'_> {
 
     fn number(&mut self) -> Result<TokenKind, Box<Diagnostic>> {
         let start = self.scanner.position();
-        let Some(digits) = self.scanner.decimal() else {
-            self.scanner.advance();
-            return Err(self.error(start, "a point without digits is not a number"));
-        };
-        if self.scanner.peek() == Some('.') {
-            self.scanner.take_while(|c| c.is_ascii_digit() || c == '.');
-            return Err(self.error(start, "a number with two decimal points"));
-        }
-        match digits.parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(TokenKind::Number(number)),
-            _ => Err(self.error(start, "this is not a number")),
-        }
+        let digits = self.scanner.digits()?;
+        Ok(TokenKind::Number(self.scanner.number(start, digits)?))
     }
-
-    fn text(&mut self) -> Result<TokenKind, Box<Diagnostic>> {
-        let start = self.scanner.position();
-        self.scanner.advance();
-        let text = self.scanner.take_while(|c| c != '"' && c != '\n');
-        if !self.scanner.take("\"") {
-            let span = self.scanner.span_from(start);
-            return Err(Box::new(
-                Diagnostic::error(span, "this text does not end")
-                    .help("put a \" at its end, on the same line"),
-            ));
-        }
-        Ok(TokenKind::Text(text.to_string()))
-    }
-
-    fn error(&self, start: usize, message: impl Into<String>) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.scanner.span_from(start), message))
-    }
-}
-
-fn is_blank(c: char) -> bool {
-    // Programs that were sent over a serial line begin and end with NULs and other fillers.
-    matches!(c, ' ' | '\t' | '\0' | '\u{1a}' | '\u{11}' | '\u{13}')
 }
 
 #[cfg(test)]
@@ -167,7 +134,7 @@ mod tests {
 
     #[test]
     fn letters_are_addresses_outside_of_parentheses_and_names_inside() {
-        use TokenKind::*;
+        use crate::dialects::token::TokenKind::*;
         assert_eq!(
             kinds("G1XP2(IF P1 GT.5)"),
             [
@@ -192,7 +159,7 @@ mod tests {
     fn the_header_names_the_program() {
         assert_eq!(
             kinds("%part 1,MX--,")[0],
-            TokenKind::Header("PART 1".into())
+            TokenKind::Program("PART 1".into())
         );
         assert_eq!(kinds("%\n"), [TokenKind::EndOfLine]);
     }

@@ -27,7 +27,7 @@ pub fn parse(
             continue;
         };
         if let Some(Token {
-            kind: TokenKind::Header(header),
+            kind: TokenKind::Program(header),
             span,
         }) = tokens.first()
         {

@@ -110,11 +110,7 @@ impl library::Routine for Routine {
     }
 
     fn first_span(&self) -> Span {
-        let nothing = Span {
-            file: self.file,
-            start: 0,
-            end: 0,
-        };
-        self.blocks.first().map_or(nothing, |block| block.span)
+        let first = self.blocks.first();
+        first.map_or(Span::start_of(self.file), |block| block.span)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::syntax::Word;
 use crate::diagnostics::Diagnostic;
-use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords, set};
 use crate::dialects::expression::Variables;
 use crate::source::Span;
 
@@ -130,20 +130,4 @@ fn function_number(letter: char, value: f64, span: Span) -> Result<u32, Box<Diag
         span,
         format!("{letter}{value} is not the number of a function"),
     )))
-}
-
-fn set<T>(
-    place: &mut Option<At<T>>,
-    value: T,
-    span: Span,
-    letter: char,
-) -> Result<(), Box<Diagnostic>> {
-    if place.is_some() {
-        return Err(Box::new(Diagnostic::error(
-            span,
-            format!("{letter} is in this block twice"),
-        )));
-    }
-    *place = Some(At { value, span });
-    Ok(())
 }

@@ -8,7 +8,7 @@ use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, Dimension};
 use crate::dialects::control::{Done, Place};
 use crate::dialects::settings::MirroredCircle;
-use crate::program::{Action, Compensation, FeedMode, PathControl};
+use crate::program::{Action, Compensation, FeedMode};
 use crate::source::Span;
 
 /// Modes of this dialect that the shared control does not have.
@@ -211,8 +211,7 @@ impl Interpreter<'_> {
                 .motion(&words.motion, block, own_feed, exact_stop)?;
         }
         if once.contouring.is_some() {
-            let before = before.unwrap_or(PathControl::ExactPath);
-            self.control.modal.path_control = Some(before);
+            self.control.modal.path_control = before;
             self.control.actions.push(Action::PathControl(before));
         }
         for (axis, unsettled) in self.unsettled.iter_mut().enumerate() {

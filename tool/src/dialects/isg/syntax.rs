@@ -221,13 +221,6 @@ impl library::Routine for Routine {
             .blocks
             .iter()
             .find(|block| block.statement != Statement::Empty);
-        first.map_or(
-            Span {
-                file: self.file,
-                start: 0,
-                end: 0,
-            },
-            |block| block.span,
-        )
+        first.map_or(Span::start_of(self.file), |block| block.span)
     }
 }

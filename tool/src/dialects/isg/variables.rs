@@ -3,6 +3,7 @@
 use super::syntax::Declaration;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Value, Variables};
+use crate::dialects::indices::{element, parameter_number};
 use crate::source::Span;
 use std::collections::{BTreeMap, HashMap};
 
@@ -124,7 +125,8 @@ impl VariableStore {
         span: Span,
     ) -> Result<(), Box<Diagnostic>> {
         if name == "P" {
-            self.parameters.insert(parameter(index, span)?, value);
+            self.parameters
+                .insert(parameter_number(index, "a P parameter", span)?, value);
             return Ok(());
         }
         let scope = self.scope(name);
@@ -157,7 +159,7 @@ impl Variable {
 impl Variables for VariableStore {
     fn value(&self, name: &str, index: &[f64], span: Span) -> Result<Value, Box<Diagnostic>> {
         if name == "P" {
-            let number = parameter(index, span)?;
+            let number = parameter_number(index, "a P parameter", span)?;
             let value = self.parameters.get(&number).copied();
             return value.map(Value::Number).ok_or_else(|| {
                 Box::new(
@@ -197,37 +199,4 @@ fn check_whole(whole: bool, value: f64, span: Span) -> Result<(), Box<Diagnostic
         )
         .help("round it with INT[..] or ROUND[..], or declare the variable REAL64"),
     ))
-}
-
-fn parameter(index: &[f64], span: Span) -> Result<u32, Box<Diagnostic>> {
-    match index {
-        [number] if number.fract() == 0.0 && (0.0..=32767.0).contains(number) => Ok(*number as u32),
-        _ => Err(Box::new(Diagnostic::error(
-            span,
-            "the number of a P parameter is a whole number from 0 to 32767",
-        ))),
-    }
-}
-
-fn element(size: &[usize], index: &[f64], span: Span) -> Result<usize, Box<Diagnostic>> {
-    if size.len() != index.len() {
-        return Err(Box::new(Diagnostic::error(
-            span,
-            format!("this variable has {} indices", size.len()),
-        )));
-    }
-    let mut at = 0;
-    for (size, index) in size.iter().zip(index) {
-        if index.fract() != 0.0 || *index < 0.0 || *index >= *size as f64 {
-            return Err(Box::new(Diagnostic::error(
-                span,
-                format!(
-                    "the index {index} is outside 0 to {}",
-                    size.saturating_sub(1)
-                ),
-            )));
-        }
-        at = at * size + *index as usize;
-    }
-    Ok(at)
 }

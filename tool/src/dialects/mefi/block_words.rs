@@ -2,7 +2,7 @@
 
 use super::syntax::{Block, Word};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords, set};
 use crate::source::Span;
 
 /// All words of a block.
@@ -51,19 +51,19 @@ impl BlockWords {
         let dimensioned = (value, Dimension::Modal);
         let axis = AXES.iter().position(|axis| axis.starts_with(letter));
         if let Some(axis) = axis {
-            return set(&mut self.motion.axes[axis], dimensioned, word);
+            return set(&mut self.motion.axes[axis], dimensioned, span, letter);
         }
         match letter {
-            'I' => set(&mut self.motion.centre[0], dimensioned, word),
-            'J' => set(&mut self.motion.centre[1], dimensioned, word),
-            'K' => set(&mut self.motion.centre[2], dimensioned, word),
-            'R' => set(&mut self.motion.radius, value, word),
-            'F' => set(&mut self.feed, value, word),
-            'S' => set(&mut self.speed, value, word),
-            'T' => set(&mut self.tool, value, word),
-            'D' => set(&mut self.offset, value, word),
-            'L' => set(&mut self.label, value, word),
-            'Q' => set(&mut self.passes, value, word),
+            'I' => set(&mut self.motion.centre[0], dimensioned, span, letter),
+            'J' => set(&mut self.motion.centre[1], dimensioned, span, letter),
+            'K' => set(&mut self.motion.centre[2], dimensioned, span, letter),
+            'R' => set(&mut self.motion.radius, value, span, letter),
+            'F' => set(&mut self.feed, value, span, letter),
+            'S' => set(&mut self.speed, value, span, letter),
+            'T' => set(&mut self.tool, value, span, letter),
+            'D' => set(&mut self.offset, value, span, letter),
+            'L' => set(&mut self.label, value, span, letter),
+            'Q' => set(&mut self.passes, value, span, letter),
             'G' | 'M' => {
                 if value.fract() != 0.0 || !(0.0..=999.0).contains(&value) {
                     return Err(Box::new(Diagnostic::error(
@@ -124,18 +124,4 @@ impl BlockWords {
         }
         others.into_iter().min_by_key(|(_, span)| span.start)
     }
-}
-
-fn set<T>(place: &mut Option<At<T>>, value: T, word: &Word) -> Result<(), Box<Diagnostic>> {
-    if place.is_some() {
-        return Err(Box::new(Diagnostic::error(
-            word.span,
-            format!("{} is in this block twice", word.letter),
-        )));
-    }
-    *place = Some(At {
-        value,
-        span: word.span,
-    });
-    Ok(())
 }

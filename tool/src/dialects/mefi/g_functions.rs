@@ -5,6 +5,7 @@ use super::interpreter::Interpreter;
 use super::recalculation::Recalculation;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
+use crate::dialects::control::groups::{Groups, in_order_of_compensation};
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::At;
 use crate::program::{Compensation, FeedMode, Plane};
@@ -22,24 +23,10 @@ pub(super) struct OneShot {
 impl Interpreter<'_> {
     pub(super) fn g_functions(&mut self, words: &BlockWords) -> Result<OneShot, Box<Diagnostic>> {
         let mut once = OneShot::default();
-        let mut groups: Vec<(u8, u32)> = Vec::new();
-        // Whatever the order in the block: compensation ends before planes and offsets change, and
-        // begins after.
-        let mut list: Vec<&At<u32>> = words.g.iter().collect();
-        list.sort_by_key(|g| match g.value {
-            40 => 0,
-            41 | 42 => 2,
-            _ => 1,
-        });
-        for &At { value: code, span } in list {
+        let mut groups = Groups::default();
+        for At { value: code, span } in in_order_of_compensation(&words.g, 1) {
             let group = self.g_function(code, span, &mut once)?;
-            if let Some((_, other)) = groups.iter().find(|(known, _)| *known == group) {
-                return Err(Box::new(Diagnostic::error(
-                    span,
-                    format!("G{other} and G{code} exclude each other"),
-                )));
-            }
-            groups.push((group, code));
+            groups.claim(group, format!("G{code}"), span)?;
         }
         Ok(once)
     }

@@ -77,13 +77,6 @@ impl library::Routine for Routine {
 
     fn first_span(&self) -> Span {
         let first = self.blocks.iter().find(|block| !block.is_empty());
-        first.map_or(
-            Span {
-                file: self.file,
-                start: 0,
-                end: 0,
-            },
-            |block| block.span,
-        )
+        first.map_or(Span::start_of(self.file), |block| block.span)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::syntax::{Word, WordValue};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords, set};
 use crate::dialects::expression::{Value, Variables};
 use crate::program::moves::Corner;
 use crate::source::Span;
@@ -202,19 +202,6 @@ impl BlockWords {
 
 fn error(span: Span, message: &str) -> Box<Diagnostic> {
     Box::new(Diagnostic::error(span, message))
-}
-
-fn set<T>(
-    place: &mut Option<At<T>>,
-    value: T,
-    span: Span,
-    address: &str,
-) -> Result<(), Box<Diagnostic>> {
-    if place.is_some() {
-        return Err(error(span, &format!("{address} is in this block twice")));
-    }
-    *place = Some(At { value, span });
-    Ok(())
 }
 
 fn number(word: &Word, variables: &dyn Variables) -> Result<f64, Box<Diagnostic>> {

@@ -1,9 +1,9 @@
 //! Walking over the tokens of one block.
 
-use super::token::TokenKind;
+use super::token::{SectionName, Symbol};
 use crate::dialects::cursor;
 
 pub use cursor::Parsed;
 
 /// The tokens of one block, without its comment and its end.
-pub type Cursor<'a> = cursor::Cursor<'a, TokenKind>;
+pub type Cursor<'a> = cursor::Cursor<'a, Symbol, SectionName>;

@@ -5,19 +5,21 @@
 //! control. Nobody means that: such mixtures are refused unless parentheses say what is meant.
 
 use super::cursor::{Cursor, Parsed};
-use super::token::{Symbol, TokenKind};
+use super::token::{SectionName, Symbol, TokenKind};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Binary, Expression, ExpressionKind, Function, Unary};
+use crate::dialects::operators::{DEPTH_LIMIT, Grammar};
 
-/// How deep parentheses may be nested.
-const DEPTH_LIMIT: u32 = 64;
-
-/// Operators from the weakest level to the strongest.
-const LEVELS: usize = 7;
+const GRAMMAR: Grammar<Symbol, SectionName> = Grammar {
+    levels: 7,
+    operator,
+    check: check_comparison,
+    operand: unary,
+};
 
 /// Parses one expression.
 pub fn expression(cursor: &mut Cursor) -> Parsed<Expression> {
-    level(cursor, 0, 0)
+    GRAMMAR.parse(cursor, 0, 0)
 }
 
 /// Parses `a, b, c` up to the closing mark, which is taken; an argument may be left out.
@@ -44,7 +46,7 @@ fn list(
         list.push(if left_out {
             None
         } else {
-            Some(level(cursor, 0, depth)?)
+            Some(GRAMMAR.parse(cursor, 0, depth)?)
         });
         if cursor.take(close) {
             return Ok(list);
@@ -85,27 +87,12 @@ fn operator(token: Option<&TokenKind>, at_level: usize) -> Option<Binary> {
     (its_level == at_level).then_some(operator)
 }
 
-fn level(cursor: &mut Cursor, at_level: usize, depth: u32) -> Parsed<Expression> {
-    if depth > DEPTH_LIMIT {
-        return Err(cursor.error("parentheses are nested too deep"));
+/// Nothing that is a truth is compared.
+fn check_comparison(binary: Binary, operand: &Expression) -> Parsed<()> {
+    match binary.is_comparison() {
+        true => refuse_mixture(operand),
+        false => Ok(()),
     }
-    if at_level == LEVELS {
-        return unary(cursor, depth);
-    }
-    let mut left = level(cursor, at_level + 1, depth)?;
-    while let Some(binary) = operator(cursor.peek(), at_level) {
-        cursor.advance();
-        let right = level(cursor, at_level + 1, depth)?;
-        if binary.is_comparison() {
-            refuse_mixture(&left)?;
-            refuse_mixture(&right)?;
-        }
-        left = Expression {
-            span: left.span.to(right.span),
-            kind: ExpressionKind::Binary(binary, Box::new(left), Box::new(right)),
-        };
-    }
-    Ok(left)
 }
 
 fn refuse_mixture(operand: &Expression) -> Parsed<()> {
@@ -163,7 +150,7 @@ fn primary(cursor: &mut Cursor, depth: u32) -> Parsed<Expression> {
         }
         TokenKind::Symbol(Symbol::Open) => {
             cursor.advance();
-            let inner = level(cursor, 0, depth + 1)?;
+            let inner = GRAMMAR.parse(cursor, 0, depth + 1)?;
             cursor.expect(Symbol::Close, ")")?;
             ExpressionKind::Group(Box::new(inner))
         }
@@ -185,7 +172,7 @@ fn primary(cursor: &mut Cursor, depth: u32) -> Parsed<Expression> {
 
 fn r_parameter(cursor: &mut Cursor, depth: u32) -> Parsed<ExpressionKind> {
     let index = if cursor.take(Symbol::OpenBracket) {
-        let index = level(cursor, 0, depth + 1)?;
+        let index = GRAMMAR.parse(cursor, 0, depth + 1)?;
         cursor.expect(Symbol::CloseBracket, "]")?;
         index
     } else {

@@ -5,6 +5,7 @@ use super::evaluate_words::OneShot;
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
+use crate::dialects::control::groups::{Groups, in_order_of_compensation};
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::At;
 use crate::program::{Compensation, FeedMode, PathControl, Plane};
@@ -13,24 +14,10 @@ use crate::source::Span;
 impl Interpreter<'_> {
     /// Carries out the G functions of a block that change modes; the others go to `once`.
     pub(super) fn g_functions(&mut self, words: &BlockWords, once: &mut OneShot) -> Done {
-        let mut groups: Vec<(u8, u32)> = Vec::new();
-        // Whatever the order in the block: compensation ends before planes and offsets change, and
-        // begins after.
-        let mut list: Vec<&At<u32>> = words.g.iter().collect();
-        list.sort_by_key(|g| match g.value {
-            400 => 0,
-            410 | 420 => 2,
-            _ => 1,
-        });
-        for &At { value: code, span } in list {
+        let mut groups = Groups::default();
+        for At { value: code, span } in in_order_of_compensation(&words.g, 10) {
             let group = self.g_function(code, span, once)?;
-            if let Some((_, other)) = groups.iter().find(|(known, _)| *known == group) {
-                return Err(Box::new(Diagnostic::error(
-                    span,
-                    format!("G{} and G{} exclude each other", shown(*other), shown(code)),
-                )));
-            }
-            groups.push((group, code));
+            groups.claim(group, format!("G{}", shown(code)), span)?;
         }
         Ok(())
     }

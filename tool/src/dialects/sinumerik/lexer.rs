@@ -1,8 +1,8 @@
 //! From the text of a Sinumerik-like part program to tokens.
 
-use super::token::{Symbol, Token, TokenKind};
+use super::token::{SectionName, Symbol, Token, TokenKind};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::scanner::Scanner;
+use crate::dialects::scanner::{Scanner, is_blank};
 
 /// The symbols, longer ones before their beginnings.
 const SYMBOLS: [(&str, Symbol); 18] = [
@@ -82,7 +82,7 @@ impl Lexer<'_> {
             self.scanner.advance();
             TokenKind::Comment(self.scanner.take_while(|c| c != '\n').trim().to_string())
         } else if next == '"' {
-            self.text()?
+            TokenKind::Text(self.scanner.quoted()?.to_string())
         } else if next.is_ascii_alphabetic() || next == '_' || next == '$' {
             self.name()
         } else if next.is_ascii_digit() || next == '.' {
@@ -119,10 +119,7 @@ impl Lexer<'_> {
 
     fn number(&mut self) -> Result<TokenKind, Box<Diagnostic>> {
         let start = self.scanner.position();
-        let Some(digits) = self.scanner.decimal() else {
-            self.scanner.advance();
-            return Err(self.error(start, "a point without digits is not a number"));
-        };
+        let digits = self.scanner.digits()?;
         let mut text = digits.to_string();
         let rest = self.scanner.rest();
         let upper = rest.get(..2).unwrap_or("").to_ascii_uppercase();
@@ -138,26 +135,7 @@ impl Lexer<'_> {
             }
             text.push_str(self.scanner.take_while(|c| c.is_ascii_digit()));
         }
-        if self.scanner.peek() == Some('.') {
-            self.scanner.take_while(|c| c.is_ascii_digit() || c == '.');
-            return Err(self.error(start, "a number with two decimal points"));
-        }
-        match text.parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(TokenKind::Number(number)),
-            _ => Err(self.error(start, "this is not a number")),
-        }
-    }
-
-    fn text(&mut self) -> Result<TokenKind, Box<Diagnostic>> {
-        let start = self.scanner.position();
-        self.scanner.advance();
-        let text = self.scanner.take_while(|c| c != '"' && c != '\n');
-        if !self.scanner.take("\"") {
-            return Err(self
-                .error(start, "this text does not end")
-                .map(|error| error.help("put a \" at its end, on the same line")));
-        }
-        Ok(TokenKind::Text(text.to_string()))
+        Ok(TokenKind::Number(self.scanner.number(start, &text)?))
     }
 
     /// `%_N_L10_SPF`, the older `%MPF100` and `%SPF10`, or a bare `%`, which says nothing.
@@ -184,11 +162,12 @@ impl Lexer<'_> {
                 } else {
                     name.to_string()
                 };
-                self.push(start, TokenKind::Section { name, main });
+                self.push(start, TokenKind::Program(SectionName { name, main }));
             }
             _ if upper == "%" => {}
             _ => {
                 return Err(self
+                    .scanner
                     .error(
                         start,
                         "this line begins a kind of data that is not run here",
@@ -210,17 +189,14 @@ impl Lexer<'_> {
         let shown = character.escape_default();
         match character {
             '{' | '}' | '\'' => self
+                .scanner
                 .error(start, format!("`{shown}` is not supported"))
                 .map(|error| error.help("write numbers in decimal form")),
-            _ => self.error(
+            _ => self.scanner.error(
                 start,
                 format!("the character `{shown}` has no meaning in a part program"),
             ),
         }
-    }
-
-    fn error(&self, start: usize, message: impl Into<String>) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.scanner.span_from(start), message))
     }
 }
 
@@ -233,11 +209,6 @@ impl MapBox for Box<Diagnostic> {
     fn map(self, change: impl FnOnce(Diagnostic) -> Diagnostic) -> Self {
         Box::new(change(*self))
     }
-}
-
-fn is_blank(c: char) -> bool {
-    // Programs that were sent over a serial line begin and end with NULs and other fillers.
-    matches!(c, ' ' | '\t' | '\0' | '\u{1a}' | '\u{11}' | '\u{13}')
 }
 
 fn is_program_name(name: &str) -> bool {
@@ -258,7 +229,7 @@ mod tests {
 
     #[test]
     fn words_need_no_blanks_between_them() {
-        use TokenKind::*;
+        use crate::dialects::token::TokenKind::*;
         assert_eq!(
             kinds("N80G0x-.5RPL=45"),
             [
@@ -286,7 +257,10 @@ mod tests {
             ("%MPF100", "100", true),
         ] {
             let name = name.to_string();
-            assert_eq!(kinds(line)[0], TokenKind::Section { name, main });
+            assert_eq!(
+                kinds(line)[0],
+                TokenKind::Program(SectionName { name, main })
+            );
         }
         assert_eq!(kinds("%\n"), [TokenKind::EndOfLine]);
     }

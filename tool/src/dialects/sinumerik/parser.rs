@@ -24,7 +24,7 @@ pub fn parse(file: &SourceFile, tokens: &[Token], diagnostics: &mut Diagnostics)
             continue;
         };
         let section_line = tokens.iter().find_map(|token| match &token.kind {
-            TokenKind::Section { name, main } => Some((name, *main)),
+            TokenKind::Program(section) => Some((&section.name, section.main)),
             _ => None,
         });
         if let Some((name, main)) = section_line {

@@ -97,13 +97,6 @@ impl library::Routine for Routine {
     fn first_span(&self) -> Span {
         let mut blocks = self.section.blocks.iter();
         let first = blocks.find(|block| block.statement != Statement::Empty);
-        first.map_or(
-            Span {
-                file: self.file,
-                start: 0,
-                end: 0,
-            },
-            |block| block.span,
-        )
+        first.map_or(Span::start_of(self.file), |block| block.span)
     }
 }

@@ -3,6 +3,7 @@
 use super::syntax::VariableKind;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Value, Variables};
+use crate::dialects::indices::{element, parameter_number};
 use crate::source::Span;
 use std::collections::{BTreeMap, HashMap};
 
@@ -83,7 +84,7 @@ impl VariableStore {
         span: Span,
     ) -> Result<(), Box<Diagnostic>> {
         if name == "R" {
-            let number = r_number(index, span)?;
+            let number = parameter_number(index, "an R parameter", span)?;
             let Value::Number(value) = value else {
                 return Err(Box::new(Diagnostic::error(
                     span,
@@ -110,7 +111,7 @@ impl VariableStore {
 impl Variables for VariableStore {
     fn value(&self, name: &str, index: &[f64], span: Span) -> Result<Value, Box<Diagnostic>> {
         if name == "R" {
-            let number = r_number(index, span)?;
+            let number = parameter_number(index, "an R parameter", span)?;
             return self.r.get(&number).map(|value| Value::Number(*value)).ok_or_else(|| {
                 Box::new(
                     Diagnostic::error(
@@ -145,39 +146,6 @@ fn unknown(name: &str, span: Span) -> Box<Diagnostic> {
     } else {
         error.help(format!("declare it before its first use: DEF REAL {name}"))
     })
-}
-
-fn r_number(index: &[f64], span: Span) -> Result<u32, Box<Diagnostic>> {
-    match index {
-        [number] if number.fract() == 0.0 && (0.0..=32767.0).contains(number) => Ok(*number as u32),
-        _ => Err(Box::new(Diagnostic::error(
-            span,
-            "the number of an R parameter is a whole number from 0 to 32767",
-        ))),
-    }
-}
-
-fn element(size: &[usize], index: &[f64], span: Span) -> Result<usize, Box<Diagnostic>> {
-    if size.len() != index.len() {
-        return Err(Box::new(Diagnostic::error(
-            span,
-            format!("this variable has {} indices", size.len()),
-        )));
-    }
-    let mut at = 0;
-    for (size, index) in size.iter().zip(index) {
-        if index.fract() != 0.0 || *index < 0.0 || *index >= *size as f64 {
-            return Err(Box::new(Diagnostic::error(
-                span,
-                format!(
-                    "the index {index} is outside 0 to {}",
-                    size.saturating_sub(1)
-                ),
-            )));
-        }
-        at = at * size + *index as usize;
-    }
-    Ok(at)
 }
 
 /// The value as a variable of this kind holds it.

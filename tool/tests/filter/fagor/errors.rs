@@ -1,19 +1,12 @@
 //! What is refused, and with which words.
 
 use super::errors;
+use crate::one_error::assert_one_error;
 
 /// Checks that a program has exactly one error, at this line and column, with this text in it.
 fn one_error(program: &str, place: &str, text: &str) {
     let shown = errors(program, &["--backend", "program"]);
-    assert!(
-        shown.contains(&format!("part.pim:{place}\n")),
-        "{program}\n{shown}"
-    );
-    assert!(shown.contains(text), "{program}\n{shown}");
-    assert!(
-        shown.contains("\n1 error: nothing was written"),
-        "{program}\n{shown}"
-    );
+    assert_one_error(&shown, program, &format!("part.pim:{place}"), text);
 }
 
 #[test]

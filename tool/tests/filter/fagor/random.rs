@@ -1,7 +1,7 @@
 //! Random valid programs against an evaluator that knows nothing of the filter; and bytes that are no
 //! programs at all.
 
-use crate::robustness::run_all;
+use crate::front_end::run_all;
 use crate::shop::{Shop, accepted};
 use crate::simulator::{Point, distance, simulate};
 use framepath_tool::dialects::Dialect;
