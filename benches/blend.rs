@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use framepath::axes::Axes;
+use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::TerminationCondition;
 use framepath::path::blend::{BlendSettings, BlendedPath, ProgrammedMove};
 use framepath::path::{Line9, Shape};
@@ -13,6 +13,7 @@ fn line(serial: u64, from: &Axes, to: &Axes) -> ProgrammedMove {
         serial,
         shape: Shape::Line(Line9::new(from, to).expect("a line")),
         feed: 100.0,
+        greatest_feed: 100.0,
         termination: TerminationCondition::Continuous { tolerance: 0.01 },
         stop_before: false,
         separate: false,
@@ -44,7 +45,12 @@ fn corners(k: u64) -> Axes {
 #[inline(never)]
 fn new_path() -> Box<BlendedPath> {
     let mut path = Box::new(BlendedPath::new());
-    let settings = BlendSettings::new(1.0, 0.1, 20_000.0).expect("sound");
+    let limits = AxisLimits {
+        velocity: Axes::repeat(100.0),
+        acceleration: Axes::repeat(1000.0),
+        jerk: Axes::repeat(20_000.0),
+    };
+    let settings = BlendSettings::new(1.0, 0.1, 0.02, &limits).expect("sound");
     path.restart(&settings, &Axes::zeros());
     path
 }

@@ -2,7 +2,7 @@
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use framepath::axes::{Axes, AxisLimits};
-use framepath::moves::{MotionType, StateTag};
+use framepath::moves::{MotionType, StateTag, TerminationCondition};
 use framepath::path::Circle;
 use framepath::planner::{CycleInputs, MoveRequest, Planner};
 use nalgebra::Vector3;
@@ -19,9 +19,16 @@ fn request(feed: f64) -> MoveRequest {
     }
 }
 
+/// At G61.1. Made where there is room for it on the stack.
 fn planner() -> Box<Planner> {
-    let mut planner = Box::new(Planner::new());
+    let thread = std::thread::Builder::new().stack_size(64 << 20);
+    let mut planner = thread
+        .spawn(|| Box::new(Planner::new()))
+        .expect("a thread")
+        .join()
+        .expect("a planner");
     planner.set_cycle_time(1e-3);
+    planner.set_termination(TerminationCondition::Stop);
     planner.set_limits(&AxisLimits {
         velocity: Axes::repeat(100.0),
         acceleration: Axes::repeat(1000.0),
@@ -85,6 +92,46 @@ fn cycles(c: &mut Criterion) {
     c.bench_function("cycle/nothing to do", |b| b.iter(|| idle.cycle(&full).done));
 }
 
+/// Point `k` of a curve, 0.2 mm from the one before, in as many axes.
+fn contour(k: u32, axes: usize) -> Axes {
+    let s = 0.2 * f64::from(k);
+    let curve = [
+        20.0 * (s / 20.0).sin(),
+        15.0 * (s / 17.0).cos(),
+        5.0 * (s / 11.0).sin(),
+    ];
+    Axes::from_fn(|axis, _| {
+        if axis < axes {
+            curve[axis % 3] + 0.1 * (s / (5.0 + axis as f64)).sin()
+        } else {
+            0.0
+        }
+    })
+}
+
+/// Short lines along a curve for ever, at G64 P0.01, with so many of them queued.
+fn look_ahead(c: &mut Criterion) {
+    let full = CycleInputs::default();
+    let queues = [10, 100, 200, 1000, 2000].map(|queue| (3, queue));
+    for (axes, queue) in queues.into_iter().chain([(5, 2000), (9, 2000)]) {
+        let mut planner = planner();
+        planner.set_termination(TerminationCondition::Continuous { tolerance: 0.01 });
+        let mut k = 0;
+        let name = format!("look-ahead/{axes} axes, {queue} moves queued");
+        c.bench_function(&name, |b| {
+            b.iter(|| {
+                while planner.status().queue_depth < queue {
+                    k += 1;
+                    planner
+                        .add_line(&contour(k, axes), &request(100.0))
+                        .expect("a line");
+                }
+                planner.cycle(&full).done
+            })
+        });
+    }
+}
+
 fn adding(c: &mut Criterion) {
     c.bench_function("add/line", |b| {
         b.iter_batched_ref(
@@ -95,5 +142,5 @@ fn adding(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, cycles, adding);
+criterion_group!(benches, cycles, look_ahead, adding);
 criterion_main!(benches);

@@ -21,6 +21,9 @@ static const char letters[AXES + 1] = "xyzabcuvw";
 
 static struct {
     hal_float_t *max_jerk[AXES];
+    hal_float_t *millimetre;
+    hal_float_t *rotary_tolerance;
+    hal_float_t *default_tolerance;
     hal_u32_t *version;
 } *pins;
 
@@ -46,13 +49,34 @@ static int take_jerk_limits(void)
     return 0;
 }
 
+/* Hands over how far paths may leave the program. As above: what makes no sense refuses the move. */
+static int take_tolerances(void)
+{
+    switch (framepath_planner_set_blending(planner, *pins->millimetre, *pins->rotary_tolerance, *pins->default_tolerance)) {
+    case FRAMEPATH_BAD_MILLIMETRE:
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.millimetre is %g: it must be the length of a millimetre in machine units: "
+                        "set it to 1, or to 0.0393700787 on a machine in inches\n", *pins->millimetre);
+        return -1;
+    case FRAMEPATH_BAD_ROTARY_TOLERANCE:
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.rotary-tolerance is %g: it must be a number of degrees, or 0 for as many "
+                        "degrees as P has millimetres\n", *pins->rotary_tolerance);
+        return -1;
+    case FRAMEPATH_BAD_DEFAULT_TOLERANCE:
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.default-tolerance is %g: it must be 0 or a positive number of machine "
+                        "units\n", *pins->default_tolerance);
+        return -1;
+    default:
+        return 0;
+    }
+}
+
 /* What the planner has to know before a move is added. */
 static int prepare(void)
 {
     double map[9];
     if (linear_map)
         framepath_planner_set_machine_map(planner, linear_map(map), map);
-    return take_jerk_limits();
+    return take_jerk_limits() || take_tolerances() ? -1 : 0;
 }
 
 /* Says why a move was refused; zero-length moves are no error. */
@@ -89,9 +113,8 @@ void tpMotFunctions(void (*dio_write)(int, char), void (*aio_write)(int, double)
                     int (*get_rotary_unlock)(int), double (*axis_velocity_limit)(int),
                     double (*axis_acceleration_limit)(int))
 {
-    (void)set_rotary_unlock;
-    (void)get_rotary_unlock;
-    framepath_planner_motion_functions(dio_write, aio_write, axis_velocity_limit, axis_acceleration_limit);
+    framepath_planner_motion_functions(dio_write, aio_write, set_rotary_unlock, get_rotary_unlock, axis_velocity_limit,
+                                       axis_acceleration_limit);
 }
 
 void tpMotData(emcmot_status_t *status, emcmot_config_t *config)
@@ -122,24 +145,27 @@ int tpAddCircle(TP_STRUCT * const tp, EmcPose end, PmCartesian center, PmCartesi
 int tpAddRigidTap(TP_STRUCT * const tp, EmcPose end, double vel, double ini_maxvel, double acc, unsigned char enables,
                   double scale, struct state_tag_t tag)
 {
-    (void)tp;
-    (void)end;
     (void)vel;
-    (void)ini_maxvel;
     (void)acc;
-    (void)enables;
-    (void)scale;
-    (void)tag;
-    return said(framepath_planner_add_rigid_tap(planner));
+    if (prepare())
+        return -1;
+    return said(framepath_planner_add_rigid_tap(planner, tp, &end, ini_maxvel, enables, scale, &tag));
 }
 
 int tpRunCycle(TP_STRUCT * const tp, long period)
 {
     static const char *told;
     int result;
-    const char *fault;
+    const char *fault, *spindle;
+    double asked, greatest;
     (void)period;
     result = framepath_planner_run_cycle(planner, tp);
+    spindle = framepath_planner_spindle_error_text(planner, &asked, &greatest);
+    if (spindle && asked > 0)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the motion was stopped, since %s (%.4g units a second, %.4g at most)\n",
+                        spindle, asked, greatest);
+    else if (spindle)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the motion was stopped, since %s\n", spindle);
     fault = framepath_planner_fault_text(planner);
     if (fault && fault != told)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the motion was stopped, since %s. This is a fault of blendtp: please "
@@ -196,9 +222,7 @@ int tpSetPos(TP_STRUCT *tp, EmcPose const *position)
 int tpSetSpindleSync(TP_STRUCT * const tp, int spindle, double sync, int velocity_mode)
 {
     (void)tp;
-    (void)spindle;
-    (void)velocity_mode;
-    return framepath_planner_set_spindle_sync(planner, sync);
+    return framepath_planner_set_spindle_sync(planner, spindle, sync, velocity_mode);
 }
 
 int tpSetAout(TP_STRUCT * const tp, unsigned char index, double start, double end)
@@ -328,12 +352,20 @@ int rtapi_app_main(void)
     for (int i = 0; i < AXES && !error; i++)
         error |= hal_pin_float_newf(HAL_IN, &pins->max_jerk[i], component, "blendtp.axis.%c.max-jerk", letters[i]);
     if (!error)
+        error |= hal_pin_float_newf(HAL_IN, &pins->millimetre, component, "blendtp.millimetre");
+    if (!error)
+        error |= hal_pin_float_newf(HAL_IN, &pins->rotary_tolerance, component, "blendtp.rotary-tolerance");
+    if (!error)
+        error |= hal_pin_float_newf(HAL_IN, &pins->default_tolerance, component, "blendtp.default-tolerance");
+    if (!error)
         error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "blendtp.version");
     if (error) {
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: HAL has no room for the pins; raise HAL_SIZE or load fewer components\n");
         hal_exit(component);
         return -12; /* ENOMEM */
     }
+    *pins->millimetre = 1.0;
+    *pins->default_tolerance = FRAMEPATH_DEFAULT_TOLERANCE;
     *pins->version = FRAMEPATH_VERSION;
     hal_ready(component);
     return 0;

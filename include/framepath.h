@@ -21,6 +21,26 @@
 #define FRAMEPATH_QUEUE_CAPACITY 2000
 
 /*
+ What [`framepath_planner_set_blending`] answers where the length of a millimetre makes no sense.
+ */
+#define FRAMEPATH_BAD_MILLIMETRE 1
+
+/*
+ The same for the tolerance of rotary axes.
+ */
+#define FRAMEPATH_BAD_ROTARY_TOLERANCE 2
+
+/*
+ The same for the tolerance of G64 without P.
+ */
+#define FRAMEPATH_BAD_DEFAULT_TOLERANCE 3
+
+/*
+ The tolerance of runs of short moves under G64 without P where the configuration says nothing, machine units.
+ */
+#define FRAMEPATH_DEFAULT_TOLERANCE 0.02
+
+/*
  The planner of the module, with what LinuxCNC handed over for it.
  */
 struct framepath_planner;
@@ -232,6 +252,8 @@ struct framepath_planner *framepath_planner_create(TP_STRUCT *tp, int queue_size
  */
 void framepath_planner_motion_functions(void (*write_digital)(int, char),
                                         void (*write_analog)(int, double),
+                                        void (*set_rotary_unlock)(int, int),
+                                        int (*get_rotary_unlock)(int),
                                         double (*velocity_limit)(int),
                                         double (*acceleration_limit)(int));
 
@@ -294,12 +316,19 @@ int framepath_planner_add_circle(struct framepath_planner *handle,
                                  const struct state_tag_t *tag);
 
 /*
- Rigid tapping is not supported yet: always -1.
+ Queues a rigid tap: to `end` with the spindle, back with it `reversal_scale` times as fast. Returns LinuxCNC's code as
+ for a line.
 
  # Safety
- `handle` from `framepath_planner_create`.
+ `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
  */
-int framepath_planner_add_rigid_tap(struct framepath_planner *handle);
+int framepath_planner_add_rigid_tap(struct framepath_planner *handle,
+                                    TP_STRUCT *tp,
+                                    const EmcPose *end,
+                                    double max_velocity,
+                                    unsigned char enables,
+                                    double reversal_scale,
+                                    const struct state_tag_t *tag);
 
 /*
  Why the last move was refused.
@@ -316,6 +345,17 @@ const char *framepath_planner_error_text(const struct framepath_planner *handle)
  `handle` from `framepath_planner_create`.
  */
 const char *framepath_planner_fault_text(const struct framepath_planner *handle);
+
+/*
+ Why the motion with a spindle was stopped in the last servo period, null if it was not; with the numbers that belong to it: what the
+ thread asks for and what the axes allow, units per second.
+
+ # Safety
+ `handle` from `framepath_planner_create`; the others point to numbers.
+ */
+const char *framepath_planner_spindle_error_text(const struct framepath_planner *handle,
+                                                 double *asked,
+                                                 double *greatest);
 
 /*
  One servo period. Returns 0, or LinuxCNC's code 4 (waiting) while there is nothing to move.
@@ -383,6 +423,19 @@ int framepath_planner_queue_full(const struct framepath_planner *handle);
 int framepath_planner_set_jerk(struct framepath_planner *handle, const double *jerk);
 
 /*
+ Sets the length of a millimetre in machine units, how far rotary axes may leave the program (degrees, 0 = as many as
+ P has millimetres), and the tolerance of runs of short moves under G64 without P (machine units). Holds from the next
+ rest on. Returns 0, or one of the codes above; then nothing changes.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+int framepath_planner_set_blending(struct framepath_planner *handle,
+                                   double millimetre,
+                                   double rotary_tolerance,
+                                   double default_tolerance);
+
+/*
  Says whether a frame is in force, and how the axes of the program lie to those of the machine behind it: three rows
  of a 3x3 map of X Y Z. The map is taken while nothing is queued, since a frame changes only at standstill; otherwise, and if it is not finite, it is left as it is.
 
@@ -434,12 +487,16 @@ int framepath_planner_set_termination(struct framepath_planner *handle, int cond
 int framepath_planner_set_position(struct framepath_planner *handle, TP_STRUCT *tp, const EmcPose *position);
 
 /*
- Says whether the moves to come are synchronised with a spindle (`distance_per_turn` not 0); such moves are refused.
+ Which spindle the moves to come follow, by how far in a turn of it (0: none), and whether by its speed only (feed per
+ turn) or by its angle (threads and rigid taps).
 
  # Safety
  `handle` from `framepath_planner_create`.
  */
-int framepath_planner_set_spindle_sync(struct framepath_planner *handle, double distance_per_turn);
+int framepath_planner_set_spindle_sync(struct framepath_planner *handle,
+                                       int spindle,
+                                       double distance_per_turn,
+                                       int velocity_mode);
 
 /*
  Gives the next move an analog output to write at its start. -1 if there is none of this number.

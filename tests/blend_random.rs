@@ -3,17 +3,24 @@
 mod blend_common;
 
 use blend_common::*;
-use framepath::path::blend::BlendedPath;
+use framepath::path::blend::{BlendSettings, BlendedPath};
 use proptest::prelude::*;
 
-fn check(path: &mut BlendedPath, character: &Character, draws: &[Draw], budgets: &[usize]) {
+fn check(
+    path: &mut BlendedPath,
+    settings: &BlendSettings,
+    character: &Character,
+    draws: &[Draw],
+    budgets: &[usize],
+) {
     let moves = program(character, draws);
     if moves.is_empty() {
         return;
     }
-    build(path, &moves, budgets);
-    let greatest = greatest_deviation(path);
+    build(path, settings, &moves, budgets);
+    let greatest = greatest_deviation_with_tolerance(path, &moves);
     assert!(greatest <= 1.0, "deviates by {greatest} P");
+    check_touched(path, &moves);
     check_joints(path, &moves);
     let end = path.point(path.known_end()).position;
     assert_eq!(end, path.goal(), "ends where the program ends");
@@ -45,7 +52,10 @@ proptest! {
         character in character(),
         draws in draws(120),
         budgets in prop::collection::vec(1..5000usize, 1..8),
+        jerk in prop_oneof![Just(20_000.0), Just(f64::INFINITY), 1e3..1e5],
+        default_tolerance in prop_oneof![3 => Just(DEFAULT_TOLERANCE), 1 => Just(0.0)],
     ) {
-        with_path(move |path| check(path, &character, &draws, &budgets));
+        let settings = blend_settings(jerk, default_tolerance);
+        with_path(move |path| check(path, &settings, &character, &draws, &budgets));
     }
 }

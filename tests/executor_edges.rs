@@ -319,6 +319,14 @@ fn nonsense_stays_finite() {
                 hold: i % 37 < 9,
                 feed_override: if i % 50 < 25 { bad } else { 0.7 },
                 rapid_override: bad,
+                turns: bad,
+                follow: (i % 70 < 20).then_some(framepath::cycle::Follow {
+                    error: bad,
+                    velocity: 20.0,
+                    acceleration: bad,
+                    jerk: bad,
+                    greatest_acceleration: bad,
+                }),
                 max_velocity: if i % 60 < 30 { bad } else { 20.0 },
             };
             let step = executor.cycle(&demand);

@@ -6,10 +6,11 @@ mod planner_common;
 use std::cell::RefCell;
 
 use framepath::axes::{Axes, AxisLimits};
-use framepath::moves::MotionType;
-use framepath::path::Circle;
+use framepath::moves::{MotionType, TerminationCondition};
+use framepath::path::{self, Circle, ShapeError};
 use framepath::planner::{Added, MoveRequest};
 use nalgebra::Vector3;
+use planner_common::path_check::{self, Place, Wanted};
 use planner_common::{Extremes, Machine, feed_move, with_room};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -35,6 +36,8 @@ struct Programmed {
     motion_type: MotionType,
     enables: u8,
     wait_for_spindle: bool,
+    /// G61, G61.1 or G64 before it.
+    mode: Option<TerminationCondition>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -93,16 +96,29 @@ fn any_move() -> impl Strategy<Value = Programmed> {
         ],
         prop_oneof![3 => Just(0x0fu8), 1 => Just(0x0d)],
         prop::bool::weighted(0.05),
+        any_mode(),
     )
         .prop_map(
-            |(shape, feed, motion_type, enables, wait_for_spindle)| Programmed {
+            |(shape, feed, motion_type, enables, wait_for_spindle, mode)| Programmed {
                 shape,
                 feed,
                 motion_type,
                 enables,
                 wait_for_spindle,
+                mode,
             },
         )
+}
+
+fn any_mode() -> impl Strategy<Value = Option<TerminationCondition>> {
+    let p = (-7.0..1.0f64).prop_map(f64::exp);
+    prop_oneof![
+        16 => Just(None),
+        1 => Just(Some(TerminationCondition::Stop)),
+        1 => Just(Some(TerminationCondition::Exact)),
+        1 => Just(Some(TerminationCondition::Continuous { tolerance: 0.0 })),
+        3 => p.prop_map(|tolerance| Some(TerminationCondition::Continuous { tolerance })),
+    ]
 }
 
 fn any_event() -> impl Strategy<Value = Event> {
@@ -131,7 +147,12 @@ fn any_limits() -> impl Strategy<Value = AxisLimits> {
 }
 
 /// Queues a move relative to where the last one ends.
-fn queue(machine: &mut Machine, programmed: &Programmed) -> Added {
+fn queue(
+    machine: &mut Machine,
+    programmed: &Programmed,
+    wanted: &mut Vec<Wanted>,
+    (id, generation): (i32, usize),
+) -> Added {
     let request = MoveRequest {
         motion_type: programmed.motion_type,
         max_velocity: 250.0,
@@ -139,9 +160,24 @@ fn queue(machine: &mut Machine, programmed: &Programmed) -> Added {
         wait_for_spindle: programmed.wait_for_spindle,
         ..feed_move(programmed.feed)
     };
+    if let Some(mode) = programmed.mode {
+        machine.planner.set_termination(mode);
+    }
+    let mut want = |shape: Result<path::Shape, ShapeError>, machine: &Machine| {
+        wanted.extend(shape.ok().map(|shape| Wanted {
+            id,
+            shape,
+            tolerance: Wanted::tolerance_of(machine.planner.termination()),
+            generation,
+        }));
+    };
     let start = *machine.planner.goal();
     let added = match &programmed.shape {
-        Shape::Line(displacement) => machine.line(start + displacement, &request),
+        Shape::Line(displacement) => {
+            let end = start + displacement;
+            want(machine.planner.line_to(&end), machine);
+            machine.line(end, &request)
+        }
         Shape::Arc {
             radial,
             tilt,
@@ -165,15 +201,13 @@ fn queue(machine: &mut Machine, programmed: &Programmed) -> Added {
             for (coordinate, other) in end.iter_mut().skip(3).zip(others) {
                 *coordinate += other;
             }
-            machine.circle(
-                end,
-                &Circle {
-                    center,
-                    normal,
-                    turn: *turn,
-                },
-                &request,
-            )
+            let circle = Circle {
+                center,
+                normal,
+                turn: *turn,
+            };
+            want(machine.planner.arc_to(&end, &circle), machine);
+            machine.circle(end, &circle, &request)
         }
     };
     added.expect("a move that can be run")
@@ -188,6 +222,9 @@ fn run(
 ) -> Result<(Extremes, usize), TestCaseError> {
     let mut machine = Machine::new(limits);
     machine.planner.set_velocity_limit(1e3);
+    machine
+        .planner
+        .set_termination(TerminationCondition::Continuous { tolerance: 0.05 });
     let mut moves = moves.iter();
     let mut events = events.iter();
     let mut next_event = 0;
@@ -197,6 +234,13 @@ fn run(
     let mut id = 1;
     let mut paused = false;
     let mut operator_gone = false;
+    let mut generation = 0;
+    let mut wanted = Vec::new();
+    let mut places = vec![Place {
+        position: Axes::zeros(),
+        id: 0,
+        generation,
+    }];
     for cycle in 0.. {
         prop_assert!(
             cycle < 1_000_000,
@@ -247,11 +291,18 @@ fn run(
         if cycle % supply == 0 && !machine.planner.status().aborting {
             machine.planner.set_id(id);
             if let Some(programmed) = moves.next() {
-                queue(&mut machine, programmed);
+                queue(&mut machine, programmed, &mut wanted, (id, generation));
                 id += 1;
             }
         }
+        let aborting = machine.planner.status().aborting;
         let status = machine.scaled_cycle(adaptive);
+        generation += usize::from(aborting && !status.aborting);
+        places.push(Place {
+            position: status.position,
+            id: status.exec_id,
+            generation,
+        });
         if step_from.is_some_and(|from| from != status.exec_id) {
             machine.planner.pause();
             machine.inputs.stepping = false;
@@ -269,6 +320,8 @@ fn run(
     }
     let status = machine.planner.status();
     prop_assert_eq!(status.position, *machine.planner.goal());
+    let fault = path_check::fault(&wanted, &places);
+    prop_assert!(fault.is_none(), "{fault:?}");
     let extremes = machine.extremes();
     prop_assert!(extremes.velocity <= 1.001, "{extremes:?}");
     prop_assert!(extremes.acceleration <= 1.001, "{extremes:?}");
@@ -280,13 +333,15 @@ fn run(
 fn programs_keep_the_limits_whatever_the_operator_does() {
     let strategy = (
         any_limits(),
-        prop::collection::vec(any_move(), 1..30),
+        prop::collection::vec(any_move(), 1..60),
         prop::collection::vec((1usize..400, any_event()), 0..40),
         prop_oneof![Just(1usize), 1usize..300],
     );
     let sum = RefCell::new((Extremes::default(), 0));
+    let cases =
+        std::env::var("FRAMEPATH_CASES").map_or(100, |cases| cases.parse().expect("a number"));
     let config = ProptestConfig {
-        cases: 150,
+        cases,
         failure_persistence: None,
         ..ProptestConfig::default()
     };

@@ -123,24 +123,37 @@ fn what_cannot_be_done_is_refused() {
                 Err(AddError::Feed { feed, max_velocity })
             );
         }
-        let indexer = MoveRequest {
-            indexer_joint: Some(3),
-            ..good
-        };
         assert_eq!(
-            machine.line(to, &indexer),
-            Err(AddError::Indexer { joint: 3 })
-        );
-        assert_eq!(
-            machine.planner.add_rigid_tap(&to, &good),
+            machine.planner.add_rigid_tap(&to, 1.0, &good),
             Err(AddError::RigidTap)
         );
-        machine.planner.set_spindle_synchronised(true);
-        for _ in 0..5 {
-            machine.cycle();
+        for (spindle, per_turn, speed_only, error) in [
+            (0, -1.0, true, AddError::PerTurn(-1.0)),
+            (0, f64::INFINITY, false, AddError::PerTurn(f64::INFINITY)),
+            (8, 1.0, true, AddError::Spindle { spindle: 8 }),
+            (-1, 1.0, false, AddError::Spindle { spindle: -1 }),
+        ] {
+            machine
+                .planner
+                .set_spindle_synchronisation(spindle, per_turn, speed_only);
+            for _ in 0..5 {
+                machine.cycle();
+            }
+            assert_eq!(machine.line(to, &good), Err(error));
+            let tap = machine.planner.add_rigid_tap(&to, 1.0, &good);
+            let expected = if speed_only {
+                AddError::RigidTap
+            } else {
+                error
+            };
+            assert_eq!(tap, Err(expected));
         }
-        assert_eq!(machine.line(to, &good), Err(AddError::SpindleSynchronised));
-        machine.planner.set_spindle_synchronised(false);
+        machine.planner.set_spindle_synchronisation(0, 1.0, false);
+        for scale in [0.0, -1.0, f64::NAN] {
+            let tap = machine.planner.add_rigid_tap(&to, scale, &good);
+            assert_eq!(tap, Err(AddError::RigidTap));
+        }
+        machine.planner.set_spindle_synchronisation(0, 0.0, false);
         let nowhere = at(f64::NAN, 0.0);
         assert_eq!(
             machine.line(nowhere, &good),

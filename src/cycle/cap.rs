@@ -32,6 +32,9 @@ const GUARD_PERIODS: usize = 60;
 const GUARD_TOLERANCE: f64 = 0.01;
 const GUARD_FEED_TOLERANCE: f64 = 5e-4;
 
+/// Stands for no cap on feed per turn, turns a second.
+const MOST_TURNS: f64 = 1e12;
+
 /// Path speeds below this part of the cap are free.
 const FREE_PART: f64 = 1e-3;
 
@@ -46,6 +49,9 @@ pub struct FeedBlock {
     rapid_over_programmed: f32,
     /// The same where no override applies.
     fixed_over_programmed: f32,
+    /// The same for feed per turn, with and without the feed override.
+    turns_over_programmed: f32,
+    fixed_turns_over_programmed: f32,
 }
 
 impl FeedBlock {
@@ -54,6 +60,8 @@ impl FeedBlock {
         feed_over_programmed: 0.0,
         rapid_over_programmed: 0.0,
         fixed_over_programmed: 0.0,
+        turns_over_programmed: 0.0,
+        fixed_turns_over_programmed: 0.0,
     };
 
     pub fn include(&mut self, cell: &StoredCell) {
@@ -62,6 +70,8 @@ impl FeedBlock {
             OverrideKind::Feed => &mut self.feed_over_programmed,
             OverrideKind::Rapid => &mut self.rapid_over_programmed,
             OverrideKind::None => &mut self.fixed_over_programmed,
+            OverrideKind::Turns => &mut self.turns_over_programmed,
+            OverrideKind::TurnsOnly => &mut self.fixed_turns_over_programmed,
         };
         *greatest = greatest.max(ratio);
         self.feed = self.feed.max(cell.feed() as f32);
@@ -73,6 +83,8 @@ impl FeedBlock {
 pub struct Caps {
     feed_override: f64,
     rapid_override: f64,
+    /// Turns of the spindle a second.
+    turns: f64,
     /// Units per servo period.
     max_velocity: f64,
 }
@@ -81,6 +93,7 @@ impl Caps {
     pub const NONE: Self = Self {
         feed_override: 1.0,
         rapid_override: 1.0,
+        turns: MOST_TURNS,
         max_velocity: f64::INFINITY,
     };
 
@@ -90,6 +103,8 @@ impl Caps {
         Self {
             feed_override: demand.feed_override.max(0.0),
             rapid_override: demand.rapid_override.max(0.0),
+            // Finite, since an override of 0 times infinity is not a number.
+            turns: demand.turns.clamp(0.0, MOST_TURNS).max(0.0),
             max_velocity: demand.max_velocity.max(0.0) * period,
         }
     }
@@ -99,6 +114,8 @@ impl Caps {
             OverrideKind::Feed => self.feed_override,
             OverrideKind::Rapid => self.rapid_override,
             OverrideKind::None => 1.0,
+            OverrideKind::Turns => self.turns * self.feed_override,
+            OverrideKind::TurnsOnly => self.turns,
         }
     }
 
@@ -118,6 +135,8 @@ impl Caps {
         let velocity = 1.0 / self.max_velocity.max(1e-12);
         let feed = 1.0 / self.feed_override.max(1e-9);
         let rapid = 1.0 / self.rapid_override.max(1e-9);
+        let fixed_turns = 1.0 / self.turns.max(1e-9);
+        let turns = feed * fixed_turns;
         let cells = (FORESIGHT / period) as usize;
         table.blocks(time, cells).fold(0.0, |ratio: f64, block| {
             ratio
@@ -125,6 +144,8 @@ impl Caps {
                 .max(f64::from(block.feed_over_programmed) * feed)
                 .max(f64::from(block.rapid_over_programmed) * rapid)
                 .max(f64::from(block.fixed_over_programmed))
+                .max(f64::from(block.turns_over_programmed) * turns)
+                .max(f64::from(block.fixed_turns_over_programmed) * fixed_turns)
         })
     }
 
@@ -132,6 +153,7 @@ impl Caps {
     pub fn may_bind(&self, greatest_programmed_feed: f64) -> bool {
         self.feed_override < 1.0
             || self.rapid_override < 1.0
+            || self.turns < MOST_TURNS
             || self.max_velocity < greatest_programmed_feed
     }
 

@@ -31,6 +31,9 @@ pub struct Cell {
     pub feed_ratio: f64,
     /// What the program asks for at an override of 100 %: the F word, or the rapid rate.
     pub programmed_feed: f64,
+    /// Whether [`Self::programmed_feed`] is what a turn of the spindle a second would give (feed per
+    /// turn): it counts times the turns a second.
+    pub per_turn: bool,
     /// Whether the rapid override applies instead of the feed override.
     pub rapid: bool,
     /// Whether overrides apply at all (M48, or M49 while the move was queued).

@@ -15,6 +15,8 @@ pub enum Goal {
     Run,
     /// As fast as the feed cap allows. The reference exceeds it ahead, at most by this ratio.
     Cap(f64),
+    /// To be where a thread wants the machine to be.
+    Follow,
 }
 
 /// The reference counts as too fast for a cap from this ratio on.
@@ -27,6 +29,13 @@ impl Executor {
     /// What the demand asks for here and in the cells ahead.
     pub(super) fn goal(&self, demand: &Demand) -> Goal {
         let here = self.table.cell(self.state.time as usize);
+        if let Some(pursuit) = &self.pursuit {
+            return if demand.hold || pursuit.is_standstill() {
+                Goal::Hold
+            } else {
+                Goal::Follow
+            };
+        }
         if demand.hold || self.caps.is_hold(here) {
             return Goal::Hold;
         }
@@ -43,11 +52,12 @@ impl Executor {
     /// The n of this period. Whatever it is, the stored release continues from its end.
     pub(super) fn decide(&mut self, goal: Goal) -> f64 {
         let state = self.state;
+        let is_adjusted = matches!(goal, Goal::Cap(_) | Goal::Follow);
         let target = match goal {
             Goal::Hold => 0.0,
-            Goal::Run | Goal::Cap(_) => 1.0,
+            Goal::Run | Goal::Cap(_) | Goal::Follow => 1.0,
         };
-        if state.rate_change == 0.0 && state.rate == target && !matches!(goal, Goal::Cap(_)) {
+        if state.rate_change == 0.0 && state.rate == target && !is_adjusted {
             self.release_mut().clear();
             return 0.0;
         }
@@ -74,16 +84,19 @@ impl Executor {
             Goal::Hold => allowed.low,
             Goal::Run => allowed.high,
             Goal::Cap(ratio) => self.toward_cap(ratio, &jerk, &allowed),
+            Goal::Follow => self
+                .pursuit
+                .and_then(|pursuit| pursuit.approach(&self.table, state, &jerk))
+                .map_or(allowed.high, |n| allowed.nearest(n)),
         };
 
-        let reachable = match goal {
-            Goal::Cap(_) => Interval {
-                low: allowed.low,
-                high: wanted,
-            },
-            _ => allowed,
+        // A cap or a thread may ask for less than a landing on the target takes.
+        let most = if is_adjusted {
+            wanted + SAME_N
+        } else {
+            f64::INFINITY
         };
-        if let Some(n) = self.landing(target, &reachable, &start) {
+        if let Some(n) = self.landing(target, most, &allowed, &start) {
             return n;
         }
         if (wanted - safe).abs() < SAME_N {

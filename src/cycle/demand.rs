@@ -1,5 +1,7 @@
 //! What the executor is asked for in a servo period, and what it answers.
 
+use super::follow::Follow;
+
 /// What the operator and the motion controller ask for in one servo period.
 ///
 /// Any values are safe, in any order from one period to the next.
@@ -12,9 +14,15 @@ pub struct Demand {
     pub feed_override: f64,
     /// The same for rapid moves.
     pub rapid_override: f64,
+    /// Turns of the spindle a second, 0 and above: what feed per turn counts with; infinite for no
+    /// cap, NaN and negative values count as 0.
+    pub turns: f64,
     /// Greatest path speed, units per second, whatever the override; infinite for none, NaN and
     /// negative values count as 0. It holds for moves without override, too.
     pub max_velocity: f64,
+    /// Where to be along the path instead of all overrides and caps: in a thread. A hold comes
+    /// first.
+    pub follow: Option<Follow>,
 }
 
 impl Demand {
@@ -23,7 +31,9 @@ impl Demand {
         hold: false,
         feed_override: 1.0,
         rapid_override: 1.0,
+        turns: f64::INFINITY,
         max_velocity: f64::INFINITY,
+        follow: None,
     };
 
     /// Come to rest.

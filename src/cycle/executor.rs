@@ -4,6 +4,7 @@ use super::cap::Caps;
 use super::cell::Cell;
 use super::decision::Goal;
 use super::demand::{Demand, Step};
+use super::follow::Pursuit;
 use super::release::Release;
 use super::rows::Limits;
 use super::state::State;
@@ -44,6 +45,8 @@ pub struct Executor {
     pub(super) fraction: f64,
     pub(super) goal: Goal,
     pub(super) caps: Caps,
+    /// In a thread: where to be.
+    pub(super) pursuit: Option<Pursuit>,
     pub(super) greatest_programmed_feed: f64,
     /// Periods left to simulate in this cycle.
     pub(super) budget: usize,
@@ -67,6 +70,7 @@ impl Executor {
             fraction: 1.0,
             goal: Goal::Run,
             caps: Caps::NONE,
+            pursuit: None,
             greatest_programmed_feed: 0.0,
             budget: 0,
             wall: false,
@@ -126,7 +130,11 @@ impl Executor {
             return Err(PushError::NotConfigured);
         }
         self.table.push(cell, self.servo_period)?;
-        let feed = cell.programmed_feed * self.servo_period;
+        let feed = if cell.per_turn {
+            cell.path_velocity * cell.feed_ratio * self.servo_period
+        } else {
+            cell.programmed_feed * self.servo_period
+        };
         self.greatest_programmed_feed = self.greatest_programmed_feed.max(feed);
         Ok(())
     }
@@ -172,7 +180,8 @@ impl Executor {
         // From the time of the state to the end of the cell behind, which is known only when the
         // next one is.
         const BOTH_ENDS: usize = 2;
-        let mut wanted = 6;
+        // 6 ms, but no less than it takes to answer a demand, and no more than is of use.
+        let mut wanted = ((6e-3 / self.servo_period.max(1e-9)) as usize).clamp(4, 6);
         if self.goal == Goal::Hold || !self.is_idle() {
             wanted = wanted.max(self.release().end_time() as usize + 16);
         }
@@ -204,6 +213,8 @@ impl Executor {
             return self.standing();
         }
         self.caps = Caps::new(demand, self.servo_period);
+        let period = self.servo_period;
+        self.pursuit = demand.follow.map(|follow| Pursuit::new(&follow, period));
         let goal = self.goal(demand);
         if !self.started {
             // The reference starts at rest: every rate is the same motion.

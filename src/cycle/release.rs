@@ -214,6 +214,7 @@ mod tests {
                 path_acceleration: 0.0,
                 feed_ratio: 1.0,
                 programmed_feed: 0.1,
+                per_turn: false,
                 rapid: false,
                 override_enabled: true,
             };

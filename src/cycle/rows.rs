@@ -217,10 +217,19 @@ impl Span {
                 square * self.acceleration.centre[lane] + rate_change * velocity,
                 velocity,
                 ACCELERATION_ROW_PART * self.acceleration.limit[lane]
-                    - square * self.acceleration.half[lane],
+                    - square * self.acceleration.half[lane]
+                    - rate_change.abs() * self.slack(lane),
             );
         }
         rows.interval()
+    }
+
+    /// How far the first derivative may be from its linear interpolation, since the second one jumps
+    /// inside the cell (without a limit of jerk): an eighth of the jump.
+    #[inline(always)]
+    fn slack(&self, lane: usize) -> f32 {
+        let explained = 2.0 * (self.jerk.centre[lane].abs() + self.jerk.half[lane]);
+        0.125 * greater(2.0 * self.acceleration.half[lane] - explained, 0.0)
     }
 
     /// Whether the period from `start` to `end` with this n keeps the limits: acceleration at
@@ -253,7 +262,8 @@ impl Span {
                     (square_end * centre + change_end * v2).abs() + square_end * half,
                 ),
             );
-            let acceleration = worst - limit[lane];
+            let change = greater(change_start.abs(), change_end.abs());
+            let acceleration = worst + change * self.slack(lane) - limit[lane];
 
             let Bounds {
                 centre,
@@ -341,6 +351,7 @@ mod tests {
                 path_acceleration: 0.0,
                 feed_ratio: 1.0,
                 programmed_feed: 1.0,
+                per_turn: false,
                 rapid: false,
                 override_enabled: true,
             };

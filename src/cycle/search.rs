@@ -24,16 +24,23 @@ const LEAST_FRACTION: f64 = 1.0 / 64.0;
 
 impl Executor {
     /// Two periods that end exactly on the target rate with no rate change, if such a pair keeps
-    /// all limits. The second one is stored as the release, the first one is the answer.
-    pub(super) fn landing(&mut self, target: f64, allowed: &Interval, start: &Node) -> Option<f64> {
+    /// all limits. The second one is stored as the release, the first one is the answer. In the
+    /// second period of such a pair the answer is the stored one. Never more than `most`.
+    pub(super) fn landing(
+        &mut self,
+        target: f64,
+        most: f64,
+        allowed: &Interval,
+        start: &Node,
+    ) -> Option<f64> {
         let state = self.state;
         let missing = state.rate - target;
         let first = -(missing + 1.5 * state.rate_change);
         let second = missing + 0.5 * state.rate_change;
-        if !allowed.contains(first) || second.abs() > N_LIMIT {
+        if !allowed.contains(first) || first > most || second.abs() > N_LIMIT {
             // Already in the second period of a pair?
             let n = self.release().next().filter(|_| self.release().is_last())?;
-            if (state.step(n).rate - target).abs() > 1e-9 {
+            if n > most || (state.step(n).rate - target).abs() > 1e-9 {
                 return None;
             }
             self.release_mut().advance();

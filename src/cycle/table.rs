@@ -79,6 +79,10 @@ pub enum OverrideKind {
     Rapid,
     /// None: the programmed feed holds as it is.
     None,
+    /// Feed per turn, with the feed override.
+    Turns,
+    /// Feed per turn, without it.
+    TurnsOnly,
 }
 
 impl StoredCell {
@@ -98,10 +102,12 @@ impl StoredCell {
 
     fn new(cell: &Cell, period: f64) -> Self {
         let (second, third) = (period * period, period * period * period);
-        let override_kind = match (cell.override_enabled, cell.rapid) {
-            (false, _) => OverrideKind::None,
-            (true, true) => OverrideKind::Rapid,
-            (true, false) => OverrideKind::Feed,
+        let override_kind = match (cell.per_turn, cell.override_enabled, cell.rapid) {
+            (true, false, _) => OverrideKind::TurnsOnly,
+            (true, true, _) => OverrideKind::Turns,
+            (false, false, _) => OverrideKind::None,
+            (false, true, true) => OverrideKind::Rapid,
+            (false, true, false) => OverrideKind::Feed,
         };
         Self {
             velocity: scaled(&cell.velocity, period),
@@ -145,6 +151,14 @@ pub struct Node {
     pub acceleration: Lanes,
     /// The cell that the instant lies in, counted from the first one of the table.
     pub cell: usize,
+}
+
+/// Path velocity of the reference at one instant, and its derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct Along {
+    pub velocity: f64,
+    pub acceleration: f64,
+    pub jerk: f64,
 }
 
 /// The cells of the reference from the one that runs, in time units of one cell. All times are
@@ -294,6 +308,24 @@ impl Table {
         node
     }
 
+    /// Path velocity at `time` with its derivatives, as [`Self::node`] for the axes.
+    #[inline(always)]
+    pub fn along(&self, time: f64) -> Along {
+        let cell = (time as usize).min(self.length);
+        let (start, end) = (self.cell(cell), self.cell(cell + 1));
+        let part = (time - cell as f64).clamp(0.0, 1.0);
+        let (v0, v1) = (f64::from(start.path_velocity), f64::from(end.path_velocity));
+        let (a0, a1) = (
+            f64::from(start.path_acceleration),
+            f64::from(end.path_acceleration),
+        );
+        Along {
+            velocity: v0 + part * (v1 - v0) - 0.5 * part * (1.0 - part) * (a1 - a0),
+            acceleration: a0 + part * (a1 - a0),
+            jerk: a1 - a0,
+        }
+    }
+
     /// Blocks of cells from the one that `time` lies in, as far as cells are known, at most
     /// enough for `cells` cells.
     pub fn blocks(&self, time: f64, cells: usize) -> impl Iterator<Item = &FeedBlock> {
@@ -357,6 +389,7 @@ mod tests {
             path_acceleration: 0.0,
             feed_ratio: 1.0,
             programmed_feed: 1.0,
+            per_turn: false,
             rapid: false,
             override_enabled: true,
         }

@@ -3,12 +3,14 @@
 mod motion_type;
 mod outputs;
 mod queue;
+mod synchronisation;
 mod tag;
 mod termination;
 
 pub use motion_type::MotionType;
 pub use outputs::SynchronisedOutputs;
 pub use queue::{CAPACITY, MoveQueue, QueueFull};
+pub use synchronisation::{SPINDLE_COUNT, Synchronisation, SynchronisationMode};
 pub use tag::{STATE_TAG_SIZE, StateTag};
 pub use termination::TerminationCondition;
 
@@ -37,6 +39,10 @@ pub struct Move {
     pub enables: u8,
     /// Whether the move may only start with all spindles at speed.
     pub wait_for_spindle: bool,
+    /// The spindle that the move follows, `None` where its feed is per minute.
+    pub synchronisation: Option<Synchronisation>,
+    /// The joint of a locking rotary indexer that has to be unlocked for the move.
+    pub indexer_joint: Option<i32>,
     /// How the move meets the next one.
     pub termination: TerminationCondition,
     /// What M62, M63 and M67 asked for since the move before: written once, when the move starts.

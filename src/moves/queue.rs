@@ -37,6 +37,8 @@ const VACANT: Move = Move {
     max_velocity: 0.0,
     enables: 0,
     wait_for_spindle: false,
+    synchronisation: None,
+    indexer_joint: None,
     termination: TerminationCondition::Stop,
     outputs: SynchronisedOutputs::NONE,
 };
@@ -83,6 +85,11 @@ impl MoveQueue {
     /// The oldest move.
     pub fn front(&self) -> Option<&Move> {
         self.get(self.first)
+    }
+
+    /// The same, to be changed.
+    pub fn front_mut(&mut self) -> Option<&mut Move> {
+        (!self.is_empty()).then(|| &mut self.slots[slot(self.first)])
     }
 
     /// Appends a move. Refused only when the margin above [`CAPACITY`] is used up too.

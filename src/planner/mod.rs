@@ -5,25 +5,25 @@
 //! moves looks like:
 //!
 //! 1. the reference ([`reference`]): a trajectory through the queued moves that keeps all limits
-//!    and ends at rest. Today each move runs from rest to rest ([`rest_to_rest`]), which is what
-//!    G61.1 asks for;
+//!    and ends at rest;
 //! 2. the executor ([`crate::cycle`]): runs the reference with a time of its own, for feed hold,
 //!    override, abort;
 //! 3. the bookkeeping ([`Planner`]): which move runs, what is reported, what is written.
 
-mod cell_builder;
+mod blending;
 mod inputs;
-mod piece;
 #[allow(clippy::module_inception)]
 mod planner;
 pub mod range;
 pub mod reference;
 mod request;
-pub mod rest_to_rest;
 mod servo;
+mod spindle;
 mod status;
 
-pub use inputs::CycleInputs;
+pub use blending::{Blending, BlendingError};
+pub use inputs::{CycleInputs, SpindleInputs};
 pub use planner::{Planner, PositionError};
 pub use request::{AddError, Added, MoveRequest};
+pub use spindle::SpindleError;
 pub use status::{Fault, Status};

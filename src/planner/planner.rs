@@ -2,13 +2,17 @@
 
 use nalgebra::{ArrayStorage, Matrix3};
 
+use super::blending::{Blending, BlendingError};
+use super::inputs::SpindleInputs;
+use super::reference::Reference;
 use super::request::{AddError, Added, MoveRequest};
-use super::rest_to_rest::RestToRest;
+use super::spindle::{SpindleCommand, Thread, Tracker};
 use super::status::{Fault, Status};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
 use crate::cycle::Executor;
 use crate::moves::{
-    Move, MoveQueue, QueueFull, StateTag, SynchronisedOutputs, TerminationCondition,
+    Move, MoveQueue, QueueFull, SPINDLE_COUNT, StateTag, Synchronisation, SynchronisationMode,
+    SynchronisedOutputs, TerminationCondition,
 };
 use crate::path::{Arc9, Circle, Line9, Shape, ShapeError};
 
@@ -20,16 +24,18 @@ const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]))
 
 const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
 
-/// The trajectory planner. About 2 MB, without a heap: it belongs in a static.
+/// The trajectory planner. About 6 MB, without a heap: it belongs in a static.
 #[derive(Debug)]
 pub struct Planner {
     pub(super) queue: MoveQueue,
-    pub(super) reference: RestToRest,
+    pub(super) reference: Reference,
     pub(super) executor: Executor,
     /// Whether the executor runs the reference. If not, the machine is at rest.
     pub(super) running: bool,
     /// Whether the reference has been handed out to its end.
     pub(super) closed: bool,
+    /// Serial number of the first move that has not been entered.
+    pub(super) entered: u64,
     pub(super) status: Status,
     pub(super) limits: AxisLimits,
     /// How the axes of the program lie to those of the machine.
@@ -39,12 +45,28 @@ pub struct Planner {
     /// Duration of a cycle, seconds; 0 before it is known.
     pub(super) period: f64,
     pub(super) velocity_limit: f64,
+    pub(super) blending: Blending,
+    /// Limits have changed since the reference was begun.
+    pub(super) limits_changed: bool,
     /// The greatest finite velocity limit there has been: the range of the operator's slider.
     velocity_range: f64,
     termination: TerminationCondition,
     next_id: i32,
-    /// Whether the next move has to follow a spindle.
-    pub(super) spindle_synchronised: bool,
+    /// The spindle that the moves to come follow.
+    pub(super) synchronisation: Option<SpindleCommand>,
+    /// Where the last queued move belongs to a sequence of threads: its spindle, and the turns from
+    /// the start of the sequence to its end.
+    pub(super) sequence: Option<(usize, f64)>,
+    pub(super) trackers: [Tracker; SPINDLE_COUNT],
+    /// The spindles as they were in the last cycle.
+    pub(super) spindles: [SpindleInputs; SPINDLE_COUNT],
+    pub(super) thread: Option<Thread>,
+    /// Whether a motion with the spindle was stopped for an error.
+    pub(super) tripped: bool,
+    /// Whether the indexer of the next move was told to unlock.
+    pub(super) unlocking: bool,
+    /// A locking indexer that is to be locked before the next move.
+    pub(super) locking: Option<i32>,
     /// For the next move.
     outputs: SynchronisedOutputs,
     /// Where the last queued move ends.
@@ -56,10 +78,11 @@ impl Planner {
     pub const fn new() -> Self {
         Self {
             queue: MoveQueue::new(),
-            reference: RestToRest::new(),
+            reference: Reference::new(),
             executor: Executor::new(),
             running: false,
             closed: false,
+            entered: 0,
             status: Status::IDLE,
             limits: AxisLimits {
                 velocity: UNLIMITED,
@@ -70,10 +93,19 @@ impl Planner {
             limited: [false; AXIS_COUNT],
             period: 0.0,
             velocity_limit: f64::INFINITY,
+            blending: Blending::DEFAULT,
+            limits_changed: false,
             velocity_range: 0.0,
             termination: TerminationCondition::Continuous { tolerance: 0.0 },
             next_id: 0,
-            spindle_synchronised: false,
+            synchronisation: None,
+            sequence: None,
+            trackers: [Tracker::NEW; SPINDLE_COUNT],
+            spindles: [SpindleInputs::STANDSTILL; SPINDLE_COUNT],
+            thread: None,
+            tripped: false,
+            unlocking: false,
+            locking: None,
             outputs: SynchronisedOutputs::NONE,
             goal: ORIGIN,
         }
@@ -119,6 +151,7 @@ impl Planner {
                 changed = true;
             }
         }
+        self.limits_changed |= changed;
         if changed && self.period > 0.0 && self.executor.set_limits(&self.limits).is_err() {
             self.fail(Fault::LimitsRefused);
         }
@@ -157,6 +190,21 @@ impl Planner {
         }
     }
 
+    /// Sets how far paths may leave the program where it does not say, see [`Blending`]. Holds from
+    /// the next rest on.
+    ///
+    /// # Errors
+    /// See [`BlendingError`]; nothing changes then.
+    pub fn set_blending(
+        &mut self,
+        millimetre: f64,
+        rotary_tolerance: f64,
+        default_tolerance: f64,
+    ) -> Result<(), BlendingError> {
+        self.blending
+            .set(millimetre, rotary_tolerance, default_tolerance)
+    }
+
     /// Sets how the moves to come meet the next one.
     pub fn set_termination(&mut self, termination: TerminationCondition) {
         self.termination = termination;
@@ -170,11 +218,6 @@ impl Planner {
     /// Sets LinuxCNC's number for the next move; each further move gets the next number.
     pub fn set_id(&mut self, id: i32) {
         self.next_id = id;
-    }
-
-    /// Whether the moves to come are synchronised with a spindle. Such moves are refused so far.
-    pub fn set_spindle_synchronised(&mut self, synchronised: bool) {
-        self.spindle_synchronised = synchronised;
     }
 
     /// Gives the next move a digital output to write at its start (M62, M63). `false` if there is
@@ -199,7 +242,8 @@ impl Planner {
     /// # Errors
     /// See [`AddError`]; nothing changes then.
     pub fn add_line(&mut self, end: &Axes, request: &MoveRequest) -> Result<Added, AddError> {
-        self.add(self.line_to(end), request)
+        let mode = self.motion_mode();
+        self.add(self.line_to(end), mode, request)
     }
 
     /// Queues an arc, helix or spiral to `end`, shape (9).
@@ -212,7 +256,8 @@ impl Planner {
         circle: &Circle,
         request: &MoveRequest,
     ) -> Result<Added, AddError> {
-        self.add(self.arc_to(end, circle), request)
+        let mode = self.motion_mode();
+        self.add(self.arc_to(end, circle), mode, request)
     }
 
     /// The line that [`Self::add_line`] would queue, to be looked at.
@@ -231,36 +276,25 @@ impl Planner {
         Arc9::new(&self.goal, end, circle).map(Shape::Arc)
     }
 
-    /// Rigid tapping is not supported yet.
-    ///
-    /// # Errors
-    /// Always [`AddError::RigidTap`].
-    pub fn add_rigid_tap(
-        &mut self,
-        _end: &Axes,
-        _request: &MoveRequest,
-    ) -> Result<Added, AddError> {
-        Err(AddError::RigidTap)
-    }
-
-    fn add(
+    pub(super) fn add(
         &mut self,
         shape: Result<Shape, ShapeError>,
+        mode: SynchronisationMode,
         request: &MoveRequest,
     ) -> Result<Added, AddError> {
+        if self.tripped {
+            return Err(AddError::Tripped);
+        }
         if self.status.aborting {
             return Err(AddError::Aborting);
         }
         if self.period == 0.0 {
             return Err(AddError::NotConfigured);
         }
-        if self.spindle_synchronised {
-            return Err(AddError::SpindleSynchronised);
-        }
-        if let Some(joint) = request.indexer_joint {
-            return Err(AddError::Indexer { joint });
-        }
-        let (feed, max_velocity) = (request.feed, request.max_velocity);
+        let synchronisation = self.synchronisation_in(mode)?;
+        let max_velocity = request.max_velocity;
+        let feed =
+            synchronisation.map_or(request.feed, |with| self.planned_feed(&with, max_velocity));
         let usable = |velocity: f64| velocity > 0.0 && velocity.is_finite();
         if !(usable(feed) && usable(max_velocity)) {
             return Err(AddError::Feed { feed, max_velocity });
@@ -283,12 +317,22 @@ impl Planner {
             max_velocity,
             enables: request.enables,
             wait_for_spindle: request.wait_for_spindle,
+            synchronisation,
+            indexer_joint: request.indexer_joint,
             termination: self.termination,
             outputs: self.outputs,
         };
         self.queue
             .push(queued)
             .map_err(|QueueFull| AddError::QueueFull)?;
+        self.sequence = match synchronisation {
+            Some(Synchronisation {
+                spindle,
+                per_turn,
+                mode: SynchronisationMode::Thread { turns_before },
+            }) => Some((spindle, turns_before + shape.length() / per_turn)),
+            _ => None,
+        };
         self.next_id = self.next_id.wrapping_add(1);
         self.clear_outputs();
         self.goal = shape.end();
@@ -316,6 +360,7 @@ impl Planner {
     /// Brings the machine to rest on its path, drops all moves, and goes on from where it came to
     /// rest. Moves are refused until then.
     pub fn abort(&mut self) {
+        self.tripped = false;
         self.clear_outputs();
         self.status.aborting = true;
         self.status.pausing = true;
@@ -331,6 +376,7 @@ impl Planner {
             return Err(PositionError);
         }
         self.status.position = *position;
+        self.tripped = false;
         self.drop_moves();
         Ok(())
     }
@@ -339,7 +385,8 @@ impl Planner {
     /// condition. For the end of a program, when nothing moves.
     pub fn clear(&mut self) {
         self.drop_moves();
-        self.spindle_synchronised = false;
+        self.synchronisation = None;
+        self.tripped = false;
         self.next_id = 0;
         self.status.tag = StateTag::EMPTY;
         self.status.fault = None;
@@ -350,7 +397,12 @@ impl Planner {
     pub(super) fn drop_moves(&mut self) {
         self.queue.clear();
         self.executor.reset();
+        self.reference.clear();
         self.running = false;
+        self.thread = None;
+        self.sequence = None;
+        self.locking = None;
+        self.unlocking = false;
         self.goal = self.status.position;
         self.status.pausing = false;
         self.status.aborting = false;
@@ -361,6 +413,12 @@ impl Planner {
     pub(super) fn fail(&mut self, fault: Fault) {
         self.status.fault = Some(fault);
         self.abort();
+    }
+
+    /// The joint of the locking indexer that the next move waits for, or that is being locked.
+    pub fn indexer_joint(&self) -> Option<i32> {
+        let next = || self.queue.front().and_then(|queued| queued.indexer_joint);
+        self.locking.or_else(next)
     }
 
     /// Where the last queued move ends, shape (9): the start of the next one.

@@ -16,7 +16,7 @@ pub struct MoveRequest {
     pub enables: u8,
     /// Whether the move may only start with all spindles at speed.
     pub wait_for_spindle: bool,
-    /// The joint of a locking rotary indexer that the move turns. Refused so far.
+    /// The joint of a locking rotary indexer that has to be unlocked for the move.
     pub indexer_joint: Option<i32>,
     /// The interpreter's state when it issued the move.
     pub tag: StateTag,
@@ -56,14 +56,16 @@ pub enum AddError {
         /// Its greatest value, units per second.
         max_velocity: f64,
     },
-    /// Motion synchronised with a spindle (G33, G76, G95, G96 with feed per turn) is not
-    /// supported yet.
-    SpindleSynchronised,
-    /// Rigid tapping (G33.1) is not supported yet.
-    RigidTap,
-    /// A locking rotary indexer is not supported yet.
-    Indexer {
-        /// The joint that was to be unlocked.
-        joint: i32,
+    /// A move is to follow a spindle that the motion controller cannot have.
+    Spindle {
+        /// Number of the spindle.
+        spindle: i32,
     },
+    /// The feed per turn or pitch is negative or not finite.
+    PerTurn(f64),
+    /// A rigid tap that does not follow the angle of a spindle, or whose factor for the way back is
+    /// not positive and finite.
+    RigidTap,
+    /// A motion with the spindle was stopped for an error, and nothing has been aborted since.
+    Tripped,
 }

@@ -2,7 +2,7 @@
 
 use super::inputs::CycleInputs;
 use super::planner::Planner;
-use super::reference::{Ahead, Outlook, Reference, ReferencePoint};
+use super::reference::{Ahead, Conditions, Outlook, ReferencePoint};
 use super::status::{Fault, Status};
 use crate::axes::Axes;
 use crate::cycle::{Demand, Step};
@@ -11,8 +11,8 @@ use crate::moves::{Move, SynchronisedOutputs};
 /// At most so many servo periods of the reference are built in one cycle.
 const CELLS_A_CYCLE: usize = 8;
 
-/// At most so many moves are planned in one cycle.
-const MOVES_A_CYCLE: usize = 16;
+/// At most so many pieces of the plan are taken in one cycle.
+const PIECES_A_CYCLE: usize = 16;
 
 /// With fewer periods ahead an open reference might run out in the next cycle.
 const LEAST_CELLS: usize = 3;
@@ -24,37 +24,101 @@ impl Planner {
     /// Runs one servo period. The result is in the status.
     pub fn cycle(&mut self, inputs: &CycleInputs) -> &Status {
         self.status.outputs = SynchronisedOutputs::NONE;
+        self.status.indexer = None;
+        self.track_spindles(inputs);
         if !self.running {
-            self.start(inputs);
+            self.stand(inputs);
         }
+        self.plan(inputs);
         if self.running {
-            self.build(inputs);
             self.run(inputs);
         }
         &self.status
     }
 
-    /// At rest: starts the next move if there is one and nothing holds it.
-    fn start(&mut self, inputs: &CycleInputs) {
+    /// At rest: makes sure that there is a reference if there is anything to do.
+    fn stand(&mut self, inputs: &CycleInputs) {
         if self.status.aborting {
             self.end_abort();
+        } else if !self.is_locked(inputs) {
+            return;
         } else if self.queue.is_empty() {
             self.drop_moves();
         }
         self.report_rest();
+        let begins_thread = self.begins_thread();
         let Some(next) = self.queue.front() else {
             return;
         };
-        self.status.waiting_for_spindle = next.wait_for_spindle && !inputs.spindles_at_speed;
-        if self.status.waiting_for_spindle || self.demand(inputs).hold {
+        self.status.waiting_for_spindle =
+            (next.wait_for_spindle || begins_thread) && !inputs.spindles_at_speed;
+        let begun = self.queue.first_serial() < self.entered;
+        let stale = self.limits_changed || inputs.stepping != self.reference.is_single();
+        // In the middle of a move there is only the path that led here.
+        if !self.reference.is_active() || stale && !begun {
+            let first = self.queue.first_serial();
+            let settings = self.blending.settings(&self.queue, &self.limits);
+            let position = self.status.position;
+            self.reference
+                .restart(first, inputs.stepping, &position, &settings);
+            self.limits_changed = false;
+        }
+    }
+
+    /// At rest: starts if there is a plan and nothing holds the machine.
+    fn start(&mut self, inputs: &CycleInputs) {
+        let held = if self.is_tapping() {
+            self.status.aborting
+        } else {
+            self.status.waiting_for_spindle || self.is_held(inputs)
+        };
+        if held || self.queue.is_empty() || !self.reference.is_ready() {
             return;
         }
-        let serial = self.queue.first_serial();
+        if !self.indexer_permits_start(inputs) || !self.spindle_permits_start(inputs) {
+            return;
+        }
         self.executor.reset();
-        self.reference.restart(serial);
         self.running = true;
         self.closed = false;
         self.enter();
+    }
+
+    /// Plans on, starts where that is possible, and hands over what the executor wants to see.
+    fn plan(&mut self, inputs: &CycleInputs) {
+        let outlook = Outlook {
+            queue: &self.queue,
+            limits: &self.limits,
+            map: &self.map,
+            now: self.conditions(inputs),
+        };
+        if self.reference.work(&outlook).is_err() {
+            self.fail(Fault::MoveRefused);
+            return;
+        }
+        if self.reference.is_refused() {
+            self.fail(Fault::NoPlan);
+            return;
+        }
+        if !self.running {
+            self.start(inputs);
+        }
+        if self.running {
+            self.build(inputs);
+        }
+    }
+
+    /// What holds in this servo period.
+    fn conditions(&self, inputs: &CycleInputs) -> Conditions {
+        Conditions {
+            period: self.period,
+            feed_scale: inputs.feed_scale,
+            rapid_scale: inputs.rapid_scale,
+            velocity_limit: self.velocity_limit,
+            velocity_share: self.velocity_share(),
+            greatest_tolerance: self.blending.greatest_tolerance(),
+            stepping: inputs.stepping,
+        }
     }
 
     /// Hands the executor as much of the reference as it wants to see.
@@ -63,22 +127,20 @@ impl Planner {
             queue: &self.queue,
             limits: &self.limits,
             map: &self.map,
-            period: self.period,
-            feed_scale: inputs.feed_scale,
-            rapid_scale: inputs.rapid_scale,
-            velocity_limit: self.velocity_limit,
-            velocity_share: self.velocity_share(),
-            single_move: inputs.stepping,
+            now: self.conditions(inputs),
         };
-        let mut budget = MOVES_A_CYCLE;
+        let mut budget = PIECES_A_CYCLE;
         let mut refused = false;
         for _ in 0..CELLS_A_CYCLE {
             if self.closed || self.executor.cells_ahead() >= self.executor.cells_wanted() {
                 break;
             }
             let mut ahead = self.reference.next_cell(&outlook, &mut budget);
-            // Moves so short that planning them cannot keep up: rest before nothing is left.
-            if matches!(ahead, Ahead::Later) && self.executor.cells_ahead() < LEAST_CELLS {
+            // How it goes on is not known in time: the machine rests until it is.
+            if matches!(ahead, Ahead::Later)
+                && self.reference.is_resting()
+                && self.executor.cells_ahead() < LEAST_CELLS
+            {
                 ahead = self.reference.end_here();
             }
             let (cell, end) = match ahead {
@@ -102,7 +164,9 @@ impl Planner {
 
     /// Runs the reference for one servo period and reports where that leads.
     fn run(&mut self, inputs: &CycleInputs) {
+        self.watch_spindle();
         let demand = self.demand(inputs);
+        self.status.following_spindle = demand.follow.is_some();
         let step = self.executor.cycle(&demand);
         if step.starved {
             self.fail(Fault::Starved);
@@ -117,8 +181,12 @@ impl Planner {
         } else {
             self.leave_moves_before(point.serial);
             self.report_motion(&point, &step);
-            if self.status.aborting && step.at_rest {
-                self.end_abort();
+            if self.status.aborting {
+                if step.at_rest {
+                    self.end_abort();
+                }
+            } else {
+                self.advance_tap(&step);
             }
         }
     }
@@ -127,36 +195,75 @@ impl Planner {
     fn demand(&self, inputs: &CycleInputs) -> Demand {
         let running = self.queue.front();
         let scale = further_scale(inputs, running, &self.status);
-        let slider = match running {
+        let overridden = running.is_none_or(|running| running.override_enabled());
+        let slider = self.slider();
+        let follow = self.follow();
+        // In a thread nothing but an abort may part the machine from the spindle.
+        let hold = if follow.is_some() {
+            self.status.aborting
+        } else {
+            self.is_held(inputs)
+        };
+        // The executor knows of no factor for moves without override (M49); for those adaptive
+        // feed is a limit of the velocity.
+        let fixed = match running {
+            Some(running) if scale < 1.0 && !overridden && running.synchronisation.is_none() => {
+                running.feed * scale
+            }
+            _ => f64::INFINITY,
+        };
+        Demand {
+            hold,
+            feed_override: inputs.feed_scale * scale,
+            rapid_override: inputs.rapid_scale * scale,
+            turns: self.feed_turns() * if overridden { 1.0 } else { scale },
+            max_velocity: slider.min(fixed),
+            follow,
+        }
+    }
+
+    /// The operator's slider for the running move.
+    fn slider(&self) -> f64 {
+        match self.queue.front() {
             Some(running) if running.shape.is_rotary() => {
                 running.max_velocity * self.velocity_share()
             }
             _ => self.velocity_limit,
-        };
-        let held = inputs.net_feed_scale.is_nan() || inputs.net_feed_scale <= 0.0 || slider <= 0.0;
-        // The executor knows of no factor for moves without override (M49); for those adaptive
-        // feed is a limit of the velocity.
-        let fixed = match running {
-            Some(running) if scale < 1.0 && !running.override_enabled() => running.feed * scale,
-            _ => f64::INFINITY,
-        };
-        Demand {
-            hold: self.status.pausing || self.status.aborting || held,
-            feed_override: inputs.feed_scale * scale,
-            rapid_override: inputs.rapid_scale * scale,
-            max_velocity: slider.min(fixed),
         }
     }
 
-    /// The end of the reference is reached: at rest exactly where its last move ends.
+    /// Whether pause, abort, feed hold or a slider at 0 hold the machine, unless it is in a thread.
+    fn is_held(&self, inputs: &CycleInputs) -> bool {
+        let held = inputs.net_feed_scale.is_nan() || inputs.net_feed_scale <= 0.0;
+        self.status.pausing || self.status.aborting || held || self.slider() <= 0.0
+    }
+
+    /// Whether the next move may start: a locking indexer has to be unlocked for it.
+    fn indexer_permits_start(&mut self, inputs: &CycleInputs) -> bool {
+        let Some(joint) = self.queue.front().and_then(|next| next.indexer_joint) else {
+            return true;
+        };
+        self.status.indexer = Some((joint, true));
+        // What was asked for in this cycle is answered in a later one.
+        std::mem::replace(&mut self.unlocking, true) && inputs.indexer_unlocked
+    }
+
+    /// The end of the reference is reached: at rest, exactly where its last move ends, or in the
+    /// middle of one whose continuation was not planned in time.
     fn finish(&mut self) {
-        let end = self.reference.end();
-        if let Some(last) = self.queue.get(end.wrapping_sub(1)) {
-            self.status.position = last.shape.end();
+        let rest = self.reference.come_to_rest();
+        self.status.position = rest.position;
+        if self.tap_overran() && !self.status.aborting {
+            self.stop_overrun_tap();
         }
-        self.leave_moves_before(end.wrapping_sub(1));
-        self.queue.pop();
+        self.leave_moves_before(rest.next.saturating_sub(1));
         self.running = false;
+        if self.queue.first_serial() < rest.next {
+            self.locking = self.queue.front().and_then(|ended| ended.indexer_joint);
+            if self.locking.is_none() || self.status.aborting {
+                self.queue.pop();
+            }
+        }
         if self.status.aborting {
             self.end_abort();
         } else if self.queue.is_empty() {
@@ -168,8 +275,30 @@ impl Planner {
 
     /// At rest after an abort: goes on from here with no moves and nothing synchronised.
     fn end_abort(&mut self) {
+        // What was unlocked for a move that does not come is locked again.
+        let unlocked = self
+            .indexer_joint()
+            .filter(|_| self.unlocking || self.locking.is_some());
         self.drop_moves();
-        self.spindle_synchronised = false;
+        self.end_synchronisation();
+        if let Some(joint) = unlocked {
+            self.status.indexer = Some((joint, false));
+        }
+    }
+
+    /// At rest behind a move of a locking indexer: whether it is locked, so that the move is over.
+    fn is_locked(&mut self, inputs: &CycleInputs) -> bool {
+        let Some(joint) = self.locking else {
+            return true;
+        };
+        self.status.indexer = Some((joint, false));
+        self.unlocking = false;
+        if inputs.indexer_unlocked {
+            return false;
+        }
+        self.locking = None;
+        self.queue.pop();
+        true
     }
 
     /// Drops the moves that are behind the machine.
@@ -180,9 +309,14 @@ impl Planner {
         }
     }
 
-    /// The first move of the queue starts.
+    /// The first move of the queue starts, unless it had started before.
     fn enter(&mut self) {
+        let first = self.queue.first_serial();
+        if first < self.entered {
+            return;
+        }
         if let Some(started) = self.queue.front() {
+            self.entered = first + 1;
             self.status.tag = started.tag;
             // An abort takes back what was to be written.
             if !self.status.aborting {
@@ -215,6 +349,8 @@ impl Planner {
         status.axis_distance_to_go =
             next.map_or(Axes::zeros(), |queued| queued.shape.end() - status.position);
         status.waiting_for_spindle = false;
+        status.waiting_for_index = false;
+        status.following_spindle = false;
     }
 
     /// Reports a machine under way.
@@ -226,7 +362,7 @@ impl Planner {
         status.done = false;
         status.current_velocity = point.velocity * step.rate;
         if let Some(running) = self.queue.front() {
-            status.distance_to_go = (running.shape.length() - point.distance).max(0.0);
+            status.distance_to_go = point.distance_to_go.max(0.0);
             status.axis_distance_to_go = running.shape.end() - point.position;
         }
     }

@@ -2,6 +2,7 @@
 
 use nalgebra::ArrayStorage;
 
+use super::spindle::SpindleError;
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::moves::{MotionType, StateTag, SynchronisedOutputs};
 
@@ -16,6 +17,10 @@ pub enum Fault {
     Starved,
     /// The executor refused the limits of the axes.
     LimitsRefused,
+    /// A move could not be put on the path.
+    MoveRefused,
+    /// No plan was found that keeps the limits.
+    NoPlan,
 }
 
 /// The state of the planner after the last cycle or command.
@@ -53,6 +58,18 @@ pub struct Status {
     pub pausing: bool,
     /// Whether the machine is coming to rest after an abort; moves are refused.
     pub aborting: bool,
+    /// Whether the next move waits for the index of its spindle.
+    pub waiting_for_index: bool,
+    /// Whether the machine moves with the angle of a spindle.
+    pub following_spindle: bool,
+    /// The spindle whose index is to be asked for in this cycle.
+    pub index_request: Option<usize>,
+    /// The spindle whose commanded speed is to be multiplied in this cycle, and by what.
+    pub spindle_factor: Option<(usize, f64)>,
+    /// Why a motion with a spindle was stopped in this cycle.
+    pub spindle_error: Option<SpindleError>,
+    /// What the lock of a rotary indexer is told in this cycle: its joint, and whether to unlock.
+    pub indexer: Option<(i32, bool)>,
     /// What went wrong inside since the last clear; the motion was aborted for it.
     pub fault: Option<Fault>,
     /// The outputs to be written in this cycle.
@@ -76,6 +93,12 @@ impl Status {
         axis_distance_to_go: ORIGIN,
         enables: None,
         waiting_for_spindle: false,
+        waiting_for_index: false,
+        following_spindle: false,
+        index_request: None,
+        spindle_factor: None,
+        spindle_error: None,
+        indexer: None,
         pausing: false,
         aborting: false,
         fault: None,

@@ -4,7 +4,7 @@
 
 use core::f64::consts::TAU;
 
-use framepath::axes::Axes;
+use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::TerminationCondition;
 use framepath::path::blend::{BlendSettings, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
 use framepath::path::{Arc9, Circle, Line9, PathPoint, Shape};
@@ -13,6 +13,19 @@ use proptest::prelude::*;
 
 /// Machine units per degree.
 pub const ROTARY_WEIGHT: f64 = 0.1;
+
+/// Of G64 without P, mm.
+pub const DEFAULT_TOLERANCE: f64 = 0.02;
+
+/// A machine with 1000 mm/s^2; jerk in mm/s^3.
+pub fn blend_settings(jerk: f64, default_tolerance: f64) -> BlendSettings {
+    let limits = AxisLimits {
+        velocity: Axes::repeat(100.0),
+        acceleration: Axes::repeat(1000.0),
+        jerk: Axes::repeat(jerk),
+    };
+    BlendSettings::new(1.0, ROTARY_WEIGHT, default_tolerance, &limits).expect("sound")
+}
 
 /// The character of a random program; every number is from 0 to 1.
 #[derive(Clone, Debug)]
@@ -75,8 +88,13 @@ fn between(least: f64, greatest: f64, share: f64) -> f64 {
     least * (greatest / least).powf(share)
 }
 
+/// 0 for G64 without P.
 fn tolerance_of(share: f64) -> f64 {
-    between(0.0005, 1.0, share)
+    if share < 0.15 {
+        0.0
+    } else {
+        between(0.0005, 1.0, (share - 0.15) / 0.85)
+    }
 }
 
 /// The moves of a random program from the origin. 1 micrometre to 1 m, lines, arcs and helices in
@@ -133,7 +151,7 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
             center[e1] -= radius * sign * heading.sin();
             center[e2] += radius * sign * heading.cos();
             heading += sign * angle;
-            let spiral = if more > 0.9 { 1.0 + 0.001 * p } else { 1.0 };
+            let spiral = if more > 0.85 { 0.6 + p } else { 1.0 };
             if angle < TAU {
                 end[e1] = center[e1] + spiral * radius * sign * heading.sin();
                 end[e2] = center[e2] - spiral * radius * sign * heading.cos();
@@ -167,7 +185,7 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
                 }
             }
             if c.rounding < 0.3 {
-                let grid = tolerance * between(0.1, 2.0, c.rounding / 0.3);
+                let grid = tolerance.max(0.002) * between(0.1, 2.0, c.rounding / 0.3);
                 end.apply(|x| *x = (*x / grid).round() * grid);
             }
             Line9::new(&at, &end).ok().map(Shape::Line)
@@ -190,6 +208,7 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
             } else {
                 80.0
             },
+            greatest_feed: 500.0,
             termination,
             stop_before: mode < 0.02 * c.stops,
             separate: mode > 0.9,
@@ -217,11 +236,13 @@ struct Witness {
 
 /// Adds moves one at a time with a budget each, and finishes. Checks budgets, the order of the
 /// three ends, and that what was called final stays.
-pub fn build(path: &mut BlendedPath, moves: &[ProgrammedMove], budgets: &[usize]) {
-    path.restart(
-        &BlendSettings::new(1.0, ROTARY_WEIGHT, 20_000.0).expect("sound"),
-        &Axes::zeros(),
-    );
+pub fn build(
+    path: &mut BlendedPath,
+    settings: &BlendSettings,
+    moves: &[ProgrammedMove],
+    budgets: &[usize],
+) {
+    path.restart(settings, &Axes::zeros());
     let mut witnesses: Vec<Witness> = Vec::new();
     let mut seen = 0.0f64;
     for (k, queued) in moves.iter().enumerate() {
@@ -265,20 +286,63 @@ pub fn build(path: &mut BlendedPath, moves: &[ProgrammedMove], budgets: &[usize]
 
 /// The greatest deviation over its tolerance, sampled densely.
 pub fn greatest_deviation(path: &BlendedPath) -> f64 {
+    deviation_where(path, |_| true)
+}
+
+/// The termination of a move.
+fn termination(moves: &[ProgrammedMove], serial: u64) -> TerminationCondition {
+    moves
+        .iter()
+        .find(|queued| queued.serial == serial)
+        .expect("a move")
+        .termination
+}
+
+const NO_TOLERANCE: TerminationCondition = TerminationCondition::Continuous { tolerance: 0.0 };
+
+/// The same for the moves with a tolerance, or to be followed exactly.
+pub fn greatest_deviation_with_tolerance(path: &BlendedPath, moves: &[ProgrammedMove]) -> f64 {
+    deviation_where(path, |serial| termination(moves, serial) != NO_TOLERANCE)
+}
+
+/// Each move without a tolerance is touched in its middle, within the default tolerance, and cut
+/// by no more than a quarter of half a leg for each unit of a corner's turn, which is 2 at most.
+pub fn check_touched(path: &BlendedPath, moves: &[ProgrammedMove]) {
+    for vertex in path.vertices(0.0) {
+        let leg = path.leg(vertex.s).expect("a leg");
+        if termination(moves, leg.serial) != NO_TOLERANCE {
+            continue;
+        }
+        for k in 0..=16 {
+            let s = leg.start + (leg.end - leg.start) * f64::from(k) / 16.0;
+            let deviation = norm(&(path.point(s).position - path.programmed_point(s).position));
+            let cut = if k == 8 {
+                0.0
+            } else {
+                0.25 * (leg.end - leg.start)
+            };
+            assert!(
+                deviation <= cut + DEFAULT_TOLERANCE + 1e-9,
+                "{deviation} at {s}"
+            );
+        }
+    }
+}
+
+fn deviation_where(path: &BlendedPath, counts: impl Fn(u64) -> bool) -> f64 {
     let mut greatest = 0.0f64;
     let starts: Vec<f64> = path.vertices(0.0).map(|vertex| vertex.s).collect();
     for start in starts {
+        if !counts(path.leg(start).expect("a leg").serial) {
+            continue;
+        }
         let leg = path.leg(start).expect("a leg");
         let tolerance = path.tolerance(start);
         for k in 0..24 {
             let s = leg.start + (leg.end - leg.start) * f64::from(k) / 24.0;
             let deviation = norm(&(path.point(s).position - path.programmed_point(s).position));
-            if tolerance > 0.0 {
-                // Rounding of the coordinates themselves, up to some metres.
-                greatest = greatest.max((deviation - 1e-11) / tolerance);
-            } else {
-                assert!(deviation < 1e-10, "{deviation} on an exact leg at {s}");
-            }
+            // Rounding of the coordinates themselves, up to some metres.
+            greatest = greatest.max((deviation - 1e-11) / tolerance);
         }
     }
     greatest
@@ -332,8 +396,64 @@ pub fn line(serial: u64, from: (f64, f64), to: (f64, f64), tolerance: f64) -> Pr
         serial,
         shape: Shape::Line(Line9::new(&at(from), &at(to)).expect("a line")),
         feed: 100.0,
+        greatest_feed: 100.0,
         termination: TerminationCondition::Continuous { tolerance },
         stop_before: false,
         separate: false,
     }
+}
+
+/// A smooth contour as lines, rounded to a grid.
+pub fn contour(step: f64, count: usize, tolerance: f64, grid: f64) -> Vec<ProgrammedMove> {
+    let round = |x: f64| {
+        if grid > 0.0 {
+            (x / grid).round() * grid
+        } else {
+            x
+        }
+    };
+    let (mut heading, mut x, mut y) = (0.0f64, 0.0f64, 0.0f64);
+    let mut from = (0.0, 0.0);
+    let mut moves = Vec::new();
+    for k in 0..count {
+        for j in 0..100 {
+            let s = step * (k as f64 + 0.01 * f64::from(j));
+            heading += 0.01 * step * (0.08 + 0.22 * (0.11 * s).sin() * (0.037 * s + 1.0).cos());
+            x += 0.01 * step * heading.cos();
+            y += 0.01 * step * heading.sin();
+        }
+        let to = (round(x), round(y));
+        if to != from {
+            moves.push(line(k as u64, from, to, tolerance));
+            from = to;
+        }
+    }
+    moves
+}
+
+pub fn settings() -> BlendSettings {
+    blend_settings(20_000.0, DEFAULT_TOLERANCE)
+}
+
+pub fn fill(path: &mut BlendedPath, moves: &[ProgrammedMove]) {
+    path.restart(&settings(), &Axes::zeros());
+    for queued in moves {
+        assert_eq!(path.add(queued), Ok(()));
+        path.step(20_000);
+    }
+}
+
+pub fn complete(path: &mut BlendedPath, moves: &[ProgrammedMove]) {
+    fill(path, moves);
+    path.finish();
+    path.step(1_000_000);
+    assert!(path.is_settled());
+}
+
+/// Where the machine comes to rest.
+pub fn stops(path: &BlendedPath) -> Vec<f64> {
+    path.vertices(0.0)
+        .filter(|vertex| vertex.stop)
+        .map(|vertex| vertex.s)
+        .collect()
 }

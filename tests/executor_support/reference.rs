@@ -108,16 +108,22 @@ impl Move {
         };
         let mut stretch = 1.0_f64;
         let duration = made.curve.duration();
-        for i in 0..=4000 {
-            let t = duration * f64::from(i) / 4000.0;
-            for d in [made.derivatives(t), made.derivatives_before(t)] {
-                stretch = stretch.max(path_speed(&d[1]) / feed);
-                let worst =
-                    |values: &Axes, limits: &Axes| values.abs().component_div(limits).max() / part;
-                stretch = stretch.max(worst(&d[1], &limits.velocity));
-                stretch = stretch.max(worst(&d[2], &limits.acceleration).sqrt());
-                stretch = stretch.max(worst(&d[3], &limits.jerk).cbrt());
+        let mut include = |d: Derivatives| {
+            stretch = stretch.max(path_speed(&d[1]) / feed);
+            let worst =
+                |values: &Axes, limits: &Axes| values.abs().component_div(limits).max() / part;
+            stretch = stretch.max(worst(&d[1], &limits.velocity));
+            stretch = stretch.max(worst(&d[2], &limits.acceleration).sqrt());
+            stretch = stretch.max(worst(&d[3], &limits.jerk).cbrt());
+        };
+        // The greatest values are at the ends of the phases: all of these are among the samples.
+        for phase in made.curve.breaks().windows(2) {
+            let length = phase[1] - phase[0];
+            let count = (4000.0 * length / duration).ceil().max(100.0) as u32;
+            for i in 0..count {
+                include(made.derivatives(phase[0] + length * f64::from(i) / f64::from(count)));
             }
+            include(made.derivatives_before(phase[1]));
         }
         if stretch > 1.0 + 1e-9 {
             made.stretch = stretch * 1.0005;
@@ -261,6 +267,7 @@ impl Reference {
             path_acceleration,
             feed_ratio: 1.0,
             programmed_feed: running.programmed_feed,
+            per_turn: false,
             rapid: running.rapid,
             override_enabled: running.override_enabled,
         };

@@ -71,9 +71,10 @@ class Result:
 class Recorder:
     """A HAL file that samples joints, axes and the running line in every servo cycle."""
 
-    def __init__(self, joints, axes):
+    def __init__(self, joints, axes, integers=None):
         self.signals = [f"joint.{n}.motor-pos-cmd" for n in range(joints)] + [f"axis.{a}.pos-cmd" for a in axes]
-        self.integers = {"motion_type": "motion.motion-type", "line": "motion.program-line", "slot": "framekins.slot"}
+        self.integers = {"motion_type": "motion.motion-type", "line": "motion.program-line", "slot": "framekins.slot",
+                         **(integers or {})}
         self.header = ["time", *self.integers] + [f"joint.{n}" for n in range(joints)] + [f"axis.{a}" for a in axes]
 
     def hal(self):
@@ -119,12 +120,13 @@ def edit_ini(text, changes):
 
 
 def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3, axes="xyz", timeout=300,
-        record=True, modules=None):
+        record=True, modules=None, integers=None):
     """Carries out a scenario.
 
     steps: list of [name, argument, ...], see driver.Operator; "on" and "home" are done first.
     programs: {file name: text}; steps name them by their file name with PROGRAMS in front: "PROGRAMS/part.ngc".
     ini: {(section, key): value or None} changes to the sample's INI. hal: text of a further HAL file.
+    integers: {column: pin} further pins to record, of type s32.
     Raises RuntimeError with LinuxCNC's output if LinuxCNC did not come up at all.
     """
     folder = tempfile.mkdtemp(prefix="framepath-run.")
@@ -138,7 +140,7 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
         for name, text in (programs or {}).items():
             with open(os.path.join(program_folder, name), "w", encoding="utf-8") as file:
                 file.write(text)
-        recorder = Recorder(joints, axes)
+        recorder = Recorder(joints, axes, integers)
         recording = os.path.join(folder, "recording.txt")
         ini_path = os.path.join(config, f"{sample}.ini")
         with open(ini_path, encoding="utf-8") as file:

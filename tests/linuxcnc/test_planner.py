@@ -191,11 +191,14 @@ class Refused(Case):
             self.assertTrue(any("can't add linear move" in error for error in result.errors), result.errors)
             self.nothing_moves(result)
 
-    def test_what_is_not_supported_says_so(self):
-        for line, words in (("G33 Z-5 K1", "synchronised with the spindle"), ("G33.1 Z-5 K1", "rigid tapping")):
-            result = harness.run([["mdi", "M3 S100"], ["mdi", line]])
+    def test_a_tolerance_that_makes_no_sense(self):
+        for pin, value, words in (("millimetre", "0", "length of a millimetre"),
+                                  ("rotary-tolerance", "-0.1", "number of degrees"),
+                                  ("default-tolerance", "nan", "0 or a positive number")):
+            result = harness.run([["mdi", "G0 X10"], ["note", "end"]], hal=f"setp blendtp.{pin} {value}\n")
+            self.assertIn(f"blendtp.{pin} is", result.log)
             self.assertIn(words, result.log)
-            self.assertTrue(result.errors)
+            self.assertTrue(any("can't add linear move" in error for error in result.errors), result.errors)
             self.nothing_moves(result)
 
     def test_jerk_not_limited(self):

@@ -94,6 +94,7 @@ impl Polyline {
         Vertex {
             position: self.positions[i],
             reach: self.reaches[i],
+            core: 0.0,
             cap_changes: i > 0 && i < self.legs() && self.feeds[i] != self.feeds[i - 1],
         }
     }
@@ -190,13 +191,13 @@ impl Route for Polyline {
         self.known == self.legs()
     }
 
-    fn speed_cap(&self, s: f64) -> SpeedCap {
+    fn speed_cap(&self, s: f64, first: &Axes) -> SpeedCap {
         let leg = self.leg_at(s);
         let mut feed = self.feeds[leg];
         if leg > 0 && s - self.positions[leg] < 1e-9 {
             feed = feed.min(self.feeds[leg - 1]);
         }
-        let slope = self.point(s).first.norm();
+        let slope = first.norm();
         SpeedCap {
             programmed: feed / slope,
             greatest: 1e4,
@@ -238,8 +239,8 @@ impl<F: Fn(f64) -> PathPoint> Route for Curve<F> {
     fn is_complete(&self) -> bool {
         true
     }
-    fn speed_cap(&self, s: f64) -> SpeedCap {
-        let speed = self.feed / self.point(s).first.norm();
+    fn speed_cap(&self, _: f64, first: &Axes) -> SpeedCap {
+        let speed = self.feed / first.norm();
         SpeedCap {
             programmed: speed,
             greatest: 10.0 * speed,

@@ -1,8 +1,11 @@
 //! A planner driven cycle by cycle, and a judge of what it did.
 #![allow(dead_code, reason = "each test uses its own part")]
 
+pub mod lathe;
+pub mod path_check;
+
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
-use framepath::moves::{MotionType, StateTag};
+use framepath::moves::{MotionType, StateTag, TerminationCondition};
 use framepath::path::Circle;
 use framepath::planner::{AddError, Added, CycleInputs, MoveRequest, Planner, Status};
 
@@ -63,11 +66,12 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// At the origin, with a period of [`PERIOD`].
+    /// At the origin, with a period of [`PERIOD`], in G61.1.
     pub fn new(limits: AxisLimits) -> Self {
         let mut planner = Planner::new();
         assert!(planner.set_cycle_time(PERIOD));
         planner.set_limits(&limits);
+        planner.set_termination(TerminationCondition::Stop);
         Self {
             planner,
             inputs: CycleInputs::default(),

@@ -98,11 +98,10 @@ fn words(error: AddError) -> &'static CStr {
         AddError::Shape(ShapeError::RadiusTooSmall) => c"an arc starts or ends at its own centre",
         AddError::Shape(ShapeError::TooManyTurns) => c"an arc has more turns than can be counted",
         AddError::Feed { .. } => c"a move has no feed: F, or [TRAJ]MAX_LINEAR_VELOCITY and the [AXIS_L] limits, is zero",
-        AddError::SpindleSynchronised => {
-            c"motion synchronised with the spindle (G33, G76, G95) is not supported; use G94, or TPMOD = tpmod"
-        }
-        AddError::RigidTap => c"rigid tapping (G33.1) is not supported; use a tapping head, or TPMOD = tpmod",
-        AddError::Indexer { .. } => c"a locking rotary indexer is not supported; remove [AXIS_L]LOCKING_INDEXER_JOINT, or use TPMOD = tpmod",
+        AddError::Spindle { .. } => c"a move is to follow a spindle that does not exist",
+        AddError::PerTurn(_) => c"the feed per turn (F in G95) or the pitch (K) is negative or not a number",
+        AddError::RigidTap => c"a rigid tap (G33.1) has no spindle to follow, or I is not positive",
+        AddError::Tripped => c"a move was sent after the spindle had stopped the motion; abort first",
     }
 }
 
@@ -272,17 +271,47 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
     handle.answer(result)
 }
 
-/// Rigid tapping is not supported yet: always -1.
+/// Queues a rigid tap: to `end` with the spindle, back with it `reversal_scale` times as fast. Returns LinuxCNC's code as
+/// for a line.
 ///
 /// # Safety
-/// `handle` from `framepath_planner_create`.
+/// `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn framepath_planner_add_rigid_tap(handle: *mut Handle) -> c_int {
+pub unsafe extern "C" fn framepath_planner_add_rigid_tap(
+    handle: *mut Handle,
+    tp: *mut TP_STRUCT,
+    end: *const EmcPose,
+    max_velocity: c_double,
+    enables: c_uchar,
+    reversal_scale: c_double,
+    tag: *const state_tag_t,
+) -> c_int {
     // SAFETY: see above.
-    if let Some(handle) = unsafe { handle.as_mut() } {
-        handle.refused = words(AddError::RigidTap);
+    let (Some(handle), Some(tp), Some(end), Some(tag)) =
+        (unsafe { (handle.as_mut(), tp.as_mut(), end.as_ref(), tag.as_ref()) })
+    else {
+        return tp_err_t::TP_ERR_FAIL;
+    };
+    if let Some(objection) = handle.objection(tag) {
+        handle.refused = objection;
+        return tp_err_t::TP_ERR_FAIL;
     }
-    tp_err_t::TP_ERR_FAIL
+    let limits = handle.limits();
+    handle.planner.set_limits(&limits);
+    let request = MoveRequest {
+        motion_type: MotionType::Feed,
+        feed: max_velocity,
+        max_velocity,
+        enables,
+        wait_for_spindle: true,
+        indexer_joint: None,
+        tag: tag_in(tag),
+    };
+    let result = handle
+        .planner
+        .add_rigid_tap(&axes_of(end), reversal_scale, &request);
+    handle.report(tp);
+    handle.answer(result)
 }
 
 /// Why the last move was refused.

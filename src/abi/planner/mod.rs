@@ -25,6 +25,8 @@ pub const FRAMEPATH_QUEUE_CAPACITY: c_int = 2000;
 /// Functions of the motion controller that the planner calls.
 type WriteDigital = Option<unsafe extern "C" fn(c_int, c_char)>;
 type WriteAnalog = Option<unsafe extern "C" fn(c_int, c_double)>;
+type SetUnlock = Option<unsafe extern "C" fn(c_int, c_int)>;
+type GetUnlock = Option<unsafe extern "C" fn(c_int) -> c_int>;
 type AxisLimit = Option<unsafe extern "C" fn(c_int) -> c_double>;
 
 /// LinuxCNC's `kinematicsInverse`.
@@ -39,6 +41,8 @@ pub struct Handle {
     config: *mut emcmot_config_t,
     write_digital: WriteDigital,
     write_analog: WriteAnalog,
+    set_unlock: SetUnlock,
+    get_unlock: GetUnlock,
     velocity_limit: AxisLimit,
     acceleration_limit: AxisLimit,
     inverse_kinematics: InverseKinematics,
@@ -62,6 +66,8 @@ static MEMORY: Memory = Memory(UnsafeCell::new(Handle {
     config: ptr::null_mut(),
     write_digital: None,
     write_analog: None,
+    set_unlock: None,
+    get_unlock: None,
     velocity_limit: None,
     acceleration_limit: None,
     inverse_kinematics: None,
@@ -120,12 +126,16 @@ pub unsafe extern "C" fn framepath_planner_create(
 pub extern "C" fn framepath_planner_motion_functions(
     write_digital: Option<unsafe extern "C" fn(c_int, c_char)>,
     write_analog: Option<unsafe extern "C" fn(c_int, c_double)>,
+    set_rotary_unlock: Option<unsafe extern "C" fn(c_int, c_int)>,
+    get_rotary_unlock: Option<unsafe extern "C" fn(c_int) -> c_int>,
     velocity_limit: Option<unsafe extern "C" fn(c_int) -> c_double>,
     acceleration_limit: Option<unsafe extern "C" fn(c_int) -> c_double>,
 ) {
     let handle = module();
     handle.write_digital = write_digital;
     handle.write_analog = write_analog;
+    handle.set_unlock = set_rotary_unlock;
+    handle.get_unlock = get_rotary_unlock;
     handle.velocity_limit = velocity_limit;
     handle.acceleration_limit = acceleration_limit;
 }

@@ -2,16 +2,16 @@
 
 use core::ptr;
 
-use libc::{c_char, c_int};
+use libc::{c_char, c_double, c_int};
 
 use super::{Handle, command};
 use crate::abi::linuxcnc::{
-    EMCMOT_MAX_AIO, EMCMOT_MAX_DIO, EMCMOT_MOTION_INPOS_BIT, EmcPose, TP_STRUCT, state_tag_t,
-    tc_direction_t, tp_err_t,
+    EMCMOT_MAX_AIO, EMCMOT_MAX_DIO, EMCMOT_MOTION_ERROR_BIT, EMCMOT_MOTION_INPOS_BIT, EmcPose,
+    TP_STRUCT, emcmot_status_t, state_tag_t, tc_direction_t, tp_err_t,
 };
 use crate::abi::pose::pose_of;
-use crate::moves::{STATE_TAG_SIZE, StateTag};
-use crate::planner::{CycleInputs, Fault};
+use crate::moves::{SPINDLE_COUNT, STATE_TAG_SIZE, StateTag};
+use crate::planner::{CycleInputs, Fault, SpindleError, SpindleInputs};
 
 /// LinuxCNC's number for "no move" where 0 is a number of a move.
 const NO_MOVE: c_int = c_int::MIN;
@@ -32,7 +32,11 @@ impl Handle {
         tp.aborting = now.aborting.into();
         tp.reverse_run = tc_direction_t::TC_DIR_FORWARD as c_int;
         tp.queue._len = now.queue_depth as c_int;
-        tp.spindle.waiting_for_index = NO_MOVE;
+        tp.spindle.waiting_for_index = if now.waiting_for_index {
+            now.exec_id
+        } else {
+            NO_MOVE
+        };
         tp.spindle.waiting_for_atspeed = if now.waiting_for_spindle {
             now.exec_id
         } else {
@@ -46,8 +50,52 @@ impl Handle {
             status.dtg = pose_of(&now.axis_distance_to_go);
             status.enables_queued = now.enables.unwrap_or(status.enables_new);
             status.tcqlen = now.queue_depth as u32;
-            status.spindleSync = 0;
+            status.spindleSync = now.following_spindle.into();
         }
+    }
+
+    /// Tells the motion controller what the planner wants of spindles and of the locks of indexers.
+    fn command_spindles(&mut self) {
+        let now = self.planner.status();
+        if let (Some((joint, unlock)), Some(set)) = (now.indexer, self.set_unlock) {
+            // SAFETY: motmod's own function; it checks that the joint has a lock.
+            unsafe { set(joint, unlock.into()) };
+        }
+        // SAFETY: null, or motmod's status in shared memory for as long as the module is loaded.
+        let Some(status) = (unsafe { self.status.as_mut() }) else {
+            return;
+        };
+        if let Some(spindle) = now
+            .index_request
+            .and_then(|number| status.spindle_status.get_mut(number))
+        {
+            spindle.spindle_index_enable = 1;
+        }
+        if let Some((number, factor)) = now.spindle_factor
+            && let Some(spindle) = status.spindle_status.get_mut(number)
+        {
+            spindle.speed *= factor;
+        }
+        if now.spindle_error.is_some() {
+            // LinuxCNC's task then aborts the program.
+            status.motionFlag |= EMCMOT_MOTION_ERROR_BIT as u16;
+        }
+    }
+
+    /// The spindles as motmod knows them.
+    fn spindles(&self, status: &emcmot_status_t, count: usize) -> [SpindleInputs; SPINDLE_COUNT] {
+        let mut spindles = [SpindleInputs::STANDSTILL; SPINDLE_COUNT];
+        for (inputs, spindle) in spindles.iter_mut().zip(&status.spindle_status).take(count) {
+            *inputs = SpindleInputs {
+                turns: spindle.spindleRevs,
+                // spindle.N.speed-in counts turns a second, whatever LinuxCNC's header says.
+                speed: spindle.spindleSpeedIn,
+                commanded: spindle.speed.abs() / 60.0,
+                reverse: spindle.direction < 0,
+                awaits_index: spindle.spindle_index_enable != 0,
+            };
+        }
+        spindles
     }
 
     /// Writes the synchronised outputs of the move that has just started.
@@ -94,7 +142,44 @@ pub unsafe extern "C" fn framepath_planner_fault_text(handle: *const Handle) -> 
         None => ptr::null(),
         Some(Fault::CellRefused) => c"the executor refused a period of the plan".as_ptr(),
         Some(Fault::Starved) => c"the executor had nothing left to run on".as_ptr(),
+        Some(Fault::MoveRefused) => c"a move could not be put on the path".as_ptr(),
+        Some(Fault::NoPlan) => c"no plan was found that keeps the limits".as_ptr(),
         Some(Fault::LimitsRefused) => c"the executor refused the limits of the axes".as_ptr(),
+    }
+}
+
+/// Why the motion with a spindle was stopped in the last servo period, null if it was not; with the numbers that belong to it: what the
+/// thread asks for and what the axes allow, units per second.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; the others point to numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_spindle_error_text(
+    handle: *const Handle,
+    asked: *mut c_double,
+    greatest: *mut c_double,
+) -> *const c_char {
+    // SAFETY: see above.
+    let (Some(handle), Some(asked_out), Some(greatest_out)) =
+        (unsafe { (handle.as_ref(), asked.as_mut(), greatest.as_mut()) })
+    else {
+        return ptr::null();
+    };
+    (*asked_out, *greatest_out) = (0.0, 0.0);
+    match handle.planner.status().spindle_error {
+        None => ptr::null(),
+        Some(SpindleError::Stalled) => c"the spindle came to a stop in a thread or tap".as_ptr(),
+        Some(SpindleError::Reversed) => c"the spindle turned back in a thread".as_ptr(),
+        Some(SpindleError::NotReversed) => {
+            c"the spindle did not turn back within ten turns of the end of a tap".as_ptr()
+        }
+        Some(SpindleError::NoIndex) => {
+            c"the index of the spindle did not come, or its angle does not change in the direction that was commanded: look at spindle.N.index-enable and spindle.N.revs".as_ptr()
+        }
+        Some(SpindleError::Outrun { asked, greatest }) => {
+            (*asked_out, *greatest_out) = (asked, greatest);
+            c"the spindle is too fast for the thread: the axes would have to move faster than they are able to".as_ptr()
+        }
     }
 }
 
@@ -128,11 +213,18 @@ pub unsafe extern "C" fn framepath_planner_run_cycle(
             .iter()
             .take(spindles)
             .all(|spindle| spindle.at_speed != 0),
+        spindles: handle.spindles(status, spindles),
+        indexer_unlocked: match (handle.planner.indexer_joint(), handle.get_unlock) {
+            // SAFETY: motmod's own function; it checks that the joint has a lock.
+            (Some(joint), Some(is_unlocked)) => (unsafe { is_unlocked(joint) }) != 0,
+            _ => false,
+        },
     };
     let limits = handle.limits();
     handle.planner.set_limits(&limits);
     handle.planner.cycle(&inputs);
     handle.write_outputs();
+    handle.command_spindles();
     handle.report(tp);
     if handle.planner.status().queue_depth == 0 {
         tp_err_t::TP_ERR_WAITING

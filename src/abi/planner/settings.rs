@@ -8,6 +8,7 @@ use crate::abi::linuxcnc::{EmcPose, TP_STRUCT, tc_direction_t, tp_err_t};
 use crate::abi::pose::axes_of;
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::moves::TerminationCondition;
+use crate::planner::{Blending, BlendingError};
 
 /// Sets the greatest jerk of each of the nine axes, 0 = not limited. Returns -1, or the number of the first axis whose
 /// value is negative or not a number; then nothing changes.
@@ -36,6 +37,43 @@ pub unsafe extern "C" fn framepath_planner_set_jerk(
             .map(|value| if *value == 0.0 { f64::INFINITY } else { *value }),
     );
     -1
+}
+
+/// What [`framepath_planner_set_blending`] answers where the length of a millimetre makes no sense.
+pub const FRAMEPATH_BAD_MILLIMETRE: c_int = 1;
+/// The same for the tolerance of rotary axes.
+pub const FRAMEPATH_BAD_ROTARY_TOLERANCE: c_int = 2;
+/// The same for the tolerance of G64 without P.
+pub const FRAMEPATH_BAD_DEFAULT_TOLERANCE: c_int = 3;
+
+/// The tolerance of runs of short moves under G64 without P where the configuration says nothing, machine units.
+pub const FRAMEPATH_DEFAULT_TOLERANCE: c_double = 0.02;
+const _: () = assert!(FRAMEPATH_DEFAULT_TOLERANCE == Blending::DEFAULT_TOLERANCE);
+
+/// Sets the length of a millimetre in machine units, how far rotary axes may leave the program (degrees, 0 = as many as
+/// P has millimetres), and the tolerance of runs of short moves under G64 without P (machine units). Holds from the next
+/// rest on. Returns 0, or one of the codes above; then nothing changes.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_blending(
+    handle: *mut Handle,
+    millimetre: c_double,
+    rotary_tolerance: c_double,
+    default_tolerance: c_double,
+) -> c_int {
+    with(handle, |handle| {
+        let set = handle
+            .planner
+            .set_blending(millimetre, rotary_tolerance, default_tolerance);
+        match set {
+            Ok(()) => 0,
+            Err(BlendingError::Millimetre) => FRAMEPATH_BAD_MILLIMETRE,
+            Err(BlendingError::RotaryTolerance) => FRAMEPATH_BAD_ROTARY_TOLERANCE,
+            Err(BlendingError::DefaultTolerance) => FRAMEPATH_BAD_DEFAULT_TOLERANCE,
+        }
+    })
 }
 
 /// Says whether a frame is in force, and how the axes of the program lie to those of the machine behind it: three rows
@@ -153,19 +191,22 @@ pub unsafe extern "C" fn framepath_planner_set_position(
     tp_err_t::TP_ERR_OK
 }
 
-/// Says whether the moves to come are synchronised with a spindle (`distance_per_turn` not 0); such moves are refused.
+/// Which spindle the moves to come follow, by how far in a turn of it (0: none), and whether by its speed only (feed per
+/// turn) or by its angle (threads and rigid taps).
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framepath_planner_set_spindle_sync(
     handle: *mut Handle,
+    spindle: c_int,
     distance_per_turn: c_double,
+    velocity_mode: c_int,
 ) -> c_int {
     with(handle, |handle| {
         handle
             .planner
-            .set_spindle_synchronised(distance_per_turn != 0.0);
+            .set_spindle_synchronisation(spindle, distance_per_turn, velocity_mode != 0);
         tp_err_t::TP_ERR_OK
     })
 }

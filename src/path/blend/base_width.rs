@@ -47,12 +47,18 @@ pub(super) fn widen(
         vertex.scanned = width;
     }
     vertex.scan_done = too_wide;
-    let overlaps = vertex.scanned > vertex.half_leg * 1.01
-        && vertex.scanned >= WORTHWHILE * vertex.corner_width;
-    vertex.base.kernel = if vertex.corner_width <= vertex.half_leg && !overlaps {
-        vertex.corner_width
+    let alone = if vertex.free_limit > 0.0 {
+        vertex.width_alone()
+    } else if vertex.biweight_width <= vertex.half_leg {
+        vertex.biweight_width
     } else {
+        0.0
+    };
+    let overlaps = vertex.scanned > vertex.half_leg * 1.01 && vertex.scanned >= WORTHWHILE * alone;
+    vertex.base.kernel = if overlaps {
         vertex.scanned
+    } else {
+        vertex.width_alone()
     };
     (goes_on, cost)
 }
@@ -102,10 +108,10 @@ fn deviation_at_equal_widths(
         .take_while(|(_, vertex)| vertex.s - here < width);
     for (_, vertex) in left.chain(right) {
         terms += 1;
-        let (kernel_width, mix) = if vertex.wall {
+        let (kernel_width, mix) = if vertex.wall || vertex.is_free() {
             continue;
         } else if vertex.isolated {
-            (vertex.base.kernel.min(width), 0.0)
+            (vertex.base.kernel.min(width), vertex.corner_mix)
         } else {
             (width, vertex.overlapping_mix(width))
         };

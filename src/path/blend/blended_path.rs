@@ -58,6 +58,8 @@ pub struct BlendedPath {
 pub struct Progress {
     /// Number of the move; of merged moves that of the last one.
     pub serial: u64,
+    /// Number of the first of merged moves.
+    pub first: u64,
     /// What F has counted since the start of the leg.
     pub distance: f64,
     /// What F will count until its end.
@@ -77,6 +79,8 @@ pub struct LegView {
     /// through at F. Where a corner is rounded the path is shorter than the programmed one, and
     /// ds/dt may be higher: `speed * measure_rate` over the length of dq/ds in F's measure.
     pub speed: f64,
+    /// The same for the feed that no override may exceed.
+    pub greatest_speed: f64,
     /// How much F counts for a unit of path distance.
     pub measure_rate: f64,
     /// What F counts.
@@ -91,10 +95,14 @@ pub struct VertexView {
     /// How far the path around it is changed to both sides. Where two legs meet without a turn in
     /// the middle of a smoothed run, as far as for its neighbours.
     pub reach: f64,
-    /// How far the easement of a jump of the curvature reaches; 0 without one.
-    pub easement: f64,
+    /// How far a sharper change in the middle reaches: the rounded corner within an easement, or
+    /// the easement within a rounded corner; 0 if both are of about the same size, or there is only
+    /// one.
+    pub core: f64,
     /// Whether the machine comes to rest there: the direction may jump.
     pub stop: bool,
+    /// Whether the speeds of the legs differ that meet there.
+    pub speed_changes: bool,
 }
 
 impl BlendedPath {
@@ -203,7 +211,7 @@ impl BlendedPath {
 
     fn freeze_when_finished(&mut self) {
         if self.finished && self.chooser.is_settled(&self.chain) {
-            self.chooser.freeze();
+            self.chooser.freeze(&self.chain);
         }
     }
 
@@ -298,6 +306,7 @@ impl BlendedPath {
                 start: leg.start,
                 end: leg.end(),
                 speed: leg.speed,
+                greatest_speed: leg.greatest_speed,
                 measure_rate: leg.measure_rate,
                 measure: leg.measure(),
             }
@@ -311,18 +320,37 @@ impl BlendedPath {
             let distance = leg.measured(s);
             Progress {
                 serial: leg.serial,
+                first: leg.first,
                 distance,
                 distance_to_go: leg.shape.length() - distance,
             }
         })
     }
 
-    /// How far the path may be from the programmed one on the leg at `s`; 0 if nothing is known.
+    /// The leg that ends at `s`: number of its last move, and where that ends, shape (9), exactly as
+    /// given. `None` if none ends there.
+    pub fn leg_ending_at(&self, s: f64) -> Option<(u64, Axes)> {
+        if self.chain.is_empty() {
+            return None;
+        }
+        let number = self.chain.locate(s);
+        let number = if s >= self.chain.leg(number).end() {
+            number
+        } else {
+            number.checked_sub(1)?
+        };
+        let leg = self.chain.leg(number);
+        (number >= self.chain.first() && leg.end() == s).then(|| (leg.serial, leg.shape.end()))
+    }
+
+    /// How far the path may be from the programmed one on the leg at `s`, machine units; 0 if
+    /// nothing is known. Under G64 without P: but for corners that are cut by up to half of their
+    /// shorter leg.
     pub fn tolerance(&self, s: f64) -> f64 {
         if self.chain.is_empty() {
             0.0
         } else {
-            self.chain.leg(self.chain.locate(s)).tolerance
+            self.chain.leg(self.chain.locate(s)).tolerance()
         }
     }
 
@@ -356,22 +384,71 @@ impl BlendedPath {
         VertexView {
             s: vertex.s,
             reach,
-            easement: vertex.stored.easement,
+            core: vertex.stored.core(),
             stop: vertex.stop,
+            speed_changes: number > self.chain.first() && {
+                let (before, after) = (self.chain.leg(number - 1), self.chain.leg(number));
+                before.speed != after.speed || before.greatest_speed != after.greatest_speed
+            },
         }
     }
 
-    /// Where the machine next has to come to rest after `s`, if that is before the end of the
-    /// known path.
-    pub fn next_stop(&self, s: f64) -> Option<f64> {
+    /// The first vertex behind `s`.
+    pub fn vertex_after(&self, s: f64) -> Option<VertexView> {
         if self.chain.is_empty() {
             return None;
         }
-        (self.chain.locate(s)..self.chain.next())
-            .map(|number| self.chain.vertex(number))
-            .take_while(|vertex| vertex.s < self.known_end())
-            .find(|vertex| vertex.stop && vertex.s > s)
-            .map(|vertex| vertex.s)
+        let number = self.chain.locate(s);
+        let number = if self.chain.leg(number).start > s {
+            number
+        } else {
+            number.saturating_add(1)
+        };
+        (number < self.chain.next()).then(|| self.vertex_view(number))
+    }
+
+    /// The last vertex before `s`.
+    pub fn vertex_before(&self, s: f64) -> Option<VertexView> {
+        if self.chain.is_empty() {
+            return None;
+        }
+        let number = self.chain.locate(s);
+        let number = if self.chain.leg(number).start < s {
+            Some(number)
+        } else {
+            number.checked_sub(1)
+        };
+        number
+            .filter(|number| *number >= self.chain.first())
+            .map(|number| self.vertex_view(number))
+    }
+
+    /// What no final vertex reaches beyond, so far.
+    pub fn greatest_reach(&self) -> f64 {
+        self.chooser.greatest_reach()
+    }
+
+    /// The leg that starts at a rest at `s`, if the machine comes to rest at its end too, and
+    /// that is final: then it is the programmed move itself.
+    pub fn move_between_rests(&self, s: f64) -> Option<(Shape, LegView)> {
+        let view = self.leg(s)?;
+        let number = self.chain.locate(s);
+        let leg = self.chain.leg(number);
+        let after = number.saturating_add(1);
+        let rests = leg.stop_after
+            || after < self.chain.next() && self.chain.vertex(after).stop
+            || after == self.chain.next() && self.finished;
+        (view.start == s && rests && self.final_end() >= view.end).then_some((leg.shape, view))
+    }
+
+    /// Whether the machine comes to rest at the [programmed end](Self::programmed_end).
+    pub fn rests_at_end(&self) -> bool {
+        self.finished || self.chain.last().is_some_and(|leg| leg.stop_after)
+    }
+
+    /// The length of a displacement, shape (9), as path distance counts it.
+    pub fn distance(&self, displacement: &Axes) -> f64 {
+        self.metric.norm(displacement)
     }
 
     /// The machine will not go back behind `s`: makes room.

@@ -206,6 +206,7 @@ impl Chain {
 
 #[cfg(test)]
 mod tests {
+    use super::super::settings::Allowance;
     use super::*;
 
     /// A chain of legs of length 1; it is too large for the stack of a test.
@@ -219,7 +220,7 @@ mod tests {
                 for _ in 0..legs {
                     let leg = Leg {
                         length: 1.0,
-                        tolerance: 0.1,
+                        allowance: Allowance::Tolerance(0.1),
                         ..Leg::VACANT
                     };
                     chain.push(leg, &settings, &metric);

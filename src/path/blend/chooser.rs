@@ -84,6 +84,8 @@ pub(super) struct Chooser {
     spent: usize,
     violated: bool,
     narrowed: bool,
+    /// Of all final vertices.
+    greatest_reach: f64,
 }
 
 impl Chooser {
@@ -97,6 +99,7 @@ impl Chooser {
             spent: 0,
             violated: false,
             narrowed: false,
+            greatest_reach: 0.0,
         }
     }
 
@@ -123,6 +126,11 @@ impl Chooser {
         self.window.frozen
     }
 
+    /// The greatest reach of a final vertex.
+    pub fn greatest_reach(&self) -> f64 {
+        self.greatest_reach
+    }
+
     /// Number of the first vertex whose widths may change.
     pub fn open(&self) -> u64 {
         self.window.open
@@ -135,8 +143,10 @@ impl Chooser {
 
     /// The machine comes to rest at the end of the chain: nothing will change any more. Only when
     /// settled.
-    pub fn freeze(&mut self) {
-        self.window.open = self.stored_next;
+    pub fn freeze(&mut self, chain: &Chain) {
+        while self.window.open < self.stored_next {
+            self.close(chain);
+        }
         self.window.frozen = self.stored_end;
     }
 
@@ -180,6 +190,9 @@ impl Chooser {
         };
         let enough = fresh >= GREATEST_CHUNK
             || hurry
+            // The machine rests at its end, or may have to: nothing to come changes it.
+            || last.stop_after
+            || last.is_exact()
             || chain.end() - self.stored_end >= CHUNK * last.design_width;
         if fresh == 0 || !enough {
             return false;
@@ -260,17 +273,20 @@ impl Chooser {
     fn set_trial(&self, chain: &mut Chain, number: u64) {
         let clip = self.window.clip(chain, number);
         let vertex = chain.vertex_mut(number);
-        vertex.trial = if vertex.is_smoothed() {
+        let widths = if vertex.is_smoothed() {
             let narrowed = vertex.temporary_factor;
             let kernel = narrowed * clip.min(vertex.base.kernel * vertex.factor);
+            let easement = narrowed * clip.min(vertex.base.easement * vertex.factor.sqrt());
+            let kernel = kernel.max(vertex.free_kernel.min(clip));
             Widths {
                 kernel,
                 mix: vertex.mix(kernel),
-                easement: narrowed * clip.min(vertex.base.easement * vertex.factor.sqrt()),
+                easement: easement.max(vertex.free_easement.min(clip)),
             }
         } else {
             Widths::NONE
         };
+        vertex.set_trial(widths);
     }
 
     fn begin_check(&mut self, chain: &Chain) {
@@ -328,7 +344,7 @@ impl Chooser {
         let to = leg.saturating_add(1 + NEIGHBOURS).min(self.window.next);
         for number in from..to {
             let vertex = chain.vertex_mut(number);
-            if (vertex.s - s).abs() < vertex.trial.reach() {
+            if (vertex.s - s).abs() < vertex.counted.reach() {
                 vertex.marked = true;
                 vertex.marked_temporarily |= near_end;
             }
@@ -369,7 +385,7 @@ impl Chooser {
     fn give_up(&mut self, chain: &mut Chain) -> usize {
         for number in self.window.open..self.window.next {
             let vertex = chain.vertex_mut(number);
-            vertex.trial = vertex.stored;
+            vertex.set_trial(vertex.stored);
             vertex.factor = vertex.stored_factor;
             if number < self.stored_next && vertex.base.kernel > 0.0 {
                 vertex.factor = vertex.factor.min(vertex.stored.kernel / vertex.base.kernel);
@@ -422,6 +438,13 @@ impl Chooser {
         2 * NEIGHBOURS as usize
     }
 
+    /// Makes the first open vertex final.
+    fn close(&mut self, chain: &Chain) {
+        let reach = chain.vertex(self.window.open).stored.reach();
+        self.greatest_reach = self.greatest_reach.max(reach);
+        self.window.open += 1;
+    }
+
     /// Finds out what is final.
     fn advance(&mut self, chain: &Chain, settings: &BlendSettings) {
         let Window { next, end, .. } = self.window;
@@ -431,10 +454,10 @@ impl Chooser {
             let beyond_reach = end - vertex.s >= vertex.stored.reach() + LAG * last.design_width;
             let before_wall = vertex.right_wall <= end;
             let too_many = next - self.window.open >= GREATEST_OPEN;
-            if !(vertex.wall || beyond_reach || before_wall || too_many) {
+            if !(vertex.is_bare_wall() || beyond_reach || before_wall || too_many) {
                 break;
             }
-            self.window.open += 1;
+            self.close(chain);
         }
         self.window.frozen = self
             .window
@@ -455,16 +478,11 @@ impl Chooser {
         } else {
             vertex.left_wall
         };
-        let coming = if last.is_exact()
-            || last.stop_after
-            || (next < chain.next() && chain.vertex(next).wall)
-        {
+        let bare = next < chain.next() && chain.vertex(next).is_bare_wall();
+        let coming = if last.stop_after || bare {
             end
         } else {
-            let reserve = (0.5 * last.length)
-                .min(settings.greatest_design_width())
-                .max(last.design_width);
-            (end - reserve).max(wall)
+            (end - last.reserve(settings)).max(wall)
         };
         (open..next)
             .map(|number| chain.vertex(number))

@@ -4,6 +4,9 @@
 //! larger than at the larger of its ends plus `h^2 m / 8`. The bound of d'' is a sum over the
 //! vertices that reach the stretch. Where the bound is too coarse the stretch is halved.
 //!
+//! Under G64 without P corners may be cut by up to half of the shorter leg. Kernels no wider than
+//! that do not count: each leg is touched in the middle, within what the others add.
+//!
 //! The deviation at equal path distance bounds the distance both ways, from the blended path to the
 //! programmed one and back.
 
@@ -30,7 +33,7 @@ pub(super) struct Verdict {
     pub cost: usize,
 }
 
-/// The vertices that reach into a leg with their trial widths.
+/// The vertices that reach into a leg with those of their trial widths that count.
 struct Reaching<'a> {
     left: [Option<&'a Vertex>; NEIGHBOURS as usize],
     right: [Option<&'a Vertex>; NEIGHBOURS as usize],
@@ -45,14 +48,14 @@ impl<'a> Reaching<'a> {
         let mut count = 0;
         let from_left = chain
             .left_of(leg)
-            .filter(|(_, vertex)| vertex.s + vertex.trial.reach() > start);
+            .filter(|(_, vertex)| vertex.s + vertex.counted.reach() > start);
         for (place, (_, vertex)) in left.iter_mut().zip(from_left) {
             *place = Some(vertex);
             count += 1;
         }
         let from_right = chain
             .right_of(leg, next)
-            .filter(|(_, vertex)| vertex.s - vertex.trial.reach() < end);
+            .filter(|(_, vertex)| vertex.s - vertex.counted.reach() < end);
         for (place, (_, vertex)) in right.iter_mut().zip(from_right) {
             *place = Some(vertex);
             count += 1;
@@ -71,7 +74,7 @@ impl<'a> Reaching<'a> {
     fn deviation(&self, s: f64, metric: &Metric) -> f64 {
         let mut sum = Axes::zeros();
         for vertex in self.left().chain(self.right()) {
-            vertex.add_deviation(&vertex.trial, s - vertex.s, &mut sum);
+            vertex.add_deviation(&vertex.counted, s - vertex.s, &mut sum);
         }
         metric.norm(&sum)
     }
@@ -80,10 +83,10 @@ impl<'a> Reaching<'a> {
     fn bend_bound(&self, from: f64, to: f64) -> f64 {
         let left = self
             .left()
-            .map(|vertex| vertex.bend_bound(&vertex.trial, (from - vertex.s).max(0.0)));
+            .map(|vertex| vertex.bend_bound(&vertex.counted, (from - vertex.s).max(0.0)));
         let right = self
             .right()
-            .map(|vertex| vertex.bend_bound(&vertex.trial, (vertex.s - to).max(0.0)));
+            .map(|vertex| vertex.bend_bound(&vertex.counted, (vertex.s - to).max(0.0)));
         left.chain(right).sum()
     }
 }
@@ -96,7 +99,7 @@ pub(super) fn check(chain: &Chain, number: u64, share: f64, next: u64, metric: &
     let mut search = Search {
         reaching: &reaching,
         metric,
-        tolerance: leg.tolerance * share,
+        tolerance: leg.tolerance() * share,
         halvings: 0,
         cost: 1 + reaching.count,
     };
@@ -111,13 +114,13 @@ pub(super) fn check(chain: &Chain, number: u64, share: f64, next: u64, metric: &
     let from_left = reaching
         .left()
         .fold(start, |far, vertex| {
-            far.max(vertex.s + vertex.trial.reach())
+            far.max(vertex.s + vertex.counted.reach())
         })
         .min(end);
     let from_right = reaching
         .right()
         .fold(end, |near, vertex| {
-            near.min(vertex.s - vertex.trial.reach())
+            near.min(vertex.s - vertex.counted.reach())
         })
         .max(start);
     let violation = if from_left < from_right {

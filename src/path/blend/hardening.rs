@@ -36,13 +36,13 @@ pub(super) fn harden(
     let share = SHARES.get(attempt).copied().unwrap_or(0.01);
     let vertex = chain.vertex_mut(number);
     if !vertex.is_smoothed() {
-        vertex.trial = Widths::NONE;
+        vertex.set_trial(Widths::NONE);
         return (true, 1);
     }
     let room = vertex.half_leg.min(clip);
     let tolerance = TOLERANCE_SHARE * vertex.tolerance;
     let kernel = if vertex.turn_size > 0.0 {
-        (tolerance / (kernel::PEAK_SECOND_ORDER * vertex.turn_size)).min(room)
+        (tolerance / (kernel::peak(vertex.corner_mix) * vertex.turn_size)).min(room)
     } else {
         0.0
     };
@@ -53,11 +53,14 @@ pub(super) fn harden(
     } else {
         0.0
     };
-    vertex.trial = Widths {
-        kernel: share * kernel,
-        mix: 0.0,
-        easement: share * easement,
-    };
+    // Without a tolerance half legs always hold.
+    let free = vertex.free_kernel.min(clip);
+    let free_easement = vertex.free_easement.min(clip);
+    vertex.set_trial(Widths {
+        kernel: free.max(share * kernel),
+        mix: vertex.corner_mix,
+        easement: free_easement.max(share * easement),
+    });
     if vertex.base.kernel > 0.0 {
         vertex.factor = (vertex.trial.kernel / vertex.base.kernel).min(1.0);
     }
@@ -77,7 +80,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::leg::{Leg, ProgrammedMove};
-    use super::super::settings::BlendSettings;
+    use super::super::settings::{Allowance, BlendSettings};
     use super::*;
     use crate::axes::Axes;
     use crate::moves::TerminationCondition;
@@ -99,6 +102,7 @@ mod tests {
                 serial: 0,
                 shape: Shape::Line(line),
                 feed: 50.0,
+                greatest_feed: 50.0,
                 termination: TerminationCondition::Continuous {
                     tolerance: *tolerance,
                 },
@@ -134,9 +138,9 @@ mod tests {
                 let mut deviation = Axes::zeros();
                 first.add_deviation(&wide, second.s - first.s, &mut deviation);
                 let tolerance = metric.norm(&deviation) / 0.97;
-                chain.vertex_mut(1).trial = wide;
+                chain.vertex_mut(1).set_trial(wide);
                 chain.vertex_mut(2).tolerance = tolerance;
-                chain.leg_mut(2).tolerance = tolerance;
+                chain.leg_mut(2).allowance = Allowance::Tolerance(tolerance);
                 let window = Window {
                     next: chain.next(),
                     end: chain.end(),

@@ -1,7 +1,7 @@
 //! One leg of the programmed path: a move, or several short lines merged into one.
 
 use super::metric::Metric;
-use super::settings::BlendSettings;
+use super::settings::{Allowance, BlendSettings};
 use crate::moves::TerminationCondition;
 use crate::path::measure::{self, Measure};
 use crate::path::{PathPoint, Shape};
@@ -17,6 +17,9 @@ pub struct ProgrammedMove {
     /// What the program asks for at an override of 100 %, units of the shape's measure per
     /// second, positive. Widths are chosen for it.
     pub feed: f64,
+    /// What no override may exceed, in the same units; at least `feed`, equal to it where none
+    /// applies.
+    pub greatest_feed: f64,
     /// How it meets the next move.
     pub termination: TerminationCondition,
     /// Whether the machine has to come to rest before it: it waits for a spindle, probes, or turns
@@ -33,6 +36,8 @@ pub(super) struct Leg {
     pub shape: Shape,
     /// Number of the last move that it covers.
     pub serial: u64,
+    /// Number of the first move that it covers.
+    pub first: u64,
     /// Where it starts, path distance.
     pub start: f64,
     /// Path distance.
@@ -41,8 +46,10 @@ pub(super) struct Leg {
     pub measure_rate: f64,
     /// Programmed speed, path distance per second.
     pub speed: f64,
-    /// How far the blended path may be from it; 0: not at all.
-    pub tolerance: f64,
+    /// The speed that no override may exceed.
+    pub greatest_speed: f64,
+    /// How far the blended path may be from it.
+    pub allowance: Allowance,
     /// See [`BlendSettings::design_width`].
     pub design_width: f64,
     pub stop_before: bool,
@@ -59,11 +66,13 @@ impl Leg {
     pub const VACANT: Self = Self {
         shape: Shape::VACANT,
         serial: 0,
+        first: 0,
         start: 0.0,
         length: 0.0,
         measure_rate: 1.0,
         speed: 0.0,
-        tolerance: 0.0,
+        greatest_speed: 0.0,
+        allowance: Allowance::Exact(0.0),
         design_width: 0.0,
         stop_before: false,
         stop_after: false,
@@ -80,14 +89,14 @@ impl Leg {
         Self {
             shape: programmed.shape,
             serial: programmed.serial,
+            first: programmed.serial,
             length,
             measure_rate: 1.0 / per_measure,
             speed,
-            tolerance: match programmed.termination {
-                TerminationCondition::Continuous { tolerance } => {
-                    settings.tolerance(tolerance, length)
-                }
-                TerminationCondition::Exact | TerminationCondition::Stop => 0.0,
+            greatest_speed: programmed.greatest_feed.max(programmed.feed) * per_measure,
+            allowance: match programmed.termination {
+                TerminationCondition::Continuous { tolerance } => settings.allowance(tolerance),
+                TerminationCondition::Exact | TerminationCondition::Stop => settings.exact(),
             },
             design_width: settings.design_width(speed),
             stop_before: programmed.stop_before,
@@ -102,9 +111,52 @@ impl Leg {
         self.start + self.length
     }
 
-    /// Whether the blended path has to be the programmed path here.
+    /// Whether the blended path has to pass through its ends exactly, and nothing of other corners
+    /// may reach into it.
     pub fn is_exact(&self) -> bool {
-        self.tolerance <= 0.0
+        matches!(self.allowance, Allowance::Exact(_))
+    }
+
+    /// Whether its corners may be cut by up to half of the shorter leg, without a tolerance.
+    pub fn allows_half_legs(&self) -> bool {
+        matches!(self.allowance, Allowance::HalfLegs(_))
+    }
+
+    /// How far the blended path may be from it, but for corners that are cut by half of a leg;
+    /// machine units.
+    pub fn tolerance(&self) -> f64 {
+        match self.allowance {
+            Allowance::Exact(tolerance)
+            | Allowance::Tolerance(tolerance)
+            | Allowance::HalfLegs(tolerance) => tolerance,
+        }
+    }
+
+    /// How far before its end the path may still change when the next leg comes.
+    pub fn reserve(&self, settings: &BlendSettings) -> f64 {
+        let widest = if self.allows_half_legs() {
+            settings.greatest_free_width()
+        } else {
+            settings.greatest_design_width()
+        };
+        let reserve = (0.5 * self.length).min(widest);
+        if self.is_exact() {
+            reserve
+        } else {
+            reserve.max(self.design_width)
+        }
+    }
+
+    /// How far a corner with another leg may be rounded into this one if half legs are allowed:
+    /// half of it, on an arc not more than a radian.
+    pub fn half_for_corner(&self) -> f64 {
+        let curvature = self.point(self.start).second.norm();
+        let half = 0.5 * self.length;
+        if half * curvature > 1.0 {
+            curvature.recip()
+        } else {
+            half
+        }
     }
 
     /// What F counts.

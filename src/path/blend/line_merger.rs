@@ -5,7 +5,7 @@
 
 use super::leg::{Leg, ProgrammedMove};
 use super::metric::Metric;
-use super::settings::BlendSettings;
+use super::settings::{Allowance, BlendSettings};
 use crate::axes::Axes;
 use crate::path::measure::Measure;
 use crate::path::{Line9, Shape};
@@ -31,8 +31,8 @@ pub(super) struct LineMerger {
     start: Axes,
     points: [Axes; POINTS],
     count: usize,
-    /// Tolerance of each line, before anything is taken off it.
-    tolerance: f64,
+    /// That of each line, before anything is taken off it.
+    allowance: Allowance,
     feed: f64,
     measure: Measure,
 }
@@ -47,7 +47,7 @@ impl LineMerger {
             start: ORIGIN,
             points: [ORIGIN; POINTS],
             count: 0,
-            tolerance: 0.0,
+            allowance: Allowance::Exact(0.0),
             feed: 0.0,
             measure: Measure::Linear,
         }
@@ -75,7 +75,7 @@ impl LineMerger {
         self.start = line.position(0.0);
         self.count = 0;
         self.keep(line.end());
-        self.tolerance = leg.tolerance;
+        self.allowance = leg.allowance;
         self.feed = programmed.feed;
         self.measure = leg.measure();
         true
@@ -97,7 +97,7 @@ impl LineMerger {
             || programmed.separate
             || leg.stop_before
             || leg.stop_after
-            || leg.tolerance != self.tolerance
+            || leg.allowance != self.allowance
             || programmed.feed != self.feed
             || leg.measure() != self.measure
             || !(1.0 / SAME_RATE..=SAME_RATE).contains(&rates)
@@ -113,7 +113,7 @@ impl LineMerger {
         let Some(dropped) = self.greatest_distance(&end, metric) else {
             return false;
         };
-        if dropped > DROPPED_SHARE * self.tolerance {
+        if dropped > DROPPED_SHARE * leg.tolerance() {
             return false;
         }
         let merged = Leg::new(
@@ -129,8 +129,14 @@ impl LineMerger {
             return false;
         }
         self.chord = Leg {
-            tolerance: self.tolerance - dropped,
+            allowance: match self.allowance {
+                Allowance::Exact(whole) => Allowance::Exact(whole),
+                Allowance::Tolerance(whole) => Allowance::Tolerance(whole - dropped),
+                Allowance::HalfLegs(whole) => Allowance::HalfLegs(whole - dropped),
+            },
+            first: self.chord.first,
             stop_before: self.chord.stop_before,
+            greatest_speed: merged.greatest_speed.min(self.chord.greatest_speed),
             ..merged
         };
         self.keep(end);

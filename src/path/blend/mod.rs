@@ -14,6 +14,19 @@
 //! distance of the program, the number of the running move and the distance to go are monotone,
 //! and every q(s) belongs to one move.
 //!
+//! What may be changed depends on the mode:
+//!
+//! - G64 P: everything within P. A corner that stands alone uses all of it, with a kernel that is
+//!   flat where acceleration limits the speed in it and peaked where jerk does.
+//! - G64 without P: every move is touched. A corner is rounded as wide as its slower feed needs,
+//!   by acceleration and jerk, up to half of the shorter move (on an arc up to a radian), without
+//!   a tolerance. Where that is not enough to keep the feed, as in dense code, kernels may be wider
+//!   as long as they leave what is so rounded by no more than the default tolerance.
+//! - G61: nothing at a corner, where the machine stops. Where moves meet in a tangent (a hundredth
+//!   of a radian, for the rounding of coordinates) it passes without a stop: an easement leaves the
+//!   program by no more than a micrometre on either side of the point and by nothing in it, a
+//!   remaining turn of the direction by less than half of that.
+//!
 //! The order of the parts: a move becomes a `leg`, short lines after the `line_merger` has joined
 //! them; legs meet in a `vertex` and lie in a `chain`; the `chooser` gives the vertices of a
 //! `window` their widths, beginning with the `base_width`; the `deviation` is checked, and

@@ -1,6 +1,9 @@
 //! What the shape of blends depends on, besides the program.
 
-/// Blends are made for this jerk at most, although it may be unlimited; mm/s^3.
+use super::kernel;
+use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
+
+/// Dense code is smoothed for this jerk at most, although it may be unlimited; mm/s^3.
 const GREATEST_JERK: f64 = 100_000.0;
 
 /// What kernels are widened to at most where the tolerance leaves it open, mm.
@@ -9,8 +12,19 @@ const GREATEST_DESIGN_WIDTH: f64 = 8.0;
 /// And at least, mm.
 const LEAST_DESIGN_WIDTH: f64 = 0.001;
 
-/// The tolerance of G64 without P is the length of the move over 20, within these, mm.
-const DEFAULT_TOLERANCE: (f64, f64) = (0.05, 0.5);
+/// What a corner without a tolerance is rounded over at most to either side, mm.
+const GREATEST_FREE_WIDTH: f64 = 12.0;
+
+/// A corner without a tolerance is this much wider than its feed needs at a constant speed, so that
+/// the speed may change in it.
+const FREE_RESERVE: f64 = 1.1;
+
+/// Acceleration is built up in this time at least, seconds: unlimited jerk is still a few cycles
+/// long.
+const SHORTEST_RAMP: f64 = 1.0 / 300.0;
+
+/// What moves that are to be followed exactly are left by on either side of a tangent joint, mm.
+const EXACT_TOLERANCE: f64 = 1e-3;
 
 /// A tolerance below this is met by following the path exactly, mm.
 const LEAST_TOLERANCE: f64 = 1e-5;
@@ -21,29 +35,73 @@ const LEAST_TOLERANCE: f64 = 1e-5;
 pub struct BlendSettings {
     millimetre: f64,
     rotary_weight: f64,
-    jerk: f64,
+    default_tolerance: f64,
+    /// The least of X Y Z U V W, held below [`GREATEST_JERK`].
+    linear_jerk: f64,
+    /// 1 over the limits of each axis; 0 where there is none.
+    per_acceleration: Axes,
+    per_jerk: Axes,
+}
+
+/// How far the blended path may be from a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Allowance {
+    /// Not at its ends, and in between by no more than this, machine units, which is for easements
+    /// where it meets another move in a tangent.
+    Exact(f64),
+    /// By a tolerance P, machine units.
+    Tolerance(f64),
+    /// Corners are cut by up to half of their shorter leg, and what else is done stays within this,
+    /// machine units.
+    HalfLegs(f64),
 }
 
 impl BlendSettings {
-    /// A machine in millimetres: 0.1 mm counts as much as a degree, the jerk is not limited.
+    /// A machine in millimetres without limits: 0.1 mm counts as much as a degree.
     pub const DEFAULT: Self = Self {
         millimetre: 1.0,
         rotary_weight: 0.1,
-        jerk: GREATEST_JERK,
+        default_tolerance: 0.02,
+        linear_jerk: GREATEST_JERK,
+        per_acceleration: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
+        per_jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
     };
 
     /// `millimetre`: its length in machine units (1, or 1/25.4). `rotary_weight`: how many machine
     /// units count as much as a degree of A B C, see the metric of the
-    /// [blended path](super::BlendedPath). `jerk`: what the linear axes are able to do, machine
-    /// units per second cubed; may be infinite.
+    /// [blended path](super::BlendedPath). `default_tolerance`: how far the path may be from a run
+    /// of short moves under G64 without P, machine units; less than a micrometre counts as one.
+    /// `limits`: what the axes are able to do; each may be infinite.
     ///
-    /// `None` if one is not positive, or one of the first two not finite.
-    pub fn new(millimetre: f64, rotary_weight: f64, jerk: f64) -> Option<Self> {
+    /// `None` if one of the first two is not positive and finite, the tolerance negative or not
+    /// finite, or a limit not positive.
+    pub fn new(
+        millimetre: f64,
+        rotary_weight: f64,
+        default_tolerance: f64,
+        limits: &AxisLimits,
+    ) -> Option<Self> {
         let sound = |value: f64| value > 0.0 && value.is_finite();
-        (sound(millimetre) && sound(rotary_weight) && jerk > 0.0).then(|| Self {
+        let positive = |limits: &Axes| limits.iter().all(|limit| *limit > 0.0);
+        if !(sound(millimetre)
+            && sound(rotary_weight)
+            && default_tolerance >= 0.0
+            && default_tolerance.is_finite()
+            && positive(&limits.acceleration)
+            && positive(&limits.jerk))
+        {
+            return None;
+        }
+        let [x, y, z, _, _, _, u, v, w]: [f64; 9] = limits.jerk.into();
+        let greatest = GREATEST_JERK * millimetre;
+        let linear_jerk = [x, y, z, u, v, w].into_iter().fold(greatest, f64::min);
+        Some(Self {
             millimetre,
             rotary_weight,
-            jerk: jerk.min(GREATEST_JERK * millimetre),
+            default_tolerance,
+            linear_jerk,
+            per_acceleration: limits.acceleration.map(f64::recip),
+            per_jerk: limits.jerk.map(f64::recip),
         })
     }
 
@@ -54,12 +112,13 @@ impl BlendSettings {
     /// From this width on the kernels of dense code hardly limit a `speed` of so many machine units
     /// per second. Machine units.
     pub(super) fn design_width(&self, speed: f64) -> f64 {
-        let (speed, jerk) = (speed / self.millimetre, self.jerk / self.millimetre);
+        let (speed, jerk) = (speed / self.millimetre, self.linear_jerk / self.millimetre);
         let width = 1.8 * (speed / 100.0) * (20_000.0 / jerk).cbrt();
         self.millimetre * width.clamp(LEAST_DESIGN_WIDTH, GREATEST_DESIGN_WIDTH)
     }
 
-    /// What a width is never raised above for the sake of speed, machine units.
+    /// What a width is never raised above for the sake of speed where kernels overlap, machine
+    /// units.
     pub(super) fn greatest_design_width(&self) -> f64 {
         GREATEST_DESIGN_WIDTH * self.millimetre
     }
@@ -69,28 +128,74 @@ impl BlendSettings {
     pub(super) fn full_speed_width(&self, turn: f64, speed: f64) -> f64 {
         // The third derivative of the rounded corner is about 1.44 turn / w^2, and three times as
         // much is left free for changes of the speed.
-        (4.3 * turn * speed * speed * speed / self.jerk).sqrt()
+        (4.3 * turn * speed * speed * speed / self.linear_jerk).sqrt()
     }
 
     /// The width at which a jump of the curvature by `jump`, 1 per machine unit, is run through at
     /// `speed` within the jerk and as much again, machine units.
     pub(super) fn full_speed_easement(&self, jump: f64, speed: f64) -> f64 {
-        2.0 * 1.152 * jump * speed * speed * speed / self.jerk
+        2.0 * 1.152 * jump * speed * speed * speed / self.linear_jerk
     }
 
-    /// The tolerance of G64 for a move of this length. `given` is P, 0 where the program gave
-    /// none. 0 if it is so small that the path is to be followed exactly. Machine units.
-    pub(super) fn tolerance(&self, given: f64, length: f64) -> f64 {
-        let (least, greatest) = DEFAULT_TOLERANCE;
-        if given > LEAST_TOLERANCE * self.millimetre {
-            given
-        } else if given > 0.0 {
-            0.0
+    /// The width at which a corner that stands alone is run through at `speed` within acceleration
+    /// and jerk of all axes, with kernels of this `mix`; machine units. `turn`: jump of dp/ds,
+    /// shape (9).
+    pub(super) fn free_width(&self, turn: &Axes, speed: f64, mix: f64) -> f64 {
+        let size = turn.abs();
+        let bend = size.component_mul(&self.per_acceleration).max();
+        // Also where jerk is not limited nothing is gained by more than this.
+        let twist = size.component_mul(&self.per_jerk).max();
+        let twist = twist.max(size.max() / (GREATEST_JERK * self.millimetre));
+        let square = speed * speed;
+        let by_acceleration = kernel::greatest(mix) * bend * square;
+        let by_jerk = (kernel::steepest(mix) * twist * square * speed).sqrt();
+        (FREE_RESERVE * by_acceleration.max(by_jerk)).min(self.greatest_free_width())
+    }
+
+    /// What [`free_width`](Self::free_width) never exceeds, machine units.
+    pub(super) fn greatest_free_width(&self) -> f64 {
+        GREATEST_FREE_WIDTH * self.millimetre
+    }
+
+    /// How flat or peaked the kernel of a corner should be: its mix, see [`kernel`]. `turn`: jump
+    /// of dp/ds, shape (9); `width`: of its biweight kernel, machine units. `by_tolerance`: whether
+    /// it is the tolerance that the width follows from, not the length of the legs.
+    ///
+    /// What counts is how often the time of a ramp from 0 to the greatest acceleration fits into
+    /// half of the corner, run through at that acceleration. The lines are fitted to measured times
+    /// of squares with legs of 5 mm and random polylines.
+    pub(super) fn corner_mix(&self, turn: &Axes, width: f64, by_tolerance: bool) -> f64 {
+        let size = turn.abs();
+        let bend = size.component_mul(&self.per_acceleration).max();
+        let twist = size.component_mul(&self.per_jerk).max();
+        if !(bend > 0.0 && width > 0.0) {
+            return 0.0;
+        }
+        let ramp = (twist / bend).max(SHORTEST_RAMP);
+        let ramps = (kernel::greatest(0.0) * bend * width).sqrt() / ramp;
+        let mix = if by_tolerance {
+            kernel::GREATEST_PEAKED - 0.2 * (ramps - 2.0)
         } else {
-            // Not `clamp`, which panics if the limits are in the wrong order.
-            (length / 20.0)
-                .max(least * self.millimetre)
-                .min(greatest * self.millimetre)
+            -0.22 * ramps
+        };
+        mix.clamp(-1.0, kernel::GREATEST_PEAKED)
+    }
+
+    /// What G61 and G61.1 allow.
+    pub(super) fn exact(&self) -> Allowance {
+        Allowance::Exact(EXACT_TOLERANCE * self.millimetre)
+    }
+
+    /// What G64 allows. `given` is P, 0 where the program gave none.
+    pub(super) fn allowance(&self, given: f64) -> Allowance {
+        let least = LEAST_TOLERANCE * self.millimetre;
+        if given > least {
+            Allowance::Tolerance(given)
+        } else if given > 0.0 {
+            self.exact()
+        } else {
+            let default = self.default_tolerance;
+            Allowance::HalfLegs(default.max(EXACT_TOLERANCE * self.millimetre))
         }
     }
 }
@@ -99,24 +204,43 @@ impl BlendSettings {
 mod tests {
     use super::*;
 
+    fn limits(jerk: f64) -> AxisLimits {
+        AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(jerk),
+        }
+    }
+
+    fn settings(jerk: f64) -> BlendSettings {
+        BlendSettings::new(1.0, 0.1, 0.02, &limits(jerk)).expect("sound")
+    }
+
     #[test]
     fn only_sound_settings() {
-        assert!(BlendSettings::new(1.0, 0.1, f64::INFINITY).is_some());
-        for (millimetre, weight, jerk) in [
-            (0.0, 0.1, 1.0),
-            (1.0, 0.0, 1.0),
-            (1.0, f64::NAN, 1.0),
-            (f64::INFINITY, 0.1, 1.0),
-            (1.0, 0.1, 0.0),
+        assert!(BlendSettings::new(1.0, 0.1, 0.0, &limits(f64::INFINITY)).is_some());
+        for (millimetre, weight, tolerance, jerk) in [
+            (0.0, 0.1, 0.02, 1.0),
+            (1.0, 0.0, 0.02, 1.0),
+            (1.0, f64::NAN, 0.02, 1.0),
+            (f64::INFINITY, 0.1, 0.02, 1.0),
+            (1.0, 0.1, -0.02, 1.0),
+            (1.0, 0.1, f64::NAN, 1.0),
+            (1.0, 0.1, 0.02, 0.0),
         ] {
-            assert!(BlendSettings::new(millimetre, weight, jerk).is_none());
+            assert!(BlendSettings::new(millimetre, weight, tolerance, &limits(jerk)).is_none());
         }
     }
 
     #[test]
     fn the_same_blends_in_inches() {
-        let metric = BlendSettings::new(1.0, 0.1, 30_000.0).expect("sound");
-        let imperial = BlendSettings::new(1.0 / 25.4, 0.1, 30_000.0 / 25.4).expect("sound");
+        let inches = AxisLimits {
+            velocity: Axes::repeat(100.0 / 25.4),
+            acceleration: Axes::repeat(1000.0 / 25.4),
+            jerk: Axes::repeat(30_000.0 / 25.4),
+        };
+        let metric = settings(30_000.0);
+        let imperial = BlendSettings::new(1.0 / 25.4, 0.1, 0.02 / 25.4, &inches).expect("sound");
         let close = |mm: f64, inch: f64| assert!((mm - 25.4 * inch).abs() < 1e-12 * mm);
         close(
             metric.design_width(50.0),
@@ -130,19 +254,50 @@ mod tests {
             metric.full_speed_easement(0.3, 50.0),
             imperial.full_speed_easement(0.3 * 25.4, 50.0 / 25.4),
         );
-        close(
-            metric.tolerance(0.0, 5.0),
-            imperial.tolerance(0.0, 5.0 / 25.4),
-        );
+        let turn = Axes::repeat(0.3);
+        for speed in [5.0, 50.0, 500.0] {
+            close(
+                metric.free_width(&turn, speed, -0.5),
+                imperial.free_width(&turn, speed / 25.4, -0.5),
+            );
+        }
+        for by_tolerance in [false, true] {
+            let mix = metric.corner_mix(&turn, 2.0, by_tolerance);
+            assert!((-1.0..0.0).contains(&mix) || by_tolerance);
+            assert!((mix - imperial.corner_mix(&turn, 2.0 / 25.4, by_tolerance)).abs() < 1e-12);
+        }
     }
 
     #[test]
-    fn tolerances() {
-        let settings = BlendSettings::new(1.0, 0.1, 1e4).expect("sound");
-        assert_eq!(settings.tolerance(0.3, 5.0), 0.3);
-        assert_eq!(settings.tolerance(0.0, 5.0), 0.25);
-        assert_eq!(settings.tolerance(0.0, 0.01), 0.05);
-        assert_eq!(settings.tolerance(0.0, 1000.0), 0.5);
-        assert_eq!(settings.tolerance(1e-9, 5.0), 0.0);
+    fn corners_are_flat_where_acceleration_limits_and_peaked_where_jerk_does() {
+        let mut turn = Axes::zeros();
+        turn[0] = 1.0;
+        assert_eq!(settings(f64::INFINITY).corner_mix(&turn, 2.0, true), -1.0);
+        assert_eq!(settings(f64::INFINITY).corner_mix(&turn, 2.0, false), -1.0);
+        let peaked = settings(20_000.0).corner_mix(&turn, 0.2, true);
+        assert_eq!(peaked, kernel::GREATEST_PEAKED);
+        let free = settings(20_000.0).corner_mix(&turn, 2.0, false);
+        assert!((-0.5..0.0).contains(&free), "{free}");
+        assert_eq!(BlendSettings::DEFAULT.corner_mix(&turn, 2.0, true), 0.0);
+    }
+
+    #[test]
+    fn a_free_corner_is_as_wide_as_its_feed_wants() {
+        let mut turn = Axes::zeros();
+        turn[1] = 1.0;
+        let settings = settings(f64::INFINITY);
+        let width = settings.free_width(&turn, 100.0, -1.0);
+        // The acceleration in the middle, at 100 mm/s.
+        let acceleration = kernel::greatest(-1.0) / width * 10_000.0;
+        assert!((acceleration * 1.1 - 1000.0).abs() < 1e-9);
+        assert_eq!(settings.free_width(&turn, 1e4, -1.0), 12.0);
+    }
+
+    #[test]
+    fn allowances() {
+        let settings = settings(1e4);
+        assert_eq!(settings.allowance(0.3), Allowance::Tolerance(0.3));
+        assert_eq!(settings.allowance(0.0), Allowance::HalfLegs(0.02));
+        assert_eq!(settings.allowance(1e-9), Allowance::Exact(0.001));
     }
 }

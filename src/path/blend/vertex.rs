@@ -23,8 +23,22 @@ pub(super) const KERNEL_SHARE: f64 = 0.97;
 /// Of the tolerance, what an easement uses.
 const EASEMENT_SHARE: f64 = 0.9;
 
+/// The same for a kernel and an easement where moves are to be followed exactly.
+const EXACT_KERNEL_SHARE: f64 = 0.35;
+const EXACT_EASEMENT_SHARE: f64 = 0.6;
+
+/// Of the room for it, the least width over which a tangent that is not quite one is rounded.
+const LEAST_ROUNDING: f64 = 0.01;
+
+/// Up to this turn of the direction, radians, two moves meet in a tangent: programs round their
+/// coordinates.
+const TANGENT: f64 = 0.01;
+
 /// A kernel this much narrower than half the shorter leg makes an isolated corner.
 const ISOLATED: f64 = 0.5;
+
+/// Below this share of the wider change the sharper one wants nodes of its own.
+const CORE: f64 = 0.6;
 
 /// How far a vertex is smoothed to both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +57,16 @@ impl Widths {
         mix: 0.0,
         easement: 0.0,
     };
+
+    /// How far the sharper one of two changes reaches; 0 if they are of about the same size.
+    pub fn core(&self) -> f64 {
+        let least = self.kernel.min(self.easement);
+        if least < CORE * self.reach() {
+            least
+        } else {
+            0.0
+        }
+    }
 
     /// How far the blended path is changed on both sides.
     #[inline]
@@ -74,14 +98,25 @@ pub(super) struct Vertex {
     pub mean_leg: f64,
     /// The machine comes to rest here.
     pub stop: bool,
-    /// No kernel crosses it, and it has none itself.
+    /// No kernel crosses it. It may have one itself, if it is not a stop.
     pub wall: bool,
     /// Where the nearest wall to the left is.
     pub left_wall: f64,
     /// Where the nearest wall to the right is, infinity where none is known.
     pub right_wall: f64,
-    /// The width for which an isolated corner would use its tolerance.
+    /// Mix of the kernel where it keeps clear of its neighbours'.
+    pub corner_mix: f64,
+    /// The width for which it would then use its tolerance.
     pub corner_width: f64,
+    /// The same with the biweight kernel.
+    pub biweight_width: f64,
+    /// Kernels and easements up to this width need no tolerance: half of the shorter leg under G64
+    /// without P, else 0.
+    pub free_limit: f64,
+    /// What the feed wants of that: the kernel is not made narrower.
+    pub free_kernel: f64,
+    /// The same of the easement.
+    pub free_easement: f64,
     /// Whether its kernel keeps clear of its neighbours' without more ado.
     pub isolated: bool,
     /// What the base width of the kernel is raised to at most.
@@ -98,6 +133,8 @@ pub(super) struct Vertex {
     pub temporary_factor: f64,
     /// Widths under examination.
     pub trial: Widths,
+    /// What of them needs a tolerance.
+    pub counted: Widths,
     /// Widths in force.
     pub stored: Widths,
     /// The factor that belongs to the stored widths.
@@ -123,7 +160,12 @@ impl Vertex {
         wall: true,
         left_wall: 0.0,
         right_wall: f64::INFINITY,
+        corner_mix: 0.0,
         corner_width: 0.0,
+        biweight_width: 0.0,
+        free_limit: 0.0,
+        free_kernel: 0.0,
+        free_easement: 0.0,
         isolated: false,
         design_width: 0.0,
         scanned: 0.0,
@@ -132,6 +174,7 @@ impl Vertex {
         factor: 1.0,
         temporary_factor: 1.0,
         trial: Widths::NONE,
+        counted: Widths::NONE,
         stored: Widths::NONE,
         stored_factor: 1.0,
         marked: false,
@@ -146,16 +189,14 @@ impl Vertex {
         let turn_size = significant(metric.norm(&turn), NO_TURN);
         let jump_size = significant(metric.norm(&jump), NO_JUMP);
         let exact = before.is_exact() || after.is_exact();
-        let stop = before.stop_after
-            || after.stop_before
-            || (exact && (turn_size > 0.0 || jump_size > 0.0));
+        let stop = before.stop_after || after.stop_before || (exact && turn_size > TANGENT);
         let mut vertex = Self {
             s: after.start,
             turn,
             jump,
             turn_size,
             jump_size,
-            tolerance: before.tolerance.min(after.tolerance),
+            tolerance: before.tolerance().min(after.tolerance()),
             half_leg: 0.5 * before.length.min(after.length),
             longer_leg: before.length.max(after.length),
             mean_leg: 0.5 * (before.length + after.length),
@@ -164,39 +205,104 @@ impl Vertex {
             ..Self::VACANT
         };
         if !vertex.wall {
-            let speed = before.speed.max(after.speed);
-            let design_width = before.design_width.max(after.design_width);
-            vertex.find_base_widths(speed, design_width, settings);
+            vertex.find_base_widths(before, after, settings);
+        } else if !stop {
+            vertex.find_exact_widths(before, after, settings);
         }
         vertex
     }
 
-    fn find_base_widths(&mut self, speed: f64, design_width: f64, settings: &BlendSettings) {
+    /// Where moves that are to be followed exactly meet in a tangent: within a tolerance of a
+    /// micrometre. An easement leaves the point itself alone.
+    fn find_exact_widths(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
+        let room = self.half_leg.min(settings.greatest_design_width());
         if self.turn_size > 0.0 {
-            let peak = kernel::PEAK_SECOND_ORDER * self.turn_size;
-            self.corner_width = KERNEL_SHARE * self.tolerance / peak;
-            self.isolated = self.corner_width <= ISOLATED * self.half_leg;
+            let slower = before.speed.min(after.speed);
+            let wanted = settings
+                .free_width(&self.turn, slower, 0.0)
+                .max(LEAST_ROUNDING * room);
+            let within = EXACT_KERNEL_SHARE * self.tolerance / self.turn_size;
+            self.corner_width = within / kernel::peak(0.0);
+            self.biweight_width = self.corner_width;
+            self.isolated = true;
+            self.base.kernel = self.corner_width.min(room).min(wanted);
+        }
+        if self.jump_size > 0.0 {
+            let within = EXACT_EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.jump_size);
+            self.base.easement = within.sqrt().min(room);
+        }
+    }
+
+    fn find_base_widths(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
+        let speed = before.speed.max(after.speed);
+        let design_width = before.design_width.max(after.design_width);
+        if before.allows_half_legs() && after.allows_half_legs() {
+            self.free_limit = before.half_for_corner().min(after.half_for_corner());
+        }
+        if self.turn_size > 0.0 {
+            let within = KERNEL_SHARE * self.tolerance / self.turn_size;
+            self.biweight_width = within / kernel::peak(0.0);
+            // In the slower leg's half the other's feed does not matter.
+            let slower = before.speed.min(after.speed);
+            let (mix, free) = if self.free_limit > 0.0 {
+                let width = settings.free_width(&self.turn, slower, 0.0);
+                let mix = settings.corner_mix(&self.turn, width.min(self.free_limit), false);
+                (mix, settings.free_width(&self.turn, slower, mix))
+            } else {
+                let by_tolerance = self.biweight_width < self.half_leg;
+                let width = self.biweight_width.min(self.half_leg);
+                (settings.corner_mix(&self.turn, width, by_tolerance), 0.0)
+            };
+            self.corner_mix = mix;
+            self.free_kernel = free.min(self.free_limit);
+            self.corner_width = within / kernel::peak(mix);
+            self.isolated = if self.free_limit > 0.0 {
+                free <= self.free_limit
+            } else {
+                self.biweight_width <= ISOLATED * self.half_leg
+            };
             self.scan_done = self.isolated;
-            self.scanned = self.half_leg.min(self.corner_width);
+            self.scanned = self.half_leg.min(self.biweight_width);
             self.design_width = settings
                 .full_speed_width(self.turn_size, speed)
                 .min(self.longer_leg)
                 .max(design_width)
                 .min(settings.greatest_design_width());
-            self.base.kernel = if self.isolated {
-                self.corner_width
-            } else {
-                self.scanned
-            };
+            self.base.kernel = self.width_alone();
         }
         if self.jump_size > 0.0 {
             let within = EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.jump_size);
-            self.base.easement = within.sqrt().min(
-                settings
-                    .full_speed_easement(self.jump_size, speed)
-                    .max(design_width),
-            );
+            let wanted = settings
+                .full_speed_easement(self.jump_size, speed)
+                .max(design_width);
+            self.free_easement = wanted.min(self.free_limit);
+            self.base.easement = within.sqrt().min(wanted).max(self.free_easement);
         }
+    }
+
+    /// The width of the kernel where it keeps clear of its neighbours'.
+    pub fn width_alone(&self) -> f64 {
+        if self.isolated && self.free_limit > 0.0 {
+            self.free_kernel
+        } else {
+            self.corner_width.min(self.half_leg).max(self.free_kernel)
+        }
+    }
+
+    /// Whether its kernel needs no tolerance, whatever its neighbours' are.
+    pub fn is_free(&self) -> bool {
+        self.scan_done && self.base.kernel <= self.free_limit
+    }
+
+    /// Puts widths under examination.
+    pub fn set_trial(&mut self, widths: Widths) {
+        let counted = |width: f64| if width > self.free_limit { width } else { 0.0 };
+        self.trial = widths;
+        self.counted = Widths {
+            kernel: counted(widths.kernel),
+            mix: widths.mix,
+            easement: counted(widths.easement),
+        };
     }
 
     /// The mix of kernels for a width: where kernels of neighbours overlap, the curve that they
@@ -206,7 +312,7 @@ impl Vertex {
         if width > self.half_leg * 1.001 {
             self.overlapping_mix(width)
         } else {
-            0.0
+            self.corner_mix
         }
     }
 
@@ -218,7 +324,12 @@ impl Vertex {
 
     /// Whether there is anything to be smoothed.
     pub fn is_smoothed(&self) -> bool {
-        !self.wall && (self.turn_size > 0.0 || self.jump_size > 0.0)
+        !self.stop && (self.turn_size > 0.0 || self.jump_size > 0.0)
+    }
+
+    /// Whether nothing at all changes the path here.
+    pub fn is_bare_wall(&self) -> bool {
+        self.wall && !self.is_smoothed()
     }
 
     /// How far it might reach in later assignments, going by what is known.

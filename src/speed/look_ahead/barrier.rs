@@ -88,6 +88,9 @@ impl Barrier {
         let bound = self.margin / b.sqrt();
         let bound_slope = -0.5 * bound / b;
         for axis in 0..AXIS_COUNT {
+            if axis >= sample.moving {
+                break;
+            }
             let row = [sample.third[axis], sample.second[axis], sample.first[axis]];
             let [by_b, by_a, by_u] = row;
             if by_b == 0.0 && by_a == 0.0 && by_u == 0.0 {
@@ -226,7 +229,7 @@ mod tests {
         fn is_complete(&self) -> bool {
             true
         }
-        fn speed_cap(&self, _: f64) -> SpeedCap {
+        fn speed_cap(&self, _: f64, _: &Axes) -> SpeedCap {
             SpeedCap {
                 programmed: 50.0,
                 greatest: 60.0,
@@ -275,7 +278,7 @@ mod tests {
             jerk: Axes::repeat(20_000.0),
         };
         let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
-        let samples = [0.0, 0.2, 0.4].map(|s| rows.sample(&Bend, s));
+        let samples = [0.0, 0.2, 0.4].map(|s| rows.sample(&Bend, s, 0.0));
         let samples = samples.each_ref();
         let lengths = [0.3, 0.4, 0.5];
         let coefficients = [900.0, 1050.0, 1100.0];

@@ -5,6 +5,9 @@ use super::route::Route;
 use super::rows::AxisRows;
 use super::spline::Spline;
 
+/// How many vertices tell how dense the path is.
+const VERTICES_COUNTED: usize = 12;
+
 /// The path, the limits, and the plan that a draft continues.
 pub(super) struct DraftContext<'a, R: Route> {
     pub route: &'a R,
@@ -29,6 +32,23 @@ impl<R: Route> DraftContext<'_, R> {
             LASTING
         } else {
             PROVISIONAL
+        }
+    }
+
+    /// How many kernels overlap before `end`, in the mean.
+    pub fn kernels_before(&self, end: f64) -> f64 {
+        let (mut place, mut reaches) = (end, 0.0);
+        for _ in 0..VERTICES_COUNTED {
+            let Some(vertex) = self.route.vertex_before(place) else {
+                break;
+            };
+            place = vertex.position;
+            reaches += 2.0 * vertex.reach;
+        }
+        if place < end {
+            reaches / (end - place)
+        } else {
+            0.0
         }
     }
 }

@@ -2,10 +2,20 @@
 //!
 //! They need not be exact: a slice ends when its units are spent, give or take one step.
 
-/// A try of an arc at rest: five evaluations of the path.
-pub(super) const REST_ARC: u32 = 30;
-/// A node of the grid: two evaluations, seldom six.
-pub(super) const NODE: u32 = 20;
+/// An evaluation of the path and the rows there, where so many kernels overlap in the mean.
+pub(super) fn evaluation(kernels: f64) -> u32 {
+    4 + (0.1 * kernels.clamp(0.0, MOST_KERNELS)) as u32
+}
+/// More never overlap.
+const MOST_KERNELS: f64 = 64.0;
+/// A try of an arc at rest, besides ..
+pub(super) const REST_ARC: u32 = 10;
+/// .. so many evaluations.
+pub(super) const REST_ARC_EVALUATIONS: u32 = 5;
+/// A node of the grid or a vertex that asks for some, besides ..
+pub(super) const NODE: u32 = 8;
+/// .. so many evaluations: two or three, seldom nine.
+pub(super) const NODE_EVALUATIONS: u32 = 3;
 /// The bounds of an interval.
 pub(super) const BOUNDS: u32 = 2;
 /// A coefficient in one direction, or in the hull.

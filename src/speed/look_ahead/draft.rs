@@ -18,7 +18,7 @@ use super::sweeps::{SweepFault, Sweeps};
 
 /// The share of acceleration and jerk that a plan may take at the three points of each interval.
 /// The rest is for what happens in between.
-pub(super) const MARGIN: f64 = 0.98;
+pub(super) const MARGIN: f64 = 0.998;
 
 /// Less than [`MARGIN`], since the polish needs an interior to start from.
 const DRAFT_MARGIN: f64 = MARGIN * 0.9999;
@@ -30,9 +30,13 @@ const SWEEP_MARGINS: [f64; 4] = [0.95, 0.985, 0.97, 0.93];
 /// Drafts that are tried from one beginning.
 const MOST_ATTEMPTS: usize = 9;
 
-/// Intervals that a draft adds at most; a longer one is ended behind [`ENOUGH_INTERVALS`].
+/// Intervals that a draft adds at most; a longer one is ended behind three quarters of them.
 pub(super) const MOST_INTERVALS: usize = 128;
-const ENOUGH_INTERVALS: usize = 96;
+/// The same where the machine is soon to brake: what is short is found soon.
+pub(super) const MOST_URGENT_INTERVALS: usize = 64;
+
+/// How many times its length an interval is away from the rest if that has no influence on it.
+const NODES_BEFORE_REST: f64 = 6.0;
 
 /// What has become of a draft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,10 +82,18 @@ pub(super) struct Draft {
     first_base: usize,
     first: bool,
     cut: usize,
+    /// From here on the nodes are placed in the attempt that is under way.
+    grid_from: usize,
+    /// Whether the bounds of the intervals before that are known.
+    bounded: bool,
     most_start: f64,
     most_end: f64,
     attempt: usize,
     margin: f64,
+    /// Intervals that it adds at most.
+    most: usize,
+    /// Cost of an evaluation of the path.
+    evaluation: u32,
     phase: Phase,
     grid: Grid,
     sweeps: Sweeps,
@@ -94,10 +106,14 @@ impl Draft {
         first_base: 1,
         first: true,
         cut: 1,
+        grid_from: 1,
+        bounded: false,
         most_start: 0.0,
         most_end: 0.0,
         attempt: 0,
         margin: 0.95,
+        most: MOST_INTERVALS,
+        evaluation: 0,
         phase: Phase::Finished(DraftStep::Refused(Refusal::NotFound)),
         grid: Grid::new(),
         sweeps: Sweeps::NONE,
@@ -113,9 +129,13 @@ impl Draft {
     ) {
         self.spline.start = start;
         self.spline.end = end;
+        self.evaluation = cost::evaluation(context.kernels_before(end));
         self.first = true;
+        self.most = MOST_INTERVALS;
+        self.grid.forget();
         self.base = 1;
         self.cut = 1;
+        self.grid_from = 1;
         self.attempt = 0;
         self.margin = MARGIN * SWEEP_MARGINS[failures & 3];
         self.most_start = free_length(context.route, start, end - start);
@@ -124,12 +144,13 @@ impl Draft {
     }
 
     /// Begins the continuation of the plan to a rest at `end`; coefficients up to `base` at least
-    /// stay as they are. `failures` chooses the margin.
+    /// stay as they are. It adds at most `most` intervals. `failures` chooses the margin.
     pub fn begin_extension<R: Route>(
         &mut self,
         context: &DraftContext<R>,
         base: usize,
         end: f64,
+        most: usize,
         failures: usize,
     ) {
         let plan = context.plan;
@@ -138,9 +159,11 @@ impl Draft {
             self.phase = Phase::Finished(DraftStep::Refused(Refusal::TooLate));
             return;
         }
-        self.spline.copy(plan);
+        self.spline.copy_from(plan, base - 2);
         self.spline.end = end;
+        self.evaluation = cost::evaluation(context.kernels_before(end));
         self.first = false;
+        self.most = most;
         self.first_base = base;
         self.attempt = 0;
         self.margin = MARGIN * SWEEP_MARGINS[failures & 3];
@@ -153,6 +176,7 @@ impl Draft {
             cut -= 1;
         }
         self.cut = cut;
+        self.grid_from = cut;
         let total = end - plan.at(cut).start;
         self.most_end = free_length(context.route, end, total).min(0.3 * total);
         self.phase = self.search_end(context);
@@ -167,8 +191,10 @@ impl Draft {
     ) -> DraftStep {
         while *budget > 0 {
             let price = match self.phase {
-                Phase::StartArc(_) | Phase::EndArc(_) => cost::REST_ARC,
-                Phase::Grid => cost::NODE,
+                Phase::StartArc(_) | Phase::EndArc(_) => {
+                    cost::REST_ARC + cost::REST_ARC_EVALUATIONS * self.evaluation
+                }
+                Phase::Grid => cost::NODE + cost::NODE_EVALUATIONS * self.evaluation,
                 Phase::Bounds(_) => cost::BOUNDS,
                 Phase::Check(_) => cost::CHECK,
                 Phase::Finished(step) => return step,
@@ -244,9 +270,13 @@ impl Draft {
         context: &DraftContext<R>,
         samples: &mut SampleBanks,
     ) -> Phase {
-        let cut = self.cut;
-        let bank = context.plan.at(cut).bank ^ 1;
-        if self.first {
+        let from = self.grid_from;
+        let bank = context.plan.at(from).bank ^ 1;
+        if from > self.cut {
+            let Interval { start, length, .. } = *self.spline.at(from);
+            let sample = context.rows.sample(context.route, start, length);
+            samples.place_mut(&self.spline, from).start = sample;
+        } else if self.first {
             let length = self.spline.start_arc.length;
             let start = self.spline.start + length;
             *self.spline.at_mut(0) = Interval {
@@ -259,18 +289,20 @@ impl Draft {
                 bank,
                 ..Interval::NONE
             };
-            let sample = context.rows.sample(context.route, start);
+            let sample = context.rows.sample(context.route, start, 0.0);
             if !sample.is_sound() {
                 return refused(Refusal::Unsound);
             }
-            samples.pair_mut(&self.spline, 1).start = sample;
+            samples.place_mut(&self.spline, 1).start = sample;
         } else {
-            let sample = *samples.start(context.plan, cut);
-            self.spline.at_mut(cut).start = context.plan.at(cut).start;
-            self.spline.at_mut(cut).bank = bank;
-            samples.pair_mut(&self.spline, cut).start = sample;
+            let Interval { start, length, .. } = *context.plan.at(from);
+            let sample = context.rows.sample(context.route, start, length);
+            self.spline.at_mut(from).start = start;
+            self.spline.at_mut(from).bank = bank;
+            samples.place_mut(&self.spline, from).start = sample;
         }
-        self.grid.restart(&self.spline, cut, context.route);
+        self.grid
+            .restart(&self.spline, from, context.route, context.raise_squared);
         Phase::Grid
     }
 
@@ -289,9 +321,7 @@ impl Draft {
             context.oldest,
         );
         match step {
-            GridStep::More if self.grid.reached() > self.cut + MOST_INTERVALS => {
-                self.shorten(context)
-            }
+            GridStep::More if self.grid.reached() > self.cut + self.most => self.shorten(context),
             GridStep::More => Phase::Grid,
             GridStep::TooLong => refused(Refusal::TooLong),
             GridStep::Unsound => refused(Refusal::Unsound),
@@ -299,6 +329,7 @@ impl Draft {
                 // So short that the arcs leave hardly anything between them.
                 self.most_start = 0.35 * self.spline.start_arc.length;
                 self.most_end = 0.35 * self.spline.end_arc.length;
+                self.grid_from = self.cut;
                 self.again().unwrap_or_else(|| self.search_start(context))
             }
             GridStep::Done => {
@@ -306,9 +337,37 @@ impl Draft {
                     let length = self.spline.at(1).length;
                     self.spline.at_mut(0).length = length;
                 }
-                Phase::Bounds(self.base - 1)
+                // Bounds of intervals that were kept are known.
+                let kept = if self.bounded && self.grid_from > self.cut {
+                    self.grid_from - 1
+                } else {
+                    0
+                };
+                Phase::Bounds(kept.max(self.base - 1))
             }
         }
+    }
+
+    /// Keeps the nodes that the rest at the end has no influence on: where it is approached the
+    /// spacing is [`GROWTH`] of the distance from it, however long its arc is. `count` nodes behind
+    /// the cut are known.
+    fn keep_nodes(&mut self, count: usize) {
+        let end = self.spline.end;
+        let mut from = self.cut;
+        for _ in 0..count {
+            let interval = self.spline.at(from);
+            let left = end - interval.start - interval.length;
+            if interval.near_end || left < NODES_BEFORE_REST * interval.length {
+                break;
+            }
+            from += 1;
+        }
+        self.grid_from = from;
+    }
+
+    /// Intervals that a draft which grew too long is ended behind.
+    fn enough(&self) -> usize {
+        self.most - self.most / 4
     }
 
     /// Ends the draft where the grid has come to.
@@ -316,10 +375,12 @@ impl Draft {
         if let Some(refused) = self.again() {
             return refused;
         }
-        let end = self.spline.at(self.cut + ENOUGH_INTERVALS).start;
+        let end = self.spline.at(self.cut + self.enough()).start;
         self.spline.end = end;
         let total = end - self.spline.at(self.cut).start;
         self.most_end = free_length(context.route, end, total);
+        self.keep_nodes(self.enough());
+        self.bounded = false;
         self.search_end(context)
     }
 
@@ -433,6 +494,11 @@ impl Draft {
         self.sweeps.settled()
     }
 
+    /// The first interval that may differ from the plan.
+    pub fn changed(&self) -> usize {
+        if self.first { 0 } else { self.first_base }
+    }
+
     /// The mean length of the intervals that were made.
     pub fn added(&self) -> f64 {
         let count = self.spline.last + 1 - self.cut;
@@ -454,10 +520,13 @@ impl Draft {
         match (at_start, self.first) {
             (false, _) => {
                 self.most_end = 0.3 * self.spline.end_arc.length;
+                self.keep_nodes(last.saturating_sub(self.cut));
+                self.bounded = true;
                 self.search_end(context)
             }
             (true, true) => {
                 self.most_start = 0.3 * self.spline.start_arc.length;
+                self.grid_from = self.cut;
                 self.search_start(context)
             }
             (true, false) => self.advance_base(context, fault),

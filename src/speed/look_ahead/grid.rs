@@ -3,10 +3,10 @@
 //! The spacing is what a change of shape or of the speed cap asks for, grows by [`GROWTH`] of the
 //! distance from it, and is at most what is run in [`FREE_TIME`] at the cap.
 
-use super::feature::{Feature, Features};
+use super::feature::{Feature, Features, before};
 use super::rest_arc::RestArc;
 use super::route::Route;
-use super::rows::{AxisRows, Sample};
+use super::rows::{AxisRows, IntervalSamples, Sample};
 use super::spline::{CAPACITY, Interval, SampleBanks, Spline};
 
 /// How much the spacing grows with the distance from what asked for a small one. Also the spacing
@@ -54,15 +54,20 @@ impl Grid {
         }
     }
 
+    /// The path is another one from now on.
+    pub fn forget(&mut self) {
+        self.features.forget();
+    }
+
     /// Begins at the start of interval `cut`, whose place and sample the draft has.
-    pub fn restart<R: Route>(&mut self, draft: &Spline, cut: usize, route: &R) {
+    pub fn restart<R: Route>(&mut self, draft: &Spline, cut: usize, route: &R, raise_squared: f64) {
         let RestArc { length, .. } = draft.end_arc;
         self.k = cut;
         self.end = draft.end - length;
         self.end_spacing = GROWTH * length;
         let start = draft.at(cut).start;
         let back = route.greatest_reach() * 1.01 + 1e-9 * start.abs();
-        self.features.restart(start - back);
+        self.features.restart(start - back, raise_squared);
     }
 
     /// The interval that comes next.
@@ -70,7 +75,7 @@ impl Grid {
         self.k
     }
 
-    /// Takes a vertex or places a node, at most six evaluations of the path. `oldest` is the first
+    /// Takes a vertex or places a node, at most nine evaluations of the path. `oldest` is the first
     /// interval that is still needed.
     #[allow(
         clippy::too_many_arguments,
@@ -106,7 +111,8 @@ impl Grid {
         if !(length > 0.0 && end > s) {
             return GridStep::Unsound;
         }
-        let (length, end, middle, right) = self.resolve(s, length, end, &left, rows, route);
+        let (length, end, middle, right) =
+            self.resolve(s, length, end, &left, rows, route, raise_squared);
         if !(middle.is_sound() && right.is_sound()) {
             return GridStep::Unsound;
         }
@@ -119,7 +125,15 @@ impl Grid {
             bank: interval.bank,
             ..Interval::NONE
         };
-        samples.pair_mut(draft, k).middle = middle;
+        let samples_here = samples.place_mut(draft, k);
+        samples_here.middle = middle;
+        samples_here.end = right;
+        samples_here.cover(rows, raise_squared);
+        let right = if self.is_on_vertex(end) {
+            rows.sample(route, end, length)
+        } else {
+            right
+        };
         *draft.at_mut(k + 1) = Interval {
             start: end,
             length,
@@ -127,9 +141,11 @@ impl Grid {
             bank: plan.at(k + 1).bank ^ 1,
             ..Interval::NONE
         };
-        let next = samples.pair_mut(draft, k + 1);
-        next.start = right;
-        next.middle = right;
+        *samples.place_mut(draft, k + 1) = IntervalSamples {
+            start: right,
+            middle: right,
+            end: right,
+        };
         if end >= self.end {
             draft.last = k;
             return GridStep::Done;
@@ -194,7 +210,7 @@ impl Grid {
             let free_behind = features
                 .peek()
                 .is_none_or(|other| feature.end <= other.start);
-            if feature.cap_changes {
+            if feature.wants_node() {
                 consider(feature.center);
             }
             if feature.speed > 0.0 && feature.single && free_before && free_behind {
@@ -211,13 +227,34 @@ impl Grid {
     fn cap_change(&self, s: f64, length: f64) -> Option<f64> {
         self.features
             .iter()
-            .filter(|feature| feature.cap_changes)
+            .filter(|feature| feature.wants_node())
             .map(|feature| feature.center)
             .find(|place| place - s >= 1.3 * length && place - s < 2.0 * length)
     }
 
-    /// Shortens an interval at most twice while the third derivative of the path is not resolved
-    /// at the speed to be expected. Returns length, end and the samples at middle and end.
+    /// Whether there is a vertex at `s` that has a node of its own.
+    fn is_on_vertex(&self, s: f64) -> bool {
+        self.features
+            .iter()
+            .any(|feature| feature.wants_node() && feature.center == s)
+    }
+
+    /// The rows at the end of an interval, as they are inside of it.
+    fn sample_end<R: Route>(&self, end: f64, length: f64, rows: &AxisRows, route: &R) -> Sample {
+        let place = if self.is_on_vertex(end) {
+            before(end)
+        } else {
+            end
+        };
+        rows.sample(route, place, length)
+    }
+
+    /// Shortens an interval at most three times while the third derivative of the path is not
+    /// resolved at the speed to be expected. Returns length, end and the samples at middle and end.
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "a struct for one call would hide what is changed"
+    )]
     fn resolve<R: Route>(
         &self,
         s: f64,
@@ -226,19 +263,24 @@ impl Grid {
         left: &Sample,
         rows: &AxisRows,
         route: &R,
+        raise_squared: f64,
     ) -> (f64, f64, Sample, Sample) {
-        let (mut speed, mut finest) = (0.0, f64::INFINITY);
-        for feature in self.features.iter() {
+        let acceleration = rows.acceleration_from_rest(left);
+        let center = s + 0.5 * length;
+        let (mut within, mut most, mut finest) = (false, left.cap(raise_squared), f64::INFINITY);
+        for feature in self.features.iter().filter(|feature| feature.speed > 0.0) {
             let beside = 0.1 * length;
-            if feature.speed > 0.0 && end > feature.start - beside && s < feature.end + beside {
-                speed = f64::max(speed, feature.speed);
+            if end > feature.start - beside && s < feature.end + beside {
+                within = true;
                 finest = finest.min(feature.spacing);
             }
+            most = most.min(feature.greatest_speed_squared(center, acceleration));
         }
-        let cubed = (1.2 * speed) * (1.2 * speed) * (1.2 * speed);
-        let mut middle = rows.sample(route, s + 0.5 * length);
-        let mut right = rows.sample(route, end);
-        for _ in 0..2 {
+        let speed = if within { 1.2 * most.sqrt() } else { 0.0 };
+        let cubed = speed * speed * speed;
+        let mut middle = rows.sample(route, s + 0.5 * length, length);
+        let mut right = self.sample_end(end, length, rows, route);
+        for _ in 0..3 {
             let bulge = middle.third - (left.third + right.third) * 0.5;
             let error = bulge.amax() * cubed;
             if error <= THIRD_DERIVATIVE_ERROR || length <= 0.4 * finest {
@@ -250,8 +292,8 @@ impl Grid {
                 0.7
             };
             end = s + length;
-            middle = rows.sample(route, s + 0.5 * length);
-            right = rows.sample(route, end);
+            middle = rows.sample(route, s + 0.5 * length, length);
+            right = self.sample_end(end, length, rows, route);
         }
         (length, end, middle, right)
     }

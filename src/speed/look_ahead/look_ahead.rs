@@ -42,6 +42,9 @@ const FIRST_TIME: f64 = 0.04;
 /// most.
 const LONGEST_WAIT: u32 = 40;
 
+/// A first plan over less than this share of the path distance waits for more: rounding.
+const LEAST_LENGTH: f64 = 1e-9;
+
 /// A first plan that is refused is made over half the length, this often ..
 const SHORTER_FIRST_PLANS: u32 = 6;
 /// .. and then, as often again, at this share of the programmed speed.
@@ -191,10 +194,10 @@ impl LookAhead {
     fn begin_first<R: Route>(&mut self, route: &R) -> bool {
         let start = self.plan.start;
         let known = route.known_end() - start;
-        if known <= 0.0 {
+        if known <= 0.0 || !route.is_complete() && known <= LEAST_LENGTH * (1.0 + start.abs()) {
             return false;
         }
-        let SpeedCap { programmed, .. } = route.speed_cap(start);
+        let SpeedCap { programmed, .. } = route.speed_cap(start, &route.point(start).first);
         let halvings = self.state.failures.min(SHORTER_FIRST_PLANS);
         let most = FIRST_TIME * programmed;
         if known > self.state.seen {
@@ -261,7 +264,13 @@ impl LookAhead {
     fn begin_extension<R: Route>(&mut self, route: &R, committed: usize, gain: f64) {
         self.state.steps = 0;
         self.state.waited = 0;
-        let share = EXTENSION / f64::from(1 + self.state.failures % 3);
+        // The less time there is, the shorter: what is short is found soon.
+        let (hurry, most) = if self.brakes_within(URGENT) {
+            (0.5, draft::MOST_URGENT_INTERVALS)
+        } else {
+            (1.0, draft::MOST_INTERVALS)
+        };
+        let share = hurry * EXTENSION / f64::from(1 + self.state.failures % 3);
         let step = share * self.state.spacing;
         let end = if gain > 1.5 * step {
             self.plan.end + step
@@ -285,7 +294,7 @@ impl LookAhead {
         .max(committed + 1);
         let failures = context_failures(self.state.failures);
         let (context, draft) = self.context(route);
-        draft.begin_extension(&context, base, end, failures);
+        draft.begin_extension(&context, base, end, most, failures);
         self.state.drafting = true;
     }
 
@@ -353,7 +362,8 @@ impl LookAhead {
         let base = self.draft.base;
         let added = self.draft.added();
         self.state.spacing = added;
-        self.plan.copy(&self.draft.spline);
+        self.plan
+            .copy_from(&self.draft.spline, self.draft.changed());
         self.state.polished = base;
         self.state.settled = self
             .draft

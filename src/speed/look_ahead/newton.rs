@@ -32,7 +32,7 @@ const RESISTANCE_DECAY: f64 = 0.6;
 const GREATEST_RESISTANCE: f64 = 1e6;
 /// What the weight of the barrier is multiplied by after a step of at least [`GOOD_STEP`].
 const BARRIER_DECAY: f64 = 0.6;
-const LEAST_BARRIER: f64 = 0.003;
+const LEAST_BARRIER: f64 = 0.0015;
 const GOOD_STEP: f64 = 0.3;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use crate::axes::AXIS_COUNT;
 
 /// The share of the limits that an arc may take: less than what the interval beside it is held
 /// to, so that the two fit together.
-const MARGIN: f64 = 0.978;
+const MARGIN: f64 = 0.996;
 
 /// The share of acceleration and jerk that curvature alone may take: a little less than what the
 /// sweeps leave to it.
@@ -70,7 +70,7 @@ impl RestArc {
     fn fits<R: Route>(&self, rows: &AxisRows, route: &R, s: f64, direction: f64) -> f64 {
         let mut jerk = self.jerk;
         for share in [1.0, 0.75, 0.5, 0.25, 0.1] {
-            let sample = rows.sample(route, s + direction * self.length * share);
+            let sample = rows.sample(route, s + direction * self.length * share, 0.0);
             let root = f64::cbrt(share);
             let v = self.velocity() * root * root;
             let a = self.acceleration() * root;
@@ -124,7 +124,7 @@ impl RestArcSearch {
         acceleration_share: f64,
         raise_squared: f64,
     ) -> Self {
-        let rest = rows.sample(route, place);
+        let rest = rows.sample(route, place, 0.0);
         let jerk = MARGIN / rest.first.amax();
         let time = acceleration_share * rows.acceleration_from_rest(&rest) / jerk;
         let length = (jerk * time * time * time / 6.0).min(most);
@@ -164,7 +164,7 @@ pub(super) fn free_length<R: Route>(route: &R, place: f64, total: f64) -> f64 {
     let mut free = 0.1 * total;
     let known = route.known_end();
     let mut consider = |vertex: &Vertex| {
-        if vertex.reach > 0.0 && vertex.position <= known {
+        if vertex.reach > 0.0 && vertex.position - vertex.reach <= known {
             let gap = (vertex.position - place).abs() - vertex.reach;
             free = free.min((0.15 * gap).max(vertex.reach / 24.0));
         }

@@ -1,5 +1,6 @@
 //! What the look-ahead has to know of a path.
 
+use crate::axes::Axes;
 use crate::path::PathPoint;
 
 /// How fast the program lets a place of the path be run, as ds/dt. Positive, may be infinite.
@@ -18,6 +19,8 @@ pub struct Vertex {
     pub position: f64,
     /// How far the change of shape extends to both sides, 0 if there is none.
     pub reach: f64,
+    /// How far a sharper change in the middle of it extends to both sides, 0 if there is none.
+    pub core: f64,
     /// Whether the speed cap differs on both sides.
     pub cap_changes: bool,
 }
@@ -37,8 +40,9 @@ pub trait Route {
     /// Whether the motion has to end at the known end. Once `true`, it stays so.
     fn is_complete(&self) -> bool;
 
-    /// The speed cap at `s`, on a change the lower one of both sides.
-    fn speed_cap(&self, s: f64) -> SpeedCap;
+    /// The speed cap at `s`, on a change the lower one of both sides. `first`: dq/ds there, of
+    /// [`Self::point`].
+    fn speed_cap(&self, s: f64, first: &Axes) -> SpeedCap;
 
     /// The first vertex with a position greater than `s`.
     fn vertex_after(&self, s: f64) -> Option<Vertex>;

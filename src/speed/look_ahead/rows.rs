@@ -15,6 +15,18 @@ use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
 const ZERO: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
 const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
 
+/// The share of a cap of v^2 that is used: between the places that are looked at a little more may
+/// be taken.
+const CAP_SHARE: f64 = 0.9994;
+/// Between these places the acceleration may exceed what is allowed there by this share of its
+/// limit ..
+const ACCELERATION_BETWEEN: f64 = 2e-3;
+/// .. and the jerk by this one: what is seen of it once a servo period is a mean.
+const JERK_BETWEEN: f64 = 0.03;
+
+/// The most that is set aside for what happens between the places that are looked at.
+const MOST_EXCESS: f64 = 0.05;
+
 /// The greatest v^2 that is ever planned. Nothing real comes near it; it keeps sums finite where
 /// neither the program nor an axis limits the speed.
 const GREATEST_SPEED_SQUARED: f64 = 1e16;
@@ -75,17 +87,26 @@ impl AxisRows {
         }
     }
 
-    /// The rows at `s`.
-    pub fn sample<R: Route>(&self, route: &R, s: f64) -> Sample {
+    /// The rows at `s`, in the middle of a stretch of the given `length` or at its end: the caps of
+    /// three such places hold in between. 0 where a place stands for itself.
+    pub fn sample<R: Route>(&self, route: &R, s: f64, length: f64) -> Sample {
         let point = route.point(s);
+        let third = self.map.apply(&point.third);
+        // Between two places q' may be greater than at both, by what it bends in half of the way.
+        let beside = length * length / 16.0;
         let first = self.map.apply(&point.first);
         let SpeedCap {
             programmed,
             greatest,
-        } = route.speed_cap(s);
+        } = route.speed_cap(s, &point.first);
+        let second = self.map.apply(&point.second);
         let mut most = (greatest * greatest).min(GREATEST_SPEED_SQUARED);
+        let mut moving = 0;
         for axis in 0..AXIS_COUNT {
-            let slope = first[axis].abs();
+            let slope = first[axis].abs() + third[axis].abs() * beside;
+            if slope > 0.0 || second[axis] != 0.0 {
+                moving = axis + 1;
+            }
             if slope > 0.0 {
                 let speed = self.velocity[axis] / slope;
                 most = most.min(speed * speed);
@@ -93,17 +114,11 @@ impl AxisRows {
         }
         Sample {
             first: first.component_mul(&self.inverse_jerk),
-            second: self
-                .map
-                .apply(&point.second)
-                .component_mul(&self.inverse_jerk)
-                * 3.0,
-            third: self
-                .map
-                .apply(&point.third)
-                .component_mul(&self.inverse_jerk),
-            programmed: programmed * programmed,
-            greatest: most,
+            second: second.component_mul(&self.inverse_jerk) * 3.0,
+            third: third.component_mul(&self.inverse_jerk),
+            programmed: programmed * programmed * CAP_SHARE,
+            greatest: most * CAP_SHARE,
+            moving,
         }
     }
 
@@ -129,7 +144,7 @@ impl AxisRows {
     }
 
     /// Whether an interval keeps the share `margin` of all limits at its start, middle and end,
-    /// and may be described by them.
+    /// hardly exceeds them in between, and may be described by these places.
     #[inline]
     pub fn keeps(
         &self,
@@ -141,16 +156,57 @@ impl AxisRows {
         if parabola.is_degenerate() {
             return false;
         }
-        let places = [0.0, 0.5 * parabola.length, parabola.length];
-        places.into_iter().zip(samples).all(|(x, sample)| {
-            let (b, a) = parabola.at(x);
-            let acceleration = self.acceleration_row(sample, b, a);
-            let jerk = sample.jerk_row(b, a, parabola.u);
-            b > 0.0
-                && b <= sample.cap(raise_squared)
-                && acceleration <= margin
-                && jerk * jerk * b <= margin * margin
-        })
+        let half = 0.5 * parabola.length;
+        let [(b0, a0), (b1, a1), (b2, a2)] = [0.0, half, parabola.length].map(|x| parabola.at(x));
+        let [cap0, cap1, cap2] = samples.map(|sample| sample.cap(raise_squared));
+        let capped = b0 > 0.0 && b1 > 0.0 && b2 > 0.0 && b0 <= cap0 && b1 <= cap1 && b2 <= cap2;
+        // Half of the way between two places b exceeds their mean by this.
+        let bulge = -0.25 * parabola.u * half * half;
+        let kept = 0.5 * (b0 + b1) + bulge <= 0.5 * (cap0 + cap1)
+            && 0.5 * (b1 + b2) + bulge <= 0.5 * (cap1 + cap2);
+        if !(capped && kept) {
+            return false;
+        }
+        let u = parabola.u;
+        let [v0, v1, v2] = [b0.sqrt(), b1.sqrt(), b2.sqrt()];
+        let [start, middle, end] = samples;
+        let (mut acceleration, mut jerk) = (0.0, 0.0);
+        let moving = start.moving.max(middle.moving).max(end.moving);
+        for axis in 0..AXIS_COUNT {
+            if axis >= moving {
+                break;
+            }
+            let time = self.jerk_time[axis];
+            let row = |sample: &Sample, b: f64, a: f64| {
+                (sample.first[axis] * a + sample.second[axis] * (b / 3.0)) * time
+            };
+            let rows = [row(start, b0, a0), row(middle, b1, a1), row(end, b2, a2)];
+            acceleration = f64::max(acceleration, greatest(rows, ACCELERATION_BETWEEN));
+            let row = |sample: &Sample, b: f64, a: f64, v: f64| {
+                (sample.first[axis] * u + sample.second[axis] * a + sample.third[axis] * b) * v
+            };
+            let rows = [
+                row(start, b0, a0, v0),
+                row(middle, b1, a1, v1),
+                row(end, b2, a2, v2),
+            ];
+            jerk = f64::max(jerk, greatest(rows, JERK_BETWEEN));
+        }
+        acceleration <= margin && jerk <= margin
+    }
+}
+
+/// The greatest amount of three values at start, middle and end, and of the parabola through them,
+/// of which `between` is for free.
+#[inline]
+fn greatest([start, middle, end]: [f64; 3], between: f64) -> f64 {
+    let at_places = start.abs().max(middle.abs()).max(end.abs());
+    let slope = 0.5 * (end - start);
+    let bend = start + end - 2.0 * middle;
+    if slope.abs() < bend.abs() {
+        at_places.max((middle - 0.5 * slope * slope / bend).abs() - between)
+    } else {
+        at_places
     }
 }
 
@@ -167,6 +223,8 @@ pub(super) struct Sample {
     programmed: f64,
     /// v^2 that neither override nor axes exceed.
     greatest: f64,
+    /// The last axis that moves, and one: rows of axes from here on are 0.
+    pub moving: usize,
 }
 
 impl Sample {
@@ -176,6 +234,7 @@ impl Sample {
         third: ZERO,
         programmed: 0.0,
         greatest: 0.0,
+        moving: 0,
     };
 
     /// The cap of v^2 while the program's caps are raised by sqrt(`raise_squared`).
@@ -188,17 +247,6 @@ impl Sample {
     pub fn is_sound(&self) -> bool {
         let sum = self.first.sum() + self.second.sum() + self.third.sum();
         sum.is_finite() && self.programmed > 0.0 && self.greatest > 0.0
-    }
-
-    /// The greatest |q' u + 3 q'' a + q''' b| / J of an axis.
-    #[inline]
-    pub fn jerk_row(&self, b: f64, a: f64, u: f64) -> f64 {
-        let mut most = 0.0;
-        for axis in 0..AXIS_COUNT {
-            let row = self.first[axis] * u + self.second[axis] * a + self.third[axis] * b;
-            most = f64::max(most, row.abs());
-        }
-        most
     }
 
     /// The speed at which curvature alone takes an axis to its acceleration or jerk.
@@ -214,16 +262,51 @@ impl Sample {
     }
 }
 
-/// The samples of an interval: its start and its middle. The end is the start of the next one.
+/// The samples of an interval, at start and end as they are inside of it: where two legs meet the
+/// third derivative of the path may jump.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SamplePair {
+pub(super) struct IntervalSamples {
     pub start: Sample,
     pub middle: Sample,
+    pub end: Sample,
 }
 
-impl SamplePair {
+impl IntervalSamples {
     pub const NONE: Self = Self {
         start: Sample::NONE,
         middle: Sample::NONE,
+        end: Sample::NONE,
     };
+
+    /// Makes room for what happens between the three places.
+    ///
+    /// Between three values a parabola exceeds them by an eighth of their second difference at
+    /// most. How much that is of the limits depends on the speed, which is at most what cap and
+    /// curvature allow.
+    pub fn cover(&mut self, rows: &AxisRows, raise_squared: f64) {
+        let [start, middle, end] = [&self.start, &self.middle, &self.end];
+        let mut speed = f64::INFINITY;
+        for sample in [start, middle, end] {
+            speed = speed
+                .min(sample.cap(raise_squared).sqrt())
+                .min(sample.curve_speed(rows));
+        }
+        if !speed.is_finite() {
+            return;
+        }
+        let second = (start.second + end.second - middle.second * 2.0).abs();
+        let third = (start.third + end.third - middle.third * 2.0).abs();
+        let mut excess = 0.0;
+        for axis in 0..AXIS_COUNT {
+            let acceleration = second[axis] * rows.jerk_time[axis] / 3.0 * speed * speed;
+            let jerk = third[axis] * speed * speed * speed;
+            excess = f64::max(excess, acceleration.max(0.5 * jerk));
+        }
+        let factor = 1.0 + (0.125 * excess).min(MOST_EXCESS);
+        for sample in [&mut self.start, &mut self.middle, &mut self.end] {
+            sample.first *= factor;
+            sample.second *= factor;
+            sample.third *= factor;
+        }
+    }
 }

@@ -12,7 +12,7 @@
 
 use super::interval::Parabola;
 use super::rest_arc::RestArc;
-use super::rows::{Sample, SamplePair};
+use super::rows::{IntervalSamples, Sample};
 
 /// How many intervals there are from the oldest one that is needed. A power of two, so that a
 /// masked index is in range for the compiler too.
@@ -80,10 +80,10 @@ impl Spline {
         end: 0.0,
     };
 
-    /// Becomes what another plan is, without a copy on the stack.
-    pub fn copy(&mut self, other: &Self) {
-        for (to, from) in self.intervals.iter_mut().zip(&other.intervals) {
-            *to = *from;
+    /// Becomes what another plan is from interval `first` on, without a copy on the stack.
+    pub fn copy_from(&mut self, other: &Self, first: usize) {
+        for k in (first..other.last + 2).take(CAPACITY) {
+            *self.at_mut(k) = *other.at(k);
         }
         self.last = other.last;
         self.start_arc = other.start_arc;
@@ -158,33 +158,32 @@ impl Spline {
 /// plan stays whole until the draft replaces it.
 #[derive(Debug)]
 pub(super) struct SampleBanks {
-    banks: [[SamplePair; CAPACITY]; 2],
+    banks: [[IntervalSamples; CAPACITY]; 2],
 }
 
 impl SampleBanks {
     pub const NONE: Self = Self {
-        banks: [[SamplePair::NONE; CAPACITY]; 2],
+        banks: [[IntervalSamples::NONE; CAPACITY]; 2],
     };
 
     #[inline]
-    fn pair(&self, spline: &Spline, k: usize) -> &SamplePair {
+    fn place(&self, spline: &Spline, k: usize) -> &IntervalSamples {
         &self.banks[spline.at(k).bank & 1][k & MASK]
     }
 
-    pub fn pair_mut(&mut self, spline: &Spline, k: usize) -> &mut SamplePair {
+    pub fn place_mut(&mut self, spline: &Spline, k: usize) -> &mut IntervalSamples {
         &mut self.banks[spline.at(k).bank & 1][k & MASK]
     }
 
     /// The sample at node k.
     pub fn start(&self, spline: &Spline, k: usize) -> &Sample {
-        &self.pair(spline, k).start
+        &self.place(spline, k).start
     }
 
     /// The samples at start, middle and end of interval k.
     #[inline]
     pub fn of(&self, spline: &Spline, k: usize) -> [&Sample; 3] {
-        let pair = self.pair(spline, k);
-        let next = self.pair(spline, k + 1);
-        [&pair.start, &pair.middle, &next.start]
+        let IntervalSamples { start, middle, end } = self.place(spline, k);
+        [start, middle, end]
     }
 }

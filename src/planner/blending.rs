@@ -1,0 +1,98 @@
+//! How far the path may leave the program where the program does not say.
+
+use crate::axes::AxisLimits;
+use crate::moves::{MoveQueue, TerminationCondition};
+use crate::path::blend::BlendSettings;
+
+/// Moves that are looked at for the first tolerance of a program.
+const MOVES: u64 = 16;
+
+/// Why settings were refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BlendingError {
+    /// The length of a millimetre is not a positive, finite number.
+    Millimetre,
+    /// The tolerance of rotary axes is negative or not finite.
+    RotaryTolerance,
+    /// The tolerance for G64 without P is negative or not finite.
+    DefaultTolerance,
+}
+
+/// What a machine's configuration says about blending, and the weight of rotary axes that follows.
+#[derive(Clone, Copy, Debug)]
+pub struct Blending {
+    /// The length of a millimetre in machine units.
+    millimetre: f64,
+    /// How far rotary axes may leave the program where P is given, degrees; 0: by as many degrees
+    /// as P has millimetres.
+    rotary_tolerance: f64,
+    /// The tolerance of runs of short moves under G64 without P, machine units.
+    default_tolerance: f64,
+    /// Machine units that count as much as a degree of A B C.
+    weight: f64,
+}
+
+impl Blending {
+    /// The tolerance of runs of short moves under G64 without P, machine units.
+    pub const DEFAULT_TOLERANCE: f64 = 0.02;
+
+    /// A machine in millimetres.
+    pub const DEFAULT: Self = Self {
+        millimetre: 1.0,
+        rotary_tolerance: 0.0,
+        default_tolerance: Self::DEFAULT_TOLERANCE,
+        weight: 1.0,
+    };
+
+    pub(super) fn set(
+        &mut self,
+        millimetre: f64,
+        rotary_tolerance: f64,
+        default_tolerance: f64,
+    ) -> Result<(), BlendingError> {
+        let not_negative = |value: f64| value >= 0.0 && value.is_finite();
+        if !(millimetre > 0.0 && millimetre.is_finite()) {
+            return Err(BlendingError::Millimetre);
+        }
+        if !not_negative(rotary_tolerance) {
+            return Err(BlendingError::RotaryTolerance);
+        }
+        if !not_negative(default_tolerance) {
+            return Err(BlendingError::DefaultTolerance);
+        }
+        self.millimetre = millimetre;
+        self.rotary_tolerance = rotary_tolerance;
+        self.default_tolerance = default_tolerance;
+        Ok(())
+    }
+
+    /// What no tolerance P may exceed so that rotary axes keep theirs, machine units.
+    pub(super) fn greatest_tolerance(&self) -> f64 {
+        if self.rotary_tolerance > 0.0 {
+            self.weight * self.rotary_tolerance
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// The settings of a path that begins with the first move of the queue. Finds the weight of
+    /// rotary axes: linear and rotary axes use up their tolerances together.
+    pub(super) fn settings(&mut self, queue: &MoveQueue, limits: &AxisLimits) -> BlendSettings {
+        self.weight = self.millimetre;
+        if self.rotary_tolerance > 0.0 {
+            let first = queue.first_serial();
+            let given = (first..first + MOVES)
+                .filter_map(|serial| queue.get(serial))
+                .find_map(|queued| match queued.termination {
+                    TerminationCondition::Continuous { tolerance } if tolerance > 0.0 => {
+                        Some(tolerance)
+                    }
+                    _ => None,
+                });
+            let tolerance = given.unwrap_or(self.default_tolerance.max(1e-4 * self.millimetre));
+            self.weight = tolerance / self.rotary_tolerance;
+        }
+        BlendSettings::new(self.millimetre, self.weight, self.default_tolerance, limits)
+            .unwrap_or(BlendSettings::DEFAULT)
+    }
+}

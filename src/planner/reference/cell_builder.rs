@@ -1,0 +1,274 @@
+//! One servo period of the reference, put together from stretches of pieces.
+
+use super::piece::{Law, Piece};
+use crate::axes::{Axes, MachineMap};
+use crate::cycle::Cell;
+use crate::moves::MoveQueue;
+use crate::path::PathPoint;
+use crate::path::blend::BlendedPath;
+use crate::speed::ProfileState;
+
+/// A profile has seven phases at most, so a stretch is cut at most this often.
+const MOST_PHASES: usize = 8;
+
+/// How far before its end a stretch is looked at, share of its half.
+const BESIDE: f64 = 1e-6;
+
+/// A cell that is being filled.
+#[derive(Debug)]
+pub(super) struct CellBuilder {
+    cell: Option<Cell>,
+    filled: f64,
+}
+
+/// What lies under a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ground<'a> {
+    pub path: &'a BlendedPath,
+    pub queue: &'a MoveQueue,
+    pub map: &'a MachineMap,
+}
+
+impl CellBuilder {
+    pub const fn new() -> Self {
+        Self {
+            cell: None,
+            filled: 0.0,
+        }
+    }
+
+    pub fn clear(&mut self) {
+        *self = Self::new();
+    }
+
+    /// Seconds of the cell that have been added.
+    pub fn filled(&self) -> f64 {
+        self.filled
+    }
+
+    /// Hands the cell out, `None` if nothing has been added, and begins the next one.
+    pub fn take(&mut self) -> Option<Cell> {
+        self.filled = 0.0;
+        self.cell.take()
+    }
+
+    /// Adds the time from `from` to `to` of a piece, as the axes of the machine see it.
+    pub fn add(&mut self, piece: &Piece, ground: &Ground, from: f64, to: f64) {
+        let mut start = from;
+        for _ in 0..MOST_PHASES {
+            let end = piece.next_jump(start).min(to);
+            self.add_phase(piece, ground, start, end);
+            start = end;
+            if start >= to {
+                break;
+            }
+        }
+        self.filled += to - from;
+    }
+
+    /// Adds a stretch without jumps of acceleration or jerk.
+    fn add_phase(&mut self, piece: &Piece, ground: &Ground, from: f64, to: f64) {
+        let middle = 0.5 * (from + to);
+        let at = |t, back| Derivatives::at(piece, ground.path, t, middle, back).behind(ground.map);
+        let first = at(from, 0.0);
+        let second = at(middle, 0.0);
+        // Where the stretch ends with a leg, the third derivative of the path may jump.
+        let back = BESIDE * (second.along.distance - first.along.distance);
+        let third = at(to, back);
+        let cell = self
+            .cell
+            .get_or_insert_with(|| first.cell(piece, ground, &second));
+        // A parabola through three values exceeds its ends by no more than the middle value
+        // exceeds their mean; a smooth curve over a small angle hardly differs from it.
+        let bulge = |a: &Axes, b: &Axes, c: &Axes| (b - (a + c) * 0.5).abs();
+        let acceleration = bulge(
+            &first.acceleration,
+            &second.acceleration,
+            &third.acceleration,
+        );
+        let jerk = bulge(&first.jerk, &second.jerk, &third.jerk);
+        for end in [&first, &third] {
+            widen(cell, &end.acceleration, &acceleration, &end.jerk, &jerk);
+            cell.feed_ratio = cell.feed_ratio.max(end.slope);
+        }
+    }
+}
+
+/// Makes the bounds of a cell hold for two values, each give or take its margin.
+fn widen(
+    cell: &mut Cell,
+    acceleration: &Axes,
+    acceleration_margin: &Axes,
+    jerk: &Axes,
+    jerk_margin: &Axes,
+) {
+    cell.acceleration_min = cell
+        .acceleration_min
+        .inf(&(acceleration - acceleration_margin));
+    cell.acceleration_max = cell
+        .acceleration_max
+        .sup(&(acceleration + acceleration_margin));
+    cell.jerk_min = cell.jerk_min.inf(&(jerk - jerk_margin));
+    cell.jerk_max = cell.jerk_max.sup(&(jerk + jerk_margin));
+}
+
+/// Derivatives of a reference by its time.
+struct Derivatives {
+    velocity: Axes,
+    acceleration: Axes,
+    jerk: Axes,
+    along: ProfileState,
+    /// Length of dq/ds: less than 1 where a corner is rounded.
+    slope: f64,
+}
+
+impl Derivatives {
+    /// At time `t` of a piece, in the phase at `within`; the path is taken `back` before.
+    fn at(piece: &Piece, path: &BlendedPath, t: f64, within: f64, back: f64) -> Self {
+        let along = piece.state(t, within);
+        let PathPoint {
+            first,
+            second,
+            third,
+            ..
+        } = piece.point(path, along.distance - back);
+        let (v, a, j) = (along.velocity, along.acceleration, along.jerk);
+        Self {
+            velocity: first * v,
+            acceleration: first * a + second * (v * v),
+            jerk: first * j + second * (3.0 * v * a) + third * (v * v * v),
+            slope: path.distance(&first),
+            along,
+        }
+    }
+
+    /// The same for the axes of the machine.
+    fn behind(self, map: &MachineMap) -> Self {
+        Self {
+            velocity: map.apply(&self.velocity),
+            acceleration: map.apply(&self.acceleration),
+            jerk: map.apply(&self.jerk),
+            ..self
+        }
+    }
+
+    /// A cell that starts here; `inside` lies in its first stretch.
+    fn cell(&self, piece: &Piece, ground: &Ground, inside: &Self) -> Cell {
+        // In the first stretch, since at its start the move before may end.
+        let leg = ground.path.leg(inside.along.distance);
+        let rate = leg.map_or(1.0, |leg| leg.measure_rate);
+        let serial = match &piece.law {
+            Law::Move(law) => Some(law.serial),
+            Law::Run(_) => leg.map(|leg| leg.serial),
+        };
+        let queued = serial.and_then(|serial| ground.queue.get(serial));
+        Cell {
+            velocity: self.velocity,
+            acceleration: self.acceleration,
+            acceleration_min: self.acceleration,
+            acceleration_max: self.acceleration,
+            jerk_min: self.jerk,
+            jerk_max: self.jerk,
+            path_velocity: rate * self.along.velocity,
+            path_acceleration: rate * self.along.acceleration,
+            feed_ratio: self.slope,
+            programmed_feed: queued.map_or(f64::INFINITY, |queued| {
+                queued
+                    .synchronisation
+                    .map_or(queued.feed, |with| with.per_turn)
+            }),
+            per_turn: queued.is_some_and(|queued| queued.synchronisation.is_some()),
+            rapid: queued.is_some_and(|queued| queued.motion_type.is_rapid()),
+            override_enabled: queued.is_some_and(|queued| queued.override_enabled()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    use super::super::piece::MoveLaw;
+    use super::*;
+    use crate::moves::TerminationCondition;
+    use crate::path::blend::{BlendSettings, ProgrammedMove};
+    use crate::path::{Arc9, Circle, Shape};
+    use crate::speed::{JerkLimitedProfile, PathLimits};
+
+    /// The path of a circle from rest to rest, on the heap since it is larger than a stack.
+    fn with_circle<R: Send>(radius: f64, test: impl FnOnce(&BlendedPath, &Shape) -> R + Send) -> R {
+        let run = || {
+            let mut start = Axes::zeros();
+            start[0] = radius;
+            let mut end = start;
+            end[5] = 7.0;
+            let circle = Circle {
+                center: Vector3::zeros(),
+                normal: Vector3::new(0.1, 0.2, 1.0),
+                turn: 1,
+            };
+            let shape = Shape::Arc(Arc9::new(&start, &end, &circle).expect("an arc"));
+            let mut path = BlendedPath::new();
+            path.restart(&BlendSettings::DEFAULT, &start);
+            path.add(&ProgrammedMove {
+                serial: 0,
+                shape,
+                feed: 1.0,
+                greatest_feed: 1.0,
+                termination: TerminationCondition::Stop,
+                stop_before: false,
+                separate: false,
+            })
+            .expect("room");
+            path.step(1000);
+            assert!(path.final_end() > 0.0);
+            test(&path, &shape)
+        };
+        std::thread::scope(|scope| {
+            let thread = std::thread::Builder::new().stack_size(64 << 20);
+            let handle = thread.spawn_scoped(scope, run).expect("a thread");
+            handle
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// The executor trusts the bounds: nothing inside a cell may be beyond them.
+        #[test]
+        fn bounds_hold_everywhere_in_the_cell(
+            (radius, feed) in ((-4.0..4.0f64).prop_map(f64::exp), (0.0..5.0f64).prop_map(f64::exp)),
+            (from, share, inside) in (0.0..1.0f64, 0.0..1.0f64, 0.0..=1.0f64),
+        ) {
+            // What one axis with 1000 mm/s2 and 20000 mm/s3 allows on this circle.
+            let velocity = feed.min((500.0 * radius).sqrt()).min((10_000.0 * radius * radius).cbrt());
+            let limits = PathLimits { velocity, acceleration: 500.0, jerk: 10_000.0 };
+            with_circle(radius, |path, shape| {
+                let profile = JerkLimitedProfile::rest_to_rest(shape.length(), &limits);
+                let duration = profile.duration();
+                let end = path.final_end();
+                let law = MoveLaw { serial: 0, start: 0.0, end, rate: end / shape.length(), profile, cap: feed };
+                let piece = Piece { law: Law::Move(law), duration };
+                let begin = from * duration;
+                let finish = (begin + 1e-3 * share.max(0.01)).min(duration);
+                let mut builder = CellBuilder::new();
+                let queue = MoveQueue::new();
+                builder.add(&piece, &Ground { path, queue: &queue, map: &MachineMap::IDENTITY }, begin, finish);
+                prop_assert!((builder.filled() - (finish - begin)).abs() < 1e-15);
+                let cell = builder.take().expect("a cell");
+                let t = begin + inside * (finish - begin);
+                let here = Derivatives::at(&piece, path, t, t, 0.0);
+                for axis in 0..9 {
+                    // A parabola stands for the curve: a thousandth of the limits is left to it.
+                    let (a, j) = (here.acceleration[axis], here.jerk[axis]);
+                    prop_assert!(a >= cell.acceleration_min[axis] - 1.0 && a <= cell.acceleration_max[axis] + 1.0);
+                    prop_assert!(j >= cell.jerk_min[axis] - 20.0 && j <= cell.jerk_max[axis] + 20.0);
+                }
+                Ok(())
+            })?;
+        }
+    }
+}

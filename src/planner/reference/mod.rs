@@ -1,0 +1,20 @@
+//! The reference: a trajectory through the queued moves, in a time of its own that starts at 0.
+//!
+//! ```text
+//! queue -> supply -> blended path -> run (look-ahead, or a single move) -> pieces -> cells
+//! ```
+//!
+//! What is always true of it: it keeps the limits of the axes; what it has handed out as cells
+//! never changes; and wherever the queue ends it comes to rest, so that the executor can finish
+//! what it was given whether or not more moves arrive.
+
+mod cell_builder;
+mod outlook;
+mod piece;
+#[allow(clippy::module_inception, reason = "the type that the folder is about")]
+mod reference;
+mod run;
+mod supply;
+
+pub use outlook::{Conditions, Outlook};
+pub use reference::{Ahead, Reference, ReferencePoint, Rest};

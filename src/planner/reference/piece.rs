@@ -1,0 +1,189 @@
+//! The pieces of a reference that were handed out and are not yet behind the machine.
+
+use crate::path::PathPoint;
+use crate::path::blend::BlendedPath;
+use crate::speed::{JerkLimitedProfile, ProfileState, look_ahead};
+
+/// How s depends on time in a piece.
+#[derive(Clone, Copy, Debug)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "pieces lie in slots of equal size, without a heap"
+)]
+pub(super) enum Law {
+    /// A move from rest to rest, or what is left of it.
+    Move(MoveLaw),
+    /// A piece of what the look-ahead planned.
+    Run(look_ahead::Piece),
+}
+
+/// A move, or its rest, run by one profile.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MoveLaw {
+    /// Serial number of the move.
+    pub serial: u64,
+    /// Where the profile starts, path distance.
+    pub start: f64,
+    /// Where the move ends, path distance.
+    pub end: f64,
+    /// Path distance for a unit of the profile's distance, which is what F counts.
+    pub rate: f64,
+    pub profile: JerkLimitedProfile,
+    /// The cap on the velocity that it was planned with.
+    pub cap: f64,
+}
+
+/// A stretch of the reference.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub law: Law,
+    /// How long the piece lasts: as long as its law, less if another piece took over.
+    pub duration: f64,
+}
+
+impl Piece {
+    const VACANT: Self = Self {
+        law: Law::Move(MoveLaw {
+            serial: 0,
+            start: 0.0,
+            end: 0.0,
+            rate: 1.0,
+            profile: JerkLimitedProfile::NONE,
+            cap: 0.0,
+        }),
+        duration: 0.0,
+    };
+
+    /// Path distance and its derivatives at time `t`, in the phase of the law at `within`.
+    pub fn state(&self, t: f64, within: f64) -> ProfileState {
+        match &self.law {
+            Law::Run(piece) => piece.at(t),
+            Law::Move(law) => {
+                let state = law.profile.state(t, within);
+                ProfileState {
+                    distance: (law.start + law.rate * state.distance).min(law.end),
+                    velocity: law.rate * state.velocity,
+                    acceleration: law.rate * state.acceleration,
+                    jerk: law.rate * state.jerk,
+                }
+            }
+        }
+    }
+
+    /// The next time after `t` at which acceleration or jerk jump; infinite if there is none.
+    pub fn next_jump(&self, t: f64) -> f64 {
+        match &self.law {
+            Law::Run(_) => f64::INFINITY,
+            Law::Move(law) => law.profile.next_jump(t),
+        }
+    }
+
+    /// The path at `s`, as it is on this piece: where the machine rests its direction may jump.
+    pub fn point(&self, path: &BlendedPath, s: f64) -> PathPoint {
+        match &self.law {
+            Law::Move(law) if s >= law.end => path.point_before(s),
+            _ => path.point(s),
+        }
+    }
+}
+
+/// A power of two, so that a masked index is in range for the compiler too. Enough for 100 ms of
+/// a servo period of 1 ms with two short moves in each.
+const SLOTS: u32 = 256;
+
+/// A ring of pieces in the order of the reference.
+#[derive(Debug)]
+pub(super) struct Pieces {
+    slots: [Piece; SLOTS as usize],
+    first: u32,
+    count: u32,
+}
+
+const fn slot(number: u32) -> usize {
+    (number & (SLOTS - 1)) as usize
+}
+
+impl Pieces {
+    pub const fn new() -> Self {
+        Self {
+            slots: [Piece::VACANT; SLOTS as usize],
+            first: 0,
+            count: 0,
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    pub fn len(&self) -> u32 {
+        self.count
+    }
+
+    pub fn is_full(&self) -> bool {
+        self.count >= SLOTS
+    }
+
+    pub fn front(&self) -> Option<&Piece> {
+        (self.count > 0).then(|| &self.slots[slot(self.first)])
+    }
+
+    pub fn back(&self) -> Option<&Piece> {
+        (self.count > 0).then(|| &self.slots[slot(self.last())])
+    }
+
+    pub fn back_mut(&mut self) -> Option<&mut Piece> {
+        (self.count > 0).then(|| &mut self.slots[slot(self.last())])
+    }
+
+    /// Appends a piece; does nothing if the ring is full.
+    pub fn push(&mut self, piece: Piece) {
+        if !self.is_full() {
+            self.count += 1;
+            self.slots[slot(self.last())] = piece;
+        }
+    }
+
+    pub fn pop(&mut self) {
+        if self.count > 0 {
+            self.first = self.first.wrapping_add(1);
+            self.count -= 1;
+        }
+    }
+
+    /// Number of the last piece; only asked for if there is one.
+    fn last(&self) -> u32 {
+        self.first.wrapping_add(self.count).wrapping_sub(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn is_first_in_first_out_and_bounded() {
+        let mut pieces = Pieces::new();
+        assert!(pieces.front().is_none() && pieces.back().is_none());
+        for serial in 0..SLOTS + 10 {
+            pieces.push(Piece {
+                duration: serial as f64,
+                ..Piece::VACANT
+            });
+        }
+        assert!(pieces.is_full());
+        for serial in 0..SLOTS {
+            assert_eq!(
+                pieces.front().map(|piece| piece.duration),
+                Some(serial as f64)
+            );
+            assert_eq!(
+                pieces.back().map(|piece| piece.duration),
+                Some(f64::from(SLOTS - 1))
+            );
+            pieces.pop();
+        }
+        pieces.pop();
+        assert_eq!(pieces.len(), 0);
+    }
+}

@@ -1,0 +1,191 @@
+//! A run: from rest to rest along the path, planned by the look-ahead.
+
+use super::outlook::Outlook;
+use crate::axes::Axes;
+use crate::path::PathPoint;
+use crate::path::blend::{BlendedPath, VertexView};
+use crate::speed::look_ahead::{LookAhead, Piece, Progress, Route, SpeedCap, Vertex};
+
+/// Vertices that are looked at in a cycle, in search of the end of the run.
+const VERTICES_A_CYCLE: usize = 64;
+
+/// How near to a change of the speed cap is on it, share of the path distance.
+const ON_CHANGE: f64 = 1e-12;
+
+/// A run, and where it ends as far as that is known.
+#[derive(Debug)]
+pub(super) struct Run {
+    speed: LookAhead,
+    /// Where it starts, path distance; `None` if there is no run.
+    start: Option<f64>,
+    /// Where the machine has to come to rest.
+    stop: Option<f64>,
+    /// Up to here no stop was found.
+    searched: f64,
+}
+
+impl Run {
+    pub const fn new() -> Self {
+        Self {
+            speed: LookAhead::new(),
+            start: None,
+            stop: None,
+            searched: 0.0,
+        }
+    }
+
+    /// There is no run.
+    pub fn clear(&mut self) {
+        self.start = None;
+    }
+
+    /// Begins a run at rest at `s`.
+    pub fn begin(&mut self, s: f64, outlook: &Outlook) {
+        self.speed
+            .start(s, outlook.limits, outlook.map, outlook.now.period);
+        self.start = Some(s);
+        self.stop = None;
+        self.searched = s;
+    }
+
+    /// Whether there is a run.
+    pub fn is_begun(&self) -> bool {
+        self.start.is_some()
+    }
+
+    /// Whether there is a run from `s` on.
+    pub fn starts_at(&self, s: f64) -> bool {
+        self.start == Some(s)
+    }
+
+    /// Whether there is a plan that may be run.
+    pub fn is_ready(&self) -> bool {
+        self.is_begun() && self.speed.progress() == Progress::Ready
+    }
+
+    /// Whether no plan was found.
+    pub fn is_refused(&self) -> bool {
+        self.is_begun() && matches!(self.speed.progress(), Progress::Refused(_))
+    }
+
+    /// Whether the machine is to come to rest within `seconds`, as far as the plan goes.
+    pub fn brakes_within(&self, seconds: f64) -> bool {
+        !self.is_ready() || self.speed.brakes_within(seconds)
+    }
+
+    /// Where the machine will come to rest for sure, if that is known and final.
+    pub fn final_stop(&self, path: &BlendedPath) -> Option<f64> {
+        self.stop.filter(|stop| path.final_end() >= *stop)
+    }
+
+    /// The next piece of the plan, which stays as it is; `None` at its end.
+    pub fn freeze(&mut self) -> Option<Piece> {
+        self.speed.freeze()
+    }
+
+    /// Where the plan ends so far.
+    pub fn end(&self) -> f64 {
+        self.speed.end()
+    }
+
+    /// Looks where the path asks for a rest.
+    pub fn look_for_stop(&mut self, path: &BlendedPath) {
+        if !self.is_begun() {
+            return;
+        }
+        for _ in 0..VERTICES_A_CYCLE {
+            if self.stop.is_some() {
+                return;
+            }
+            match path.vertex_after(self.searched) {
+                Some(vertex) => {
+                    self.searched = vertex.s;
+                    self.stop = vertex.stop.then_some(vertex.s);
+                }
+                None => {
+                    let end = path.programmed_end();
+                    if path.rests_at_end() && end > self.searched {
+                        self.stop = Some(end);
+                    }
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Works on the plan for `budget` units.
+    pub fn work(&mut self, path: &BlendedPath, outlook: &Outlook, budget: u32) {
+        if self.is_begun() {
+            self.speed.raise(outlook.now.feed_scale);
+            let stop = self.stop.unwrap_or(f64::INFINITY);
+            self.speed.slice(&PathRoute { path, stop }, budget);
+        }
+    }
+}
+
+/// The path as the look-ahead sees it, up to the end of a run.
+struct PathRoute<'a> {
+    path: &'a BlendedPath,
+    stop: f64,
+}
+
+impl Route for PathRoute<'_> {
+    fn point(&self, s: f64) -> PathPoint {
+        if s >= self.stop {
+            self.path.point_before(s)
+        } else {
+            self.path.point(s)
+        }
+    }
+
+    fn known_end(&self) -> f64 {
+        self.path.final_end().min(self.stop)
+    }
+
+    fn is_complete(&self) -> bool {
+        self.path.final_end() >= self.stop
+    }
+
+    fn speed_cap(&self, s: f64, first: &Axes) -> SpeedCap {
+        let mut cap = SpeedCap {
+            programmed: f64::INFINITY,
+            greatest: f64::INFINITY,
+        };
+        let mut lower = |place: f64| {
+            if let Some(leg) = self.path.leg(place) {
+                cap.programmed = cap.programmed.min(leg.speed);
+                cap.greatest = cap.greatest.min(leg.greatest_speed);
+            }
+        };
+        let near = ON_CHANGE * (1.0 + s.abs());
+        lower(s - near);
+        lower(s + near);
+        // Where a corner is rounded the path is shorter than what s counts.
+        let slope = self.path.distance(first);
+        SpeedCap {
+            programmed: cap.programmed / slope,
+            greatest: cap.greatest / slope,
+        }
+    }
+
+    fn vertex_after(&self, s: f64) -> Option<Vertex> {
+        self.path.vertex_after(s).map(vertex)
+    }
+
+    fn vertex_before(&self, s: f64) -> Option<Vertex> {
+        self.path.vertex_before(s).map(vertex)
+    }
+
+    fn greatest_reach(&self) -> f64 {
+        self.path.greatest_reach()
+    }
+}
+
+fn vertex(view: VertexView) -> Vertex {
+    Vertex {
+        position: view.s,
+        reach: view.reach,
+        core: view.core,
+        cap_changes: view.speed_changes && !view.stop,
+    }
+}
