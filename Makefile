@@ -26,7 +26,9 @@ help:
 	@echo 'make tool       build the framepath command'
 	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
 	@echo 'make uninstall  remove them again'
+	@echo 'make soak       long runs: 10,000 random programs with random operators (an hour or so)'
 	@echo 'make bench      measure the functions that the servo thread calls'
+	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -56,8 +58,21 @@ test: lint modules
 linuxcnc-test: modules tool
 	$(PYTHON) -B -m unittest discover -s tests/linuxcnc -t tests/linuxcnc -v
 
+soak: prerequisites
+	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner_programs -- --nocapture
+
 bench: prerequisites
 	$(CARGO) bench --locked
+
+# LinuxCNC's sample programs as they are, where the feed limits most of them, then with every F raised, and the
+# generated programs.
+NCFILES ?= /usr/share/linuxcnc/ncfiles
+COMPARED = $(patsubst %,$(NCFILES)/%.ngc,3D_Chips tort arcspiral daisy cds flowsnake spiral mmount)
+COMPARED_JERK = --jerk unlimited,100A,20A
+
+compare: modules tool
+	$(TOOL) compare $(COMPARED) $(COMPARED_JERK)
+	$(TOOL) compare $(COMPARED) --generated all --feed-at-least 6000 $(COMPARED_JERK)
 
 header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
@@ -81,4 +96,4 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules tool demo lint test linuxcnc-test bench header install uninstall clean
+.PHONY: help prerequisites modules tool demo lint test linuxcnc-test bench compare header install uninstall clean
