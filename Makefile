@@ -56,7 +56,7 @@ test: lint modules
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules tool
-	$(PYTHON) -B -m unittest discover -s tests/linuxcnc -t tests/linuxcnc -v
+	$(PYTHON) -B tests/linuxcnc/run_all.py
 
 soak: prerequisites
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner_programs -- --nocapture
