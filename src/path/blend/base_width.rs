@@ -2,12 +2,12 @@
 //! the same width.
 
 use super::chain::Chain;
+use super::jump::JumpSum;
 use super::kernel;
 use super::metric::Metric;
 use super::settings::BlendSettings;
 use super::vertex::{KERNEL_SHARE, Vertex};
 use super::window::Window;
-use crate::axes::Axes;
 
 /// Ratio of one width tried to the one before.
 const GROWTH: f64 = 1.25;
@@ -74,7 +74,8 @@ fn greatest_width(
 ) -> f64 {
     let vertex = chain.vertex(number);
     let same = |other: &Vertex| {
-        metric.product(&other.turn, &vertex.turn) > SAME_TURN * other.turn_size * vertex.turn_size
+        metric.product(&other.turn.axes(), &vertex.turn.axes())
+            > SAME_TURN * other.turn_size * vertex.turn_size
     };
     let before = chain.vertex(number.saturating_sub(1));
     let after = chain.vertex(number.saturating_add(1));
@@ -98,7 +99,7 @@ fn deviation_at_equal_widths(
     metric: &Metric,
 ) -> (f64, usize) {
     let here = chain.vertex(number).s;
-    let mut sum = Axes::zeros();
+    let mut sum = JumpSum::ZERO;
     let mut terms = 1;
     let left = chain
         .left_of(number)
@@ -117,8 +118,9 @@ fn deviation_at_equal_widths(
         };
         let distance = (here - vertex.s).abs();
         if distance < kernel_width {
-            sum += vertex.turn * (kernel_width * kernel::value(distance / kernel_width, mix));
+            let value = kernel_width * kernel::value(distance / kernel_width, mix);
+            sum.add(&vertex.turn, &[value]);
         }
     }
-    (metric.norm(&sum), terms)
+    (metric.norm(&sum.axes()), terms)
 }

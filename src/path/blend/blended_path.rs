@@ -5,6 +5,7 @@ use nalgebra::ArrayStorage;
 use super::chain::Chain;
 use super::chooser::Chooser;
 use super::error::BlendError;
+use super::jump::PointSum;
 use super::leg::{Leg, ProgrammedMove};
 use super::line_merger::LineMerger;
 use super::metric::Metric;
@@ -285,15 +286,17 @@ impl BlendedPath {
     fn point_of_leg(&self, number: u64, s: f64) -> PathPoint {
         let leg = self.chain.leg(number);
         let s = s.max(leg.start).min(leg.end());
-        let mut point = leg.point(s);
+        let mut sum = PointSum::ZERO;
         for k in 0..u64::from(leg.reached_from_left) {
             let vertex = self.chain.vertex(number.saturating_sub(k));
-            vertex.add_to(&mut point, s - vertex.s, 1.0);
+            vertex.add_to(&mut sum, s - vertex.s);
         }
         for k in 1..=u64::from(leg.reached_from_right) {
             let vertex = self.chain.vertex(number.saturating_add(k));
-            vertex.add_to(&mut point, vertex.s - s, -1.0);
+            vertex.add_to(&mut sum, -(vertex.s - s));
         }
+        let mut point = leg.point(s);
+        sum.add_to(&mut point);
         point
     }
 
@@ -368,14 +371,14 @@ impl BlendedPath {
 
     fn vertex_view(&self, number: u64) -> VertexView {
         let vertex = self.chain.vertex(number);
-        let mut reach = vertex.stored.reach();
+        let mut reach = vertex.stored().reach();
         if vertex.turn_size <= 0.0 && !vertex.wall {
             // In a smoothed run the path is as curved here as at its neighbours.
             for neighbour in [number.saturating_sub(1), number.saturating_add(1)] {
                 if neighbour < self.chain.first() || neighbour >= self.chain.next() {
                     continue;
                 }
-                let widths = self.chain.vertex(neighbour).stored;
+                let widths = self.chain.vertex(neighbour).stored();
                 if widths.mix > 0.0 {
                     reach = reach.max(widths.kernel);
                 }
@@ -384,7 +387,7 @@ impl BlendedPath {
         VertexView {
             s: vertex.s,
             reach,
-            core: vertex.stored.core(),
+            core: vertex.stored().core(),
             stop: vertex.stop,
             speed_changes: number > self.chain.first() && {
                 let (before, after) = (self.chain.leg(number - 1), self.chain.leg(number));

@@ -102,23 +102,16 @@ impl Chain {
         leg.start = self.end();
         let vertex = match self.last() {
             // The path begins here, at rest.
-            None => Vertex {
-                s: leg.start,
-                left_wall: leg.start,
-                ..Vertex::VACANT
-            },
+            None => Vertex::first(leg.start),
             Some(before) => {
-                let vertex = Vertex::between(before, &leg, settings, metric);
+                let mut vertex = Vertex::between(before, &leg, settings, metric);
                 let previous = self.vertex(self.next.wrapping_sub(1));
-                let left_wall = if previous.wall {
+                vertex.left_wall = if previous.wall {
                     previous.s
                 } else {
                     previous.left_wall
                 };
-                Vertex {
-                    left_wall,
-                    ..vertex
-                }
+                vertex
             }
         };
         *self.leg_mut(self.next) = leg;

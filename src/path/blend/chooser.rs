@@ -262,10 +262,10 @@ impl Chooser {
         vertex.marked_temporarily = false;
         self.set_trial(chain, number);
         let vertex = chain.vertex(number);
-        if vertex.trial == vertex.stored && number < self.stored_next {
+        if vertex.trial == *vertex.stored() && number < self.stored_next {
             return 1;
         }
-        let reach = vertex.trial.reach().max(vertex.stored.reach());
+        let reach = vertex.trial.reach().max(vertex.stored().reach());
         chain.touch(number, reach, self.window.next)
     }
 
@@ -385,10 +385,12 @@ impl Chooser {
     fn give_up(&mut self, chain: &mut Chain) -> usize {
         for number in self.window.open..self.window.next {
             let vertex = chain.vertex_mut(number);
-            vertex.set_trial(vertex.stored);
-            vertex.factor = vertex.stored_factor;
+            vertex.set_trial(*vertex.stored());
+            vertex.factor = vertex.stored_factor();
             if number < self.stored_next && vertex.base.kernel > 0.0 {
-                vertex.factor = vertex.factor.min(vertex.stored.kernel / vertex.base.kernel);
+                vertex.factor = vertex
+                    .factor
+                    .min(vertex.stored().kernel / vertex.base.kernel);
             }
         }
         self.phase = Phase::Harden {
@@ -427,9 +429,7 @@ impl Chooser {
     /// Puts the trial assignment in force.
     fn accept(&mut self, chain: &mut Chain, settings: &BlendSettings) -> usize {
         for number in self.window.open..self.window.next {
-            let vertex = chain.vertex_mut(number);
-            vertex.stored = vertex.trial;
-            vertex.stored_factor = vertex.factor;
+            chain.vertex_mut(number).store_trial();
         }
         self.stored_next = self.window.next;
         self.stored_end = self.window.end;
@@ -440,7 +440,7 @@ impl Chooser {
 
     /// Makes the first open vertex final.
     fn close(&mut self, chain: &Chain) {
-        let reach = chain.vertex(self.window.open).stored.reach();
+        let reach = chain.vertex(self.window.open).stored().reach();
         self.greatest_reach = self.greatest_reach.max(reach);
         self.window.open += 1;
     }
@@ -451,7 +451,7 @@ impl Chooser {
         let last = chain.leg(next.wrapping_sub(1));
         while self.window.open < next {
             let vertex = chain.vertex(self.window.open);
-            let beyond_reach = end - vertex.s >= vertex.stored.reach() + LAG * last.design_width;
+            let beyond_reach = end - vertex.s >= vertex.stored().reach() + LAG * last.design_width;
             let before_wall = vertex.right_wall <= end;
             let too_many = next - self.window.open >= GREATEST_OPEN;
             if !(vertex.is_bare_wall() || beyond_reach || before_wall || too_many) {

@@ -11,9 +11,9 @@
 //! programmed one and back.
 
 use super::chain::{Chain, NEIGHBOURS};
+use super::jump::JumpSum;
 use super::metric::Metric;
 use super::vertex::Vertex;
-use crate::axes::Axes;
 
 /// Deviations evaluated for one leg at most; more count as a violation.
 const HALVINGS: u32 = 24;
@@ -72,11 +72,11 @@ impl<'a> Reaching<'a> {
     }
 
     fn deviation(&self, s: f64, metric: &Metric) -> f64 {
-        let mut sum = Axes::zeros();
+        let mut sum = JumpSum::ZERO;
         for vertex in self.left().chain(self.right()) {
             vertex.add_deviation(&vertex.counted, s - vertex.s, &mut sum);
         }
-        metric.norm(&sum)
+        metric.norm(&sum.axes())
     }
 
     /// A bound of the second derivative of the deviation between `from` and `to`.

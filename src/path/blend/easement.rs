@@ -11,13 +11,20 @@
 //! continuous there, and all vanish at the edge. So the second derivative of q is continuous and
 //! the third bounded. The coefficients make the greatest |f| small: little deviation for the width.
 
-use super::kernel::Derivatives;
-
 /// The greatest value of |f|, rounded up.
 pub(super) const PEAK: f64 = 0.0079;
 
 /// The greatest value of |f''|, at the jump.
 pub(super) const GREATEST_SECOND: f64 = 0.5;
+
+/// A function of x with three derivatives by x.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Derivatives {
+    pub value: f64,
+    pub first: f64,
+    pub second: f64,
+    pub third: f64,
+}
 
 const LINEAR: f64 = 0.0808;
 const SQUARE: f64 = 0.0732;

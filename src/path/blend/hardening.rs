@@ -79,6 +79,7 @@ pub(super) fn harden(
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::jump::JumpSum;
     use super::super::leg::{Leg, ProgrammedMove};
     use super::super::settings::{Allowance, BlendSettings};
     use super::*;
@@ -135,9 +136,9 @@ mod tests {
                     easement: 0.0,
                 };
                 let (first, second) = (*chain.vertex(1), *chain.vertex(2));
-                let mut deviation = Axes::zeros();
+                let mut deviation = JumpSum::ZERO;
                 first.add_deviation(&wide, second.s - first.s, &mut deviation);
-                let tolerance = metric.norm(&deviation) / 0.97;
+                let tolerance = metric.norm(&deviation.axes()) / 0.97;
                 chain.vertex_mut(1).set_trial(wide);
                 chain.vertex_mut(2).tolerance = tolerance;
                 chain.leg_mut(2).allowance = Allowance::Tolerance(tolerance);

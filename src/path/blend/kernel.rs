@@ -23,6 +23,8 @@
 //!
 //! Between these kernels the mix is linear.
 
+use super::jump::Factors;
+
 /// phi2 in the middle.
 pub(super) const PEAK_SECOND_ORDER: f64 = 5.0 / 32.0;
 
@@ -35,6 +37,21 @@ const PEAK_FLAT: f64 = 17.0 / 80.0;
 /// K8 in the middle.
 const FLAT: f64 = 153.0 / 256.0;
 
+/// Coefficients of y^0 to y^4 in what follows.
+const POWERS: usize = 5;
+
+/// phi2 without its term `-x / 2`.
+const SECOND_ORDER: [f64; POWERS] = [PEAK_SECOND_ORDER, 0.46875, -0.15625, 0.03125, 0.0];
+
+/// phi4 without the same term.
+const FOURTH_ORDER: [f64; POWERS] = [
+    PEAK_FOURTH_ORDER,
+    0.8203125,
+    -0.68359375,
+    0.3828125,
+    -0.087890625,
+];
+
 /// The greatest mix with a kernel that is nowhere negative.
 pub(super) const GREATEST_PEAKED: f64 = 2.0 / 9.0;
 
@@ -44,15 +61,6 @@ const DIP_FOURTH_ORDER: f64 = 0.2161;
 /// The greatest derivatives of K2 and of K8, without their signs, rounded up.
 const STEEPEST_SECOND_ORDER: f64 = 1.4434;
 const STEEPEST_FLAT: f64 = 2.6179;
-
-/// A function of x with three derivatives by x.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Derivatives {
-    pub value: f64,
-    pub first: f64,
-    pub second: f64,
-    pub third: f64,
-}
 
 /// phi in the middle for a mix up to [`GREATEST_PEAKED`]: its greatest value.
 #[inline]
@@ -90,44 +98,128 @@ pub(super) fn steepest(mix: f64) -> f64 {
 #[inline]
 pub(super) fn value(x: f64, mix: f64) -> f64 {
     let y = x * x;
-    let second_order = 0.15625 - 0.5 * x + y * (0.46875 + y * (-0.15625 + y * 0.03125));
+    let even = |[c0, c1, c2, c3, c4]: [f64; POWERS]| c0 + y * (c1 + y * (c2 + y * (c3 + y * c4)));
+    let second_order = even(SECOND_ORDER);
     let (other, share) = if mix < 0.0 {
         let y4 = y * y * y * y;
         let flat = y * (1.0 / 2.0 - y4 * (1.0 / 45.0 - y4 / 306.0));
-        (PEAK_FLAT - 0.5 * x + FLAT * flat, -mix)
+        (PEAK_FLAT + FLAT * flat, -mix)
     } else {
-        let fourth_order = y * (0.8203125 + y * (-0.68359375 + y * (0.3828125 - y * 0.087890625)));
-        (PEAK_FOURTH_ORDER - 0.5 * x + fourth_order, mix)
+        (even(FOURTH_ORDER), mix)
     };
-    second_order + share * (other - second_order)
+    second_order + share * (other - second_order) - 0.5 * x
 }
 
-/// phi at `x`, 0 to 1, for a mix, with its derivatives. The second is the kernel itself.
-#[inline]
-pub(super) fn derivatives(x: f64, mix: f64) -> Derivatives {
-    let y = x * x;
-    let rest = 1.0 - y;
-    let (first, second, third, share);
-    if mix < 0.0 {
+/// phi of a width and a mix, prepared to be evaluated with its derivatives.
+///
+/// Without their term `-x / 2` phi2 and phi4 are polynomials of `y = x^2`, and so are their
+/// derivatives, the odd ones times x.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kernel {
+    inverse_width: f64,
+    mix: f64,
+    /// Coefficients of y^0 to y^4 for the value and the second derivative by distance. Side by
+    /// side, since processors calculate in pairs.
+    even: [[f64; 2]; POWERS],
+    /// The same for the first and the third.
+    odd: [[f64; 2]; POWERS],
+}
+
+impl Kernel {
+    /// One that is nowhere.
+    pub const NONE: Self = Self {
+        inverse_width: 0.0,
+        mix: 0.0,
+        even: [[0.0; 2]; POWERS],
+        odd: [[0.0; 2]; POWERS],
+    };
+
+    /// `width`: positive, or 0 for [`Self::NONE`].
+    pub fn new(width: f64, mix: f64) -> Self {
+        if width <= 0.0 {
+            return Self::NONE;
+        }
+        let inverse = 1.0 / width;
+        let mut phi = [0.0; POWERS];
+        let orders = SECOND_ORDER.iter().zip(&FOURTH_ORDER);
+        for (coefficient, (second, fourth)) in phi.iter_mut().zip(orders) {
+            *coefficient = second + mix * (fourth - second);
+        }
+        let [c0, c1, c2, c3, c4] = phi;
+        let square = inverse * inverse;
+        Self {
+            inverse_width: inverse,
+            mix,
+            even: [
+                [c0 * width, 2.0 * c1 * inverse],
+                [c1 * width, 12.0 * c2 * inverse],
+                [c2 * width, 30.0 * c3 * inverse],
+                [c3 * width, 56.0 * c4 * inverse],
+                [c4 * width, 0.0],
+            ],
+            odd: [
+                [2.0 * c1, 24.0 * c2 * square],
+                [4.0 * c2, 120.0 * c3 * square],
+                [6.0 * c3, 336.0 * c4 * square],
+                [8.0 * c4, 0.0],
+                [0.0; 2],
+            ],
+        }
+    }
+
+    /// What of a jump of dp/ds is to be added to the path at a signed `distance` from it, within the
+    /// width. A distance of -0 is to the left of the jump.
+    #[inline]
+    pub fn factors(&self, distance: f64) -> Factors {
+        if self.mix < 0.0 {
+            return self.flat_factors(distance);
+        }
+        let x = distance * self.inverse_width;
+        let y = x * x;
+        let even = polynomial(&self.even, y);
+        let odd = polynomial(&self.odd, y);
+        let corner = [-0.5 * distance.abs(), 0.0];
+        let slope = [(-0.5f64).copysign(-distance), 0.0];
+        Factors {
+            even: core::array::from_fn(|k| even[k] + corner[k]),
+            odd: core::array::from_fn(|k| odd[k] * x + slope[k]),
+        }
+    }
+
+    /// The same with a share of K8. Corners with such a kernel stand alone.
+    #[inline(never)]
+    fn flat_factors(&self, distance: f64) -> Factors {
+        let inverse = self.inverse_width;
+        let x = distance.abs() * inverse;
+        let y = x * x;
+        let rest = 1.0 - y;
         let y4 = y * y * y * y;
-        let rest = 1.0 - y4;
-        first = -0.5 + FLAT * x * (1.0 - y4 * (2.0 / 9.0 - y4 / 17.0));
-        second = FLAT * rest * rest;
-        third = -16.0 * FLAT * y * y * y * x * rest;
-        share = -mix;
-    } else {
-        first = -0.5 + x * (1.640625 + y * (-2.734375 + y * (2.296875 - y * 0.703125)));
-        second = 1.640625 * rest * rest * (1.0 - 3.0 * y);
-        third = -16.40625 * x * rest * (1.0 - 1.8 * y);
-        share = mix;
+        let flat_rest = 1.0 - y4;
+        let side = 1.0f64.copysign(distance);
+        let mixed = |second_order: f64, flat: f64| second_order - self.mix * (flat - second_order);
+        let first = mixed(
+            -0.5 + x * (0.9375 + y * (-0.625 + y * 0.1875)),
+            -0.5 + FLAT * x * (1.0 - y4 * (2.0 / 9.0 - y4 / 17.0)),
+        );
+        let second = mixed(0.9375 * rest * rest, FLAT * flat_rest * flat_rest);
+        let third = mixed(-3.75 * x * rest, -16.0 * FLAT * y * y * y * x * flat_rest);
+        Factors {
+            even: [value(x, self.mix) / inverse, second * inverse],
+            odd: [side * first, side * third * inverse * inverse],
+        }
     }
-    let mixed = |second_order: f64, other: f64| second_order + share * (other - second_order);
-    Derivatives {
-        value: value(x, mix),
-        first: mixed(-0.5 + x * (0.9375 + y * (-0.625 + y * 0.1875)), first),
-        second: mixed(0.9375 * rest * rest, second),
-        third: mixed(-3.75 * x * rest, third),
+}
+
+/// Two polynomials of y, by the coefficients of its powers.
+#[inline]
+fn polynomial([c0, c1, c2, c3, c4]: &[[f64; 2]; POWERS], y: f64) -> [f64; 2] {
+    let mut sum = *c4;
+    for coefficients in [c3, c2, c1, c0] {
+        for (sum, coefficient) in sum.iter_mut().zip(coefficients) {
+            *sum = *sum * y + coefficient;
+        }
     }
+    sum
 }
 
 /// A bound of |K| at all places from `x`, 0 to 1, outwards: it never grows with x.
@@ -147,6 +239,28 @@ pub(super) fn majorant(x: f64, mix: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// phi with its derivatives by x.
+    #[derive(Debug)]
+    struct Derivatives {
+        value: f64,
+        first: f64,
+        second: f64,
+        third: f64,
+    }
+
+    fn derivatives(x: f64, mix: f64) -> Derivatives {
+        let Factors {
+            even: [value, second],
+            odd: [first, third],
+        } = Kernel::new(1.0, mix).factors(x);
+        Derivatives {
+            value,
+            first,
+            second,
+            third,
+        }
+    }
 
     const MIXES: [f64; 7] = [-1.0, -0.6, 0.0, GREATEST_PEAKED, 0.4, 1.0, 1.15];
 
@@ -174,7 +288,7 @@ mod tests {
         for mix in MIXES {
             let edge = derivatives(1.0, mix);
             for value in [edge.value, edge.first, edge.second, edge.third] {
-                assert!(value.abs() < 1e-15, "{mix}: {edge:?}");
+                assert!(value.abs() < 1e-13, "{mix}: {edge:?}");
             }
         }
     }
@@ -233,13 +347,40 @@ mod tests {
     }
 
     #[test]
+    fn width_and_side_scale_the_derivatives() {
+        let width = 0.25;
+        for mix in MIXES {
+            let kernel = Kernel::new(width, mix);
+            for k in 0..100 {
+                let x = 0.01 * f64::from(k);
+                let unit = derivatives(x, mix);
+                assert!((unit.value - value(x, mix)).abs() < 1e-15);
+                let even = [unit.value * width, unit.second / width];
+                let odd = [unit.first, unit.third / (width * width)];
+                let right = kernel.factors(x * width);
+                let left = kernel.factors(-x * width);
+                for i in 0..2 {
+                    for (is, expected) in [
+                        (right.even[i], even[i]),
+                        (left.even[i], even[i]),
+                        (right.odd[i], odd[i]),
+                        (left.odd[i], -odd[i]),
+                    ] {
+                        assert!((is - expected).abs() < 1e-12, "{mix} {x}: {is} {expected}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
     fn majorants_bound_the_kernel_and_never_grow() {
         for mix in MIXES {
             let mut outer = 0.0f64;
             for k in (0..=1000).rev() {
                 let x = 0.001 * f64::from(k);
                 outer = outer.max(derivatives(x, mix).second.abs());
-                assert!(majorant(x, mix) >= outer * (1.0 - 1e-12), "{mix} {x}");
+                assert!(majorant(x, mix) >= outer - 1e-13, "{mix} {x}");
             }
         }
     }

@@ -40,6 +40,7 @@ mod deviation;
 mod easement;
 mod error;
 mod hardening;
+mod jump;
 mod kernel;
 mod leg;
 mod line_merger;

@@ -1,15 +1,11 @@
 //! A vertex of the programmed path: where two legs meet.
 
-use nalgebra::ArrayStorage;
-
+use super::jump::{Factors, Jump, JumpSum, PointSum};
+use super::kernel::Kernel;
 use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
 use super::{easement, kernel};
-use crate::axes::{AXIS_COUNT, Axes};
-use crate::path::PathPoint;
-
-const ZERO: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
 
 /// A turn of the direction below this is rounding.
 const NO_TURN: f64 = 1e-9;
@@ -80,10 +76,10 @@ impl Widths {
 pub(super) struct Vertex {
     /// Where it is, path distance.
     pub s: f64,
-    /// Jump of dp/ds, shape (9).
-    pub turn: Axes,
-    /// Jump of d2p/ds2, shape (9).
-    pub jump: Axes,
+    /// Jump of dp/ds.
+    pub turn: Jump,
+    /// Jump of d2p/ds2.
+    pub jump: Jump,
     /// Length of the turn, 0 to 2.
     pub turn_size: f64,
     /// Length of the jump.
@@ -136,9 +132,11 @@ pub(super) struct Vertex {
     /// What of them needs a tolerance.
     pub counted: Widths,
     /// Widths in force.
-    pub stored: Widths,
+    stored: Widths,
     /// The factor that belongs to the stored widths.
-    pub stored_factor: f64,
+    stored_factor: f64,
+    /// What belongs to the stored widths.
+    kernel: Kernel,
     /// Reaches a place that violates the tolerance.
     pub marked: bool,
     /// And that place may change for the better when more is known.
@@ -148,8 +146,8 @@ pub(super) struct Vertex {
 impl Vertex {
     pub const VACANT: Self = Self {
         s: 0.0,
-        turn: ZERO,
-        jump: ZERO,
+        turn: Jump::NONE,
+        jump: Jump::NONE,
         turn_size: 0.0,
         jump_size: 0.0,
         tolerance: 0.0,
@@ -176,10 +174,20 @@ impl Vertex {
         trial: Widths::NONE,
         counted: Widths::NONE,
         stored: Widths::NONE,
+        kernel: Kernel::NONE,
         stored_factor: 1.0,
         marked: false,
         marked_temporarily: false,
     };
+
+    /// Where the path begins at rest, at path distance `s`.
+    pub fn first(s: f64) -> Self {
+        Self {
+            s,
+            left_wall: s,
+            ..Self::VACANT
+        }
+    }
 
     /// The vertex between two legs, with base widths as far as they depend on nothing else.
     pub fn between(before: &Leg, after: &Leg, settings: &BlendSettings, metric: &Metric) -> Self {
@@ -192,8 +200,8 @@ impl Vertex {
         let stop = before.stop_after || after.stop_before || (exact && turn_size > TANGENT);
         let mut vertex = Self {
             s: after.start,
-            turn,
-            jump,
+            turn: Jump::new(&turn),
+            jump: Jump::new(&jump),
             turn_size,
             jump_size,
             tolerance: before.tolerance().min(after.tolerance()),
@@ -219,7 +227,7 @@ impl Vertex {
         if self.turn_size > 0.0 {
             let slower = before.speed.min(after.speed);
             let wanted = settings
-                .free_width(&self.turn, slower, 0.0)
+                .free_width(&self.turn.axes(), slower, 0.0)
                 .max(LEAST_ROUNDING * room);
             let within = EXACT_KERNEL_SHARE * self.tolerance / self.turn_size;
             self.corner_width = within / kernel::peak(0.0);
@@ -244,14 +252,15 @@ impl Vertex {
             self.biweight_width = within / kernel::peak(0.0);
             // In the slower leg's half the other's feed does not matter.
             let slower = before.speed.min(after.speed);
+            let turn = self.turn.axes();
             let (mix, free) = if self.free_limit > 0.0 {
-                let width = settings.free_width(&self.turn, slower, 0.0);
-                let mix = settings.corner_mix(&self.turn, width.min(self.free_limit), false);
-                (mix, settings.free_width(&self.turn, slower, mix))
+                let width = settings.free_width(&turn, slower, 0.0);
+                let mix = settings.corner_mix(&turn, width.min(self.free_limit), false);
+                (mix, settings.free_width(&turn, slower, mix))
             } else {
                 let by_tolerance = self.biweight_width < self.half_leg;
                 let width = self.biweight_width.min(self.half_leg);
-                (settings.corner_mix(&self.turn, width, by_tolerance), 0.0)
+                (settings.corner_mix(&turn, width, by_tolerance), 0.0)
             };
             self.corner_mix = mix;
             self.free_kernel = free.min(self.free_limit);
@@ -346,17 +355,17 @@ impl Vertex {
     }
 
     /// Adds what it contributes with `widths` to the deviation of the blended path from the
-    /// programmed one, shape (9), at `distance` from it, positive to its right.
+    /// programmed one, at `distance` from it, positive to its right.
     #[inline]
-    pub fn add_deviation(&self, widths: &Widths, distance: f64, deviation: &mut Axes) {
+    pub fn add_deviation(&self, widths: &Widths, distance: f64, deviation: &mut JumpSum<1>) {
         let x = distance.abs();
         if x < widths.kernel {
-            *deviation +=
-                self.turn * (widths.kernel * kernel::value(x / widths.kernel, widths.mix));
+            let value = widths.kernel * kernel::value(x / widths.kernel, widths.mix);
+            deviation.add(&self.turn, &[value]);
         }
         if x < widths.easement {
             let value = widths.easement * widths.easement * easement::value(x / widths.easement);
-            *deviation += self.jump * value.copysign(distance);
+            deviation.add(&self.jump, &[value.copysign(distance)]);
         }
     }
 
@@ -375,29 +384,54 @@ impl Vertex {
         bound
     }
 
-    /// Adds what it contributes in force to a point of the programmed path, at `distance` (0 and
-    /// above) to its right (`side` 1) or left (`side` -1).
+    /// Puts the widths under examination in force.
+    pub fn store_trial(&mut self) {
+        if self.trial != self.stored {
+            self.stored = self.trial;
+            self.kernel = Kernel::new(self.stored.kernel, self.stored.mix);
+        }
+        self.stored_factor = self.factor;
+    }
+
+    /// Widths in force.
     #[inline]
-    pub fn add_to(&self, point: &mut PathPoint, distance: f64, side: f64) {
-        let Widths {
-            kernel: width,
-            mix,
-            easement: ease,
-        } = self.stored;
-        if distance < width {
-            let inverse = 1.0 / width;
-            let phi = kernel::derivatives(distance * inverse, mix);
-            point.position += self.turn * (width * phi.value);
-            point.first += self.turn * (side * phi.first);
-            point.second += self.turn * (phi.second * inverse);
-            point.third += self.turn * (side * phi.third * inverse * inverse);
+    pub fn stored(&self) -> &Widths {
+        &self.stored
+    }
+
+    /// The factor that belongs to them.
+    pub fn stored_factor(&self) -> f64 {
+        self.stored_factor
+    }
+
+    /// Adds what it contributes in force to a point of the path, at a signed `distance` from it; -0
+    /// is to its left.
+    #[inline]
+    pub fn add_to(&self, sum: &mut PointSum, distance: f64) {
+        let x = distance.abs();
+        if x < self.stored.kernel {
+            self.add_kernel_to(sum, distance);
         }
-        if distance < ease {
-            let f = easement::derivatives(distance / ease);
-            point.position += self.jump * (side * ease * ease * f.value);
-            point.first += self.jump * (ease * f.first);
-            point.second += self.jump * (side * f.second);
-            point.third += self.jump * (f.third / ease);
+        if x < self.stored.easement {
+            self.add_easement_to(sum, distance);
         }
+    }
+
+    // Not where they are called: most vertices that are looked at do not reach the place.
+    #[inline(never)]
+    fn add_kernel_to(&self, sum: &mut PointSum, distance: f64) {
+        sum.add(&self.turn, &self.kernel.factors(distance));
+    }
+
+    #[inline(never)]
+    fn add_easement_to(&self, sum: &mut PointSum, distance: f64) {
+        let width = self.stored.easement;
+        let side = 1.0f64.copysign(distance);
+        let f = easement::derivatives(distance.abs() / width);
+        let factors = Factors {
+            even: [side * width * width * f.value, side * f.second],
+            odd: [width * f.first, f.third / width],
+        };
+        sum.add(&self.jump, &factors);
     }
 }
