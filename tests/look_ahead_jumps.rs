@@ -98,15 +98,19 @@ fn greatest_jerk(piece: &Piece) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// Limits, and seconds with nodes on the vertices and samples of both sides. Without the nodes it
+/// takes 1.5 to 2.5 % longer, without the sides 3 to 7 %: what is not known has to be left free.
+const DURATIONS: [(f64, f64); 3] = [(5_000.0, 0.7885), (20_000.0, 0.4968), (100_000.0, 0.3557)];
+
 #[test]
-fn the_jerk_holds_on_both_sides_of_a_vertex() {
-    for jerk in [5_000.0, 20_000.0, 100_000.0] {
+fn the_jerk_holds_on_both_sides_of_a_vertex_and_is_used() {
+    for (jerk, duration) in DURATIONS {
         let axes = limits(100.0, 1000.0, jerk);
         let pieces = offline(&mut planner(&axes), &Cubics, 200);
         check_continuity(&pieces, Cubics::length());
         let most = pieces.iter().map(greatest_jerk).fold(0.0, f64::max) / jerk;
         assert!(most <= 1.05, "{jerk}: {most}");
-        // And most of it is used.
-        assert!(most > 0.95, "{jerk}: {most}");
+        let total: f64 = pieces.iter().map(|piece| piece.duration).sum();
+        assert!(total <= 1.005 * duration, "{jerk}: {total}");
     }
 }

@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use planner_common::path_check::{self, Place, Wanted};
 use planner_common::{Extremes, Machine, feed_move, with_room};
 use proptest::prelude::*;
-use proptest::test_runner::TestRunner;
+use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 
 #[derive(Clone, Debug)]
 enum Shape {
@@ -213,6 +213,40 @@ fn queue(
     added.expect("a move that can be run")
 }
 
+/// What may explain a rest at or on a move.
+#[derive(Clone, Copy, Debug)]
+struct Supplied {
+    /// When it was queued.
+    cycle: usize,
+    /// G61, G61.1 or G64 at its end.
+    termination: TerminationCondition,
+    wait_for_spindle: bool,
+}
+
+/// A move that came less than so many cycles before may have come too late: it takes the slowest of
+/// the machines that long to brake.
+const LATE: usize = 1000;
+
+/// After so many cycles without a move the planner may take the one before for the last.
+const SILENCE: usize = 8;
+
+/// Whether the program or the supply of moves explains that the machine came to rest before or on the
+/// move `next`.
+fn explains_rest(supplied: &[Supplied], next: i32, cycle: usize) -> bool {
+    let of = |id: i32| supplied.get(usize::try_from(id - 1).ok()?);
+    let late = [next, next + 1]
+        .into_iter()
+        .filter_map(of)
+        .any(|supplied| cycle < supplied.cycle + LATE);
+    let silence = of(next - 1)
+        .zip(of(next))
+        .is_some_and(|(before, next)| next.cycle >= before.cycle + SILENCE);
+    let stops = of(next - 1).is_some_and(|before| {
+        !matches!(before.termination, TerminationCondition::Continuous { .. })
+    });
+    late || silence || stops || of(next).is_some_and(|supplied| supplied.wait_for_spindle)
+}
+
 /// Runs a program to its end, with the greatest values and the number of cycles.
 fn run(
     limits: AxisLimits,
@@ -236,6 +270,8 @@ fn run(
     let mut operator_gone = false;
     let mut generation = 0;
     let mut wanted = Vec::new();
+    let mut supplied = Vec::new();
+    let (mut moved, mut stepped) = (false, false);
     let mut places = vec![Place {
         position: Axes::zeros(),
         id: 0,
@@ -292,12 +328,28 @@ fn run(
             machine.planner.set_id(id);
             if let Some(programmed) = moves.next() {
                 queue(&mut machine, programmed, &mut wanted, (id, generation));
+                supplied.push(Supplied {
+                    cycle,
+                    termination: machine.planner.termination(),
+                    wait_for_spindle: programmed.wait_for_spindle,
+                });
                 id += 1;
             }
         }
         let aborting = machine.planner.status().aborting;
         let status = machine.scaled_cycle(adaptive);
         generation += usize::from(aborting && !status.aborting);
+        let standing = status.active_depth == 0;
+        stepped |= machine.inputs.stepping;
+        if moved && standing && !status.done && !aborting && !stepped {
+            prop_assert!(
+                explains_rest(&supplied, status.exec_id, cycle),
+                "comes to rest at {} in cycle {cycle} for no reason",
+                status.exec_id
+            );
+        }
+        moved = !standing;
+        stepped &= !standing;
         places.push(Place {
             position: status.position,
             id: status.exec_id,
@@ -345,7 +397,20 @@ fn programs_keep_the_limits_whatever_the_operator_does() {
         failure_persistence: None,
         ..ProptestConfig::default()
     };
-    let result = TestRunner::new(config).run(&strategy, |(limits, moves, events, supply)| {
+    // The same programs again: FRAMEPATH_SEED=<what was printed>.
+    let seed: u64 = std::env::var("FRAMEPATH_SEED").map_or_else(
+        |_| {
+            let now = std::time::UNIX_EPOCH.elapsed().expect("a clock");
+            u64::from(now.subsec_nanos()) ^ now.as_secs() << 30
+        },
+        |seed| seed.parse().expect("a number"),
+    );
+    println!("FRAMEPATH_SEED={seed}");
+    let mut bytes = [0; 32];
+    bytes[..8].copy_from_slice(&seed.to_le_bytes());
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
+    let mut runner = TestRunner::new_with_rng(config, rng);
+    let result = runner.run(&strategy, |(limits, moves, events, supply)| {
         let (extremes, cycles) = with_room(|| run(limits, &moves, &events, supply))?;
         let mut sum = sum.borrow_mut();
         sum.0.join(&extremes);

@@ -9,11 +9,15 @@
 //! what it was given whether or not more moves arrive.
 
 mod cell_builder;
+mod handing_out;
 mod outlook;
 mod piece;
+mod progress;
 #[allow(clippy::module_inception, reason = "the type that the folder is about")]
 mod reference;
 mod run;
+mod runs;
+mod single_move;
 mod supply;
 
 pub use outlook::{Conditions, Outlook};

@@ -120,6 +120,18 @@ impl Pieces {
         self.count
     }
 
+    /// Whether the pieces last for more than `seconds` in total.
+    pub fn lasts(&self, seconds: f64) -> bool {
+        let mut left = seconds;
+        for number in 0..self.count {
+            left -= self.slots[slot(self.first.wrapping_add(number))].duration;
+            if left < 0.0 {
+                return true;
+            }
+        }
+        false
+    }
+
     pub fn is_full(&self) -> bool {
         self.count >= SLOTS
     }

@@ -9,6 +9,13 @@ use crate::speed::look_ahead::{LookAhead, Piece, Progress, Route, SpeedCap, Vert
 /// Vertices that are looked at in a cycle, in search of the end of the run.
 const VERTICES_A_CYCLE: usize = 64;
 
+/// Seconds before the braking to an end that is to be moved on, at which the plan is still as easy
+/// to continue as anywhere else.
+const CONTINUED_BEFORE: f64 = 24e-3;
+
+/// Seconds that a plan which ends too soon is waited for at most.
+const LONGEST_WAIT: f64 = 0.06;
+
 /// How near to a change of the speed cap is on it, share of the path distance.
 const ON_CHANGE: f64 = 1e-12;
 
@@ -22,6 +29,8 @@ pub(super) struct Run {
     stop: Option<f64>,
     /// Up to here no stop was found.
     searched: f64,
+    /// Seconds since there is a plan.
+    ready_for: f64,
 }
 
 impl Run {
@@ -31,6 +40,7 @@ impl Run {
             start: None,
             stop: None,
             searched: 0.0,
+            ready_for: 0.0,
         }
     }
 
@@ -46,6 +56,7 @@ impl Run {
         self.start = Some(s);
         self.stop = None;
         self.searched = s;
+        self.ready_for = 0.0;
     }
 
     /// Whether there is a run.
@@ -63,6 +74,12 @@ impl Run {
         self.is_begun() && self.speed.progress() == Progress::Ready
     }
 
+    /// Whether the machine, at rest, may begin with the plan: one that ends at once for now is given
+    /// some time to be continued.
+    pub fn may_start(&self, path: &BlendedPath) -> bool {
+        self.is_ready() && (self.ready_for >= LONGEST_WAIT || !self.brakes_for_now(path))
+    }
+
     /// Whether no plan was found.
     pub fn is_refused(&self) -> bool {
         self.is_begun() && matches!(self.speed.progress(), Progress::Refused(_))
@@ -71,6 +88,12 @@ impl Run {
     /// Whether the machine is to come to rest within `seconds`, as far as the plan goes.
     pub fn brakes_within(&self, seconds: f64) -> bool {
         !self.is_ready() || self.speed.brakes_within(seconds)
+    }
+
+    /// Whether the machine is soon to brake to an end of the plan that is not the end of the run.
+    pub fn brakes_for_now(&self, path: &BlendedPath) -> bool {
+        let final_stop = self.final_stop(path);
+        final_stop.is_none_or(|stop| self.end() < stop) && self.brakes_within(CONTINUED_BEFORE)
     }
 
     /// Where the machine will come to rest for sure, if that is known and final.
@@ -118,7 +141,10 @@ impl Run {
         if self.is_begun() {
             self.speed.raise(outlook.now.feed_scale);
             let stop = self.stop.unwrap_or(f64::INFINITY);
-            self.speed.slice(&PathRoute { path, stop }, budget);
+            let progress = self.speed.slice(&PathRoute { path, stop }, budget);
+            if progress == Progress::Ready {
+                self.ready_for += outlook.now.period;
+            }
         }
     }
 }

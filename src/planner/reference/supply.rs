@@ -11,13 +11,17 @@ const MOVES_A_CYCLE: usize = 16;
 
 /// Seconds without a move after which nothing more is expected, where moves came fast.
 const SHORTEST_SILENCE: f64 = 8e-3;
-/// Where they came slowly: times the mean time between two.
+/// A move is overdue after so many times the mean time between two.
+const OVERDUE: f64 = 1.5;
+/// Where they came slowly, nothing more is expected after so many times that.
 const SILENCE: f64 = 3.0;
 /// And at most, seconds.
 const LONGEST_SILENCE: f64 = 0.5;
 
-/// The share of a new interval in the mean one.
+/// The share of a new interval in the mean one, where it is shorter than that ..
 const FORGETTING: f64 = 0.25;
+/// .. and where it is longer.
+const LEARNING: f64 = 0.5;
 
 /// What of the queue is on the path.
 #[derive(Debug)]
@@ -132,6 +136,13 @@ impl Supply {
         self.barred
     }
 
+    /// Whether the next move is overdue, or not to be expected within `seconds`.
+    pub fn is_late(&self, seconds: f64) -> bool {
+        let overdue = self.silence >= OVERDUE * self.interval;
+        let far = self.interval - self.silence > seconds;
+        self.silence >= SHORTEST_SILENCE && (overdue || far)
+    }
+
     /// Whether nothing more is to be expected for a while.
     pub fn is_silent(&self) -> bool {
         let silence = (SILENCE * self.interval).min(LONGEST_SILENCE);
@@ -164,7 +175,12 @@ impl Supply {
             self.coupling = coupling;
             if follows {
                 let gap = self.silence.min(LONGEST_SILENCE);
-                self.interval += FORGETTING * (gap - self.interval);
+                let share = if gap > self.interval {
+                    LEARNING
+                } else {
+                    FORGETTING
+                };
+                self.interval += share * (gap - self.interval);
             }
             self.next += 1;
             self.silence = 0.0;

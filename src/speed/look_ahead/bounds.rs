@@ -91,4 +91,12 @@ impl Bounds {
             across,
         }
     }
+
+    /// Lower ones.
+    pub fn lower(&mut self) {
+        self.cap *= 0.9;
+        self.acceleration *= 0.9;
+        self.jerk *= 0.7;
+        self.across *= 0.5;
+    }
 }

@@ -31,6 +31,9 @@ const WORTHWHILE: f64 = 8.0;
 /// Slices.
 const PATIENCE: u32 = 8;
 
+/// Seconds to the final braking that are looked at.
+const BRAKING_SEEN: f64 = 0.15;
+
 /// Seconds to the final braking, below which an extension comes before the polish.
 const URGENT: f64 = 0.1;
 
@@ -129,17 +132,22 @@ impl LookAhead {
         self.progress == Progress::Ready && self.state.next > self.plan.last + 1
     }
 
-    /// Whether the final braking begins less than `seconds` behind the frozen part. A path whose
-    /// end is still open has to be ended then.
+    /// Whether the final braking begins less than `seconds`, at most 0.1, behind the
+    /// frozen part. A path whose end is still open has to be ended then.
     pub fn brakes_within(&self, seconds: f64) -> bool {
+        self.state.braking_in < seconds
+    }
+
+    /// Looks how long it is until the final braking.
+    fn look_for_braking(&mut self) {
         let mut time = 0.0;
         for k in self.state.next..self.state.braking {
             time += self.plan.duration(k);
-            if time >= seconds {
-                return false;
+            if time >= BRAKING_SEEN {
+                break;
             }
         }
-        true
+        self.state.braking_in = time;
     }
 
     /// The next piece, which stays as it is from now on. `None` if there is no plan, or the
@@ -151,6 +159,11 @@ impl LookAhead {
         let piece = Piece::of(&self.plan, self.state.next, self.state.frozen_time);
         self.state.next += 1;
         self.state.frozen_time += piece.duration;
+        self.state.braking_in = if self.state.next < self.state.braking {
+            self.state.braking_in - piece.duration
+        } else {
+            0.0
+        };
         self.state.idle_steps = 0;
         Some(piece)
     }
@@ -180,6 +193,7 @@ impl LookAhead {
             }
             left = left.saturating_sub(1);
         }
+        self.look_for_braking();
         self.progress
     }
 
@@ -371,6 +385,7 @@ impl LookAhead {
             .max(self.state.settled.min(base))
             .min(self.plan.last - 1);
         self.state.braking = self.plan.final_braking(base + 1);
+        self.look_for_braking();
         self.state.failures = 0;
         self.state.lead = SHORTEST_LEAD;
         self.state.idle_steps = 0;

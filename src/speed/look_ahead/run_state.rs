@@ -19,6 +19,8 @@ pub(super) struct RunState {
     pub settled: usize,
     /// Where the braking to the final rest begins.
     pub braking: usize,
+    /// Seconds from the frozen part until then, as far as anybody asks.
+    pub braking_in: f64,
     /// What the program's speeds are multiplied by.
     pub raise: f64,
     /// Share of them for a first plan that was refused otherwise.
@@ -52,6 +54,7 @@ impl RunState {
         polished: 1,
         settled: 1,
         braking: 1,
+        braking_in: 0.0,
         raise: 1.0,
         slower: 1.0,
         spacing: 0.0,

@@ -59,6 +59,13 @@ impl Sweeps {
         self.at_mut(k).bounds = bounds;
     }
 
+    /// Makes interval k and its neighbours slower, where all bounds together allowed too much.
+    pub fn lower(&mut self, k: usize) {
+        for k in [k - 1, k, k + 1] {
+            self.at_mut(k).bounds.lower();
+        }
+    }
+
     /// Begins at `base`, whose coefficient and the one before it the spline has.
     pub fn begin_forward(&mut self, spline: &Spline, base: usize) {
         self.base = base;

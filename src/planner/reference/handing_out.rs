@@ -1,0 +1,115 @@
+//! What is handed out: servo periods, made of the pieces of the plan.
+
+use super::cell_builder::Ground;
+use super::outlook::Outlook;
+use super::piece::{Law, Piece};
+use super::reference::{Ahead, Reference};
+
+/// The servo periods that the executor is given where the plan is about to be continued: what it
+/// asks for while it runs the reference as it is, and a little more.
+const PERIODS_AHEAD: f64 = 10.0;
+
+impl Reference {
+    /// Hands out the next servo period and freezes it. After [`Ahead::Last`] and [`Ahead::End`] it
+    /// is not called before the machine has [come to rest](Self::come_to_rest).
+    pub fn next_cell(&mut self, outlook: &Outlook, budget: &mut usize) -> Ahead {
+        loop {
+            self.raise(outlook);
+            let left = outlook.now.period - self.cell.filled();
+            match self.pieces.back() {
+                Some(piece) if self.frontier < piece.duration => {
+                    let to = piece.duration.min(self.frontier + left);
+                    let completes = self.frontier + left <= piece.duration;
+                    let ground = Ground {
+                        path: &self.path,
+                        queue: outlook.queue,
+                        map: outlook.map,
+                    };
+                    self.cell.add(piece, &ground, self.frontier, to);
+                    self.frontier = to;
+                    if completes && let Some(cell) = self.cell.take() {
+                        return Ahead::Cell(cell);
+                    }
+                }
+                _ => {
+                    if self.waits_for_continuation(outlook) {
+                        return Ahead::Later;
+                    }
+                    if *budget == 0 || self.pieces.is_full() || !self.next_piece(outlook) {
+                        return if self.is_at_end() {
+                            self.end_here()
+                        } else {
+                            Ahead::Later
+                        };
+                    }
+                    *budget -= 1;
+                    self.frontier = 0.0;
+                }
+            }
+        }
+    }
+
+    /// Whether nothing more is to be frozen yet: the plan is soon to brake to an end that is to be
+    /// moved on, and the executor has what it needs for now.
+    fn waits_for_continuation(&self, outlook: &Outlook) -> bool {
+        !self.resting
+            && self
+                .pieces
+                .lasts(self.elapsed + PERIODS_AHEAD * outlook.now.period)
+            && self.current().brakes_for_now(&self.path)
+    }
+
+    /// Whether the reference rests where the path ends for good.
+    pub(super) fn is_at_end(&self) -> bool {
+        self.resting && self.path.rests_at_end() && self.rest >= self.path.programmed_end()
+    }
+
+    /// Takes the next piece of the plan. `false` if there is none yet.
+    pub(super) fn next_piece(&mut self, outlook: &Outlook) -> bool {
+        if !self.resting {
+            if self.push_frozen() {
+                return true;
+            }
+            self.rest = self.current().end();
+            self.resting = true;
+            self.current_mut().clear();
+        }
+        if outlook.now.stepping && self.pieces.front().is_some() {
+            return false;
+        }
+        if self.next_move(outlook) {
+            return true;
+        }
+        if !self.current().starts_at(self.rest) {
+            self.swapped = !self.swapped;
+        }
+        let ready = self.current().starts_at(self.rest) && self.current().is_ready();
+        if ready && self.push_frozen() {
+            self.resting = false;
+            return true;
+        }
+        false
+    }
+
+    /// Freezes the next piece of the current run. `false` at its end.
+    pub(super) fn push_frozen(&mut self) -> bool {
+        let Some(piece) = self.current_mut().freeze() else {
+            return false;
+        };
+        self.pieces.push(Piece {
+            law: Law::Run(piece),
+            duration: piece.duration,
+        });
+        true
+    }
+
+    /// Comes to rest for good where the reference rests. Only after [`Ahead::Later`]; never
+    /// answers with a whole cell or `Later`.
+    pub fn end_here(&mut self) -> Ahead {
+        let duration = self.cell.filled();
+        match self.cell.take() {
+            Some(cell) => Ahead::Last { cell, duration },
+            None => Ahead::End,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! The work of a servo period: the path, and the runs along it.
+
+use super::outlook::Outlook;
+use super::reference::Reference;
+use super::run::Run;
+use crate::path::blend::BlendError;
+
+/// Work on the path in [`BUDGET_PERIOD`], kernel terms of 5 ns or so.
+const PATH_BUDGET: f64 = 800.0;
+
+/// What that is multiplied by while the speed has to wait for the path.
+const WAITED_FOR: f64 = 3.0;
+
+/// Work on the speed in [`BUDGET_PERIOD`], units of 20 to 40 ns.
+const SPEED_BUDGET: f64 = 300.0;
+
+/// What that is multiplied by while the machine is soon to brake for want of a longer plan.
+const HURRY: f64 = 2.0;
+
+/// The servo period that the budgets are meant for, seconds. In another one the work of a second is
+/// the same ..
+const BUDGET_PERIOD: f64 = 1e-3;
+/// .. within these shares of the budgets.
+const LEAST_SHARE: f64 = 0.25;
+const GREATEST_SHARE: f64 = 2.0;
+
+/// When the machine is going to brake to the end of the path within so many seconds, and nothing
+/// more has come, the end is final.
+const LAST_CALL: f64 = 0.08;
+/// The same where the next move may still be on its way, but not be here in time: a rest at the end
+/// of the last move is better than one in the middle of it.
+const LAST_MOMENT: f64 = 0.04;
+
+impl Reference {
+    /// Plans on, a fixed amount of work. Once in each servo period.
+    ///
+    /// # Errors
+    /// A move that cannot be put on the path, which never happens to moves that follow one
+    /// another.
+    pub fn work(&mut self, outlook: &Outlook) -> Result<(), BlendError> {
+        if !self.active {
+            return Ok(());
+        }
+        self.supply.feed(&mut self.path, outlook)?;
+        self.end_path();
+        let share = (outlook.now.period / BUDGET_PERIOD).clamp(LEAST_SHARE, GREATEST_SHARE);
+        // Where the plan waits for more of the path, the path comes first.
+        let path_share = if self.current().brakes_for_now(&self.path) {
+            WAITED_FOR * share
+        } else {
+            share
+        };
+        self.path.step((PATH_BUDGET * path_share) as usize);
+        self.begin_runs(outlook);
+        self.turn = !self.turn;
+        let turn = self.turn;
+        let (current, other) = both(&mut self.runs, self.swapped);
+        current.look_for_stop(&self.path);
+        other.look_for_stop(&self.path);
+        let urgent = current.brakes_for_now(&self.path);
+        let worked = if turn && other.is_begun() && !urgent {
+            other
+        } else {
+            current
+        };
+        let hurry = if urgent { HURRY } else { 1.0 };
+        worked.work(&self.path, outlook, (SPEED_BUDGET * share * hurry) as u32);
+        Ok(())
+    }
+
+    /// Where nothing more is to be expected the path may end.
+    pub(super) fn end_path(&mut self) {
+        // A line may still wait to be merged with the next one, behind what is known to end at rest.
+        let last = self.path.leg_ending_at(self.path.programmed_end());
+        let complete = last.is_some_and(|(serial, _)| serial + 1 >= self.supply.next());
+        if self.path.rests_at_end() && complete {
+            return;
+        }
+        let last = if self.other().is_begun() {
+            self.other()
+        } else {
+            self.current()
+        };
+        let last_moment =
+            self.supply.is_late(LAST_MOMENT) && last.is_ready() && last.brakes_within(LAST_MOMENT);
+        if self.supply.is_barred() || last_moment {
+            self.path.finish();
+        } else if self.supply.is_silent() {
+            if last.brakes_within(LAST_CALL) {
+                self.path.finish();
+            } else {
+                self.path.flush();
+            }
+        }
+    }
+
+    /// Begins the runs that are due: from where the reference rests, and from where the run that
+    /// is handed out will come to rest.
+    pub(super) fn begin_runs(&mut self, outlook: &Outlook) {
+        let s = if self.resting {
+            self.rest
+        } else {
+            match self.current().final_stop(&self.path) {
+                Some(stop) => stop,
+                None => return,
+            }
+        };
+        if s >= self.path.programmed_end() || self.path.move_between_rests(s).is_some() {
+            return;
+        }
+        if self.other().starts_at(s) || self.resting && self.current().starts_at(s) {
+            return;
+        }
+        let (current, other) = both(&mut self.runs, self.swapped);
+        let due = if self.resting { current } else { other };
+        due.begin(s, outlook);
+    }
+
+    pub(super) fn current(&self) -> &Run {
+        let [first, second] = &self.runs;
+        if self.swapped { second } else { first }
+    }
+
+    pub(super) fn current_mut(&mut self) -> &mut Run {
+        both(&mut self.runs, self.swapped).0
+    }
+
+    pub(super) fn other(&self) -> &Run {
+        let [first, second] = &self.runs;
+        if self.swapped { first } else { second }
+    }
+}
+
+/// The current run, and the other one.
+fn both(runs: &mut [Run; 2], swapped: bool) -> (&mut Run, &mut Run) {
+    let [first, second] = runs;
+    if swapped {
+        (second, first)
+    } else {
+        (first, second)
+    }
+}

@@ -1,0 +1,88 @@
+//! A move that stands alone between two rests, run by one profile.
+
+use super::outlook::Outlook;
+use super::piece::{Law, MoveLaw, Piece};
+use super::reference::Reference;
+use crate::speed::{JerkLimitedProfile, PathLimits};
+
+/// A cap on the velocity has to rise by more than this factor before a move is planned anew.
+const NOTICEABLE_RAISE: f64 = 1.001;
+
+impl Reference {
+    /// Plans a move that stands alone between two rests. `false` if that is not what comes next.
+    pub(super) fn next_move(&mut self, outlook: &Outlook) -> bool {
+        let Some((shape, leg)) = self.path.move_between_rests(self.rest) else {
+            return false;
+        };
+        let Some(queued) = outlook.queue.get(leg.serial) else {
+            return false;
+        };
+        let cap = outlook.velocity_cap(queued);
+        let limits = PathLimits::of(&shape, outlook.map, outlook.limits, cap);
+        let profile = JerkLimitedProfile::rest_to_rest(shape.length(), &limits);
+        // A profile without duration would be a jump. Positive limits never lead to one.
+        if !(profile.duration() > 0.0 && profile.duration().is_finite()) {
+            return false;
+        }
+        self.pieces.push(Piece {
+            law: Law::Move(MoveLaw {
+                serial: leg.serial,
+                start: leg.start,
+                end: leg.end,
+                rate: 1.0 / leg.measure_rate,
+                profile,
+                cap,
+            }),
+            duration: profile.duration(),
+        });
+        // The look-ahead may have begun before it was known that the move ends at rest.
+        for run in &mut self.runs {
+            if run.starts_at(self.rest) {
+                run.clear();
+            }
+        }
+        self.rest = leg.end;
+        true
+    }
+
+    /// Lets a faster profile take over at the frontier, if the cap has risen and the move is
+    /// steady there.
+    pub(super) fn raise(&mut self, outlook: &Outlook) {
+        let frontier = self.frontier;
+        if self.pieces.is_full() {
+            return;
+        }
+        let Some(piece) = self.pieces.back_mut() else {
+            return;
+        };
+        let Law::Move(law) = &mut piece.law else {
+            return;
+        };
+        let Some(queued) = outlook.queue.get(law.serial) else {
+            return;
+        };
+        let cap = outlook.velocity_cap(queued);
+        if cap <= law.cap * NOTICEABLE_RAISE || law.profile.steady_time_left(frontier).is_none() {
+            return;
+        }
+        // Asked once for each cap, whatever the answer.
+        law.cap = cap;
+        let state = law.profile.state(frontier, frontier);
+        let start = law.start + law.rate * state.distance;
+        let limits = PathLimits::of(&queued.shape, outlook.map, outlook.limits, cap);
+        let left = (law.end - start) / law.rate;
+        if let Some(profile) = JerkLimitedProfile::raised(left, state.velocity, &limits) {
+            let law = MoveLaw {
+                start,
+                profile,
+                ..*law
+            };
+            piece.duration = frontier;
+            self.pieces.push(Piece {
+                law: Law::Move(law),
+                duration: profile.duration(),
+            });
+            self.frontier = 0.0;
+        }
+    }
+}

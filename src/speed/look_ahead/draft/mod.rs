@@ -1,0 +1,243 @@
+//! The making of a plan, or of the continuation of a plan, a little at a time.
+//!
+//! A draft is begun with the place where it is to come to rest. It searches for the arcs at rest,
+//! places the nodes, sweeps forward and backward, takes the hull, and checks every interval
+//! against the rows of all axes. Only then may it replace the plan. Where a step fails, what caused
+//! it is changed (a shorter arc, a later first coefficient) and the draft begins again, a bounded
+//! number of times.
+
+mod coefficients;
+mod nodes;
+mod repair;
+
+use super::context::DraftContext;
+use super::cost;
+use super::grid::Grid;
+use super::refusal::Refusal;
+use super::rest_arc::{RestArcSearch, free_length};
+use super::route::Route;
+use super::spline::{CAPACITY, SampleBanks, Spline};
+use super::sweeps::{SweepFault, Sweeps};
+
+/// The share of acceleration and jerk that a plan may take at the three points of each interval.
+/// The rest is for what happens in between.
+pub(super) const MARGIN: f64 = 0.998;
+
+/// Shares of [`MARGIN`] that the sweeps hand out, in turn from failure to failure. Lower ones are
+/// slower without the polish, and some drafts succeed with one and not with another.
+const SWEEP_MARGINS: [f64; 4] = [0.95, 0.985, 0.97, 0.93];
+
+/// Intervals that a draft adds at most; a longer one is ended behind three quarters of them.
+pub(super) const MOST_INTERVALS: usize = 128;
+/// The same where the machine is soon to brake: what is short is found soon.
+pub(super) const MOST_URGENT_INTERVALS: usize = 64;
+
+/// What has become of a draft.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DraftStep {
+    /// The budget is spent.
+    More,
+    /// It may replace the plan from the coefficient behind its base on.
+    Ready,
+    /// There is none.
+    Refused(Refusal),
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Phase {
+    StartArc(RestArcSearch),
+    EndArc(RestArcSearch),
+    Grid,
+    Bounds(usize),
+    Forward(usize),
+    Backward(usize),
+    Hull(usize),
+    Lower(usize),
+    Check(usize),
+    Finished(DraftStep),
+}
+
+/// Why a draft does not work as it is.
+#[derive(Clone, Copy, Debug)]
+enum Fault {
+    /// The coefficients cannot be swept.
+    Sweep(SweepFault),
+    /// An interval breaks a limit.
+    Interval(usize),
+}
+
+/// A plan that is being made.
+#[derive(Debug)]
+pub(super) struct Draft {
+    pub spline: Spline,
+    /// The last coefficient that is not changed.
+    pub base: usize,
+    /// The base of the first attempt.
+    first_base: usize,
+    first: bool,
+    cut: usize,
+    /// From here on the nodes are placed in the attempt that is under way.
+    grid_from: usize,
+    /// Whether the bounds of the intervals before that are known.
+    bounded: bool,
+    most_start: f64,
+    most_end: f64,
+    attempt: usize,
+    /// How often bounds were lowered since they were made.
+    lowered: usize,
+    margin: f64,
+    /// Intervals that it adds at most.
+    most: usize,
+    /// Cost of an evaluation of the path.
+    evaluation: u32,
+    phase: Phase,
+    grid: Grid,
+    sweeps: Sweeps,
+}
+
+impl Draft {
+    pub const NONE: Self = Self {
+        spline: Spline::NONE,
+        base: 1,
+        first_base: 1,
+        first: true,
+        cut: 1,
+        grid_from: 1,
+        bounded: false,
+        most_start: 0.0,
+        most_end: 0.0,
+        attempt: 0,
+        lowered: 0,
+        margin: 0.95,
+        most: MOST_INTERVALS,
+        evaluation: 0,
+        phase: Phase::Finished(DraftStep::Refused(Refusal::NotFound)),
+        grid: Grid::new(),
+        sweeps: Sweeps::NONE,
+    };
+
+    /// Begins a plan from the rest at `start` to a rest at `end`. `failures` chooses the margin.
+    pub fn begin_first<R: Route>(
+        &mut self,
+        context: &DraftContext<R>,
+        start: f64,
+        end: f64,
+        failures: usize,
+    ) {
+        self.spline.start = start;
+        self.spline.end = end;
+        self.evaluation = cost::evaluation(context.kernels_before(end));
+        self.first = true;
+        self.most = MOST_INTERVALS;
+        self.grid.forget();
+        self.base = 1;
+        self.cut = 1;
+        self.grid_from = 1;
+        self.attempt = 0;
+        self.margin = MARGIN * SWEEP_MARGINS[failures & 3];
+        self.most_start = free_length(context.route, start, end - start);
+        self.most_end = free_length(context.route, end, end - start);
+        self.phase = self.search_start(context);
+    }
+
+    /// Begins the continuation of the plan to a rest at `end`; coefficients up to `base` at least
+    /// stay as they are. It adds at most `most` intervals. `failures` chooses the margin.
+    pub fn begin_extension<R: Route>(
+        &mut self,
+        context: &DraftContext<R>,
+        base: usize,
+        end: f64,
+        most: usize,
+        failures: usize,
+    ) {
+        let plan = context.plan;
+        self.base = base;
+        if base + 4 > plan.last {
+            self.phase = Phase::Finished(DraftStep::Refused(Refusal::TooLate));
+            return;
+        }
+        self.spline.copy_from(plan, base - 2);
+        self.spline.end = end;
+        self.evaluation = cost::evaluation(context.kernels_before(end));
+        self.first = false;
+        self.most = most;
+        self.first_base = base;
+        self.attempt = 0;
+        self.margin = MARGIN * SWEEP_MARGINS[failures & 3];
+        // Intervals that are short only for the old rest are made anew.
+        let mut cut = plan.last;
+        for _ in 0..CAPACITY {
+            if cut <= base + 2 || !plan.at(cut - 1).near_end {
+                break;
+            }
+            cut -= 1;
+        }
+        self.cut = cut;
+        self.grid_from = cut;
+        let total = end - plan.at(cut).start;
+        self.most_end = free_length(context.route, end, total).min(0.3 * total);
+        self.phase = self.search_end(context);
+    }
+
+    /// Works until it is finished or the budget is spent.
+    pub fn advance<R: Route>(
+        &mut self,
+        context: &DraftContext<R>,
+        samples: &mut SampleBanks,
+        budget: &mut u32,
+    ) -> DraftStep {
+        while *budget > 0 {
+            let price = match self.phase {
+                Phase::StartArc(_) | Phase::EndArc(_) => {
+                    cost::REST_ARC + cost::REST_ARC_EVALUATIONS * self.evaluation
+                }
+                Phase::Grid => cost::NODE + cost::NODE_EVALUATIONS * self.evaluation,
+                Phase::Bounds(_) => cost::BOUNDS,
+                Phase::Check(_) => cost::CHECK,
+                Phase::Finished(step) => return step,
+                _ => cost::SWEEP,
+            };
+            *budget = budget.saturating_sub(price);
+            self.phase = self.step(context, samples);
+        }
+        match self.phase {
+            Phase::Finished(step) => step,
+            _ => DraftStep::More,
+        }
+    }
+
+    fn step<R: Route>(&mut self, context: &DraftContext<R>, samples: &mut SampleBanks) -> Phase {
+        match self.phase {
+            Phase::StartArc(search) => self.step_start_arc(context, search),
+            Phase::EndArc(search) => self.step_end_arc(context, samples, search),
+            Phase::Grid => self.step_grid(context, samples),
+            Phase::Bounds(k) => self.step_bounds(context, samples, k),
+            Phase::Forward(k) => self.step_forward(context, k),
+            Phase::Backward(k) => self.step_backward(context, k),
+            Phase::Hull(k) => self.step_hull(k),
+            Phase::Lower(k) => self.step_lower(context, k),
+            Phase::Check(k) => self.step_check(context, samples, k),
+            Phase::Finished(_) => self.phase,
+        }
+    }
+
+    /// A coefficient that what comes behind the known end hardly changes any more; 0 if none.
+    pub fn settled(&self) -> usize {
+        self.sweeps.settled()
+    }
+
+    /// The first interval that may differ from the plan.
+    pub fn changed(&self) -> usize {
+        if self.first { 0 } else { self.first_base }
+    }
+
+    /// The mean length of the intervals that were made.
+    pub fn added(&self) -> f64 {
+        let count = self.spline.last + 1 - self.cut;
+        (self.spline.end - self.spline.at(self.cut).start) / count.max(1) as f64
+    }
+}
+
+fn refused(refusal: Refusal) -> Phase {
+    Phase::Finished(DraftStep::Refused(refusal))
+}

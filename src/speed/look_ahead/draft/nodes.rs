@@ -1,0 +1,175 @@
+//! The nodes of a draft: arcs at rest, and the grid in between.
+
+use super::super::context::DraftContext;
+use super::super::grid::{GROWTH, GridStep};
+use super::super::refusal::Refusal;
+use super::super::rest_arc::{ArcStep, LASTING, RestArcSearch, free_length};
+use super::super::route::Route;
+use super::super::spline::{Interval, SampleBanks};
+use super::{Draft, Phase, refused};
+
+/// How many times its length an interval is away from the rest if that has no influence on it.
+const NODES_BEFORE_REST: f64 = 6.0;
+
+impl Draft {
+    pub(super) fn search_start<R: Route>(&self, context: &DraftContext<R>) -> Phase {
+        Phase::StartArc(context.search(self.spline.start, 1.0, self.most_start, LASTING))
+    }
+
+    pub(super) fn search_end<R: Route>(&self, context: &DraftContext<R>) -> Phase {
+        let share = context.end_share(self.spline.end);
+        Phase::EndArc(context.search(self.spline.end, -1.0, self.most_end, share))
+    }
+
+    pub(super) fn step_start_arc<R: Route>(
+        &mut self,
+        context: &DraftContext<R>,
+        mut search: RestArcSearch,
+    ) -> Phase {
+        match search.advance(context.rows, context.route) {
+            ArcStep::More => Phase::StartArc(search),
+            ArcStep::Failed => refused(Refusal::NoRest),
+            ArcStep::Found(arc) => {
+                self.spline.start_arc = arc;
+                self.search_end(context)
+            }
+        }
+    }
+
+    pub(super) fn step_end_arc<R: Route>(
+        &mut self,
+        context: &DraftContext<R>,
+        samples: &mut SampleBanks,
+        mut search: RestArcSearch,
+    ) -> Phase {
+        match search.advance(context.rows, context.route) {
+            ArcStep::More => Phase::EndArc(search),
+            ArcStep::Failed => refused(Refusal::NoRest),
+            ArcStep::Found(arc) => {
+                self.spline.end_arc = arc;
+                self.begin_grid(context, samples)
+            }
+        }
+    }
+
+    /// Gives the node at the cut its place and sample, in the bank that the plan does not use.
+    pub(super) fn begin_grid<R: Route>(
+        &mut self,
+        context: &DraftContext<R>,
+        samples: &mut SampleBanks,
+    ) -> Phase {
+        let from = self.grid_from;
+        let bank = context.plan.at(from).bank ^ 1;
+        if from > self.cut {
+            let Interval { start, length, .. } = *self.spline.at(from);
+            let sample = context.rows.sample(context.route, start, length);
+            samples.place_mut(&self.spline, from).start = sample;
+        } else if self.first {
+            let length = self.spline.start_arc.length;
+            let start = self.spline.start + length;
+            *self.spline.at_mut(0) = Interval {
+                start,
+                length: GROWTH * length,
+                ..Interval::NONE
+            };
+            *self.spline.at_mut(1) = Interval {
+                start,
+                bank,
+                ..Interval::NONE
+            };
+            let sample = context.rows.sample(context.route, start, 0.0);
+            if !sample.is_sound() {
+                return refused(Refusal::Unsound);
+            }
+            samples.place_mut(&self.spline, 1).start = sample;
+        } else {
+            let Interval { start, length, .. } = *context.plan.at(from);
+            let sample = context.rows.sample(context.route, start, length);
+            self.spline.at_mut(from).start = start;
+            self.spline.at_mut(from).bank = bank;
+            samples.place_mut(&self.spline, from).start = sample;
+        }
+        self.grid
+            .restart(&self.spline, from, context.route, context.raise_squared);
+        Phase::Grid
+    }
+
+    pub(super) fn step_grid<R: Route>(
+        &mut self,
+        context: &DraftContext<R>,
+        samples: &mut SampleBanks,
+    ) -> Phase {
+        let step = self.grid.advance(
+            &mut self.spline,
+            context.plan,
+            samples,
+            context.rows,
+            context.route,
+            context.raise_squared,
+            context.oldest,
+        );
+        match step {
+            GridStep::More if self.grid.reached() > self.cut + self.most => self.shorten(context),
+            GridStep::More => Phase::Grid,
+            GridStep::TooLong => refused(Refusal::TooLong),
+            GridStep::Unsound => refused(Refusal::Unsound),
+            GridStep::Done if self.first && self.spline.last < 3 => {
+                // So short that the arcs leave hardly anything between them.
+                self.most_start = 0.35 * self.spline.start_arc.length;
+                self.most_end = 0.35 * self.spline.end_arc.length;
+                self.grid_from = self.cut;
+                self.again().unwrap_or_else(|| self.search_start(context))
+            }
+            GridStep::Done => {
+                if self.first {
+                    let length = self.spline.at(1).length;
+                    self.spline.at_mut(0).length = length;
+                }
+                // Bounds of intervals that were kept are known.
+                let kept = if self.bounded && self.grid_from > self.cut {
+                    self.grid_from - 1
+                } else {
+                    0
+                };
+                self.lowered = 0;
+                Phase::Bounds(kept.max(self.base - 1))
+            }
+        }
+    }
+
+    /// Keeps the nodes that the rest at the end has no influence on: where it is approached the
+    /// spacing is [`GROWTH`] of the distance from it, however long its arc is. `count` nodes behind
+    /// the cut are known.
+    pub(super) fn keep_nodes(&mut self, count: usize) {
+        let end = self.spline.end;
+        let mut from = self.cut;
+        for _ in 0..count {
+            let interval = self.spline.at(from);
+            let left = end - interval.start - interval.length;
+            if interval.near_end || left < NODES_BEFORE_REST * interval.length {
+                break;
+            }
+            from += 1;
+        }
+        self.grid_from = from;
+    }
+
+    /// Intervals that a draft which grew too long is ended behind.
+    pub(super) fn enough(&self) -> usize {
+        self.most - self.most / 4
+    }
+
+    /// Ends the draft where the grid has come to.
+    pub(super) fn shorten<R: Route>(&mut self, context: &DraftContext<R>) -> Phase {
+        if let Some(refused) = self.again() {
+            return refused;
+        }
+        let end = self.spline.at(self.cut + self.enough()).start;
+        self.spline.end = end;
+        let total = end - self.spline.at(self.cut).start;
+        self.most_end = free_length(context.route, end, total);
+        self.keep_nodes(self.enough());
+        self.bounded = false;
+        self.search_end(context)
+    }
+}
