@@ -29,6 +29,8 @@ static struct {
 
 static int component;
 static struct framepath_planner *planner;
+/* Servo periods for which a refusal to run in reverse is not said again. */
+static int reverse_refused;
 
 /* framekins says how the axes of the program lie to those of the machine; other kinematics do not have it. */
 static int (*linear_map)(double map[9]);
@@ -159,6 +161,8 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     const char *fault, *spindle;
     double asked, greatest;
     (void)period;
+    if (reverse_refused)
+        reverse_refused--;
     result = framepath_planner_run_cycle(planner, tp);
     spindle = framepath_planner_spindle_error_text(planner, &asked, &greatest);
     if (spindle && asked > 0)
@@ -241,8 +245,14 @@ int tpSetDout(TP_STRUCT * const tp, int index, unsigned char start, unsigned cha
 
 int tpSetRunDir(TP_STRUCT * const tp, tc_direction_t direction)
 {
+    int result = framepath_planner_set_run_direction(planner, direction);
     (void)tp;
-    return framepath_planner_set_run_direction(planner, direction);
+    if (result < 0 && !reverse_refused)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: this planner does not run in reverse: with a negative motion.adaptive-feed the "
+                        "machine stands still, and a command to run in reverse changes nothing\n");
+    /* Negative adaptive feed asks in every servo period. */
+    reverse_refused = result < 0 ? 2 : 0;
+    return result;
 }
 
 int tpClear(TP_STRUCT *tp)

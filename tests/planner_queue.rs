@@ -74,6 +74,17 @@ fn ids_follow_the_moves() {
 }
 
 #[test]
+fn a_move_that_goes_nowhere_needs_no_feed() {
+    // LinuxCNC sends them with a feed and a greatest velocity of 0
+    with_machine(|machine| {
+        let mut request = feed_move(0.0);
+        request.max_velocity = 0.0;
+        assert_eq!(machine.line(at(0.0, 0.0), &request), Ok(Added::ZeroLength));
+        assert!(machine.line(at(1.0, 0.0), &request).is_err());
+    });
+}
+
+#[test]
 fn outputs_are_written_once_when_their_move_starts() {
     with_machine(|machine| {
         machine

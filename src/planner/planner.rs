@@ -291,6 +291,12 @@ impl Planner {
         if self.period == 0.0 {
             return Err(AddError::NotConfigured);
         }
+        // First of all: LinuxCNC sends moves that go nowhere without a feed.
+        let shape = match shape {
+            Ok(shape) => shape,
+            Err(ShapeError::ZeroLength) => return Ok(Added::ZeroLength),
+            Err(error) => return Err(AddError::Shape(error)),
+        };
         let synchronisation = self.synchronisation_in(mode)?;
         let max_velocity = request.max_velocity;
         let feed =
@@ -299,11 +305,6 @@ impl Planner {
         if !(usable(feed) && usable(max_velocity)) {
             return Err(AddError::Feed { feed, max_velocity });
         }
-        let shape = match shape {
-            Ok(shape) => shape,
-            Err(ShapeError::ZeroLength) => return Ok(Added::ZeroLength),
-            Err(error) => return Err(AddError::Shape(error)),
-        };
         let mut axes = (0..AXIS_COUNT).zip(self.limited);
         if let Some((axis, _)) = axes.find(|(axis, limited)| !limited && shape.moves(*axis)) {
             return Err(AddError::AxisLimits { axis });

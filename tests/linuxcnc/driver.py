@@ -135,6 +135,12 @@ class Operator:
     def step(self):
         self.command.auto(linuxcnc.AUTO_STEP)
 
+    def reverse(self):
+        self.command.auto(linuxcnc.AUTO_REVERSE)
+
+    def forward(self):
+        self.command.auto(linuxcnc.AUTO_FORWARD)
+
     def abort(self):
         self.command.abort()
         self.command.wait_complete()
@@ -170,6 +176,15 @@ class Operator:
     def wait_line(self, line, timeout=None):
         """Waits until motion is at this line of the program or behind it."""
         self.wait_for(f"line {line}", lambda: self.status.motion_line >= line, timeout)
+
+    def fill_queue(self):
+        """Waits until motion's queue has not grown for a while: it is full, or the program waits."""
+        length, since = None, time.monotonic()
+        while time.monotonic() - since < 0.4:
+            self.poll()
+            if self.status.queue != length:
+                length, since = self.status.queue, time.monotonic()
+            time.sleep(0.01)
 
     def wait_moving(self):
         self.wait_for("motion", lambda: self.status.current_vel > 0, 10)
@@ -258,10 +273,17 @@ class Operator:
         return any(kind in ERRORS for kind, _ in self.messages)
 
 
-def main():
+def write_result(operator, failure):
+    errors = [text for kind, text in operator.messages if kind in ERRORS]
+    result = {"failure": failure, "errors": errors, "messages": operator.messages, "answers": operator.answers}
+    with open(os.environ["FRAMEPATH_RESULT"], "w", encoding="utf-8") as file:
+        json.dump(result, file, indent=1)
+
+
+def main(operator_type=Operator):
     with open(os.environ["FRAMEPATH_SCENARIO"], encoding="utf-8") as file:
         steps = json.load(file)
-    operator = Operator()
+    operator = operator_type()
     failure = None
     try:
         for name, *arguments in steps:
@@ -272,10 +294,7 @@ def main():
             traceback.print_exc()
     # A moment of standstill at the end of the recording.
     operator.sleep(0.1)
-    errors = [text for kind, text in operator.messages if kind in ERRORS]
-    result = {"failure": failure, "errors": errors, "messages": operator.messages, "answers": operator.answers}
-    with open(os.environ["FRAMEPATH_RESULT"], "w", encoding="utf-8") as file:
-        json.dump(result, file, indent=1)
+    write_result(operator, failure)
 
 
 if __name__ == "__main__":

@@ -81,11 +81,11 @@ class Recorder:
         count = len(self.signals)
         lines = [f"loadrt scale count={count}", f"loadrt sampler depth=16000 cfg={'f' * count}{'s' * len(self.integers)}"]
         for n, pin in enumerate(self.signals):
-            signal = f"record-{n}"
             lines += [
-                # a pin may already be on a signal of the configuration
                 f"setp scale.{n}.gain {RECORDED_SCALE:.0f}",
-                f"net {signal} scale.{n}.out => sampler.0.pin.{n}",
+                f"net record-{n} scale.{n}.out => sampler.0.pin.{n}",
+                # the joints' commands are on the loop-back signals of the sample; the axes are free
+                f"net joint-{n} => scale.{n}.in" if pin.startswith("joint.") else f"net axis-{n} {pin} => scale.{n}.in",
             ]
         for n in range(count):
             lines.append(f"addf scale.{n} servo-thread")
@@ -93,6 +93,10 @@ class Recorder:
             lines.append(f"net record-{name} {pin} => sampler.0.pin.{count + n}")
         lines.append("addf sampler.0 servo-thread")
         return "\n".join(lines) + "\n"
+
+    def read(self, path, ini_text):
+        """The recording as rows of numbers."""
+        return read_recording(path, ini_text, len(self.signals))
 
 
 def edit_ini(text, changes):
@@ -120,41 +124,41 @@ def edit_ini(text, changes):
 
 
 def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3, axes="xyz", timeout=300,
-        record=True, modules=None, integers=None):
+        record=True, modules=None, integers=None, configuration=None, files=(), display="driver.py", recorder=None):
     """Carries out a scenario.
 
     steps: list of [name, argument, ...], see driver.Operator; "on" and "home" are done first.
     programs: {file name: text}; steps name them by their file name with PROGRAMS in front: "PROGRAMS/part.ngc".
     ini: {(section, key): value or None} changes to the sample's INI. hal: text of a further HAL file.
     integers: {column: pin} further pins to record, of type s32.
+    configuration: a folder with sample.ini and sample.hal in place of the sample that users get.
+    files: what goes into the folder of the configuration; display: which of them stands where the screen stands.
+    recorder: what records in place of a Recorder of these joints, axes and integers.
     Raises RuntimeError with LinuxCNC's output if LinuxCNC did not come up at all.
     """
     folder = tempfile.mkdtemp(prefix="framepath-run.")
     try:
         config = os.path.join(folder, "configs", sample)
-        shutil.copytree(os.path.join(SAMPLES, "configs", sample), config)
+        shutil.copytree(configuration or os.path.join(SAMPLES, "configs", sample), config)
         shutil.copytree(os.path.join(SAMPLES, "subroutines"), os.path.join(folder, "subroutines"))
-        shutil.copy(os.path.join(HERE, "driver.py"), config)
+        for name in ("driver.py", *files):
+            shutil.copy(os.path.join(HERE, name), config)
         program_folder = os.path.join(folder, "programs")
         os.mkdir(program_folder)
         for name, text in (programs or {}).items():
             with open(os.path.join(program_folder, name), "w", encoding="utf-8") as file:
                 file.write(text)
-        recorder = Recorder(joints, axes, integers)
+        recorder = recorder or Recorder(joints, axes, integers)
         recording = os.path.join(folder, "recording.txt")
         ini_path = os.path.join(config, f"{sample}.ini")
         with open(ini_path, encoding="utf-8") as file:
             text = file.read()
-        changes = {("DISPLAY", "DISPLAY"): "./driver.py"}
+        changes = {("DISPLAY", "DISPLAY"): f"./{display}"}
         changes.update(ini or {})
         text = edit_ini(text, changes)
         extra = hal
         if record:
             extra += recorder.hal()
-            # the joints' commands are on the loop-back signals of the sample; the axes are free
-            for n, pin in enumerate(recorder.signals):
-                extra += f"net joint-{n} => scale.{n}.in\n" if pin.startswith("joint.") \
-                    else f"net axis-{n} {pin} => scale.{n}.in\n"
             extra += f"loadusr halsampler -t {recording}\n"
         with open(os.path.join(config, "test.hal"), "w", encoding="utf-8") as file:
             file.write(extra)
@@ -183,7 +187,7 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
             raise RuntimeError(f"LinuxCNC did not run the scenario:\n{log}")
         with open(outcome, encoding="utf-8") as file:
             result = json.load(file)
-        rows = read_recording(recording, text, len(recorder.signals)) if record else []
+        rows = recorder.read(recording, text) if record else []
         return Result(result, rows, recorder.header, log)
     finally:
         shutil.rmtree(folder, ignore_errors=True)

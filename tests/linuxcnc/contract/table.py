@@ -1,0 +1,84 @@
+#!/usr/bin/python3
+"""The outcome table: every promise, with LinuxCNC's own planner and with blendtp. table.py [--verbose] [--markdown] [ROW ...]"""
+
+import concurrent.futures
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import session  # noqa: E402
+from row import all_rows  # noqa: E402
+
+STOCK, OURS = "tpmod", "blendtp"
+SECTIONS = ("Identity", "Status", "Path modes", "Feed", "Operator", "Outputs", "Probing", "Indexer", "Spindle", "Threads")
+#: LinuxCNCs for each planner
+AT_A_TIME = 3
+#: share of what stock leaves below which ours is better, not the same
+BETTER = 0.8
+
+
+def outcomes(names=None, verbose=False):
+    """{planner: {row: Outcome}} for both planners, in some LinuxCNCs side by side, which mostly wait."""
+    names = names or [row.name() for row in all_rows()]
+    found = {STOCK: {}, OURS: {}}
+    with concurrent.futures.ThreadPoolExecutor(2 * AT_A_TIME) as pool:
+        running = [(planner, pool.submit(session.run, planner, names[part::AT_A_TIME], verbose))
+                   for planner in found for part in range(AT_A_TIME) if names[part::AT_A_TIME]]
+        for planner, future in running:
+            found[planner].update(future.result())
+    return found
+
+
+def verdict(row, stock, ours):
+    if not ours.works:
+        return "refused" if row.refused and row.refused in ours.text else "FAILS"
+    if not stock.works:
+        return "works, stock fails"
+    if stock.figure is not None and ours.figure < BETTER * stock.figure:
+        return "works better"
+    return "works"
+
+
+def lines(found, names=None):
+    """The table as text: section, promise, outcome, and what was seen of each."""
+    section = None
+    for row in sorted(all_rows(), key=lambda row: SECTIONS.index(row.section)):
+        if names and row.name() not in names:
+            continue
+        stock, ours = found[STOCK][row.name()], found[OURS][row.name()]
+        if row.section != section:
+            section = row.section
+            yield f"\n{section}"
+        yield f"  {verdict(row, stock, ours):19} {row.promise()} [{row.name()}]"
+        for planner, outcome in ((STOCK, stock), (OURS, ours)):
+            if outcome.text:
+                yield f"{'':22}{planner}: {'' if outcome.works else 'fails: '}{outcome.text}"
+
+
+def markdown(found):
+    """The same for the README."""
+    yield "| | with blendtp | LinuxCNC's own planner |\n|---|---|---|"
+    section = None
+    for row in sorted(all_rows(), key=lambda row: SECTIONS.index(row.section)):
+        stock, ours = found[STOCK][row.name()], found[OURS][row.name()]
+        if row.section != section:
+            section = row.section
+            yield f"| **{section}** | | |"
+        cells = [f"{verdict(row, stock, ours)}", "works" if stock.works else "fails"]
+        cells[0] = cells[0].replace(", stock fails", "")
+        for n, outcome in enumerate((ours, stock)):
+            if outcome.text and not (n == 0 and row.refused):
+                cells[n] += f": {outcome.text}"
+        yield f"| {row.promise()} | {cells[0]} | {cells[1]} |"
+
+
+def main():
+    options = {"--verbose", "--markdown"}
+    names = [argument for argument in sys.argv[1:] if argument not in options]
+    found = outcomes(names, "--verbose" in sys.argv)
+    print("\n".join(markdown(found) if "--markdown" in sys.argv else lines(found, names)))
+
+
+if __name__ == "__main__":
+    main()
