@@ -129,8 +129,7 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// Bounds over two cells. The limit is raised to what the reference needs by itself, so that
-    /// a constant rate is always allowed, even after the limits have been lowered.
+    /// Bounds over two cells.
     #[inline(always)]
     fn new(min: [&Lanes; 2], max: [&Lanes; 2], limit: &Lanes) -> Self {
         let mut bounds = Self {
@@ -143,9 +142,18 @@ impl Bounds {
             let high = greater(max[0][lane], max[1][lane]);
             bounds.centre[lane] = 0.5 * (high + low);
             bounds.half[lane] = 0.5 * (high - low);
-            bounds.limit[lane] = ROUNDING * greater(limit[lane], greater(high, -low));
+            bounds.limit[lane] = limit[lane];
         }
         bounds
+    }
+
+    /// The limit where the derivative counts `power` times: raised to what the reference needs by
+    /// itself, so that a constant rate is always allowed, even after the limits have been lowered.
+    /// No more than that: bounds may be wider than what lies inside.
+    #[inline(always)]
+    fn limit_at(&self, lane: usize, power: f32) -> f32 {
+        let needed = power * (self.centre[lane].abs() + self.half[lane]);
+        ROUNDING * greater(self.limit[lane], needed)
     }
 }
 
@@ -184,12 +192,11 @@ impl Span {
         for lane in 0..LANE_COUNT {
             let centre = self.jerk.centre[lane];
             let half = self.jerk.half[lane];
-            let limit = self.jerk.limit[lane];
             rows.narrow(
                 lane,
                 cube * centre + coupling * self.start.acceleration[lane],
                 self.start.velocity[lane],
-                limit - cube * half,
+                self.jerk.limit_at(lane, cube) - cube * half,
             );
             // n also changes m at the end of the period, and with it the coupling.
             let acceleration = self.end.acceleration[lane];
@@ -197,7 +204,7 @@ impl Span {
                 lane,
                 end_cube * centre + end_coupling * acceleration,
                 self.end.velocity[lane] + 3.0 * end_rate * acceleration,
-                limit - end_cube * half,
+                self.jerk.limit_at(lane, end_cube) - end_cube * half,
             );
         }
         rows.interval()
@@ -216,7 +223,7 @@ impl Span {
                 lane,
                 square * self.acceleration.centre[lane] + rate_change * velocity,
                 velocity,
-                ACCELERATION_ROW_PART * self.acceleration.limit[lane]
+                ACCELERATION_ROW_PART * self.acceleration.limit_at(lane, square)
                     - square * self.acceleration.half[lane]
                     - rate_change.abs() * self.slack(lane),
             );
@@ -243,40 +250,37 @@ impl Span {
         let [square_start, _, _, change_start] = powers(start);
         let [square_middle, cube_middle, coupling_middle, change_middle] = powers(middle);
         let [square_end, cube_end, coupling_end, change_end] = powers(end);
-        for lane in 0..LANE_COUNT {
+        for (lane, excess) in excess.iter_mut().enumerate() {
             let (v0, v2) = (self.start.velocity[lane], self.end.velocity[lane]);
             let v1 = 0.5 * (v0 + v2);
             let (a0, a2) = (self.start.acceleration[lane], self.end.acceleration[lane]);
             let a1 = 0.5 * (a0 + a2);
 
-            let Bounds {
-                centre,
-                half,
-                limit,
-            } = &self.acceleration;
-            let (centre, half) = (centre[lane], half[lane]);
-            let worst = greater(
-                (square_start * centre + change_start * v0).abs() + square_start * half,
-                greater(
-                    (square_middle * centre + change_middle * v1).abs() + square_middle * half,
-                    (square_end * centre + change_end * v2).abs() + square_end * half,
-                ),
-            );
+            let over = |square: f32, further: f32| {
+                let bounds = &self.acceleration;
+                (square * bounds.centre[lane] + further).abs() + square * bounds.half[lane]
+                    - bounds.limit_at(lane, square)
+            };
             let change = greater(change_start.abs(), change_end.abs());
-            let acceleration = worst + change * self.slack(lane) - limit[lane];
+            let acceleration = change * self.slack(lane)
+                + greater(
+                    over(square_start, change_start * v0),
+                    greater(
+                        over(square_middle, change_middle * v1),
+                        over(square_end, change_end * v2),
+                    ),
+                );
 
-            let Bounds {
-                centre,
-                half,
-                limit,
-            } = &self.jerk;
-            let (centre, half) = (centre[lane], half[lane]);
-            let worst = greater(
-                (cube_middle * centre + coupling_middle * a1 + n * v1).abs() + cube_middle * half,
-                (cube_end * centre + coupling_end * a2 + n * v2).abs() + cube_end * half,
+            let over = |cube: f32, further: f32| {
+                let bounds = &self.jerk;
+                (cube * bounds.centre[lane] + further).abs() + cube * bounds.half[lane]
+                    - JERK_TOLERANCE * bounds.limit_at(lane, cube)
+            };
+            let jerk = greater(
+                over(cube_middle, coupling_middle * a1 + n * v1),
+                over(cube_end, coupling_end * a2 + n * v2),
             );
-            let jerk = worst - JERK_TOLERANCE * limit[lane];
-            excess[lane] = greater(acceleration, jerk);
+            *excess = greater(acceleration, jerk);
         }
         greatest(&excess) <= 0.0
     }
