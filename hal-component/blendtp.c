@@ -245,14 +245,14 @@ int tpSetDout(TP_STRUCT * const tp, int index, unsigned char start, unsigned cha
 
 int tpSetRunDir(TP_STRUCT * const tp, tc_direction_t direction)
 {
-    int result = framepath_planner_set_run_direction(planner, direction);
-    (void)tp;
-    if (result < 0 && !reverse_refused)
-        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: this planner does not run in reverse: with a negative motion.adaptive-feed the "
-                        "machine stands still, and a command to run in reverse changes nothing\n");
+    int result = framepath_planner_set_run_direction(planner, tp, direction);
+    if (result == FRAMEPATH_NOTHING_TO_REVERSE && !reverse_refused)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: there is no way back from here: a reverse run goes over the moves since "
+                        "the machine last had nothing to do, but not over threads, taps, probing moves and locking "
+                        "indexers\n");
     /* Negative adaptive feed asks in every servo period. */
-    reverse_refused = result < 0 ? 2 : 0;
-    return result;
+    reverse_refused = result == FRAMEPATH_NOTHING_TO_REVERSE ? 2 : 0;
+    return result == TP_ERR_OK ? TP_ERR_OK : TP_ERR_FAIL;
 }
 
 int tpClear(TP_STRUCT *tp)

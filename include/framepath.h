@@ -36,6 +36,11 @@
 #define FRAMEPATH_BAD_DEFAULT_TOLERANCE 3
 
 /*
+ The run cannot be reversed here: no moves are remembered, or one that does not run backwards.
+ */
+#define FRAMEPATH_NOTHING_TO_REVERSE -2
+
+/*
  The tolerance of runs of short moves under G64 without P where the configuration says nothing, machine units.
  */
 #define FRAMEPATH_DEFAULT_TOLERANCE 0.02
@@ -515,11 +520,12 @@ int framepath_planner_set_analog_output(struct framepath_planner *handle, unsign
 int framepath_planner_set_digital_output(struct framepath_planner *handle, int index, unsigned char value);
 
 /*
- Chooses the direction of the run. The reverse run is not supported yet: anything but forward is -1.
+ Chooses the direction of the run, see [`Planner::run_backwards`](crate::planner::Planner::run_backwards).
+ -1 in motion, [`FRAMEPATH_NOTHING_TO_REVERSE`] where there is no way back.
 
  # Safety
- `handle` from `framepath_planner_create`.
+ `handle` from `framepath_planner_create`; `tp` motmod's planner structure.
  */
-int framepath_planner_set_run_direction(struct framepath_planner *handle, int direction);
+int framepath_planner_set_run_direction(struct framepath_planner *handle, TP_STRUCT *tp, int direction);
 
 #endif  /* FRAMEPATH_H */

@@ -11,9 +11,8 @@ use framepath::path::{self, Circle, ShapeError};
 use framepath::planner::{Added, MoveRequest};
 use nalgebra::Vector3;
 use planner_common::path_check::{self, Place, Wanted};
-use planner_common::{Extremes, Machine, feed_move, with_room};
+use planner_common::{Extremes, Machine, feed_move, seeded_runner, with_room};
 use proptest::prelude::*;
-use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 
 #[derive(Clone, Debug)]
 enum Shape {
@@ -397,19 +396,7 @@ fn programs_keep_the_limits_whatever_the_operator_does() {
         failure_persistence: None,
         ..ProptestConfig::default()
     };
-    // The same programs again: FRAMEPATH_SEED=<what was printed>.
-    let seed: u64 = std::env::var("FRAMEPATH_SEED").map_or_else(
-        |_| {
-            let now = std::time::UNIX_EPOCH.elapsed().expect("a clock");
-            u64::from(now.subsec_nanos()) ^ now.as_secs() << 30
-        },
-        |seed| seed.parse().expect("a number"),
-    );
-    println!("FRAMEPATH_SEED={seed}");
-    let mut bytes = [0; 32];
-    bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
-    let mut runner = TestRunner::new_with_rng(config, rng);
+    let mut runner = seeded_runner(config);
     let result = runner.run(&strategy, |(limits, moves, events, supply)| {
         let (extremes, cycles) = with_room(|| run(limits, &moves, &events, supply))?;
         let mut sum = sum.borrow_mut();

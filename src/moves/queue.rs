@@ -7,25 +7,28 @@ use crate::path::Shape;
 pub const CAPACITY: usize = 2000;
 
 /// A power of two, so that a masked index is in range for the compiler too. What is above
-/// [`CAPACITY`] is the margin for moves that were on their way when the queue reported itself
-/// full.
-const SLOTS: usize = 2048;
+/// [`CAPACITY`] remembers moves that have left the queue, and is the margin for moves that were on
+/// their way when the queue reported itself full.
+const SLOTS: usize = 4096;
 
 /// There is no room left, not even in the margin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct QueueFull;
 
-/// A ring of moves, first in, first out.
+/// A ring of moves, first in, first out. The last ones that have left are remembered, so that a
+/// run may go back to them.
 ///
 /// Each move has a serial number, counted from the start of the machine, that stays valid however
 /// the queue is consumed.
 #[derive(Debug)]
 pub struct MoveQueue {
     slots: [Move; SLOTS],
-    /// Serial number of the oldest move.
+    /// Serial number of the oldest move that waits or runs.
     first: u64,
     /// Serial number of the next move to come; at most `SLOTS` above `first`.
     next: u64,
+    /// No move with a lower serial number is remembered.
+    cleared: u64,
 }
 
 const VACANT: Move = Move {
@@ -54,6 +57,7 @@ impl MoveQueue {
             slots: [VACANT; SLOTS],
             first: 0,
             next: 0,
+            cleared: 0,
         }
     }
 
@@ -77,12 +81,18 @@ impl MoveQueue {
         self.first
     }
 
-    /// The move with this serial number, `None` if it has left or has not come yet.
-    pub fn get(&self, serial: u64) -> Option<&Move> {
-        (self.first <= serial && serial < self.next).then(|| &self.slots[slot(serial)])
+    /// Serial number of the oldest move that is remembered, or of the oldest one there is.
+    pub fn oldest(&self) -> u64 {
+        self.cleared.max(self.next.saturating_sub(SLOTS as u64))
     }
 
-    /// The oldest move.
+    /// The move with this serial number, also if it has left; `None` if it is not remembered any
+    /// more or has not come yet.
+    pub fn get(&self, serial: u64) -> Option<&Move> {
+        (self.oldest() <= serial && serial < self.next).then(|| &self.slots[slot(serial)])
+    }
+
+    /// The oldest move that has not left.
     pub fn front(&self) -> Option<&Move> {
         self.get(self.first)
     }
@@ -102,16 +112,25 @@ impl MoveQueue {
         Ok(())
     }
 
-    /// Drops the oldest move, if there is one.
+    /// Drops the oldest move, if there is one; it is remembered.
     pub fn pop(&mut self) {
         if !self.is_empty() {
             self.first += 1;
         }
     }
 
-    /// Drops all moves. Serial numbers go on.
+    /// Takes back the moves from `serial` on that have left; does nothing if that one is not
+    /// remembered.
+    pub fn return_to(&mut self, serial: u64) {
+        if self.oldest() <= serial && serial < self.first {
+            self.first = serial;
+        }
+    }
+
+    /// Drops all moves and remembers none. Serial numbers go on.
     pub fn clear(&mut self) {
         self.first = self.next;
+        self.cleared = self.next;
     }
 }
 
@@ -154,7 +173,15 @@ mod tests {
                 Some(3 * SLOTS as i32 - 1)
             );
             assert!(queue.get(first + 100).is_none());
-            assert!(queue.get(first - 1).is_none());
+            let oldest = queue.oldest();
+            assert_eq!(queue.get(first - 1).map(|m| m.id), Some(expected - 1));
+            assert_eq!(queue.get(oldest).map(|m| m.id), Some(oldest as i32));
+            assert!(queue.get(oldest - 1).is_none());
+            queue.return_to(oldest - 1);
+            assert_eq!(queue.first_serial(), first);
+            queue.return_to(oldest);
+            assert_eq!(queue.len(), SLOTS);
+            assert_eq!(queue.front().map(|m| m.id), Some(oldest as i32));
         });
     }
 
@@ -169,6 +196,7 @@ mod tests {
             assert_eq!(queue.len(), SLOTS);
             queue.clear();
             assert!(queue.is_empty() && !queue.is_full() && queue.front().is_none());
+            queue.return_to(0);
             queue.pop();
             assert_eq!(queue.len(), 0);
         });

@@ -41,6 +41,17 @@ pub struct PathPoint {
     pub third: Axes,
 }
 
+impl PathPoint {
+    /// The same place of the path, run through in the other direction.
+    pub fn backwards(self) -> Self {
+        Self {
+            first: -self.first,
+            third: -self.third,
+            ..self
+        }
+    }
+}
+
 /// The path of one move.
 #[derive(Clone, Copy, Debug)]
 #[allow(

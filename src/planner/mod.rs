@@ -11,6 +11,7 @@
 //! 3. the bookkeeping ([`Planner`]): which move runs, what is reported, what is written.
 
 mod blending;
+mod direction;
 mod inputs;
 #[allow(clippy::module_inception)]
 mod planner;
@@ -22,6 +23,7 @@ mod spindle;
 mod status;
 
 pub use blending::{Blending, BlendingError};
+pub use direction::DirectionError;
 pub use inputs::{CycleInputs, SpindleInputs};
 pub use planner::{Planner, PositionError};
 pub use request::{AddError, Added, MoveRequest};

@@ -32,6 +32,8 @@ pub struct Planner {
     pub(super) executor: Executor,
     /// Whether the executor runs the reference. If not, the machine is at rest.
     pub(super) running: bool,
+    /// Whether the machine stands still, although the executor runs the reference.
+    pub(super) at_rest: bool,
     /// Whether the reference has been handed out to its end.
     pub(super) closed: bool,
     /// Serial number of the first move that has not been entered.
@@ -81,6 +83,7 @@ impl Planner {
             reference: Reference::new(),
             executor: Executor::new(),
             running: false,
+            at_rest: true,
             closed: false,
             entered: 0,
             status: Status::IDLE,
@@ -400,6 +403,7 @@ impl Planner {
         self.executor.reset();
         self.reference.clear();
         self.running = false;
+        self.status.backwards = false;
         self.thread = None;
         self.sequence = None;
         self.locking = None;

@@ -46,16 +46,17 @@ impl Planner {
             self.drop_moves();
         }
         self.report_rest();
+        let backwards = self.reference.is_backwards();
         let begins_thread = self.begins_thread();
         let Some(next) = self.queue.front() else {
             return;
         };
         self.status.waiting_for_spindle =
-            (next.wait_for_spindle || begins_thread) && !inputs.spindles_at_speed;
+            !backwards && (next.wait_for_spindle || begins_thread) && !inputs.spindles_at_speed;
         let begun = self.queue.first_serial() < self.entered;
         let stale = self.limits_changed || inputs.stepping != self.reference.is_single();
         // In the middle of a move there is only the path that led here.
-        if !self.reference.is_active() || stale && !begun {
+        if !self.reference.is_active() || stale && !begun && !backwards {
             let first = self.queue.first_serial();
             let settings = self.blending.settings(&self.queue, &self.limits);
             let position = self.status.position;
@@ -75,13 +76,19 @@ impl Planner {
         if held || self.queue.is_empty() || !self.reference.is_ready() {
             return;
         }
-        if !self.indexer_permits_start(inputs) || !self.spindle_permits_start(inputs) {
+        // On the way back it is not the next move that starts, but one that has been run.
+        let backwards = self.reference.is_backwards();
+        let permitted =
+            backwards || self.indexer_permits_start(inputs) && self.spindle_permits_start(inputs);
+        if !permitted {
             return;
         }
         self.executor.reset();
         self.running = true;
         self.closed = false;
-        self.enter();
+        if !backwards {
+            self.enter();
+        }
     }
 
     /// Plans on, starts where that is possible, and hands over what the executor wants to see.
@@ -168,6 +175,7 @@ impl Planner {
         let demand = self.demand(inputs);
         self.status.following_spindle = demand.follow.is_some();
         let step = self.executor.cycle(&demand);
+        self.at_rest = step.at_rest;
         if step.starved {
             self.fail(Fault::Starved);
         }
@@ -179,7 +187,7 @@ impl Planner {
         if step.end_reached {
             self.finish();
         } else {
-            self.leave_moves_before(point.serial);
+            self.pass_to(point.serial);
             self.report_motion(&point, &step);
             if self.status.aborting {
                 if step.at_rest {
@@ -256,8 +264,17 @@ impl Planner {
         if self.tap_overran() && !self.status.aborting {
             self.stop_overrun_tap();
         }
-        self.leave_moves_before(rest.next.saturating_sub(1));
         self.running = false;
+        if self.reference.is_backwards() {
+            self.pass_to(rest.next);
+            if self.status.aborting {
+                self.end_abort();
+            } else {
+                self.report_rest();
+            }
+            return;
+        }
+        self.leave_moves_before(rest.next.saturating_sub(1));
         if self.queue.first_serial() < rest.next {
             self.locking = self.queue.front().and_then(|ended| ended.indexer_joint);
             if self.locking.is_none() || self.status.aborting {
@@ -301,6 +318,19 @@ impl Planner {
         true
     }
 
+    /// The machine is on the move with this serial number, ahead of the last one or, on the way
+    /// back, before it.
+    fn pass_to(&mut self, serial: u64) {
+        if serial < self.queue.first_serial() {
+            self.queue.return_to(serial);
+            if let Some(running) = self.queue.front() {
+                self.status.tag = running.tag;
+            }
+        } else {
+            self.leave_moves_before(serial);
+        }
+    }
+
     /// Drops the moves that are behind the machine.
     fn leave_moves_before(&mut self, serial: u64) {
         while self.queue.first_serial() < serial && !self.queue.is_empty() {
@@ -309,19 +339,16 @@ impl Planner {
         }
     }
 
-    /// The first move of the queue starts, unless it had started before.
+    /// The first move of the queue starts, or goes on: its outputs are written once.
     fn enter(&mut self) {
         let first = self.queue.first_serial();
-        if first < self.entered {
-            return;
-        }
         if let Some(started) = self.queue.front() {
-            self.entered = first + 1;
             self.status.tag = started.tag;
             // An abort takes back what was to be written.
-            if !self.status.aborting {
+            if first >= self.entered && !self.status.aborting {
                 self.status.outputs.merge(&started.outputs);
             }
+            self.entered = self.entered.max(first + 1);
         }
     }
 
@@ -362,8 +389,15 @@ impl Planner {
         status.done = false;
         status.current_velocity = point.velocity * step.rate;
         if let Some(running) = self.queue.front() {
-            status.distance_to_go = point.distance_to_go.max(0.0);
-            status.axis_distance_to_go = running.shape.end() - point.position;
+            let shape = &running.shape;
+            let (distance, end) = if status.backwards {
+                let back = shape.length() - point.distance_to_go;
+                (back, shape.position(0.0))
+            } else {
+                (point.distance_to_go, shape.end())
+            };
+            status.distance_to_go = distance.max(0.0);
+            status.axis_distance_to_go = end - point.position;
         }
     }
 }

@@ -56,6 +56,8 @@ pub struct Status {
     pub waiting_for_spindle: bool,
     /// Whether the machine is held, or is to come to rest, because of a pause.
     pub pausing: bool,
+    /// Whether the moves are run back along the path.
+    pub backwards: bool,
     /// Whether the machine is coming to rest after an abort; moves are refused.
     pub aborting: bool,
     /// Whether the next move waits for the index of its spindle.
@@ -100,6 +102,7 @@ impl Status {
         spindle_error: None,
         indexer: None,
         pausing: false,
+        backwards: false,
         aborting: false,
         fault: None,
         outputs: SynchronisedOutputs::NONE,

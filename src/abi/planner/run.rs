@@ -30,7 +30,11 @@ impl Handle {
         tp.activeDepth = now.active_depth as c_int;
         tp.pausing = now.pausing.into();
         tp.aborting = now.aborting.into();
-        tp.reverse_run = tc_direction_t::TC_DIR_FORWARD as c_int;
+        tp.reverse_run = if now.backwards {
+            tc_direction_t::TC_DIR_REVERSE
+        } else {
+            tc_direction_t::TC_DIR_FORWARD
+        } as c_int;
         tp.queue._len = now.queue_depth as c_int;
         tp.spindle.waiting_for_index = if now.waiting_for_index {
             now.exec_id

@@ -3,12 +3,12 @@
 use libc::{c_double, c_int, c_uchar};
 use nalgebra::Matrix3;
 
-use super::{Handle, with};
+use super::{Handle, command, with};
 use crate::abi::linuxcnc::{EmcPose, TP_STRUCT, tc_direction_t, tp_err_t};
 use crate::abi::pose::axes_of;
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::moves::TerminationCondition;
-use crate::planner::{Blending, BlendingError};
+use crate::planner::{Blending, BlendingError, DirectionError};
 
 /// Sets the greatest jerk of each of the nine axes, 0 = not limited. Returns -1, or the number of the first axis whose
 /// value is negative or not a number; then nothing changes.
@@ -45,6 +45,8 @@ pub const FRAMEPATH_BAD_MILLIMETRE: c_int = 1;
 pub const FRAMEPATH_BAD_ROTARY_TOLERANCE: c_int = 2;
 /// The same for the tolerance of G64 without P.
 pub const FRAMEPATH_BAD_DEFAULT_TOLERANCE: c_int = 3;
+/// The run cannot be reversed here: no moves are remembered, or one that does not run backwards.
+pub const FRAMEPATH_NOTHING_TO_REVERSE: c_int = -2;
 
 /// The tolerance of runs of short moves under G64 without P where the configuration says nothing, machine units.
 pub const FRAMEPATH_DEFAULT_TOLERANCE: c_double = 0.02;
@@ -250,20 +252,29 @@ pub unsafe extern "C" fn framepath_planner_set_digital_output(
     })
 }
 
-/// Chooses the direction of the run. The reverse run is not supported yet: anything but forward is -1.
+/// Chooses the direction of the run, see [`Planner::run_backwards`](crate::planner::Planner::run_backwards).
+/// -1 in motion, [`FRAMEPATH_NOTHING_TO_REVERSE`] where there is no way back.
 ///
 /// # Safety
-/// `handle` from `framepath_planner_create`.
+/// `handle` from `framepath_planner_create`; `tp` motmod's planner structure.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framepath_planner_set_run_direction(
     handle: *mut Handle,
+    tp: *mut TP_STRUCT,
     direction: c_int,
 ) -> c_int {
-    with(handle, |_| {
-        if direction == tc_direction_t::TC_DIR_FORWARD as c_int {
-            tp_err_t::TP_ERR_OK
-        } else {
-            tp_err_t::TP_ERR_FAIL
-        }
-    })
+    let backwards = match direction {
+        _ if direction == tc_direction_t::TC_DIR_FORWARD as c_int => false,
+        _ if direction == tc_direction_t::TC_DIR_REVERSE as c_int => true,
+        _ => return tp_err_t::TP_ERR_FAIL,
+    };
+    let mut turned = Ok(());
+    let reported = command(handle, tp, |handle| {
+        turned = handle.planner.run_backwards(backwards);
+    });
+    match turned {
+        Ok(()) => reported,
+        Err(DirectionError::Moving) => tp_err_t::TP_ERR_FAIL,
+        Err(DirectionError::NoWayBack) => FRAMEPATH_NOTHING_TO_REVERSE,
+    }
 }

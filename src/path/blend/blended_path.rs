@@ -72,6 +72,8 @@ pub struct Progress {
 pub struct LegView {
     /// Number of the move; of merged moves that of the last one.
     pub serial: u64,
+    /// Number of the first of merged moves.
+    pub first: u64,
     /// Where it starts, path distance.
     pub start: f64,
     /// Where it ends, path distance.
@@ -302,18 +304,36 @@ impl BlendedPath {
 
     /// The leg at `s`, the later one where two meet; `None` if there is none at all.
     pub fn leg(&self, s: f64) -> Option<LegView> {
-        (!self.chain.is_empty()).then(|| {
-            let leg = self.chain.leg(self.chain.locate(s));
-            LegView {
-                serial: leg.serial,
-                start: leg.start,
-                end: leg.end(),
-                speed: leg.speed,
-                greatest_speed: leg.greatest_speed,
-                measure_rate: leg.measure_rate,
-                measure: leg.measure(),
-            }
-        })
+        (!self.chain.is_empty()).then(|| self.leg_view(self.chain.locate(s)))
+    }
+
+    /// The leg that `s` lies in, the earlier one where two meet; `None` if there is none or not
+    /// everything is kept that it depends on.
+    pub fn leg_before(&self, s: f64) -> Option<LegView> {
+        if self.chain.is_empty() {
+            return None;
+        }
+        let number = self.chain.locate(s);
+        let number = if self.chain.leg(number).start < s {
+            number
+        } else {
+            number.checked_sub(1)?
+        };
+        (number >= self.chain.oldest_whole()).then(|| self.leg_view(number))
+    }
+
+    fn leg_view(&self, number: u64) -> LegView {
+        let leg = self.chain.leg(number);
+        LegView {
+            serial: leg.serial,
+            first: leg.first,
+            start: leg.start,
+            end: leg.end(),
+            speed: leg.speed,
+            greatest_speed: leg.greatest_speed,
+            measure_rate: leg.measure_rate,
+            measure: leg.measure(),
+        }
     }
 
     /// Which move runs at `s` and how far it is; `None` if there is none.

@@ -6,13 +6,17 @@ use super::settings::BlendSettings;
 use super::vertex::Vertex;
 
 /// A power of two, so that a masked index is in range for the compiler too.
-const SLOTS: usize = 2048;
+const SLOTS: usize = 4096;
 
 /// A kernel reaches no farther than this many vertices to either side.
 pub(super) const NEIGHBOURS: u64 = 32;
 
-/// How many legs behind a place are kept: whatever reaches it, and what reaches these.
-const HISTORY: u64 = 2 * NEIGHBOURS + 8;
+/// How many legs behind a place are needed to evaluate it: whatever reaches it, and what reaches
+/// these.
+const REACHING: u64 = 2 * NEIGHBOURS + 8;
+
+/// How many legs behind a place are kept: a run may go back over them.
+const HISTORY: u64 = 512 + REACHING;
 
 /// Legs, each with the vertex at its start. They are numbered from the first one of the machine's
 /// life; the vertex at the start of a leg has the leg's number.
@@ -22,6 +26,8 @@ pub(super) struct Chain {
     vertices: [Vertex; SLOTS],
     first: u64,
     next: u64,
+    /// Number of the leg that the path began with.
+    begin: u64,
 }
 
 const fn slot(number: u64) -> usize {
@@ -35,16 +41,27 @@ impl Chain {
             vertices: [Vertex::VACANT; SLOTS],
             first: 0,
             next: 0,
+            begin: 0,
         }
     }
 
     pub fn clear(&mut self) {
         self.first = self.next;
+        self.begin = self.next;
     }
 
     /// Number of the oldest leg.
     pub fn first(&self) -> u64 {
         self.first
+    }
+
+    /// Number of the oldest leg that everything is kept of that reaches it.
+    pub fn oldest_whole(&self) -> u64 {
+        if self.first == self.begin {
+            self.first
+        } else {
+            self.first.saturating_add(REACHING)
+        }
     }
 
     /// Number of the leg to come.
@@ -245,14 +262,15 @@ mod tests {
 
     #[test]
     fn history_is_kept() {
-        with_chain(200, |chain| {
+        with_chain(2000, |chain| {
             chain.discard_before(50);
-            assert_eq!(chain.first(), 0);
-            chain.discard_before(150);
-            assert_eq!(chain.first(), 150 - HISTORY);
+            assert_eq!((chain.first(), chain.oldest_whole()), (0, 0));
+            chain.discard_before(1500);
+            assert_eq!(chain.first(), 1500 - HISTORY);
+            assert_eq!(chain.oldest_whole(), 1500 - HISTORY + REACHING);
             assert_eq!(chain.locate(0.0), chain.first());
-            chain.discard_before(100);
-            assert_eq!(chain.first(), 150 - HISTORY);
+            chain.discard_before(1000);
+            assert_eq!(chain.first(), 1500 - HISTORY);
         });
     }
 

@@ -155,11 +155,11 @@ impl Derivatives {
     /// A cell that starts here; `inside` lies in its first stretch.
     fn cell(&self, piece: &Piece, ground: &Ground, inside: &Self) -> Cell {
         // In the first stretch, since at its start the move before may end.
-        let leg = ground.path.leg(inside.along.distance);
+        let leg = ground.path.leg(piece.path_distance(inside.along.distance));
         let rate = leg.map_or(1.0, |leg| leg.measure_rate);
         let serial = match &piece.law {
             Law::Move(law) => Some(law.serial),
-            Law::Run(_) => leg.map(|leg| leg.serial),
+            Law::Run(_) | Law::Return(_) => leg.map(|leg| leg.serial),
         };
         let queued = serial.and_then(|serial| ground.queue.get(serial));
         Cell {

@@ -61,7 +61,10 @@ impl Reference {
 
     /// Whether the reference rests where the path ends for good.
     pub(super) fn is_at_end(&self) -> bool {
-        self.resting && self.path.rests_at_end() && self.rest >= self.path.programmed_end()
+        !self.backwards
+            && self.resting
+            && self.path.rests_at_end()
+            && self.rest >= self.path.programmed_end()
     }
 
     /// Takes the next piece of the plan. `false` if there is none yet.
@@ -96,8 +99,13 @@ impl Reference {
         let Some(piece) = self.current_mut().freeze() else {
             return false;
         };
+        let law = if self.backwards {
+            Law::Return(piece)
+        } else {
+            Law::Run(piece)
+        };
         self.pieces.push(Piece {
-            law: Law::Run(piece),
+            law,
             duration: piece.duration,
         });
         true

@@ -8,6 +8,7 @@
 //! never changes; and wherever the queue ends it comes to rest, so that the executor can finish
 //! what it was given whether or not more moves arrive.
 
+mod backwards;
 mod cell_builder;
 mod handing_out;
 mod outlook;

@@ -15,6 +15,8 @@ pub(super) enum Law {
     Move(MoveLaw),
     /// A piece of what the look-ahead planned.
     Run(look_ahead::Piece),
+    /// The same, back along the path: its distance is the path distance with the other sign.
+    Return(look_ahead::Piece),
 }
 
 /// A move, or its rest, run by one profile.
@@ -54,10 +56,10 @@ impl Piece {
         duration: 0.0,
     };
 
-    /// Path distance and its derivatives at time `t`, in the phase of the law at `within`.
+    /// Distance and its derivatives at time `t`, in the phase of the law at `within`.
     pub fn state(&self, t: f64, within: f64) -> ProfileState {
         match &self.law {
-            Law::Run(piece) => piece.at(t),
+            Law::Run(piece) | Law::Return(piece) => piece.at(t),
             Law::Move(law) => {
                 let state = law.profile.state(t, within);
                 ProfileState {
@@ -73,15 +75,26 @@ impl Piece {
     /// The next time after `t` at which acceleration or jerk jump; infinite if there is none.
     pub fn next_jump(&self, t: f64) -> f64 {
         match &self.law {
-            Law::Run(_) => f64::INFINITY,
+            Law::Run(_) | Law::Return(_) => f64::INFINITY,
             Law::Move(law) => law.profile.next_jump(t),
         }
     }
 
-    /// The path at `s`, as it is on this piece: where the machine rests its direction may jump.
-    pub fn point(&self, path: &BlendedPath, s: f64) -> PathPoint {
+    /// The path distance where the distance of this piece is `distance`.
+    pub fn path_distance(&self, distance: f64) -> f64 {
+        match &self.law {
+            Law::Return(_) => -distance,
+            _ => distance,
+        }
+    }
+
+    /// The path at a distance, as it is on this piece: where the machine rests its direction may
+    /// jump.
+    pub fn point(&self, path: &BlendedPath, distance: f64) -> PathPoint {
+        let s = self.path_distance(distance);
         match &self.law {
             Law::Move(law) if s >= law.end => path.point_before(s),
+            Law::Return(_) => path.point_before(s).backwards(),
             _ => path.point(s),
         }
     }

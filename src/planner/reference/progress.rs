@@ -21,10 +21,11 @@ impl Reference {
         let piece = self.pieces.front()?;
         let state = piece.state(self.elapsed, self.elapsed);
         let point = piece.point(&self.path, state.distance);
-        self.path.discard_before(state.distance);
-        let leg = self.path.leg(state.distance)?;
+        let s = piece.path_distance(state.distance);
+        self.path.discard_before(s);
+        let leg = self.path.leg(s)?;
         let velocity = leg.measure_rate * self.path.distance(&point.first) * state.velocity;
-        let (serial, distance_to_go) = self.running(queue, state.distance)?;
+        let (serial, distance_to_go) = self.running(queue, s)?;
         Some(ReferencePoint {
             serial,
             distance_to_go,
@@ -38,7 +39,7 @@ impl Reference {
     /// Where lines were merged it is told by their lengths.
     pub(super) fn running(&self, queue: &MoveQueue, s: f64) -> Option<(u64, f64)> {
         let progress = self.path.progress(s)?;
-        let first = progress.first.max(queue.first_serial());
+        let first = progress.first.max(queue.oldest());
         if first >= progress.serial {
             return Some((progress.serial, progress.distance_to_go));
         }
@@ -47,7 +48,7 @@ impl Reference {
                 .filter_map(|serial| queue.get(serial))
                 .map(|queued| queued.shape.length())
         };
-        // Counted from the end, since the moves at the start may have left the queue.
+        // Counted from the end, since the moves at the start may be forgotten.
         let mut left: f64 = lengths(first).sum();
         for serial in first..progress.serial {
             let length = queue.get(serial)?.shape.length();
@@ -82,7 +83,7 @@ impl Reference {
             },
         };
         self.rested(s);
-        if rest.next >= self.supply.next() {
+        if rest.next >= self.supply.next() && !self.backwards {
             self.active = false;
         }
         rest

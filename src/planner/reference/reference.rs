@@ -60,6 +60,8 @@ pub struct Reference {
     pub(super) swapped: bool,
     /// Whether the other run is worked on in this period.
     pub(super) turn: bool,
+    /// Whether the machine goes back along the path.
+    pub(super) backwards: bool,
     /// Whether there is a path at all.
     pub(super) active: bool,
     /// Whether what was handed out ends at rest, at [`Self::rest`].
@@ -84,6 +86,7 @@ impl Reference {
             runs: [Run::new(), Run::new()],
             swapped: false,
             turn: false,
+            backwards: false,
             active: false,
             resting: true,
             rest: 0.0,
@@ -96,6 +99,7 @@ impl Reference {
 
     /// Drops everything. At rest only.
     pub fn clear(&mut self) {
+        self.backwards = false;
         self.active = false;
         self.rested(0.0);
     }
@@ -108,6 +112,7 @@ impl Reference {
         for run in &mut self.runs {
             run.clear();
         }
+        self.backwards = false;
         self.active = true;
         self.rested(0.0);
     }
@@ -140,8 +145,7 @@ impl Reference {
     /// Whether the machine may start. Only asked at rest.
     pub fn is_ready(&self) -> bool {
         let begun = |run: &Run| run.starts_at(self.rest) && run.may_start(&self.path);
-        self.active
-            && (self.path.move_between_rests(self.rest).is_some() || self.runs.iter().any(begun))
+        self.active && (self.stands_alone(self.rest) || self.runs.iter().any(begun))
     }
 
     /// Whether no plan was found for what comes next.

@@ -1,7 +1,9 @@
 //! A run: from rest to rest along the path, planned by the look-ahead.
 
+use super::backwards::{Backwards, may_go_back};
 use super::outlook::Outlook;
 use crate::axes::Axes;
+use crate::moves::MoveQueue;
 use crate::path::PathPoint;
 use crate::path::blend::{BlendedPath, VertexView};
 use crate::speed::look_ahead::{LookAhead, Piece, Progress, Route, SpeedCap, Vertex};
@@ -23,6 +25,9 @@ const ON_CHANGE: f64 = 1e-12;
 #[derive(Debug)]
 pub(super) struct Run {
     speed: LookAhead,
+    /// Whether it leads back along the path: the look-ahead then sees path distance with the other
+    /// sign.
+    backwards: bool,
     /// Where it starts, path distance; `None` if there is no run.
     start: Option<f64>,
     /// Where the machine has to come to rest.
@@ -37,6 +42,7 @@ impl Run {
     pub const fn new() -> Self {
         Self {
             speed: LookAhead::new(),
+            backwards: false,
             start: None,
             stop: None,
             searched: 0.0,
@@ -49,14 +55,24 @@ impl Run {
         self.start = None;
     }
 
-    /// Begins a run at rest at `s`.
-    pub fn begin(&mut self, s: f64, outlook: &Outlook) {
-        self.speed
-            .start(s, outlook.limits, outlook.map, outlook.now.period);
+    /// Begins a run at rest at `s`, on or back along the path.
+    pub fn begin(&mut self, s: f64, backwards: bool, outlook: &Outlook) {
+        self.backwards = backwards;
+        self.speed.start(
+            self.signed(s),
+            outlook.limits,
+            outlook.map,
+            outlook.now.period,
+        );
         self.start = Some(s);
         self.stop = None;
         self.searched = s;
         self.ready_for = 0.0;
+    }
+
+    /// Path distance as the look-ahead sees it, and back.
+    fn signed(&self, s: f64) -> f64 {
+        if self.backwards { -s } else { s }
     }
 
     /// Whether there is a run.
@@ -93,12 +109,14 @@ impl Run {
     /// Whether the machine is soon to brake to an end of the plan that is not the end of the run.
     pub fn brakes_for_now(&self, path: &BlendedPath) -> bool {
         let final_stop = self.final_stop(path);
-        final_stop.is_none_or(|stop| self.end() < stop) && self.brakes_within(CONTINUED_BEFORE)
+        let provisional = |stop| self.signed(self.end()) < self.signed(stop);
+        final_stop.is_none_or(provisional) && self.brakes_within(CONTINUED_BEFORE)
     }
 
     /// Where the machine will come to rest for sure, if that is known and final.
     pub fn final_stop(&self, path: &BlendedPath) -> Option<f64> {
-        self.stop.filter(|stop| path.final_end() >= *stop)
+        self.stop
+            .filter(|stop| self.backwards || path.final_end() >= *stop)
     }
 
     /// The next piece of the plan, which stays as it is; `None` at its end.
@@ -108,17 +126,21 @@ impl Run {
 
     /// Where the plan ends so far.
     pub fn end(&self) -> f64 {
-        self.speed.end()
+        self.signed(self.speed.end())
     }
 
     /// Looks where the path asks for a rest.
-    pub fn look_for_stop(&mut self, path: &BlendedPath) {
+    pub fn look_for_stop(&mut self, path: &BlendedPath, queue: &MoveQueue) {
         if !self.is_begun() {
             return;
         }
         for _ in 0..VERTICES_A_CYCLE {
             if self.stop.is_some() {
                 return;
+            }
+            if self.backwards {
+                self.look_back(path, queue);
+                continue;
             }
             match path.vertex_after(self.searched) {
                 Some(vertex) => {
@@ -136,10 +158,33 @@ impl Run {
         }
     }
 
+    /// The same for the next vertex on the way back.
+    fn look_back(&mut self, path: &BlendedPath, queue: &MoveQueue) {
+        let leg = may_go_back(path, queue, self.searched);
+        let vertex = leg.and_then(|_| path.vertex_before(self.searched));
+        match vertex {
+            Some(vertex) => {
+                self.searched = vertex.s;
+                self.stop = vertex.stop.then_some(vertex.s);
+            }
+            None => self.stop = Some(self.searched),
+        }
+    }
+
     /// Works on the plan for `budget` units.
     pub fn work(&mut self, path: &BlendedPath, outlook: &Outlook, budget: u32) {
-        if self.is_begun() {
-            self.speed.raise(outlook.now.feed_scale);
+        if !self.is_begun() {
+            return;
+        }
+        self.speed.raise(outlook.now.feed_scale);
+        if self.backwards {
+            let route = Backwards {
+                path,
+                end: self.searched,
+                complete: self.stop.is_some(),
+            };
+            self.speed.slice(&route, budget);
+        } else {
             let stop = self.stop.unwrap_or(f64::INFINITY);
             let progress = self.speed.slice(&PathRoute { path, stop }, budget);
             if progress == Progress::Ready {
@@ -173,25 +218,7 @@ impl Route for PathRoute<'_> {
     }
 
     fn speed_cap(&self, s: f64, first: &Axes) -> SpeedCap {
-        let mut cap = SpeedCap {
-            programmed: f64::INFINITY,
-            greatest: f64::INFINITY,
-        };
-        let mut lower = |place: f64| {
-            if let Some(leg) = self.path.leg(place) {
-                cap.programmed = cap.programmed.min(leg.speed);
-                cap.greatest = cap.greatest.min(leg.greatest_speed);
-            }
-        };
-        let near = ON_CHANGE * (1.0 + s.abs());
-        lower(s - near);
-        lower(s + near);
-        // Where a corner is rounded the path is shorter than what s counts.
-        let slope = self.path.distance(first);
-        SpeedCap {
-            programmed: cap.programmed / slope,
-            greatest: cap.greatest / slope,
-        }
+        speed_cap(self.path, s, first)
     }
 
     fn vertex_after(&self, s: f64) -> Option<Vertex> {
@@ -207,7 +234,31 @@ impl Route for PathRoute<'_> {
     }
 }
 
-fn vertex(view: VertexView) -> Vertex {
+/// The speed cap at path distance `s`, see [`Route::speed_cap`].
+pub(super) fn speed_cap(path: &BlendedPath, s: f64, first: &Axes) -> SpeedCap {
+    let mut cap = SpeedCap {
+        programmed: f64::INFINITY,
+        greatest: f64::INFINITY,
+    };
+    let mut lower = |place: f64| {
+        if let Some(leg) = path.leg(place) {
+            cap.programmed = cap.programmed.min(leg.speed);
+            cap.greatest = cap.greatest.min(leg.greatest_speed);
+        }
+    };
+    let near = ON_CHANGE * (1.0 + s.abs());
+    lower(s - near);
+    lower(s + near);
+    // Where a corner is rounded the path is shorter than what s counts.
+    let slope = path.distance(first);
+    SpeedCap {
+        programmed: cap.programmed / slope,
+        greatest: cap.greatest / slope,
+    }
+}
+
+/// A vertex as the look-ahead sees it.
+pub(super) fn vertex(view: VertexView) -> Vertex {
     Vertex {
         position: view.s,
         reach: view.reach,

@@ -1,5 +1,6 @@
 //! The work of a servo period: the path, and the runs along it.
 
+use super::backwards::may_go_back;
 use super::outlook::Outlook;
 use super::reference::Reference;
 use super::run::Run;
@@ -42,7 +43,9 @@ impl Reference {
             return Ok(());
         }
         self.supply.feed(&mut self.path, outlook)?;
-        self.end_path();
+        if !self.backwards {
+            self.end_path();
+        }
         let share = (outlook.now.period / BUDGET_PERIOD).clamp(LEAST_SHARE, GREATEST_SHARE);
         // Where the plan waits for more of the path, the path comes first.
         let path_share = if self.current().brakes_for_now(&self.path) {
@@ -55,8 +58,8 @@ impl Reference {
         self.turn = !self.turn;
         let turn = self.turn;
         let (current, other) = both(&mut self.runs, self.swapped);
-        current.look_for_stop(&self.path);
-        other.look_for_stop(&self.path);
+        current.look_for_stop(&self.path, outlook.queue);
+        other.look_for_stop(&self.path, outlook.queue);
         let urgent = current.brakes_for_now(&self.path);
         let worked = if turn && other.is_begun() && !urgent {
             other
@@ -105,7 +108,12 @@ impl Reference {
                 None => return,
             }
         };
-        if s >= self.path.programmed_end() || self.path.move_between_rests(s).is_some() {
+        let leads_on = if self.backwards {
+            may_go_back(&self.path, outlook.queue, s).is_some()
+        } else {
+            s < self.path.programmed_end() && !self.stands_alone(s)
+        };
+        if !leads_on {
             return;
         }
         if self.other().starts_at(s) || self.resting && self.current().starts_at(s) {
@@ -113,7 +121,7 @@ impl Reference {
         }
         let (current, other) = both(&mut self.runs, self.swapped);
         let due = if self.resting { current } else { other };
-        due.begin(s, outlook);
+        due.begin(s, self.backwards, outlook);
     }
 
     pub(super) fn current(&self) -> &Run {

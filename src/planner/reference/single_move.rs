@@ -9,8 +9,16 @@ use crate::speed::{JerkLimitedProfile, PathLimits};
 const NOTICEABLE_RAISE: f64 = 1.001;
 
 impl Reference {
+    /// Whether a move that stands alone between two rests starts at `s`.
+    pub(super) fn stands_alone(&self, s: f64) -> bool {
+        !self.backwards && self.path.move_between_rests(s).is_some()
+    }
+
     /// Plans a move that stands alone between two rests. `false` if that is not what comes next.
     pub(super) fn next_move(&mut self, outlook: &Outlook) -> bool {
+        if self.backwards {
+            return false;
+        }
         let Some((shape, leg)) = self.path.move_between_rests(self.rest) else {
             return false;
         };

@@ -147,7 +147,6 @@ class NegativeAdaptiveFeed(Row):
     """A negative adaptive feed slows down, stops and runs back along the program, and forward again"""
 
     section = SECTION
-    refused = "does not run in reverse"
 
     def operate(self, op):
         op.begin("M52 P1", "G64 P0.2", "G1 X10 F1800", "G1 Y10", "G1 X20", "G1 Y20", "G1 X40")
@@ -172,7 +171,6 @@ class ReverseRun(Row):
     """A paused program runs back over its moves (AUTO_REVERSE), with look-ahead, and forward again"""
 
     section = SECTION
-    refused = "does not run in reverse"
 
     def operate(self, op):
         op.begin("G64 P0.3", *[f"G1 X{0.5 * n} Y{0.2 * (n % 2)}" for n in range(1, 81)])
