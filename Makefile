@@ -26,7 +26,7 @@ help:
 	@echo 'make tool       build the framepath command'
 	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
 	@echo 'make uninstall  remove them again'
-	@echo 'make soak       long runs: 10,000 random programs with random operators (an hour or so)'
+	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
@@ -51,6 +51,7 @@ lint:
 
 test: export TOOL_PROFILE = dev
 test: lint modules
+	@./prerequisites browser
 	$(CARGO) test --locked --workspace
 	$(MAKE) linuxcnc-test
 
@@ -58,11 +59,16 @@ test: lint modules
 linuxcnc-test: modules tool
 	$(PYTHON) -B tests/linuxcnc/run_all.py
 
-soak: prerequisites
+soak: modules
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner_programs -- --nocapture
+	$(PYTHON) -B tests/linuxcnc/soak.py --seconds 7200
 
 bench: prerequisites
-	$(CARGO) bench --locked
+	$(CARGO) bench --locked --workspace
+
+# Random bytes through the filter; wants a nightly Rust and cargo-fuzz.
+fuzz:
+	cd tool/fuzz && $(CARGO) +nightly fuzz run $(or $(DIALECT),sinumerik)
 
 # LinuxCNC's sample programs as they are, where the feed limits most of them, then with every F raised, and the
 # generated programs.
@@ -96,4 +102,4 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules tool demo lint test linuxcnc-test bench compare header install uninstall clean
+.PHONY: help prerequisites modules tool demo lint test linuxcnc-test bench fuzz compare header install uninstall clean

@@ -43,6 +43,7 @@ fn compile_interpreter(include: &str, output: &Path) {
             folder.join("main.cc"),
             folder.join("calls.cc"),
             folder.join("answers.cc"),
+            folder.join("settings.cc"),
         ])
         .args(["-rdynamic", "-lrs274", "-lpyplugin"])
         // What librs274 needs itself is found when it is loaded.

@@ -24,7 +24,7 @@ const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]))
 
 const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
 
-/// The trajectory planner. About 6 MB, without a heap: it belongs in a static.
+/// The trajectory planner. About 12 MB, without a heap: it belongs in a static.
 #[derive(Debug)]
 pub struct Planner {
     pub(super) queue: MoveQueue,

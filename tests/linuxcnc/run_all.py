@@ -10,6 +10,8 @@ import os
 import subprocess
 import sys
 
+#: What takes longest begins first.
+LONGEST = ("test_contract_table", "test_contract_soak", "test_plan", "test_dialect_sinumerik")
 HERE = os.path.dirname(os.path.abspath(__file__))
 AT_A_TIME = 3
 
@@ -23,6 +25,7 @@ def run(name):
 def main():
     files = sorted(glob.glob(os.path.join(HERE, "test_*.py")), key=os.path.getsize, reverse=True)
     names = [os.path.splitext(os.path.basename(file))[0] for file in files]
+    names.sort(key=lambda name: LONGEST.index(name) if name in LONGEST else len(LONGEST))
     failed = []
     with concurrent.futures.ThreadPoolExecutor(AT_A_TIME) as pool:
         for future in concurrent.futures.as_completed([pool.submit(run, name) for name in names]):

@@ -4,53 +4,12 @@ The expected paths are written down by hand from the manual's examples. Every pr
 rewritten, and with the frame kinematics.
 """
 
-import math
-import os
-import subprocess
-import tempfile
 import unittest
 
-import harness
-from geometry import Arc, Line, follow
+from geometry import follow
+from part_programs import Path, filtered, joints_of
 
-TOOL = os.environ.get("FRAMEPATH_TOOL", os.path.join(harness.ROOT, "target", "release", "framepath"))
 SAMPLE = "framepath-fagor"
-
-
-def filtered(program, backend):
-    """The part program as LinuxCNC gets it."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "part.pim")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(program)
-        done = subprocess.run([TOOL, "filter", "--dialect", "fagor", "--backend", backend,
-                               "--path-mode", "G61.1", path],
-                              capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise AssertionError(done.stderr)
-    return done.stdout
-
-
-class Path:
-    """Shapes at Z0 from the machine's zero on, one after the other."""
-
-    def __init__(self):
-        self.shapes, self.at = [], (0.0, 0.0)
-
-    def to(self, *points):
-        for x, y in points:
-            if (x, y) != self.at:
-                self.shapes.append(Line([*self.at, 0.0], [x, y, 0.0]))
-            self.at = (x, y)
-        return self
-
-    def arc(self, end, centre, degrees):
-        """Degrees above 0 are counterclockwise."""
-        u = [self.at[0] - centre[0], self.at[1] - centre[1], 0.0]
-        turn = math.copysign(1.0, degrees)
-        self.shapes.append(Arc([*centre, 0.0], u, [-turn * u[1], turn * u[0], 0.0], abs(degrees)))
-        self.at = end
-        return self
 
 
 MIRRORED = """%PIEZA,MX--,
@@ -171,19 +130,15 @@ def compensated():
     return Path().to((30, -20), (30, 20), (60, 20))
 
 
-def joints_of(program, backend):
-    result = harness.run([["run", "PROGRAMS/part.ngc"], ["note", "end"]], {"part.ngc": filtered(program, backend)},
-                         sample=SAMPLE)
-    if result.failure or result.errors:
-        raise AssertionError(f"{result.failure} {result.errors}\n{result.log}")
-    return list(zip(*(result.commanded(joint) for joint in range(3))))
+def run(program, backend):
+    return joints_of(filtered(program, "fagor", "part.pim", backend), SAMPLE)
 
 
 class Fagor(unittest.TestCase):
     def check(self, program, path, backends=("program", "kinematics")):
         for backend in backends:
             with self.subTest(backend=backend):
-                worst, missed = follow(joints_of(program, backend), path.shapes)
+                worst, missed = follow(run(program, backend), path.shapes)
                 self.assertLess(worst, 1e-6)
                 # every corner is a stop; a stop between two samples lies beside both
                 self.assertLess(missed, 5e-6)
@@ -204,7 +159,7 @@ class Fagor(unittest.TestCase):
         self.check(COMPENSATED, compensated(), ["kinematics"])
 
     def test_a_wrong_path_would_be_noticed(self):
-        joints = joints_of(REPEATED, "program")
+        joints = run(REPEATED, "program")
         shapes = repeated().shapes
         del shapes[5]
         self.assertGreater(max(follow(joints, shapes)), 1e-2)

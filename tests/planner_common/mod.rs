@@ -34,7 +34,7 @@ pub fn feed_move(feed: f64) -> MoveRequest {
     }
 }
 
-/// Runs a test where a planner, some 2 MB, has room on the stack.
+/// Runs a test where a planner, some 12 MB, has room on the stack.
 pub fn with_room<R: Send>(test: impl FnOnce() -> R + Send) -> R {
     std::thread::scope(|scope| {
         let handle = std::thread::Builder::new()

@@ -1,8 +1,11 @@
 //! Errors and warnings about a part program, and how they are shown.
 
-use crate::source::{Sources, Span};
+use crate::encoding::Encoding;
+use crate::source::{Excerpt, Sources, Span};
 use codespan_reporting::diagnostic::{Diagnostic as Report, Label};
+use codespan_reporting::files::{Error, Files, line_starts};
 use codespan_reporting::term;
+use std::ops::Range;
 
 /// How many are shown before the rest is only counted.
 const SHOWN: usize = 50;
@@ -54,6 +57,11 @@ impl Diagnostic {
         }
     }
 
+    /// Whether nothing is written.
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+
     /// The short text beside the mark.
     pub fn label(mut self, label: impl Into<String>) -> Diagnostic {
         self.label = label.into();
@@ -72,6 +80,7 @@ impl Diagnostic {
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     errors: usize,
+    notes: Vec<String>,
 }
 
 impl Diagnostics {
@@ -93,6 +102,20 @@ impl Diagnostics {
         }
     }
 
+    /// A file is not UTF-8, and its encoding was guessed.
+    pub fn note_encoding(&mut self, file: &str, encoding: Encoding) {
+        let note =
+            format!("note: {file} is not UTF-8, taken as {encoding}; --encoding says otherwise");
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
+    /// What the user should know and the operator of the machine need not.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
     /// How many errors there are.
     pub fn errors(&self) -> usize {
         self.errors
@@ -106,6 +129,11 @@ impl Diagnostics {
     /// All diagnostics.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.list.iter()
+    }
+
+    /// Takes over what others found.
+    pub fn append(&mut self, others: Diagnostics) {
+        others.list.into_iter().for_each(|one| self.push(one));
     }
 
     /// The warnings only.
@@ -123,21 +151,26 @@ impl Diagnostics {
         };
         let mut ordered: Vec<&Diagnostic> = self.list.iter().collect();
         ordered.sort_by_key(|diagnostic| (diagnostic.span.file, diagnostic.span.start));
+        ordered.truncate(SHOWN);
+        let spans: Vec<Span> = ordered.iter().map(|diagnostic| diagnostic.span).collect();
         let mut text = String::new();
-        for diagnostic in ordered.into_iter().take(SHOWN) {
+        for (diagnostic, excerpt) in ordered.into_iter().zip(sources.excerpts(&spans)) {
             let mut report = match diagnostic.severity {
                 Severity::Error => Report::error(),
                 Severity::Warning => Report::warning(),
             };
-            let Span { file, start, end } = diagnostic.span;
-            report = report
-                .with_message(&diagnostic.message)
-                .with_label(Label::primary(file, start..end).with_message(&diagnostic.label));
+            report = report.with_message(&diagnostic.message);
             if let Some(help) = &diagnostic.help {
                 report = report.with_note(format!("help: {help}"));
             }
-            // The excerpt can fail only for a span outside its file; the message must not be lost.
-            if term::emit_to_string(&mut text, &config, sources, &report).is_err() {
+            // Only a file that was changed or removed meanwhile has no lines to show.
+            let shown = excerpt.is_some_and(|excerpt| {
+                let mark = Label::primary((), excerpt.marked.clone());
+                let report = report.with_label(mark.with_message(&diagnostic.label));
+                let shown = Shown::new(&excerpt);
+                term::emit_to_string(&mut text, &config, &shown, &report).is_ok()
+            });
+            if !shown {
                 text.push_str(&format!("error: {}\n", diagnostic.message));
             }
         }
@@ -145,5 +178,52 @@ impl Diagnostics {
             text.push_str(&format!("only the first {SHOWN} are shown\n\n"));
         }
         text
+    }
+}
+
+/// Lines as the renderer wants them: a file that begins with another line than its first.
+struct Shown<'a> {
+    excerpt: &'a Excerpt,
+    line_starts: Vec<usize>,
+}
+
+impl<'a> Shown<'a> {
+    fn new(excerpt: &'a Excerpt) -> Shown<'a> {
+        Shown {
+            excerpt,
+            line_starts: line_starts(&excerpt.text).collect(),
+        }
+    }
+}
+
+impl<'a> Files<'a> for Shown<'_> {
+    type FileId = ();
+    type Name = &'a str;
+    type Source = &'a str;
+
+    fn name(&'a self, (): ()) -> Result<&'a str, Error> {
+        Ok(&self.excerpt.name)
+    }
+
+    fn source(&'a self, (): ()) -> Result<&'a str, Error> {
+        Ok(&self.excerpt.text)
+    }
+
+    fn line_index(&'a self, (): (), byte: usize) -> Result<usize, Error> {
+        let ahead = self.line_starts.partition_point(|&start| start <= byte);
+        Ok(ahead.saturating_sub(1))
+    }
+
+    fn line_number(&'a self, (): (), index: usize) -> Result<usize, Error> {
+        Ok(self.excerpt.line as usize + index)
+    }
+
+    fn line_range(&'a self, (): (), line: usize) -> Result<Range<usize>, Error> {
+        let start = self.line_starts.get(line).ok_or(Error::LineTooLarge {
+            given: line,
+            max: self.line_starts.len().saturating_sub(1),
+        })?;
+        let end = self.line_starts.get(line + 1);
+        Ok(*start..end.copied().unwrap_or(self.excerpt.text.len()))
     }
 }

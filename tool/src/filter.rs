@@ -3,196 +3,27 @@
 //! Fits into LinuxCNC's `[FILTER]`: the program goes to standard output, and only when all of it
 //! could be translated; progress and errors go to standard error.
 
+mod open;
+mod options;
+
+pub use options::{Backend, EncodingChoice, FilterArguments};
+
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::guess::{guess, undecided};
-use crate::dialects::settings::{
-    IncrementBase, MOST_BLOCKS, MirrorOutsideXy, MirroredCircle, Settings,
-};
-use crate::dialects::{Dialect, evaluate};
-use crate::encoding::decode;
+use crate::dialects::control::About;
+use crate::dialects::settings::Settings;
+use crate::dialects::{Dialect, evaluate, run_program};
 use crate::program::contour::ContourMove;
 use crate::program::trace::{self, Setup, TraceError};
-use crate::program::{PathControl, Program};
-use crate::source::Sources;
-use crate::write::{self, WriteSettings};
-use clap::Args;
-use std::path::{Path, PathBuf};
+use crate::program::{Block, FrameScope, Sink};
+use crate::source::{Sources, Span};
+use crate::write::{self, WriteSettings, Writer};
+use open::{Opened, open};
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::Path;
+use tempfile::SpooledTempFile;
 
-/// How frames are carried out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Backend {
-    /// By the frame kinematics: calls of its subroutines, moves as programmed.
-    Kinematics,
-    /// By rewriting the coordinates: runs on any machine, frames that tilt the plane are refused.
-    Program,
-    /// By rewriting the coordinates where that is possible, else by the frame kinematics.
-    Auto,
-}
-
-/// Arguments of `framepath filter`.
-#[derive(Clone, Debug, Args)]
-pub struct FilterArguments {
-    /// The language of the part program
-    #[arg(long, value_enum)]
-    pub dialect: Dialect,
-    /// How frames are carried out
-    #[arg(long, value_enum, default_value = "auto")]
-    pub backend: Backend,
-    /// Folder with subprogram files; may be given several times. The folder of FILE comes first
-    #[arg(long, value_name = "DIR")]
-    pub subprograms: Vec<PathBuf>,
-    /// LinuxCNC's unit of length is the inch: programs are taken as inch unless they say otherwise
-    #[arg(long)]
-    pub machine_in_inch: bool,
-    /// What an increment counts from when the frame changed since the axis moved last
-    #[arg(long, value_enum, default_value = "programmed")]
-    pub increment_after_frame: IncrementBase,
-    /// Leave out blocks that begin with /
-    #[arg(long)]
-    pub skip_blocks: bool,
-    /// M function that is passed on to LinuxCNC; may be given several times
-    #[arg(long, value_name = "NUMBER", value_delimiter = ',')]
-    pub pass_m: Vec<u32>,
-    /// Value of a variable (R5, P5, V.P.NAME) before the program begins; may be given several times
-    #[arg(long, value_name = "R5=VALUE", value_parser = variable)]
-    pub set: Vec<(String, f64)>,
-    /// Row of the tool table that holds a further edge (D2 to D9) of a tool; may be given several times
-    #[arg(long, value_name = "TOOL.EDGE=ROW", value_parser = edge)]
-    pub edge: Vec<((u32, u32), u32)>,
-    /// The feed in force when the program begins, machine units per minute
-    #[arg(long, value_name = "FEED", value_parser = feed)]
-    pub feed: Option<f64>,
-    /// How corners are passed until the program changes it: exactly (G61, with stops at corners only),
-    /// with a stop at the end of every move (G61.1), rounded as the machine has it (G64), or rounded by
-    /// at most so many mm (a number: G64 with that P)
-    #[arg(long, value_name = "G61|G61.1|G64|P", default_value = "G61", value_parser = path_mode)]
-    pub path_mode: PathControl,
-    /// How many blocks the program may run, besides twice the lines that it has, before it is taken
-    /// for one that never ends
-    #[arg(long, value_name = "NUMBER", default_value_t = MOST_BLOCKS, value_parser = most_blocks)]
-    pub most_blocks: usize,
-    /// Number of a tool that the program calls by name; may be given several times
-    #[arg(long, value_name = "NAME=NUMBER", value_parser = tool_name)]
-    pub tool: Vec<(String, u32)>,
-    /// What G21, G22 and G23 of ISG programs mirror outside of G17
-    #[arg(long, value_enum, default_value = "refuse")]
-    pub mirror_outside_xy: MirrorOutsideXy,
-    /// What becomes of a full circle with an absolute centre right after a mirror of an ISG program
-    #[arg(long, value_enum, default_value = "refuse")]
-    pub mirrored_circle: MirroredCircle,
-    /// Largest distance of the chords from the ellipse that unequal scales make of an arc, machine
-    /// units
-    #[arg(long, value_name = "LENGTH", default_value_t = 0.005, value_parser = tolerance)]
-    pub chord_tolerance: f64,
-    /// The part program
-    pub file: PathBuf,
-}
-
-impl FilterArguments {
-    fn settings(&self) -> Settings {
-        Settings {
-            subprogram_folders: self.subprograms.clone(),
-            machine_in_inch: self.machine_in_inch,
-            increment_after_frame: self.increment_after_frame,
-            skip_blocks: self.skip_blocks,
-            passed_m: self.pass_m.clone(),
-            variables: self.set.iter().cloned().collect(),
-            feed: self.feed,
-            path_mode: self.path_mode_of_machine(),
-            most_blocks: self.most_blocks,
-            tool_edges: self.edge.iter().copied().collect(),
-            tool_names: self.tool.iter().cloned().collect(),
-            mirror_outside_xy: self.mirror_outside_xy,
-            mirrored_circle: self.mirrored_circle,
-            ..Settings::default()
-        }
-    }
-
-    /// The path mode with its tolerance in machine units.
-    fn path_mode_of_machine(&self) -> PathControl {
-        match self.path_mode {
-            PathControl::Continuous {
-                tolerance: Some(tolerance),
-            } if self.machine_in_inch => PathControl::Continuous {
-                tolerance: Some(tolerance / 25.4),
-            },
-            mode => mode,
-        }
-    }
-}
-
-fn variable(text: &str) -> Result<(String, f64), String> {
-    let (name, value) = text.split_once('=').ok_or("write R5=12.5")?;
-    let name = name.trim().to_ascii_uppercase();
-    let is_name = name.starts_with(|c: char| c.is_ascii_alphabetic())
-        && name
-            .chars()
-            .all(|c| c.is_ascii_alphanumeric() || "._[]".contains(c));
-    let value: Option<f64> = value
-        .trim()
-        .parse()
-        .ok()
-        .filter(|value: &f64| value.is_finite());
-    match (is_name, value) {
-        (true, Some(value)) => Ok((name, value)),
-        _ => Err("write R5=12.5".to_string()),
-    }
-}
-
-fn edge(text: &str) -> Result<((u32, u32), u32), String> {
-    let parse = || {
-        let (edge, row) = text.split_once('=')?;
-        let (tool, edge) = edge.split_once('.')?;
-        let numbers = [tool, edge, row].map(|number| number.trim().parse().ok());
-        match numbers {
-            [Some(tool), Some(edge @ 2..=9), Some(row)] => Some(((tool, edge), row)),
-            _ => None,
-        }
-    };
-    parse().ok_or_else(|| "write 3.2=13 for edge D2 of tool 3 in row 13".to_string())
-}
-
-fn feed(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if f64::is_finite(value) && value > 0.0 => Ok(value),
-        _ => Err("a feed above 0 is needed".to_string()),
-    }
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(value) if (1e-6..=10.0).contains(&value) => Ok(value),
-        _ => Err("a length from 0.000001 to 10 is needed".to_string()),
-    }
-}
-
-fn path_mode(text: &str) -> Result<PathControl, String> {
-    match text.to_ascii_uppercase().as_str() {
-        "G61" => return Ok(PathControl::ExactPath),
-        "G61.1" => return Ok(PathControl::ExactStop),
-        "G64" => return Ok(PathControl::Continuous { tolerance: None }),
-        _ => {}
-    }
-    match text.parse() {
-        Ok(value) if (0.001..=10.0).contains(&value) => Ok(PathControl::Continuous {
-            tolerance: Some(value),
-        }),
-        _ => Err("write G61, G61.1, G64 or a tolerance from 0.001 to 10 mm".to_string()),
-    }
-}
-
-fn most_blocks(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(value) if (1..=100_000_000).contains(&value) => Ok(value),
-        _ => Err("a number from 1 to 100000000 is needed".to_string()),
-    }
-}
-
-fn tool_name(text: &str) -> Result<(String, u32), String> {
-    let (name, number) = text.rsplit_once('=').ok_or("write NAME=NUMBER")?;
-    let number = number.trim().parse().map_err(|_| "write NAME=NUMBER")?;
-    Ok((name.to_string(), number))
-}
+/// How much of the output is held in memory, bytes; what is longer waits in a temporary file.
+const HELD: usize = 8 << 20;
 
 /// Why nothing was written: the text for standard error.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,133 +46,210 @@ pub enum Told {
     Note(String),
 }
 
+/// A program that was translated.
+pub struct Translated {
+    header: String,
+    body: SpooledTempFile,
+}
+
+impl Translated {
+    /// Writes it.
+    ///
+    /// # Errors
+    ///
+    /// Where it cannot be written.
+    pub fn write_to(mut self, out: &mut impl Write) -> io::Result<()> {
+        out.write_all(self.header.as_bytes())?;
+        self.body.seek(SeekFrom::Start(0))?;
+        io::copy(&mut self.body, out)?;
+        out.flush()
+    }
+}
+
 /// Translates a part program.
-pub fn filter(arguments: &FilterArguments, tell: &mut dyn FnMut(Told)) -> Result<String, Refused> {
-    let settings = arguments.settings();
+///
+/// # Errors
+///
+/// The text of all that is wrong with it.
+pub fn filter(
+    arguments: &FilterArguments,
+    tell: &mut dyn FnMut(Told),
+) -> Result<Translated, Refused> {
     tell(Told::Progress(0));
-    let Evaluated {
-        program,
-        sources,
-        mut diagnostics,
-        dialect,
-        note,
-    } = read(arguments.dialect, &arguments.file, &settings)?;
-    note.into_iter().for_each(|note| tell(Told::Note(note)));
-    tell(Told::Progress(50));
-    let warnings: Vec<String> = diagnostics
-        .warnings()
-        .map(|warning| format!("line {}: {}", sources.line(warning.span), warning.message))
-        .collect();
-    let write_settings = WriteSettings {
-        dialect: dialect.name(),
-        machine_in_inch: arguments.machine_in_inch,
-        path_mode: settings.path_mode,
-        sources: &sources,
-        chord_tolerance: arguments.chord_tolerance,
-        arc_tolerance: &settings.arc_tolerance,
-        warnings: &warnings,
+    let opened = open(arguments)?;
+    let mut job = Job {
+        arguments,
+        settings: arguments.settings(),
+        opened,
+        told: 0,
+        tell,
     };
-    let mut last = 50;
-    let mut half = |share: f64| {
-        let percent = 50 + (50.0 * share) as u32;
-        if percent > last {
-            last = percent;
-            tell(Told::Progress(percent));
-        }
-    };
-    let text = match arguments.backend {
-        Backend::Kinematics => {
-            write::kinematics::write(&program, &write_settings, &mut diagnostics, &mut half)
-        }
-        Backend::Program => {
-            write::rewrite::write(&program, &write_settings, &mut diagnostics, &mut half)
-        }
+    job.tell_notes();
+    match arguments.backend {
+        Backend::Kinematics => job
+            .translate(write::Backend::Kinematics, None)?
+            .into_result(),
+        Backend::Program => job.translate(write::Backend::Program, None)?.into_result(),
         Backend::Auto => {
-            let mut attempt = Diagnostics::default();
-            let text = write::rewrite::write(&program, &write_settings, &mut attempt, &mut half);
-            match attempt.iter().next() {
-                None => text,
-                Some(reason) => {
-                    let line = sources.line(reason.span);
-                    let mut warnings = warnings.clone();
-                    warnings.push(format!(
-                        "needs the frame kinematics: line {line}: {}",
-                        reason.message
-                    ));
-                    let write_settings = WriteSettings {
-                        warnings: &warnings,
-                        ..write_settings
-                    };
-                    write::kinematics::write(&program, &write_settings, &mut diagnostics, &mut half)
-                }
+            let attempt = job.translate(write::Backend::Program, None)?;
+            match attempt.reason() {
+                Some(reason) => job
+                    .translate(write::Backend::Kinematics, Some(reason))?
+                    .into_result(),
+                None => attempt.into_result(),
             }
         }
-    };
-    if diagnostics.errors() > 0 {
-        return Err(refusal(&diagnostics, &sources));
     }
-    Ok(text)
 }
 
-/// A program that could be evaluated, with its files and warnings.
-struct Evaluated {
-    program: Program,
-    sources: Sources,
+/// The translation of one program.
+struct Job<'a> {
+    arguments: &'a FilterArguments,
+    settings: Settings,
+    opened: Opened,
+    told: u32,
+    tell: &'a mut dyn FnMut(Told),
+}
+
+/// What a backend has made of a program that could be evaluated.
+struct Attempt {
+    translated: Translated,
+    /// What was said about the program, and what the backend cannot do.
     diagnostics: Diagnostics,
-    dialect: Dialect,
-    /// How the dialect was guessed.
-    note: Option<String>,
+    sources: Sources,
 }
 
-fn read(dialect: Dialect, file: &Path, settings: &Settings) -> Result<Evaluated, Refused> {
-    let bytes = std::fs::read(file).map_err(|error| {
-        Refused(format!(
-            "error: {} cannot be read: {error}\n",
-            file.display()
+impl Attempt {
+    /// Why this backend cannot carry out the program, if it cannot.
+    fn reason(&self) -> Option<String> {
+        let errors = self.diagnostics.iter();
+        let first = errors.into_iter().find(|one| one.is_error())?;
+        let line = self.sources.line(first.span);
+        Some(format!(
+            "needs the frame kinematics: line {line}: {}",
+            first.message
         ))
-    })?;
-    let mut sources = Sources::default();
-    let mut diagnostics = Diagnostics::default();
-    sources.add(file.display().to_string(), decode(&bytes));
-    let (dialect, note) = resolve(dialect, file, &sources, &mut diagnostics);
-    let program = evaluate(dialect, file, settings, &mut sources, &mut diagnostics);
-    if diagnostics.errors() > 0 {
-        let mut refused = refusal(&diagnostics, &sources);
-        if let Some(note) = note {
-            refused.0.insert_str(0, &format!("{note}\n"));
-        }
-        return Err(refused);
     }
-    Ok(Evaluated {
-        program,
-        sources,
-        diagnostics,
-        dialect,
-        note,
-    })
+
+    fn into_result(self) -> Result<Translated, Refused> {
+        match self.diagnostics.errors() {
+            0 => Ok(self.translated),
+            _ => Err(refusal(&self.diagnostics, &self.sources)),
+        }
+    }
 }
 
-/// The dialect that is meant, and how it was guessed if it was.
-fn resolve(
-    dialect: Dialect,
-    file: &Path,
-    sources: &Sources,
-    diagnostics: &mut Diagnostics,
-) -> (Dialect, Option<String>) {
-    if dialect != Dialect::Auto {
-        return (dialect, None);
+impl Job<'_> {
+    fn tell_notes(&mut self) {
+        for note in &self.opened.notes {
+            (self.tell)(Told::Note(note.clone()));
+        }
     }
-    let Some(guess) = guess(file, &sources.file(0).text) else {
-        diagnostics.push(undecided());
-        return (dialect, None);
-    };
-    let because = match guess.line {
-        Some(line) => format!("because of line {line}"),
-        None => "because of the ending of its file".to_string(),
-    };
-    let name = guess.dialect.name();
-    let note = format!("note: taken as a {name} program, {because}; --dialect says otherwise");
-    (guess.dialect, Some(note))
+
+    /// Runs the program and writes it. `because`: what the operator is to hear about the choice of the
+    /// backend.
+    fn translate(
+        &mut self,
+        backend: write::Backend,
+        because: Option<String>,
+    ) -> Result<Attempt, Refused> {
+        let mut sources = self.opened.sources()?;
+        let mut diagnostics = Diagnostics::default();
+        let mut body = SpooledTempFile::new(HELD);
+        let write_settings = WriteSettings {
+            dialect: self.opened.dialect.name(),
+            machine_in_inch: self.arguments.machine_in_inch,
+            path_mode: self.settings.path_mode,
+            chord_tolerance: self.arguments.chord_tolerance,
+            arc_tolerance: &self.settings.arc_tolerance,
+        };
+        let written = {
+            let mut output = Output {
+                writer: write::writer(backend, &write_settings, &mut body),
+                length: self.opened.length,
+                told: &mut self.told,
+                tell: &mut *self.tell,
+            };
+            let about = About {
+                sources: &mut sources,
+                diagnostics: &mut diagnostics,
+                sink: &mut output,
+            };
+            let path = &self.arguments.file;
+            run_program(self.opened.dialect, path, &self.settings, about);
+            output.writer.finish()
+        };
+        for note in diagnostics.notes() {
+            (self.tell)(Told::Note(note.clone()));
+        }
+        if diagnostics.errors() > 0 {
+            return Err(refusal(&diagnostics, &sources));
+        }
+        let refused = written.map_err(|error| {
+            Refused(format!(
+                "error: no room for the translated program: {error}\n"
+            ))
+        })?;
+        let mut warnings = operator_messages(&diagnostics, &sources);
+        warnings.extend(because);
+        diagnostics.append(refused);
+        let header = write::header(backend, &write_settings, &sources, &warnings);
+        Ok(Attempt {
+            translated: Translated { header, body },
+            diagnostics,
+            sources,
+        })
+    }
+}
+
+/// The warnings as the operator is to see them when the program starts.
+fn operator_messages(diagnostics: &Diagnostics, sources: &Sources) -> Vec<String> {
+    let spans: Vec<Span> = diagnostics.warnings().map(|warning| warning.span).collect();
+    let lines = sources.excerpts(&spans).into_iter();
+    let lines = lines.map(|excerpt| excerpt.map_or(0, |excerpt| excerpt.line));
+    diagnostics
+        .warnings()
+        .zip(lines)
+        .map(|(warning, line)| format!("line {line}: {}", warning.message))
+        .collect()
+}
+
+/// Gives the blocks to a writer and tells how far it is.
+struct Output<'a> {
+    writer: Box<dyn Writer + 'a>,
+    /// The length of the program, bytes.
+    length: u64,
+    told: &'a mut u32,
+    tell: &'a mut dyn FnMut(Told),
+}
+
+impl Output<'_> {
+    fn progress(&mut self, share: f64) {
+        let percent = (100.0 * share) as u32;
+        if percent > *self.told {
+            *self.told = percent;
+            (self.tell)(Told::Progress(percent));
+        }
+    }
+}
+
+impl Sink for Output<'_> {
+    fn take(&mut self, blocks: Vec<Block>, scope: FrameScope, sources: &Sources) {
+        // A program that is held as a whole has been evaluated by now.
+        let pieces = sources.file(0).is_windowed();
+        if pieces {
+            self.progress(sources.bytes_read(0) as f64 / self.length.max(1) as f64);
+        }
+        for (index, block) in blocks.iter().enumerate() {
+            self.writer.block(block, scope, sources);
+            if !pieces && index.is_multiple_of(1024) {
+                self.progress(0.5 + 0.5 * index as f64 / blocks.len() as f64);
+            }
+        }
+        if !pieces {
+            self.progress(1.0);
+        }
+    }
 }
 
 /// The contour of a part program, machine coordinates; see [`trace::contour`].
@@ -355,12 +263,19 @@ pub fn contour(
     settings: &Settings,
     setup: &Setup,
 ) -> Result<Vec<ContourMove>, Refused> {
-    let Evaluated {
-        program,
-        sources,
-        mut diagnostics,
-        ..
-    } = read(dialect, file, settings)?;
+    let opened = Opened::whole(dialect, file, settings.encoding)?;
+    let mut sources = opened.sources()?;
+    let mut diagnostics = Diagnostics::default();
+    let program = evaluate(
+        opened.dialect,
+        file,
+        settings,
+        &mut sources,
+        &mut diagnostics,
+    );
+    if diagnostics.errors() > 0 {
+        return Err(refusal(&diagnostics, &sources));
+    }
     trace::contour(&program, setup, &settings.arc_tolerance).map_err(|error| {
         let (origin, message) = match error {
             TraceError::Arc(origin, _) => (origin, "this arc does not reach its end"),

@@ -8,6 +8,8 @@ pub mod dialects;
 pub mod encoding;
 pub mod filter;
 pub mod generate;
+pub(crate) mod optimum;
+pub mod plan;
 pub mod program;
 pub mod report;
 pub mod source;

@@ -6,9 +6,9 @@ use framepath_tool::dialects::Dialect;
 use framepath_tool::dialects::settings::Settings;
 use framepath_tool::filter::{FilterArguments, Told, contour, filter};
 use framepath_tool::generate::{self, GenerateArguments};
+use framepath_tool::plan::{self, PlanArguments};
 use framepath_tool::program::trace::Setup;
 use framepath_tool::report::{self, ReportArguments};
-use std::io::Write;
 use std::process::ExitCode;
 
 /// Frames and smooth motion for LinuxCNC.
@@ -25,6 +25,8 @@ enum Command {
     Filter(FilterArguments),
     /// Show what the planner did with a program, from a recording
     Report(ReportArguments),
+    /// Show what the planner will do with a program: time, limits, slow places
+    Plan(PlanArguments),
     /// Drive planner modules with the same programs and compare what they do
     Compare(CompareArguments),
     /// Print a G-code program that shows what a planner does
@@ -38,6 +40,7 @@ fn main() -> ExitCode {
     match Arguments::parse().command {
         Command::Filter(arguments) => run_filter(&arguments),
         Command::Report(arguments) => finish(run_report(&arguments)),
+        Command::Plan(arguments) => finish(plan::run(&arguments)),
         Command::Compare(arguments) => finish(compare::run(&arguments)),
         Command::Generate(arguments) => finish(generate::run(&arguments).map_err(Into::into)),
         Command::CompareHost => compare::serve_as_host(),
@@ -60,7 +63,7 @@ fn run_filter(arguments: &FilterArguments) -> ExitCode {
         Told::Note(note) => eprintln!("{note}"),
     };
     match filter(arguments, &mut tell) {
-        Ok(text) => match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Ok(translated) => match translated.write_to(&mut std::io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
                 eprintln!("error: the program cannot be written: {error}");

@@ -49,7 +49,7 @@ pub struct Rest {
     pub position: Axes,
 }
 
-/// The trajectory through the queued moves. About 4 MB, without a heap.
+/// The trajectory through the queued moves. About 10 MB, without a heap.
 #[derive(Debug)]
 pub struct Reference {
     pub(super) path: BlendedPath,

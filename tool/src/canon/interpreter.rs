@@ -1,11 +1,14 @@
 //! Runs a program through LinuxCNC's interpreter, in a process of its own.
 
 use super::call::Call;
+use super::surroundings::Surroundings;
 use crate::compare::host::memory_file::MemoryFile;
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, ChildStdout, Command, Stdio};
+use std::thread::JoinHandle;
 
 /// The interpreter program, compiled by the build script.
 const PROGRAM: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/interpreter"));
@@ -49,6 +52,14 @@ pub enum CanonError {
 /// A file that cannot be opened, a program that the interpreter refuses (with its line and
 /// message), an interpreter that cannot be run.
 pub fn read_program(file: &Path) -> Result<Vec<Call>, CanonError> {
+    stream_program(file, &Surroundings::default())?.collect()
+}
+
+/// The canonical calls of a program one by one, while the interpreter goes on.
+///
+/// # Errors
+/// Those of [`read_program`]; what comes up on the way is an item of the stream, its last.
+pub fn stream_program(file: &Path, surroundings: &Surroundings) -> Result<CallStream, CanonError> {
     let read_error = |source| CanonError::Read {
         file: file.to_owned(),
         source,
@@ -56,8 +67,7 @@ pub fn read_program(file: &Path) -> Result<Vec<Call>, CanonError> {
     // The interpreter's own message would not say why.
     File::open(file).map_err(read_error)?;
     let absolute = std::fs::canonicalize(file).map_err(read_error)?;
-    let home = home(file)?;
-    interpret(file, &absolute, &home)
+    CallStream::start(file, &absolute, home(file)?, surroundings)
 }
 
 /// The canonical calls of a program that is in no file; the name is for messages.
@@ -72,95 +82,168 @@ pub fn read_text(name: &str, text: &str) -> Result<Vec<Call>, CanonError> {
         file: file.to_owned(),
         source,
     })?;
-    interpret(file, &written, &home)
+    CallStream::start(file, &written, home, &Surroundings::default())?.collect()
 }
 
 fn home(file: &Path) -> Result<Home, CanonError> {
-    Home::new().map_err(|error| CanonError::Interpreter {
-        file: file.to_owned(),
-        problem: error.to_string(),
-    })
+    Home::new().map_err(|error| failure(file, error.to_string()))
 }
 
-/// Runs the interpreter on `program`; `file` is what messages call it.
-fn interpret(file: &Path, program: &Path, home: &Home) -> Result<Vec<Call>, CanonError> {
-    let failed = |problem: String| CanonError::Interpreter {
+fn failure(file: &Path, problem: String) -> CanonError {
+    CanonError::Interpreter {
         file: file.to_owned(),
         problem,
-    };
-    let unusable = |error: io::Error| failed(error.to_string());
-
-    let interpreter = MemoryFile::holding("framepath-interpreter", PROGRAM).map_err(unusable)?;
-    let mut child = Command::new(interpreter.path())
-        .arg(program)
-        .arg(home.parameters())
-        .current_dir(&home.folder)
-        .env("HOME", &home.folder)
-        .env_remove("INI_FILE_NAME")
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(unusable)?;
-    let (Some(output), Some(mut complaints)) = (child.stdout.take(), child.stderr.take()) else {
-        return Err(failed("its output cannot be read".to_owned()));
-    };
-    let complaints = std::thread::spawn(move || {
-        let mut text = String::new();
-        // What is not text is no message.
-        let _ = complaints.read_to_string(&mut text);
-        text
-    });
-    let outcome = read_calls(file, BufReader::new(output)).map_err(unusable)?;
-    let status = child.wait().map_err(unusable)?;
-    let complaints = complaints.join().unwrap_or_default();
-    match outcome {
-        Outcome::Complete(calls) => Ok(calls),
-        Outcome::Refused(error) => Err(error),
-        Outcome::Broken(line) => {
-            let text = if line.is_empty() { complaints } else { line };
-            Err(failed(format!("it ended with {status}: {}", text.trim())))
-        }
     }
 }
 
-enum Outcome {
-    Complete(Vec<Call>),
-    Refused(CanonError),
-    /// It printed something else, or stopped in the middle.
-    Broken(String),
+/// The calls of a program while the interpreter runs, which ends with this.
+#[derive(Debug)]
+pub struct CallStream {
+    /// What messages call the program.
+    file: PathBuf,
+    child: Child,
+    output: BufReader<ChildStdout>,
+    complaints: Option<JoinHandle<String>>,
+    line: Vec<u8>,
+    ended: bool,
+    /// The interpreter's files, there as long as it runs; after `child`, which ends first.
+    _home: Home,
 }
 
-fn read_calls(file: &Path, output: impl BufRead) -> io::Result<Outcome> {
-    let mut calls = Vec::new();
-    let mut refusal: Option<(u32, String)> = None;
-    for line in output.split(b'\n') {
-        let line = String::from_utf8_lossy(&line?).into_owned();
+impl CallStream {
+    /// Starts the interpreter on `program`; `file` is what messages call it.
+    fn start(
+        file: &Path,
+        program: &Path,
+        home: Home,
+        surroundings: &Surroundings,
+    ) -> Result<CallStream, CanonError> {
+        let unusable = |error: io::Error| failure(file, error.to_string());
+        surroundings
+            .write(&home.parameters(), &home.settings())
+            .map_err(|(file, source)| CanonError::Read { file, source })?;
+        let interpreter =
+            MemoryFile::holding("framepath-interpreter", PROGRAM).map_err(unusable)?;
+        let mut command = Command::new(interpreter.path());
+        command
+            .arg(program)
+            .arg(home.parameters())
+            .arg(home.settings())
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        match &surroundings.ini {
+            // Paths in an INI file count from its folder.
+            Some(ini) => command
+                .current_dir(ini.parent().unwrap_or(Path::new("/")))
+                .env("INI_FILE_NAME", ini),
+            None => command
+                .current_dir(&home.folder)
+                .env("HOME", &home.folder)
+                .env_remove("INI_FILE_NAME"),
+        };
+        let mut child = command.spawn().map_err(unusable)?;
+        let (Some(output), Some(mut complaints)) = (child.stdout.take(), child.stderr.take())
+        else {
+            return Err(failure(file, "its output cannot be read".to_owned()));
+        };
+        let complaints = std::thread::spawn(move || {
+            let mut text = Vec::new();
+            // What was read before an error is all there is.
+            let _ = complaints.read_to_end(&mut text);
+            String::from_utf8_lossy(&text).into_owned()
+        });
+        Ok(CallStream {
+            file: file.to_owned(),
+            child,
+            output: BufReader::with_capacity(1 << 16, output),
+            complaints: Some(complaints),
+            line: Vec::new(),
+            ended: false,
+            _home: home,
+        })
+    }
+
+    /// The next line that the interpreter prints, `None` at the end of its output.
+    fn read_line(&mut self) -> io::Result<Option<Cow<'_, str>>> {
+        self.line.clear();
+        if self.output.read_until(b'\n', &mut self.line)? == 0 {
+            return Ok(None);
+        }
+        let line = self.line.strip_suffix(b"\n").unwrap_or(&self.line);
+        Ok(Some(String::from_utf8_lossy(line)))
+    }
+
+    fn next_call(&mut self) -> Result<Option<Call>, CanonError> {
+        let file = self.file.clone();
+        let line = match self.read_line() {
+            Ok(Some(line)) => line,
+            Ok(None) => return Err(self.broken("")),
+            Err(error) => return Err(failure(&file, error.to_string())),
+        };
+        if let Some(call) = Call::parse(&line) {
+            return Ok(Some(call));
+        }
         if line == "END" {
-            return Ok(Outcome::Complete(calls));
+            return Ok(None);
         }
-        if let Some(rest) = line.strip_prefix("REFUSED ") {
-            let (number, message) = rest.split_once(' ').unwrap_or((rest, ""));
-            refusal = Some((number.parse().unwrap_or(0), message.to_owned()));
-        } else if let (Some(text), Some((line, message))) =
-            (line.strip_prefix("SOURCE "), refusal.as_ref())
-        {
-            return Ok(Outcome::Refused(CanonError::Refused {
-                file: file.to_owned(),
-                line: *line,
-                message: message.clone(),
-                text: text.trim_end().to_owned(),
-            }));
-        } else if let Some(call) = Call::parse(&line) {
-            calls.push(call);
-        } else {
-            return Ok(Outcome::Broken(line));
-        }
+        let line = line.into_owned();
+        let Some(refusal) = line.strip_prefix("REFUSED ") else {
+            return Err(self.broken(&line));
+        };
+        let (number, message) = refusal.split_once(' ').unwrap_or((refusal, ""));
+        let source = match self.read_line() {
+            Ok(Some(source)) => source.into_owned(),
+            _ => String::new(),
+        };
+        let text = source.strip_prefix("SOURCE ").unwrap_or_default();
+        Err(CanonError::Refused {
+            file,
+            line: number.parse().unwrap_or(0),
+            message: message.to_owned(),
+            text: text.trim_end().to_owned(),
+        })
     }
-    Ok(Outcome::Broken(String::new()))
+
+    /// It printed something else, or stopped in the middle.
+    fn broken(&mut self, line: &str) -> CanonError {
+        let status = match self.child.wait() {
+            Ok(status) => status.to_string(),
+            Err(error) => error.to_string(),
+        };
+        let complaints = self.complaints.take().map(JoinHandle::join);
+        let complaints = complaints.and_then(Result::ok).unwrap_or_default();
+        let text = if line.is_empty() { &complaints } else { line };
+        failure(
+            &self.file,
+            format!("it ended with {status}: {}", text.trim()),
+        )
+    }
 }
 
-/// A folder for what the interpreter writes, removed at the end.
+impl Iterator for CallStream {
+    type Item = Result<Call, CanonError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.ended {
+            return None;
+        }
+        let next = self.next_call().transpose();
+        self.ended = !matches!(next, Some(Ok(_)));
+        next
+    }
+}
+
+impl Drop for CallStream {
+    fn drop(&mut self) {
+        // It has ended already unless its calls were not wanted to the end.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A folder for what the interpreter reads and writes, removed at the end.
+#[derive(Debug)]
 struct Home {
     folder: PathBuf,
 }
@@ -172,11 +255,7 @@ impl Home {
         for attempt in 0..1000 {
             let folder = base.join(format!("framepath-{process}-{attempt}"));
             match std::fs::create_dir(&folder) {
-                Ok(()) => {
-                    let home = Home { folder };
-                    File::create(home.parameters())?;
-                    return Ok(home);
-                }
+                Ok(()) => return Ok(Home { folder }),
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
             }
@@ -186,6 +265,10 @@ impl Home {
 
     fn parameters(&self) -> PathBuf {
         self.folder.join("parameters.var")
+    }
+
+    fn settings(&self) -> PathBuf {
+        self.folder.join("settings")
     }
 }
 

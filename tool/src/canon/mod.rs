@@ -4,14 +4,18 @@
 //! `gcode` passes on neither G64's tolerances nor the state tags. So this folder has a canon of
 //! its own: a small C++ program (`interpreter/`), linked with LinuxCNC's interpreter library
 //! (librs274) against LinuxCNC's headers, that prints each call with 17 digits. The build script
-//! compiles it and puts it into the executable; it runs in a process of its own, from memory, with
-//! an empty file of numbered parameters and with a tool table in which every number is a tool
-//! without length and radius.
+//! compiles it and puts it into the executable; it runs in a process of its own, from memory. Without
+//! an INI file it has an empty file of numbered parameters and a tool table in which every number is
+//! a tool without length and radius.
 //!
-//! [`call`] are the calls, [`interpreter`] runs a program.
+//! [`call`] are the calls, [`interpreter`] runs a program, [`surroundings`] are what it finds around
+//! it: INI file, parameters, [`tool_table`].
 
 pub mod call;
 pub mod interpreter;
+pub mod surroundings;
+pub mod tool_table;
 
 pub use call::Call;
-pub use interpreter::{CanonError, read_program, read_text};
+pub use interpreter::{CallStream, CanonError, read_program, read_text, stream_program};
+pub use surroundings::Surroundings;

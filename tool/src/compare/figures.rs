@@ -5,6 +5,7 @@ use super::distance::{Distance, Path, executed_to_path, path_to_executed};
 use super::holds::{Holds, holds};
 use super::job::Job;
 use super::kinematics::{Motion, motion};
+use super::least_time::LeastTime;
 use super::limits::Jerk;
 use super::program::Program;
 use super::recording::{ABORTED, Ending, Recording};
@@ -87,6 +88,11 @@ pub(crate) struct Figures {
     pub final_error: f64,
     pub rests: Rests,
     pub holds: Holds,
+    /// Measured when it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub optimum: Option<LeastTime>,
+    /// Most moves that were queued at a time.
+    pub most_queued: i32,
     /// tpRunCycle while moves are queued.
     pub run: Cost,
     /// tpAddLine and tpAddCircle.
@@ -165,6 +171,7 @@ impl Figures {
             takes_jerk: recording.takes_jerk,
             rests: rests(recording, program, &job.limits, job.period, motion.range),
             holds: holds(recording, &job.limits, &jerk_limits, job.period),
+            optimum: None,
             state,
             motion,
             deviation,
@@ -172,6 +179,11 @@ impl Figures {
             missed,
             missed_of_moves,
             final_error,
+            most_queued: samples
+                .iter()
+                .map(|sample| sample.queued)
+                .max()
+                .unwrap_or(0),
             run: Cost::of(
                 samples
                     .iter()
@@ -223,6 +235,8 @@ pub(crate) mod tests {
             final_error: 0.0,
             rests: Rests::default(),
             holds: Holds::default(),
+            optimum: None,
+            most_queued: 0,
             run: Cost::default(),
             add: Cost::default(),
             clock: 0.0,

@@ -2,7 +2,9 @@
 
 use super::kinematics::{moves, step};
 use super::limits::Limits;
-use super::recording::{HELD, Recording, WAITING};
+use super::recording::{HELD, Recording, Sample, WAITING};
+use super::shortest_stop::State;
+use crate::optimum::{AxisLimits, ExecutedPath, PathSample, SpeedCap, shortest_stop};
 use serde::Serialize;
 
 /// The holds of a run.
@@ -14,8 +16,10 @@ pub(crate) struct Holds {
     pub not_at_rest: usize,
     /// Longest time to rest, s.
     pub longest: f64,
-    /// Mean of the time to rest over that of the shortest stop on a straight path.
+    /// Mean of the time to rest over that of the shortest stop from the same speed and acceleration
+    /// along the path.
     pub mean_ratio: f64,
+    pub worst_ratio: f64,
     /// How much longer than that it took at worst, s.
     pub latest: f64,
     /// Largest travel of an axis while it was held and had been at rest, mm or degrees.
@@ -39,7 +43,7 @@ pub(crate) fn holds(recording: &Recording, limits: &Limits, jerk: &[f64; 9], per
             continue;
         }
         let start = k;
-        let before = step(samples, start - 1);
+        let state = State::after(samples, start - 1, limits, jerk, period);
         let mut rest = None;
         while held(k) {
             let travel = step(samples, k);
@@ -53,18 +57,27 @@ pub(crate) fn holds(recording: &Recording, limits: &Limits, jerk: &[f64; 9], per
             }
             k += 1;
         }
-        if !moves(&before) {
+        let Some(state) = state.filter(|_| moves(&step(samples, start - 1))) else {
             continue;
-        }
+        };
         let Some(rest) = rest else {
             holds.not_at_rest += 1;
             continue;
         };
         let time = (rest - start) as f64 * period;
-        let ideal = shortest_stop(&before, limits, jerk, period);
+        let stop = Stop {
+            samples,
+            limits,
+            jerk,
+            period,
+            start,
+            rest,
+        };
+        let ideal = stop.ideal(&state);
         holds.count += 1;
         holds.longest = holds.longest.max(time);
         holds.latest = holds.latest.max(time - ideal);
+        holds.worst_ratio = holds.worst_ratio.max(time / ideal);
         sum += time / ideal;
     }
     if holds.count > 0 {
@@ -73,24 +86,69 @@ pub(crate) fn holds(recording: &Recording, limits: &Limits, jerk: &[f64; 9], per
     holds
 }
 
-/// Least time to rest from this travel in a cycle without acceleration, straight on. At least a
-/// cycle.
-fn shortest_stop(travel: &[f64; 9], limits: &Limits, jerk: &[f64; 9], period: f64) -> f64 {
-    let mut longest = period;
-    // Along a straight line all axes slow down in proportion: the one that needs most time rules.
-    for axis in 0..9 {
-        let velocity = travel[axis].abs() / period;
-        let (most, change) = (limits.acceleration[axis], jerk[axis]);
-        let time = if change <= 0.0 {
-            velocity / most
-        } else if velocity >= most * most / change {
-            velocity / most + most / change
-        } else {
-            2.0 * (velocity / change).sqrt()
-        };
-        longest = longest.max(time);
+/// A hold: from the position before cycle `start` to the first cycle without motion.
+struct Stop<'a> {
+    samples: &'a [Sample],
+    limits: &'a Limits,
+    jerk: &'a [f64; 9],
+    period: f64,
+    start: usize,
+    rest: usize,
+}
+
+/// So many cycles before the hold belong to the path of the stop, and as many after the machine went
+/// on.
+const AROUND: usize = 40;
+
+impl Stop<'_> {
+    /// Least time to rest, s, in whole cycles: positions are seen at the end of each.
+    ///
+    /// On the straight line first. Only if the machine takes longer than that, what the path itself
+    /// allows is worth its effort.
+    fn ideal(&self, state: &State) -> f64 {
+        let cycles = |time: f64| (time / self.period - 1e-6).ceil().max(1.0) * self.period;
+        let straight = cycles(state.shortest_stop());
+        let time = (self.rest - self.start) as f64 * self.period;
+        if time < straight + 1.5 * self.period || state.jerk.is_infinite() {
+            return straight;
+        }
+        let along_path = self.along_path(state).map_or(straight, cycles);
+        // What the machine has done is possible.
+        along_path.clamp(straight, time.max(straight))
     }
-    longest
+
+    /// Least time to rest on the path as it was run on after the hold.
+    fn along_path(&self, state: &State) -> Option<f64> {
+        let from = self.start.saturating_sub(AROUND);
+        let goes_on = (self.rest..self.samples.len()).find(|&k| moves(&step(self.samples, k)))?;
+        let to = (goes_on + AROUND).min(self.samples.len());
+        let path: Vec<PathSample> = self.samples[from..to]
+            .iter()
+            .map(|sample| PathSample {
+                position: sample.position,
+                cap: SpeedCap::NONE,
+            })
+            .collect();
+        let path = ExecutedPath::new(&path, self.period, &self.limits.velocity)?;
+        // Sample k is the position after cycle k.
+        let at = |k: usize| (k - from) as f64 * self.period;
+        let (start, squared, acceleration) = path.state(at(self.start.checked_sub(1)?))?;
+        let stopped = path.parameter_at(at(self.rest)) - start;
+        let limit = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
+        let limits = AxisLimits {
+            velocity: self.limits.velocity,
+            acceleration: self.limits.acceleration,
+            jerk: self.jerk.map(limit),
+        };
+        let least = 0.98 * state.least_distance() * squared.sqrt() / state.speed;
+        shortest_stop(
+            &path,
+            &limits,
+            (start, squared, acceleration),
+            least,
+            stopped,
+        )
+    }
 }
 
 #[cfg(test)]
@@ -136,14 +194,5 @@ mod tests {
         assert!((half.latest - 0.1).abs() < 0.002, "{half:?}");
         let never = measure(100.0);
         assert_eq!((never.count, never.not_at_rest), (0, 1));
-    }
-
-    #[test]
-    fn shortest_stop_with_a_jerk_limit() {
-        let mut travel = [0.0; 9];
-        travel[0] = 0.1;
-        let stop = |jerk| shortest_stop(&travel, &Limits::default(), &[jerk; 9], 0.001);
-        assert!((stop(20_000.0) - 0.15).abs() < 1e-12);
-        assert!((stop(1000.0) - 2.0 * 0.1f64.sqrt()).abs() < 1e-12);
     }
 }

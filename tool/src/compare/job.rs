@@ -16,6 +16,8 @@ pub(crate) struct Job {
     /// Jerk limit of each axis, 0 = not limited.
     pub jerk: [f64; 9],
     pub adds_per_cycle: usize,
+    /// No move is handed over while so many are queued.
+    pub queue: usize,
     /// Greatest velocity of the machine, mm/s.
     pub velocity_limit: f64,
     /// Standing still that long counts as stuck, s.
@@ -48,6 +50,7 @@ impl Job {
             self.time_limit,
         ]);
         out.count(self.adds_per_cycle);
+        out.count(self.queue);
         out.numbers(&self.limits.velocity);
         out.numbers(&self.limits.acceleration);
         out.numbers(&self.jerk);
@@ -78,6 +81,7 @@ impl Job {
         input.0 = rest;
         let [period, velocity_limit, stuck_after, time_limit] = input.numbers()?;
         let adds_per_cycle = input.count()?;
+        let queue = input.count()?;
         let limits = Limits {
             velocity: input.numbers()?,
             acceleration: input.numbers()?,
@@ -95,6 +99,7 @@ impl Job {
             limits,
             jerk,
             adds_per_cycle,
+            queue,
             velocity_limit,
             stuck_after,
             time_limit,
@@ -343,6 +348,7 @@ mod tests {
             limits: Limits::default(),
             jerk: [20_000.0; 9],
             adds_per_cycle: 1,
+            queue: usize::MAX,
             velocity_limit: 1e9,
             stuck_after: 10.0,
             time_limit: 7200.0,

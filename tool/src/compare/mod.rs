@@ -3,10 +3,11 @@
 //!
 //! The files in the order of the work: [`crate::canon`] reads the program through LinuxCNC's own
 //! interpreter; [`layer`] does with it what the canonical layer does, the result is a [`program`]
-//! made of [`segment`]s; [`job`] tells it to a process of its own ([`supervise`]), which drives the
+//! made of [`segment`]s; [`runner`] and [`job`] tell it to a process of its own ([`supervise`]), which drives the
 //! module ([`host`]) and sends a [`recording`]; [`kinematics`], [`distance`], [`rests`], [`holds`]
-//! and [`cost`] measure it, [`figures`] holds all of it; [`table`], [`ratios`] and [`s_curve`]
-//! show it.
+//! and [`cost`] measure it, and [`least_time`] if it is asked for;
+//! [`figures`] holds all of it; [`table`], [`ratios`],
+//! [`s_curve`] and [`summary`] show it.
 
 mod cost;
 mod distance;
@@ -16,15 +17,20 @@ mod holds;
 pub(crate) mod host;
 mod job;
 mod kinematics;
-mod layer;
-mod limits;
+pub(crate) mod layer;
+mod least_time;
+pub(crate) mod limits;
 mod operator;
-mod program;
+pub(crate) mod program;
+mod progress;
 mod ratios;
 mod recording;
 mod rests;
+mod runner;
 mod s_curve;
-mod segment;
+pub(crate) mod segment;
+mod shortest_stop;
+mod summary;
 mod supervise;
 mod table;
 
@@ -32,21 +38,26 @@ pub use error::CompareError;
 
 use crate::canon::{read_program, read_text};
 use crate::generate;
-use figures::Figures;
-use job::Job;
 use layer::{LayerSettings, lay};
 use limits::{Jerk, Limits};
 use operator::{Action, Event, at_time, random_events, seconds};
 use program::Program;
+use progress::Progress;
 use ratios::{ProgramRuns, ratios};
+use runner::{Runner, file_name};
 use serde::Serialize;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Duration;
 
-/// Where Debian's linuxcnc-uspace has its modules.
-const STOCK: &str = "/usr/lib/linuxcnc/modules/tpmod.so";
+/// The options for what the operator does.
+const OPERATOR: [&str; 5] = [
+    "feed_override",
+    "pause",
+    "max_velocity",
+    "abort",
+    "operator",
+];
 
 /// Arguments of `framepath compare`.
 #[derive(Clone, Debug, clap::Args)]
@@ -83,6 +94,10 @@ pub struct CompareArguments {
     /// Moves handed to the planner in a cycle
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u16).range(1..))]
     pub adds_per_cycle: u16,
+    /// Hand over no move while so many are queued; several numbers for a run with each [default: as
+    /// many as the planner takes]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(2..))]
+    pub queue: Vec<u16>,
     /// Greatest velocity of the machine, mm/s
     #[arg(long, value_name = "V", default_value = "1e9", value_parser = seconds)]
     pub velocity_limit: f64,
@@ -101,6 +116,15 @@ pub struct CompareArguments {
     /// A restless operator with random overrides, pauses and slider, the same for the same number
     #[arg(long, value_name = "SEED")]
     pub operator: Option<u64>,
+    /// Also the least time that the limits allow on the path as it was executed (takes minutes), and
+    /// the least time without the limit of jerk
+    #[arg(long, conflicts_with_all = OPERATOR)]
+    pub optimum: bool,
+    /// Run each program once more with so many feed holds at random moments and measure the time to
+    /// rest
+    #[arg(long, value_name = "N", conflicts_with_all = OPERATOR,
+          value_parser = clap::value_parser!(u16).range(1..))]
+    pub holds: Option<u16>,
     /// Seconds that a module may take for a single call before it counts as hanging
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
     pub patience: f64,
@@ -119,12 +143,6 @@ fn period(text: &str) -> Result<f64, String> {
 /// What a process does that was started to drive a module.
 pub fn serve_as_host() -> ExitCode {
     host::drive::serve()
-}
-
-/// A module to run.
-struct Module {
-    name: String,
-    file: String,
 }
 
 #[derive(Serialize)]
@@ -153,34 +171,35 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error
         .iter()
         .map(|text| Jerk::parse(text).map_err(|problem| format!("--jerk: {problem}")))
         .collect::<Result<Vec<_>, _>>()?;
-    let modules = modules(&arguments.modules)?;
     let programs = programs(arguments, limits)?;
     let events = events(arguments);
+    let runner = Runner::new(arguments, limits, &jerks, &events)?;
     let mut output = std::io::stdout().lock();
     if !arguments.json {
         writeln!(output, "{}\n", headline(arguments)).map_err(CompareError::Write)?;
     }
     let mut all = Vec::new();
+    let progress = Progress::new(programs.len() * runner.runs_of_a_program());
     for (name, program) in programs {
-        let mut runs = Vec::new();
-        for module in &modules {
-            runs.extend(run_module(
-                module, &program, &jerks, arguments, limits, &events,
-            )?);
-        }
+        let runs = runner.run(&name, &program, &progress)?;
         if !arguments.json {
             let text = table::table(&name, &program, &runs);
-            writeln!(output, "{text}").map_err(CompareError::Write)?;
+            progress
+                .suspend(|| writeln!(output, "{text}"))
+                .map_err(CompareError::Write)?;
             output.flush().map_err(CompareError::Write)?;
         }
         all.push(ProgramRuns {
             program: name,
             moves: program.handed.len(),
+            axes: moving_axes(&program),
             runs,
         });
     }
+    progress.finish();
     let mut ratios = ratios(&all);
     ratios.extend(s_curve::ratios(&all, &limits));
+    ratios.extend(ratios::over_the_optimum(&all));
     if arguments.json {
         let report = Report {
             period: arguments.period,
@@ -195,7 +214,11 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error
         writeln!(output).map_err(CompareError::Write)?;
     } else {
         write!(output, "{}", ratios::text(&ratios)).map_err(CompareError::Write)?;
+        write!(output, "{}", summary::text(&all)).map_err(CompareError::Write)?;
         write!(output, "\n{}", table::LEGEND).map_err(CompareError::Write)?;
+        if arguments.optimum {
+            write!(output, "{}", table::OPTIMUM_LEGEND).map_err(CompareError::Write)?;
+        }
     }
     Ok(())
 }
@@ -212,86 +235,16 @@ fn headline(arguments: &CompareArguments) -> String {
     format!("{limits}; {feed}; servo period {period} ms, {adds} {moves} handed over in each")
 }
 
-/// All runs of a module on a program. One that has no limit of jerk runs only once.
-fn run_module(
-    module: &Module,
-    program: &Program,
-    jerks: &[Jerk],
-    arguments: &CompareArguments,
-    limits: Limits,
-    events: &[Event],
-) -> Result<Vec<Figures>, CompareError> {
-    let mut runs = Vec::new();
-    for &jerk in jerks {
-        let job = Job {
-            module: module.file.clone(),
-            period: arguments.period,
-            limits,
-            jerk: jerk.of_axes(&limits),
-            adds_per_cycle: usize::from(arguments.adds_per_cycle),
-            velocity_limit: arguments.velocity_limit,
-            stuck_after: 10.0,
-            time_limit: 7200.0,
-            events: events.to_vec(),
-            operations: program.operations.clone(),
-        };
-        let patience = Duration::from_secs_f64(arguments.patience.min(1e6));
-        let (outcome, recording) = supervise::run(&job, patience).map_err(CompareError::Run)?;
-        let figures = Figures::measure(&module.name, jerk, &job, program, outcome, &recording);
-        let takes_jerk = figures.takes_jerk;
-        runs.push(figures);
-        if !takes_jerk {
-            break;
-        }
-    }
-    Ok(runs)
-}
-
-fn modules(named: &[PathBuf]) -> Result<Vec<Module>, CompareError> {
-    let default;
-    let files = if named.is_empty() {
-        default = [PathBuf::from(STOCK), our_module()];
-        &default[..]
-    } else {
-        named
-    };
-    files
-        .iter()
-        .map(|file| {
-            let hint = if named.is_empty() {
-                "; install LinuxCNC and build the modules (make modules), or name modules with --with"
-            } else {
-                ""
-            };
-            // An absolute path: dlopen looks for a mere name elsewhere.
-            let absolute = std::fs::canonicalize(file).map_err(|_| CompareError::NoModule {
-                file: file.clone(),
-                hint,
-            })?;
-            Ok(Module {
-                name: file_name(file),
-                file: absolute.to_string_lossy().into_owned(),
+/// How many axes the program moves.
+fn moving_axes(program: &Program) -> usize {
+    (0..9)
+        .filter(|&axis| {
+            program.handed.iter().any(|piece| {
+                let segment = &piece.segment;
+                segment.start[axis] != segment.end[axis] || (axis < 3 && segment.arc.is_some())
             })
         })
-        .collect()
-}
-
-/// Where our module is: in the folder of the build, else among LinuxCNC's.
-fn our_module() -> PathBuf {
-    let folder = std::env::var_os("FRAMEPATH_MODULES").map(PathBuf::from);
-    let built = folder.map(|folder| folder.join("blendtp.so"));
-    let installed = Path::new(STOCK).with_file_name("blendtp.so");
-    match built {
-        Some(built) if built.exists() || !installed.exists() => built,
-        _ => installed,
-    }
-}
-
-fn file_name(file: &Path) -> String {
-    file.file_name().map_or_else(
-        || file.display().to_string(),
-        |name| name.to_string_lossy().into_owned(),
-    )
+        .count()
 }
 
 /// Reads all programs, so that one that cannot be read is known before anything runs.

@@ -39,6 +39,19 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Holds at random moments of the first `time` seconds, each for `duration` seconds, the same every
+/// time.
+pub(crate) fn random_holds(count: usize, time: f64, duration: f64) -> Vec<Event> {
+    let mut random = crate::generate::random::Random::new(1);
+    let mut moments: Vec<f64> = (0..count).map(|_| random.between(0.0, time)).collect();
+    moments.sort_unstable_by(f64::total_cmp);
+    let hold = |(before, moment): (usize, f64)| Event {
+        time: moment + before as f64 * duration,
+        action: Action::Pause(duration),
+    };
+    moments.into_iter().enumerate().map(hold).collect()
+}
+
 /// A restless operator: an action every 0.02 to 1.5 s, for ten minutes, the same for the same seed.
 /// There is no abort among them, so that programs come to their end.
 pub(crate) fn random_events(seed: u64) -> Vec<Event> {

@@ -10,6 +10,8 @@ use std::fmt::Write;
 pub(crate) struct ProgramRuns {
     pub program: String,
     pub moves: usize,
+    /// How many axes move.
+    pub axes: usize,
     pub runs: Vec<Figures>,
 }
 
@@ -31,6 +33,59 @@ pub(crate) struct Ratio {
     pub exceeded: Vec<String>,
     /// Programs that one of the two did not bring to their end: they do not count.
     pub not_finished: Vec<String>,
+}
+
+impl Ratio {
+    /// Of ratios and their programs, at least one of them, all of which count.
+    pub(crate) fn of(module: String, jerk: Jerk, baseline: &str, ratios: &[(f64, &str)]) -> Ratio {
+        let sum: f64 = ratios.iter().map(|(ratio, _)| ratio.ln()).sum();
+        let worst = ratios.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        Ratio {
+            module,
+            jerk,
+            baseline: baseline.to_owned(),
+            geometric_mean: Some((sum / ratios.len() as f64).exp()),
+            programs: ratios.len(),
+            worst: worst.map(|&(ratio, name)| (ratio, name.to_owned())),
+            mean_only: Vec::new(),
+            exceeded: Vec::new(),
+            not_finished: Vec::new(),
+        }
+    }
+}
+
+/// Time over the least time on the executed path, of all modules for which it was measured.
+pub(crate) fn over_the_optimum(programs: &[ProgramRuns]) -> Vec<Ratio> {
+    let mut found: Vec<(&Figures, Vec<(f64, &str)>)> = Vec::new();
+    for program in programs {
+        for run in &program.runs {
+            let Some(optimum) = &run.optimum else {
+                continue;
+            };
+            let ratio = (optimum.ratio, program.program.as_str());
+            let same = |known: &Figures| known.module == run.module && known.jerk == run.jerk;
+            match found.iter_mut().find(|(known, _)| same(known)) {
+                Some((_, ratios)) => ratios.push(ratio),
+                None => found.push((run, vec![ratio])),
+            }
+        }
+    }
+    found
+        .into_iter()
+        .map(|(run, ratios)| {
+            let jerk = if run.takes_jerk {
+                run.jerk
+            } else {
+                Jerk::Unlimited
+            };
+            Ratio::of(
+                run.module.clone(),
+                jerk,
+                "the least time on its path",
+                &ratios,
+            )
+        })
+        .collect()
 }
 
 /// Ratios of all modules but the first.
@@ -169,6 +224,7 @@ mod tests {
         ProgramRuns {
             program: program.to_owned(),
             moves: 1,
+            axes: 3,
             runs: vec![baseline, other],
         }
     }

@@ -14,6 +14,8 @@ pub(crate) struct Sample {
     pub scale: f64,
     /// Number of the move that runs (from 1), as the module says.
     pub id: i32,
+    /// Moves that are queued.
+    pub queued: i32,
     /// Duration of tpRunCycle, ns; 0 if nothing was queued.
     pub run: u32,
     pub flags: u8,
@@ -85,6 +87,7 @@ impl<W: Write> Recorder<W> {
         }
         self.0.write_all(&sample.scale.to_le_bytes())?;
         self.0.write_all(&sample.id.to_le_bytes())?;
+        self.0.write_all(&sample.queued.to_le_bytes())?;
         self.0.write_all(&sample.run.to_le_bytes())?;
         self.0.write_all(&[sample.flags])
     }
@@ -146,6 +149,7 @@ impl Recording {
                 }
                 sample.scale = f64::from_le_bytes(input.take()?);
                 sample.id = i32::from_le_bytes(input.take()?);
+                sample.queued = i32::from_le_bytes(input.take()?);
                 sample.run = u32::from_le_bytes(input.take()?);
                 [sample.flags] = input.take()?;
                 self.samples.push(sample);
@@ -203,6 +207,7 @@ mod tests {
             position: [0.1; 9],
             scale: 0.5,
             id: 7,
+            queued: 3,
             run: 1234,
             flags: HELD,
         };

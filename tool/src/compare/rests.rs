@@ -50,10 +50,7 @@ pub(crate) fn rests(
         return rests;
     };
     let samples = &recording.samples;
-    let slow = |k: usize| {
-        let travel = step(samples, k);
-        (0..9).all(|axis| travel[axis].abs() <= 0.5 * limits.acceleration[axis] * period * period)
-    };
+    let slow = |k: usize| is_slow(&step(samples, k), limits, period);
     // Where the motion begins and ends it is slow for a reason.
     let mut k = start;
     while k <= end && slow(k) {
@@ -93,6 +90,37 @@ pub(crate) fn rests(
     rests
 }
 
+/// Whether no axis travels more in a cycle than it does from a standstill with its full acceleration.
+pub(crate) fn is_slow(travel: &[f64; 9], limits: &Limits, period: f64) -> bool {
+    let most = |axis: usize| 0.5 * limits.acceleration[axis] * period * period;
+    (0..9).all(|axis| travel[axis].abs() <= most(axis))
+}
+
+/// Whether the program asks for a standstill at this position: an exact stop, or a corner in exact
+/// path mode, near the end of the move `id` or of one of its neighbours.
+pub(crate) fn exact_stop_near(program: &Program, id: i32, position: &[f64; 9]) -> bool {
+    /// At rest the machine is at the point itself.
+    const NEAR: f64 = 1e-3;
+    junctions_near(program, id).any(|(one, next)| {
+        let stops = one.stops || one.mode == PathMode::ExactStop;
+        let corner = one.mode == PathMode::ExactPath && turn(one, next) > TANGENT;
+        (stops || corner) && largest_difference(&one.segment.end, position) <= NEAR
+    })
+}
+
+/// The moves around the move `id`, each with the next one.
+fn junctions_near(program: &Program, id: i32) -> impl Iterator<Item = (&Piece, &Piece)> {
+    let index = usize::try_from(id).ok().and_then(|id| id.checked_sub(1));
+    let from = index.map_or(usize::MAX, |index| index.saturating_sub(2));
+    let pieces = program.handed.get(from..).unwrap_or_default();
+    pieces.iter().zip(pieces.iter().skip(1)).take(5)
+}
+
+/// Angle between the end of a move and the start of the next, radians.
+fn turn(one: &Piece, next: &Piece) -> f64 {
+    direction(&one.segment, 1.0).angle(&direction(&next.segment, 0.0))
+}
+
 fn place(program: &Program, id: i32) -> (i32, i32) {
     let index = usize::try_from(id).ok().and_then(|id| id.checked_sub(1));
     let piece = index.and_then(|index| program.handed.get(index));
@@ -107,34 +135,24 @@ fn program_stops(
     id: i32,
     position: &[f64; 9],
 ) -> bool {
-    let Some(index) = usize::try_from(id).ok().and_then(|id| id.checked_sub(1)) else {
-        return false;
-    };
-    let from = index.saturating_sub(2);
-    let pieces = program.handed.get(from..).unwrap_or_default();
-    pieces
-        .iter()
-        .zip(pieces.iter().skip(1))
-        .take(5)
-        .any(|(one, next)| {
-            let far = largest_difference(&one.segment.end, position);
-            let tolerance = one.tolerance.max(next.tolerance);
-            // Without a tolerance the corner may be cut from the middle of the shorter move.
-            let reach = if tolerance > 0.0 {
-                2.0 * tolerance
-            } else {
-                0.5 * size(one).min(size(next))
-            };
-            far <= reach + 0.01 && junction_stops(one, next, limits, period)
-        })
+    junctions_near(program, id).any(|(one, next)| {
+        let far = largest_difference(&one.segment.end, position);
+        let tolerance = one.tolerance.max(next.tolerance);
+        // Without a tolerance the corner may be cut from the middle of the shorter move.
+        let reach = if tolerance > 0.0 {
+            2.0 * tolerance
+        } else {
+            0.5 * size(one).min(size(next))
+        };
+        far <= reach + 0.01 && junction_stops(one, next, limits, period)
+    })
 }
 
 fn junction_stops(one: &Piece, next: &Piece, limits: &Limits, period: f64) -> bool {
     if one.stops || one.mode == PathMode::ExactStop {
         return true;
     }
-    let (into, out) = (direction(&one.segment, 1.0), direction(&next.segment, 0.0));
-    let turn = into.angle(&out);
+    let turn = turn(one, next);
     if one.mode == PathMode::ExactPath {
         return turn > TANGENT;
     }

@@ -10,6 +10,9 @@ use super::ratios::{ProgramRuns, Ratio};
 /// [`Limits::default`].
 const JERK: Jerk = Jerk::Accelerations(20.0);
 
+/// What its ratios are to.
+const BASELINE: &str = "master's S-curve planner (published ratios)";
+
 /// Program, time of 2.9, time of master's S-curve planner, s.
 const TIMES: [(&str, f64, f64); 8] = [
     ("dense", 17.8, 149.0),
@@ -50,24 +53,8 @@ pub(crate) fn ratios(programs: &[ProgramRuns], limits: &Limits) -> Vec<Ratio> {
     }
     found
         .into_iter()
-        .map(|(module, ratios)| ratio(module, &ratios))
+        .map(|(module, ratios)| Ratio::of(module, JERK, BASELINE, &ratios))
         .collect()
-}
-
-fn ratio(module: String, ratios: &[(f64, &str)]) -> Ratio {
-    let sum: f64 = ratios.iter().map(|(ratio, _)| ratio.ln()).sum();
-    let worst = ratios.iter().max_by(|a, b| a.0.total_cmp(&b.0));
-    Ratio {
-        module,
-        jerk: JERK,
-        baseline: "master's S-curve planner".to_owned(),
-        geometric_mean: Some((sum / ratios.len() as f64).exp()),
-        programs: ratios.len(),
-        worst: worst.map(|&(ratio, name)| (ratio, name.to_owned())),
-        mean_only: Vec::new(),
-        exceeded: Vec::new(),
-        not_finished: Vec::new(),
-    }
 }
 
 #[cfg(test)]
@@ -82,6 +69,7 @@ mod tests {
         [ProgramRuns {
             program: "squares-p.005".to_owned(),
             moves: 60,
+            axes: 2,
             runs: vec![finished("tpmod.so", 8.5), ours],
         }]
     }

@@ -3,6 +3,7 @@
 use super::distance::Distance;
 use super::figures::{EXCEEDED, Figures, State};
 use super::holds::Holds;
+use super::least_time::LeastTime;
 use super::program::Program;
 use std::fmt::Write;
 
@@ -10,6 +11,21 @@ const HEAD: [&str; 18] = [
     "module", "jerk", "time s", "v/V", "a/A", "jerk", "dev mm", "/tol", "miss mm", "/tol", "rests",
     "run us", "p99.9", "max", "add us", "p99.9", "max", "heap",
 ];
+
+/// Beside the time, if the optimum was asked for.
+const OPTIMUM_HEAD: [&str; 3] = ["least s", "/least", "any jerk s"];
+
+/// Where these columns stand.
+const AFTER_TIME: usize = 3;
+
+/// What the columns of the optimum mean.
+pub(crate) const OPTIMUM_LEGEND: &str = "\
+least       least time on the path as the module executed it, within the limits of velocity,
+            acceleration and jerk of each axis and the feeds of the program
+/least      time over it, without what the program waits; S: over the time in which the moves are
+            handed over, where that is more
+any jerk    least time without a limit of jerk (TOPP-RA)
+";
 
 /// What the columns mean, for the end of the output.
 pub(crate) const LEGEND: &str = "\
@@ -31,9 +47,16 @@ pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
         .map(|piece| piece.segment.length)
         .sum();
     let mut text = format!("{name}: {} moves, {length:.1} mm\n", program.handed.len());
-    let mut rows = vec![HEAD.map(str::to_owned)];
-    rows.extend(runs.iter().map(row));
-    let mut widths = [0; HEAD.len()];
+    let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
+    rows.extend(runs.iter().map(|run| row(run).to_vec()));
+    if runs.iter().any(|run| run.optimum.is_some()) {
+        let heads = OPTIMUM_HEAD.map(str::to_owned);
+        let cells = runs.iter().map(|run| optimum(run.optimum.as_ref()));
+        for (row, cells) in rows.iter_mut().zip(std::iter::once(heads).chain(cells)) {
+            row.splice(AFTER_TIME..AFTER_TIME, cells);
+        }
+    }
+    let mut widths = vec![0; rows[0].len()];
     for row in &rows {
         for (width, cell) in widths.iter_mut().zip(row) {
             *width = (*width).max(cell.chars().count());
@@ -106,6 +129,19 @@ fn row(figures: &Figures) -> [String; HEAD.len()] {
     ]
 }
 
+fn optimum(optimum: Option<&LeastTime>) -> [String; OPTIMUM_HEAD.len()] {
+    let Some(optimum) = optimum else {
+        return ["-"; OPTIMUM_HEAD.len()].map(str::to_owned);
+    };
+    let mark = if optimum.limited_by_supply { "S" } else { "" };
+    let open = if optimum.not_solved > 0 { "?" } else { "" };
+    [
+        format!("{:.3}{open}", optimum.time),
+        format!("{:.3}{mark}", optimum.ratio),
+        format!("{:.3}", optimum.without_jerk_limit),
+    ]
+}
+
 fn ratio(value: f64) -> String {
     let mark = if value > EXCEEDED { "!" } else { "" };
     format!("{}{mark}", number(value))
@@ -148,11 +184,11 @@ fn note(figures: &Figures) -> Option<String> {
 fn holds(holds: &Holds) -> String {
     let mut text = format!("{} holds", holds.count);
     if holds.count > 0 {
-        let (ratio, late) = (holds.mean_ratio, holds.latest * 1e3);
+        let (ratio, worst, late) = (holds.mean_ratio, holds.worst_ratio, holds.latest * 1e3);
         // Writing to a string does not fail.
         let _ = write!(
             text,
-            ": rest in {ratio:.2} of the shortest stop, {late:.0} ms late at most"
+            ": rest in {ratio:.3} of the shortest stop, worst {worst:.2}, {late:.0} ms late at most"
         );
     }
     if holds.not_at_rest > 0 {

@@ -81,11 +81,7 @@ pub fn guess(path: &Path, text: &str) -> Option<Guess> {
 
 /// The error where no guess can be made.
 pub fn undecided() -> Diagnostic {
-    let start = Span {
-        file: 0,
-        start: 0,
-        end: 0,
-    };
+    let start = Span::start_of(0);
     Diagnostic::error(
         start,
         "nothing in this program tells in which language it is written",

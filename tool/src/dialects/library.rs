@@ -3,8 +3,8 @@
 
 use super::settings::Settings;
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::encoding::decode;
-use crate::source::{Sources, Span};
+use crate::encoding::{Encoding, decode_as};
+use crate::source::{Sources, Span, Text};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -18,11 +18,15 @@ pub trait Routine {
     fn is_empty(&self) -> bool;
     /// Where its first block stands.
     fn first_span(&self) -> Span;
+    /// What calls that lead in a circle name it.
+    fn title(&self) -> &str {
+        self.name()
+    }
 }
 
-/// Parses the file with this index in the sources, whose name without its ending, in upper case, is
-/// the second argument.
-pub type Parse<R> = fn(usize, &str, &Sources, &mut Diagnostics) -> Vec<R>;
+/// Parses lines of a file of the sources, whose name without its ending, in upper case, is the second
+/// argument.
+pub type Parse<R> = fn(Text, &str, &Sources, &mut Diagnostics) -> Vec<R>;
 
 /// All programs that are known so far.
 #[derive(Debug)]
@@ -34,11 +38,13 @@ pub struct Library<R> {
     read: Vec<PathBuf>,
     missing: Vec<String>,
     extensions: &'static [&'static str],
+    encoding: Option<Encoding>,
+    stem: String,
     parse: Parse<R>,
 }
 
 impl<R: Routine> Library<R> {
-    /// Parses file 0 of `sources`, which lies at `path`. Subprogram files have one of the
+    /// Parses file 0 of `sources`, which lies at `path`, if all of it is held. Subprogram files have one of the
     /// `extensions`; where several have the same name, the earlier ending counts.
     pub fn new(
         path: &Path,
@@ -62,8 +68,13 @@ impl<R: Routine> Library<R> {
             read: vec![folder.join(path.file_name().unwrap_or_default())],
             missing: Vec::new(),
             extensions,
+            encoding: settings.encoding,
+            stem: stem(path),
             parse,
         };
+        if sources.file(0).is_windowed() {
+            return library;
+        }
         library.add_file(0, path, sources, diagnostics);
         let main = |routine: &&Rc<R>| routine.is_main() && !routine.is_empty();
         let mut candidates = library.routines.iter().filter(main);
@@ -79,6 +90,16 @@ impl<R: Routine> Library<R> {
         }
         library.main = first.or(library.routines.first().cloned());
         library
+    }
+
+    /// The name of the program's file without its ending, in upper case.
+    pub fn stem(&self) -> &str {
+        &self.stem
+    }
+
+    /// How files are parsed.
+    pub fn parser(&self) -> Parse<R> {
+        self.parse
     }
 
     /// The main program.
@@ -108,11 +129,7 @@ impl<R: Routine> Library<R> {
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
             Err(error) => {
-                let span = Span {
-                    file: 0,
-                    start: 0,
-                    end: 0,
-                };
+                let span = Span::start_of(0);
                 diagnostics.push(Diagnostic::error(
                     span,
                     format!("{} cannot be read: {error}", path.display()),
@@ -120,7 +137,8 @@ impl<R: Routine> Library<R> {
                 return None;
             }
         };
-        let file = sources.add(path.display().to_string(), decode(&bytes));
+        let text = self.decode(&bytes, &path, diagnostics)?;
+        let file = sources.add(path.display().to_string(), text);
         self.add_file(file, &path, sources, diagnostics);
         self.known(name)
     }
@@ -149,16 +167,14 @@ impl<R: Routine> Library<R> {
             let Ok(bytes) = std::fs::read(&path) else {
                 continue;
             };
-            let text = decode(&bytes);
+            let Some(text) = self.decode(&bytes, &path, diagnostics) else {
+                continue;
+            };
             if !defines(&text, name) {
                 continue;
             }
             if let Some((first, _)) = &found {
-                let span = Span {
-                    file: 0,
-                    start: 0,
-                    end: 0,
-                };
+                let span = Span::start_of(0);
                 diagnostics.push(
                     Diagnostic::error(
                         span,
@@ -184,6 +200,25 @@ impl<R: Routine> Library<R> {
         self.known(name)
     }
 
+    fn decode(&self, bytes: &[u8], path: &Path, diagnostics: &mut Diagnostics) -> Option<String> {
+        let decoded = match decode_as(bytes, self.encoding) {
+            Ok(decoded) => decoded,
+            Err(at) => {
+                let path = path.display();
+                let message = format!("{path} is not UTF-8: byte {} is not", at + 1);
+                diagnostics.push(
+                    Diagnostic::error(Span::start_of(0), message)
+                        .help("leave --encoding out, or name the encoding of all files"),
+                );
+                return None;
+            }
+        };
+        if let Some(guessed) = decoded.guessed {
+            diagnostics.note_encoding(&path.display().to_string(), guessed);
+        }
+        Some(decoded.text)
+    }
+
     fn known(&self, name: &str) -> Option<Rc<R>> {
         let wanted = |routine: &&Rc<R>| routine.name() == name;
         self.routines.iter().find(wanted).cloned()
@@ -196,13 +231,14 @@ impl<R: Routine> Library<R> {
         sources: &Sources,
         diagnostics: &mut Diagnostics,
     ) {
-        let stem = path
-            .file_stem()
-            .map(|stem| stem.to_string_lossy().to_ascii_uppercase())
-            .unwrap_or_default();
-        let routines = (self.parse)(file, &stem, sources, diagnostics);
+        let routines = (self.parse)(sources.text(file), &stem(path), sources, diagnostics);
         self.routines.extend(routines.into_iter().map(Rc::new));
     }
+}
+
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default();
+    stem.to_string_lossy().to_ascii_uppercase()
 }
 
 /// The file with this name and one of the endings, upper or lower case in any mixture. With several

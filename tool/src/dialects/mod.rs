@@ -10,15 +10,18 @@ pub mod isg;
 pub mod library;
 pub mod mefi;
 pub mod operators;
+pub mod run;
 pub mod scanner;
 pub mod settings;
 pub mod sinumerik;
 pub mod spelling;
+pub mod straight;
 pub mod token;
 
 use crate::diagnostics::Diagnostics;
 use crate::program::Program;
 use crate::source::Sources;
+use control::About;
 use settings::Settings;
 use std::path::Path;
 
@@ -59,17 +62,26 @@ pub fn evaluate(
     sources: &mut Sources,
     diagnostics: &mut Diagnostics,
 ) -> Program {
+    let mut program = Program::default();
+    let about = About {
+        sources,
+        diagnostics,
+        sink: &mut program,
+    };
+    run_program(dialect, path, settings, about);
+    program
+}
+
+/// The same, with the blocks handed on as they are worked out.
+pub fn run_program<'a>(dialect: Dialect, path: &Path, settings: &'a Settings, about: About<'a>) {
     match dialect {
-        Dialect::Sinumerik => sinumerik::evaluate(path, settings, sources, diagnostics),
-        Dialect::Fagor => fagor::evaluate(path, settings, sources, diagnostics),
-        Dialect::Mefi => mefi::evaluate(path, settings, sources, diagnostics),
-        Dialect::Isg => isg::evaluate(path, settings, sources, diagnostics),
-        Dialect::Auto => match guess::guess(path, &sources.file(0).text) {
-            Some(guess) => evaluate(guess.dialect, path, settings, sources, diagnostics),
-            None => {
-                diagnostics.push(guess::undecided());
-                Program::default()
-            }
+        Dialect::Sinumerik => sinumerik::evaluate(path, settings, about),
+        Dialect::Fagor => fagor::evaluate(path, settings, about),
+        Dialect::Mefi => mefi::evaluate(path, settings, about),
+        Dialect::Isg => isg::evaluate(path, settings, about),
+        Dialect::Auto => match guess::guess(path, about.sources.file(0).text()) {
+            Some(guess) => run_program(guess.dialect, path, settings, about),
+            None => about.diagnostics.push(guess::undecided()),
         },
     }
 }

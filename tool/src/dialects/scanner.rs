@@ -1,25 +1,33 @@
 //! Reading the characters of one line: what the lexers of all dialects share.
 
 use crate::diagnostics::Diagnostic;
-use crate::source::Span;
+use crate::source::{Span, Text};
 
 /// A place in a source text, moving forward.
 #[derive(Clone, Debug)]
 pub struct Scanner<'a> {
     text: &'a str,
     file: usize,
+    /// The position of the text in its file.
+    start: usize,
+    /// The position of the next character in the text.
     at: usize,
 }
 
 impl<'a> Scanner<'a> {
-    /// At the beginning of the text of the file with this index.
-    pub fn new(file: usize, text: &'a str) -> Scanner<'a> {
-        Scanner { text, file, at: 0 }
+    /// At the beginning of the lines.
+    pub fn new(lines: Text<'a>) -> Scanner<'a> {
+        Scanner {
+            text: lines.text,
+            file: lines.file,
+            start: lines.start,
+            at: 0,
+        }
     }
 
-    /// Byte position of the next character.
+    /// Byte position of the next character in its file.
     pub fn position(&self) -> usize {
-        self.at
+        self.start + self.at
     }
 
     /// The next character.
@@ -58,6 +66,7 @@ impl<'a> Scanner<'a> {
 
     /// The text from a byte position to here.
     pub fn text_from(&self, start: usize) -> &'a str {
+        let start = start.saturating_sub(self.start);
         self.text.get(start..self.at).unwrap_or("")
     }
 
@@ -66,7 +75,7 @@ impl<'a> Scanner<'a> {
         Span {
             file: self.file,
             start,
-            end: self.at,
+            end: self.position(),
         }
     }
 
@@ -92,7 +101,7 @@ impl<'a> Scanner<'a> {
 impl<'a> Scanner<'a> {
     /// Takes a decimal number; a point without digits is an error.
     pub fn digits(&mut self) -> Result<&'a str, Box<Diagnostic>> {
-        let start = self.at;
+        let start = self.position();
         self.decimal().ok_or_else(|| {
             self.advance();
             self.error(start, "a point without digits is not a number")
@@ -113,7 +122,7 @@ impl<'a> Scanner<'a> {
 
     /// Takes a text between double quotes, which must end on its line.
     pub fn quoted(&mut self) -> Result<&'a str, Box<Diagnostic>> {
-        let start = self.at;
+        let start = self.position();
         self.advance();
         let text = self.take_while(|c| c != '"' && c != '\n');
         if self.take("\"") {
@@ -141,6 +150,10 @@ pub fn is_blank(c: char) -> bool {
 mod tests {
     use super::*;
 
+    fn scanner(text: &str) -> Scanner<'_> {
+        Scanner::new(Text::from(text))
+    }
+
     #[test]
     fn decimals_in_all_their_forms() {
         for (text, taken) in [
@@ -150,16 +163,16 @@ mod tests {
             ("10.25 ", "10.25"),
             ("1.2.3", "1.2"),
         ] {
-            assert_eq!(Scanner::new(0, text).decimal(), Some(taken));
+            assert_eq!(scanner(text).decimal(), Some(taken));
         }
-        let mut scanner = Scanner::new(0, ".X");
+        let mut scanner = scanner(".X");
         assert_eq!(scanner.decimal(), None);
         assert_eq!(scanner.position(), 0);
     }
 
     #[test]
     fn positions_are_bytes() {
-        let mut scanner = Scanner::new(0, "ñX");
+        let mut scanner = scanner("ñX");
         scanner.advance();
         assert_eq!(scanner.position(), 2);
         assert_eq!(scanner.advance(), Some('X'));

@@ -1,5 +1,6 @@
 //! What a program means can depend on how the control was set up: the settings that say so.
 
+use crate::encoding::Encoding;
 use crate::program::PathControl;
 use crate::program::arc::ArcTolerance;
 use std::collections::BTreeMap;
@@ -13,6 +14,8 @@ pub const MOST_BLOCKS: usize = 500_000;
 pub struct Settings {
     /// Where subprogram files are looked for, after the folder of the program itself.
     pub subprogram_folders: Vec<PathBuf>,
+    /// How the characters of all files are written; `None`: the likeliest of each.
+    pub encoding: Option<Encoding>,
     /// How far the end of an arc may be off its circle.
     pub arc_tolerance: ArcTolerance,
     /// Whether LinuxCNC's unit of length is the inch: all output is in this unit.
@@ -46,6 +49,7 @@ impl Default for Settings {
     fn default() -> Self {
         Settings {
             subprogram_folders: Vec::new(),
+            encoding: None,
             arc_tolerance: ArcTolerance {
                 absolute: 0.01,
                 relative: 0.001,

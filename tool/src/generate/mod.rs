@@ -41,7 +41,7 @@ impl Options {
     }
 }
 
-const GENERATORS: [Generator; 14] = [
+const GENERATORS: [Generator; 15] = [
     Generator {
         name: "zigzag",
         about: "200 legs of 1 mm that turn by 90 degrees to and fro, P .05",
@@ -111,6 +111,11 @@ const GENERATORS: [Generator; 14] = [
         name: "uvw",
         about: "a tapered contour of X Y U V W in short lines, P .02",
         write: more_axes::uvw,
+    },
+    Generator {
+        name: "nine-axes",
+        about: "a wavy contour in short lines in which all nine axes move, P .02",
+        write: more_axes::nine_axes,
     },
 ];
 

@@ -84,3 +84,27 @@ pub(super) fn uvw(options: &Options) -> String {
     }
     text.end()
 }
+
+/// All nine axes at once, in short lines.
+pub(super) fn nine_axes(options: &Options) -> String {
+    const LINES: usize = 1500;
+    let mut text = Text::start("all nine axes", options, options.tolerance_or(0.02), 4);
+    for line in 1..=LINES {
+        let angle = TAU * line as f64 / 500.0;
+        let wave = |size: f64, times: f64, phase: f64| {
+            size * ((times * angle + phase).sin() - phase.sin())
+        };
+        text.line(&[
+            ('X', wave(20.0, 1.0, 1.5)),
+            ('Y', wave(20.0, 1.0, 0.0)),
+            ('Z', wave(2.0, 3.0, 0.3)),
+            ('A', wave(10.0, 2.0, 0.6)),
+            ('B', wave(8.0, 3.0, 0.9)),
+            ('C', 40.0 * angle / TAU + wave(5.0, 2.0, 1.2)),
+            ('U', wave(3.0, 2.0, 0.2)),
+            ('V', wave(3.0, 2.0, 1.8)),
+            ('W', wave(1.0, 4.0, 0.5)),
+        ]);
+    }
+    text.end()
+}

@@ -3,58 +3,113 @@
 
 use super::fillet::{Element, Joint, JointError, chamfer_from, chamfer_of, enter, leave, round};
 use super::moves::{Arc, Centre, Coordinate, Corner, Move, MoveKind};
-use super::{Action, Plane, Program};
+use super::{Action, Block, Plane};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::Span;
 
 /// The place of an action: its block and its index there.
 type Place = [usize; 2];
 
-/// Puts roundings and chamfers into a program. What cannot be done is reported at the motion that asks
-/// for it.
-pub fn resolve(program: &mut Program, diagnostics: &mut Diagnostics) {
-    let mut open: Option<Place> = None;
-    let mut plane = Plane::Xy;
-    let mut block = 0;
-    while block < program.blocks.len() {
+/// Puts roundings and chamfers into blocks that come one after the other. A corner can be made when the
+/// motion behind it is there: blocks wait that long.
+#[derive(Debug)]
+pub struct Corners {
+    waiting: Vec<Block>,
+    /// How many of the waiting blocks have been looked at.
+    seen: usize,
+    /// The motion that asks for a corner.
+    open: Option<Place>,
+    plane: Plane,
+}
+
+impl Default for Corners {
+    fn default() -> Self {
+        Corners {
+            waiting: Vec::new(),
+            seen: 0,
+            open: None,
+            plane: Plane::Xy,
+        }
+    }
+}
+
+impl Corners {
+    /// The next block of the program.
+    pub fn push(&mut self, block: Block) {
+        self.waiting.push(block);
+    }
+
+    /// How many blocks wait.
+    pub fn waiting(&self) -> usize {
+        self.waiting.len()
+    }
+
+    /// The blocks that are finished. A corner that cannot be made is reported at the motion that asks
+    /// for it.
+    pub fn take_finished(&mut self, diagnostics: &mut Diagnostics) -> Vec<Block> {
+        while self.seen < self.waiting.len() {
+            self.look_at(self.seen, diagnostics);
+            self.seen += 1;
+        }
+        let Some([first, _]) = &mut self.open else {
+            self.seen = 0;
+            return std::mem::take(&mut self.waiting);
+        };
+        if *first == 0 {
+            return Vec::new();
+        }
+        let waiting = self.waiting.split_off(*first);
+        *first = 0;
+        self.seen = waiting.len();
+        std::mem::replace(&mut self.waiting, waiting)
+    }
+
+    /// The last blocks, at the end of the program.
+    pub fn take_rest(&mut self, diagnostics: &mut Diagnostics) -> Vec<Block> {
+        let mut finished = self.take_finished(diagnostics);
+        if let Some([block, _]) = self.open.take() {
+            let span = self.waiting[block].origin.span;
+            diagnostics.push(Diagnostic::error(
+                span,
+                "no motion follows that the corner could be made with",
+            ));
+        }
+        finished.append(&mut self.waiting);
+        self.seen = 0;
+        finished
+    }
+
+    fn look_at(&mut self, block: usize, diagnostics: &mut Diagnostics) {
         let mut index = 0;
-        while let Some(action) = program.blocks[block].actions.get(index) {
+        while let Some(action) = self.waiting[block].actions.get(index) {
             if let Action::Plane(next) = action {
-                plane = *next;
+                self.plane = *next;
             }
             let is_move = matches!(action, Action::Move(_));
-            let ends = open.is_some() && !is_move && interrupts(action);
+            let ends = self.open.is_some() && !is_move && interrupts(action);
             let has_corner = matches!(action, Action::Move(motion) if motion.corner.is_some());
-            if ends && let Some(first) = open.take() {
-                let span = program.blocks[first[0]].origin.span;
+            if ends && let Some(first) = self.open.take() {
+                let span = self.waiting[first[0]].origin.span;
                 diagnostics.push(
                     Diagnostic::error(span, "no motion follows that the corner could be made with")
                         .help("the next motion must follow in the same plane and frame"),
                 );
             }
             if is_move {
-                if let Some(first) = open.take() {
+                if let Some(first) = self.open.take() {
                     let second = [block, index];
-                    let span = program.blocks[first[0]].origin.span;
-                    match join(program, first, second, plane, span) {
+                    let span = self.waiting[first[0]].origin.span;
+                    match join(&mut self.waiting, first, second, self.plane, span) {
                         Err(diagnostic) => diagnostics.push(*diagnostic),
                         // The joint stands in the block of the first motion, which may be this one.
                         Ok(true) if first[0] == block => index += 1,
                         Ok(_) => {}
                     }
                 }
-                open = has_corner.then_some([block, index]);
+                self.open = has_corner.then_some([block, index]);
             }
             index += 1;
         }
-        block += 1;
-    }
-    if let Some([block, _]) = open {
-        let span = program.blocks[block].origin.span;
-        diagnostics.push(Diagnostic::error(
-            span,
-            "no motion follows that the corner could be made with",
-        ));
     }
 }
 
@@ -64,7 +119,9 @@ fn interrupts(action: &Action) -> bool {
         action,
         Action::Feed(_)
             | Action::SpindleSpeed(_)
+            | Action::SurfaceSpeed(_)
             | Action::Spindle(_)
+            | Action::Overrides(_)
             | Action::Coolant(_)
             | Action::Message(_)
             | Action::PathControl(_)
@@ -76,15 +133,15 @@ fn interrupts(action: &Action) -> bool {
 
 /// Makes the corner between two moves; whether a joint was added.
 fn join(
-    program: &mut Program,
+    blocks: &mut [Block],
     first_place: Place,
     second_place: Place,
     plane: Plane,
     span: Span,
 ) -> Result<bool, Box<Diagnostic>> {
     let (Some(first), Some(second)) = (
-        move_at(program, first_place).cloned(),
-        move_at(program, second_place).cloned(),
+        move_at(blocks, first_place).cloned(),
+        move_at(blocks, second_place).cloned(),
     ) else {
         return Ok(false);
     };
@@ -109,28 +166,28 @@ fn join(
         Corner::TangentialExit(radius) => leave(&a, &b, radius).map(Some),
     };
     let joint = joint.map_err(|error| joint_error(error, span))?;
-    if let Some(motion) = move_at(program, first_place) {
+    if let Some(motion) = move_at(blocks, first_place) {
         motion.corner = None;
     }
     let Some(joint) = joint else {
         return Ok(false);
     };
-    if let Some(motion) = move_at(program, second_place) {
+    if let Some(motion) = move_at(blocks, second_place) {
         begin_at(motion, &b, &joint, plane);
     }
-    if let Some(motion) = move_at(program, first_place) {
+    if let Some(motion) = move_at(blocks, first_place) {
         end_at(motion, joint.start, plane);
     }
     let between = joint_move(&first, &joint, plane);
     let [block, index] = first_place;
-    program.blocks[block]
+    blocks[block]
         .actions
         .insert(index + 1, Action::Move(between));
     Ok(true)
 }
 
-fn move_at(program: &mut Program, [block, index]: Place) -> Option<&mut Move> {
-    match program.blocks.get_mut(block)?.actions.get_mut(index)? {
+fn move_at(blocks: &mut [Block], [block, index]: Place) -> Option<&mut Move> {
+    match blocks.get_mut(block)?.actions.get_mut(index)? {
         Action::Move(motion) => Some(motion),
         _ => None,
     }

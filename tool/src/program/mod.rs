@@ -14,7 +14,7 @@ pub mod moves;
 pub mod position;
 pub mod trace;
 
-use crate::source::Span;
+use crate::source::{Sources, Span};
 use frame::FrameCommand;
 use moves::Move;
 
@@ -25,6 +25,20 @@ pub struct Program {
     pub blocks: Vec<Block>,
     /// What the frames turn.
     pub frame_scope: FrameScope,
+}
+
+/// Takes the blocks of a program as they are worked out.
+pub trait Sink {
+    /// The next blocks. `scope` is what the frames of the program turn; `sources` has their lines.
+    fn take(&mut self, blocks: Vec<Block>, scope: FrameScope, sources: &Sources);
+}
+
+/// Keeps all blocks.
+impl Sink for Program {
+    fn take(&mut self, mut blocks: Vec<Block>, scope: FrameScope, _: &Sources) {
+        self.frame_scope = scope;
+        self.blocks.append(&mut blocks);
+    }
 }
 
 /// What the frames of a program turn, mirror and scale.
@@ -59,6 +73,8 @@ pub struct Block {
     pub actions: Vec<Action>,
     /// The comment of the block.
     pub comment: Option<String>,
+    /// The text of a block that changes nothing but the frame, which may leave nothing else behind.
+    pub frame_text: Option<String>,
 }
 
 /// One thing that a block does.
@@ -78,8 +94,15 @@ pub enum Action {
     Feed(f64),
     /// Spindle speed in revolutions per minute.
     SpindleSpeed(f64),
+    /// The spindle keeps this speed of the surface under the tool, metres or feet per minute, turning at
+    /// most so fast; `None`: it keeps its own speed again, which follows.
+    SurfaceSpeed(Option<SurfaceSpeed>),
     /// Spindle on or off.
     Spindle(Spindle),
+    /// The spindle stops at this angle, degrees.
+    Orient(f64),
+    /// Whether the operator's feed and speed overrides act.
+    Overrides(bool),
     /// The tool to be changed to next.
     Tool(u32),
     /// The tool change itself.
@@ -171,6 +194,15 @@ pub enum FeedMode {
     PerMinute,
     /// G95: length per revolution.
     PerRevolution,
+}
+
+/// Constant surface speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceSpeed {
+    /// Metres per minute, or feet where LinuxCNC's unit is the inch.
+    pub speed: f64,
+    /// Revolutions per minute at most.
+    pub limit: Option<f64>,
 }
 
 /// State of the main spindle.

@@ -55,8 +55,22 @@ impl Move {
         centre || self.target.iter().any(step)
     }
 
+    /// Whether it follows the spindle.
+    pub fn follows_spindle(&self) -> bool {
+        matches!(self.kind, MoveKind::Thread { .. } | MoveKind::Tap { .. })
+    }
+
     /// Where an axis is after the move, as far as that is known ahead of time.
     pub fn end(&self, axis: usize) -> Option<f64> {
+        match self.kind {
+            MoveKind::Tap { .. } => self.start[axis],
+            _ => self.reached(axis),
+        }
+    }
+
+    /// The target of an axis, as far as that is known ahead of time: where it is after the move, or
+    /// before a tap turns back.
+    pub fn reached(&self, axis: usize) -> Option<f64> {
         match self.target[axis] {
             Coordinate::Keep => self.start[axis],
             Coordinate::At(value) => Some(value),
@@ -79,6 +93,18 @@ pub enum MoveKind {
     },
     /// G1.
     Line,
+    /// A straight motion in step with the spindle: a thread.
+    Thread {
+        /// How far it goes in one revolution, machine units along its path.
+        pitch: f64,
+    },
+    /// A rigid tap: down in step with the spindle, which then turns back, and up to the start again.
+    Tap {
+        /// How far it goes in one revolution, machine units along its path.
+        pitch: f64,
+        /// The spindle speed on the way back over that on the way in.
+        back: f64,
+    },
     /// G2 or G3 in the plane that is active.
     Arc(Arc),
 }

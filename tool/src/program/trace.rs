@@ -179,7 +179,11 @@ impl Tracer<'_> {
                         [&map, &block_map].map(|map| map.apply_to_vector(&(end - start)).norm());
                     self.stretch = finished / block;
                 }
+                let before = self.position;
                 self.add_line(map.apply(&end), motion.kind == MoveKind::Rapid, origin);
+                if let MoveKind::Tap { .. } = motion.kind {
+                    self.add_line(before, false, origin);
+                }
             }
         }
         self.stretch = 1.0;

@@ -6,17 +6,17 @@
 //! programmed path; [`summary`] holds all figures and [`findings`] draws the conclusions;
 //! [`text`] and [`page`] show them, `page/` is the template of the HTML page.
 
-mod decimation;
-mod differences;
+pub(crate) mod decimation;
+pub(crate) mod differences;
 mod error;
 mod findings;
 mod following;
-mod format;
+pub(crate) mod format;
 mod frame_changes;
-mod ini;
-mod machine;
-mod page;
-mod pieces;
+pub(crate) mod ini;
+pub(crate) mod machine;
+pub(crate) mod page;
+pub(crate) mod pieces;
 mod recording;
 mod summary;
 mod text;

@@ -12,13 +12,15 @@ use super::summary::{Analysis, Report};
 use crate::program::contour::{ContourMove, Shape};
 
 const HTML: &str = include_str!("page/page.html");
-const STYLE: &str = include_str!("page/page.css");
-const SCRIPTS: [&str; 4] = [
+pub(crate) const STYLE: &str = include_str!("page/page.css");
+/// What all pages share: numbers, drawings, tables.
+pub(crate) const SCRIPTS: [&str; 4] = [
     include_str!("page/data.js"),
     include_str!("page/views.js"),
     include_str!("page/profiles.js"),
-    include_str!("page/page.js"),
+    include_str!("page/parts.js"),
 ];
+const SCRIPT: &str = include_str!("page/page.js");
 
 /// Points of a drawn path at most. All these bounds together keep a page below 5 MB.
 const PATH_POINTS: usize = 30_000;
@@ -83,8 +85,9 @@ struct ProfileData {
     distance_factor: f64,
 }
 
+/// Least and greatest value in each bucket of time.
 #[derive(Serialize)]
-struct EnvelopeData {
+pub(crate) struct EnvelopeData {
     low: String,
     /// Left out if it is the same as `low`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -131,19 +134,22 @@ pub fn render(
     };
     // Inside a script element only "</script" and "<!--" would end the data.
     let json = serde_json::to_string(&data)?.replace('<', "\\u003c");
-    Ok(fill(&[
-        ("{{title}}", &escape(&analysis.report.title)),
-        ("{{style}}", STYLE),
-        ("{{text}}", &escape(text)),
-        ("{{data}}", &json),
-        ("{{script}}", &SCRIPTS.concat()),
-    ]))
+    Ok(fill(
+        HTML,
+        &[
+            ("{{title}}", &escape(&analysis.report.title)),
+            ("{{style}}", STYLE),
+            ("{{text}}", &escape(text)),
+            ("{{data}}", &json),
+            ("{{script}}", &(SCRIPTS.concat() + SCRIPT)),
+        ],
+    ))
 }
 
 /// Puts the values into the template, in one pass: a value is never searched for places itself.
-fn fill(values: &[(&str, &str)]) -> String {
+pub(crate) fn fill(template: &str, values: &[(&str, &str)]) -> String {
     let mut page = String::new();
-    let mut rest = HTML;
+    let mut rest = template;
     while let Some(at) = rest.find("{{") {
         page.push_str(&rest[..at]);
         rest = &rest[at..];
@@ -163,18 +169,18 @@ fn fill(values: &[(&str, &str)]) -> String {
 }
 
 /// Text as HTML.
-fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")
 }
 
-fn floats(values: impl Iterator<Item = f32>) -> String {
+pub(crate) fn floats(values: impl Iterator<Item = f32>) -> String {
     STANDARD.encode(values.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())
 }
 
-fn integers(values: impl Iterator<Item = i32>) -> String {
+pub(crate) fn integers(values: impl Iterator<Item = i32>) -> String {
     STANDARD.encode(values.flat_map(i32::to_le_bytes).collect::<Vec<u8>>())
 }
 

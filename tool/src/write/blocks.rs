@@ -4,20 +4,24 @@
 use super::comment::{comment, message};
 use super::line::Lines;
 use super::words::path_control_words;
-use super::{WriteSettings, file_name};
+use super::{Backend, WriteSettings, file_name};
 use crate::program::{Action, Block};
+use crate::source::Sources;
 
 /// The lines before the first block: what the program is, what the operator should know, and the
 /// modes in which the dialect begins.
-pub fn header(lines: &mut Lines, settings: &WriteSettings, purpose: &str) {
-    let source = file_name(&settings.sources.file(0).name);
+pub fn header(
+    backend: Backend,
+    settings: &WriteSettings,
+    sources: &Sources,
+    warnings: &[String],
+) -> String {
+    let source = file_name(&sources.file(0).name);
     let dialect = settings.dialect;
-    lines.raw(&comment(&format!(
-        "{source}: {dialect} program, written by framepath filter {purpose}"
-    )));
-    for warning in settings.warnings {
-        lines.raw(&message(warning));
-    }
+    let purpose = match backend {
+        Backend::Kinematics => "for the frame kinematics",
+        Backend::Program => "with frames worked into its coordinates",
+    };
     let unit = if settings.machine_in_inch {
         "G20"
     } else {
@@ -25,13 +29,40 @@ pub fn header(lines: &mut Lines, settings: &WriteSettings, purpose: &str) {
     };
     // Without it LinuxCNC would cut corners by as much as its feed asks for.
     let path_mode = path_control_words(settings.path_mode);
-    lines.raw(&format!("{unit} G17 G40 G80 G90 G91.1 G94 {path_mode}"));
+    let first = comment(&format!(
+        "{source}: {dialect} program, written by framepath filter {purpose}"
+    ));
+    let messages = warnings.iter().map(|warning| message(warning));
+    let modes = format!("{unit} G17 G40 G80 G90 G91.1 G94 {path_mode}");
+    let lines = std::iter::once(first).chain(messages).chain([modes]);
+    lines.map(|line| line + "\n").collect()
 }
 
 /// Begins a block of the source. `false` for the mark of a subprogram, which is then written.
-pub fn begin(lines: &mut Lines, block: &Block, settings: &WriteSettings) -> bool {
+pub fn begin(lines: &mut Lines, block: &Block, sources: &Sources) -> bool {
+    if let Some(mark) = block
+        .actions
+        .iter()
+        .find_map(|action| mark(action, block, sources))
+    {
+        lines.raw(&comment(&mark));
+        return false;
+    }
     let origin = block.origin;
-    let mark = block.actions.iter().find_map(|action| match action {
+    let frame = block.frame_text.as_deref().map(without_number);
+    let comment = block.comment.as_deref().filter(|text| !text.is_empty());
+    let remark: String = [frame, comment]
+        .into_iter()
+        .flatten()
+        .map(|text| format!(": {text}"))
+        .collect();
+    lines.begin_block(origin.number, origin.line, &remark);
+    true
+}
+
+/// What is said where a subprogram begins or ends.
+fn mark(action: &Action, block: &Block, sources: &Sources) -> Option<String> {
+    match action {
         Action::Enter {
             name,
             file,
@@ -45,31 +76,11 @@ pub fn begin(lines: &mut Lines, block: &Block, settings: &WriteSettings) -> bool
             Some(format!("--- {name} in {}{pass} ---", file_name(file)))
         }
         Action::Leave { name } => {
-            let caller = file_name(&settings.sources.file(origin.file).name);
+            let caller = file_name(&sources.file(block.origin.file).name);
             Some(format!("--- end of {name}, back in {caller} ---"))
         }
         _ => None,
-    });
-    if let Some(mark) = mark {
-        lines.raw(&comment(&mark));
-        return false;
     }
-    let mut remark = format!("line {}", origin.line);
-    // A frame command may leave nothing else behind.
-    let is_frame = |action: &Action| matches!(action, Action::Frame(_));
-    if !block.actions.is_empty() && block.actions.iter().all(is_frame) {
-        let file = settings.sources.file(origin.span.file);
-        let source = file
-            .text
-            .get(origin.span.start..origin.span.end)
-            .unwrap_or("");
-        remark.push_str(&format!(": {}", without_number(source)));
-    }
-    if let Some(text) = block.comment.as_ref().filter(|text| !text.is_empty()) {
-        remark.push_str(&format!(": {text}"));
-    }
-    lines.begin_block(origin.number, Some(remark));
-    true
 }
 
 fn without_number(block: &str) -> &str {

@@ -9,66 +9,31 @@
 //! The frame is therefore taken off before either changes, and before motions in machine
 //! coordinates, and set again before the next move that needs it.
 
-use super::WriteSettings;
-use super::blocks::{begin, header};
+use super::blocks::begin;
 use super::line::{Lines, Rank};
-use super::number::{coordinate, factor};
+use super::number::{coordinate, factor, push_coordinate};
 use super::words::{
-    axis_word, centre_words, common_action, compensation_words, machine_move_words,
-    path_control_words, radius_row,
+    centre_words, common_action, compensation_words, machine_move_words, path_control_words,
+    push_axis_words, push_spindle_motion, radius_row, scaled_thread,
 };
+use super::{WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::program::frame::{Frame, FrameCommand, FrameOperation, SolidAngles};
 use crate::program::moves::{Coordinate, Move, MoveKind};
-use crate::program::{
-    Action, Block, Compensation, FeedMode, FrameScope, PathControl, Plane, Program,
-};
-use crate::source::Span;
+use crate::program::{Action, Block, Compensation, FeedMode, FrameScope, PathControl, Plane};
+use crate::source::{Sources, Span};
 use framepath::frame::AffineMap;
 use framepath::frame::singular_values::singular_values;
 use nalgebra::Vector3;
+use std::io;
 
 /// Stretches that differ from 1 by less are none.
 const SAME_SIZE: f64 = 1e-9;
 
-/// The program as G-code. `progress` is told the share of the blocks that are done, 0 to 1. What this
-/// backend cannot do is reported; the text is of no use then.
-pub fn write(
-    program: &Program,
-    settings: &WriteSettings,
-    diagnostics: &mut Diagnostics,
-    progress: &mut dyn FnMut(f64),
-) -> String {
-    let mut writer = Writer {
-        settings,
-        diagnostics,
-        lines: Lines::default(),
-        frame: Frame::default(),
-        suspended: false,
-        explicit: [false; 3],
-        plane: Plane::Xy,
-        feed_mode: FeedMode::PerMinute,
-        feed: None,
-        written_feed: None,
-        path_control: settings.path_mode,
-        tool_length: None,
-        scope: program.frame_scope,
-        radius_row: None,
-    };
-    header(&mut writer.lines, settings, "for the frame kinematics");
-    // A program that was aborted may have left its frame.
-    writer.lines.raw("o<frame_off> call");
-    for (index, block) in program.blocks.iter().enumerate() {
-        writer.block(block);
-        progress((index + 1) as f64 / program.blocks.len() as f64);
-    }
-    writer.lines.finish()
-}
-
-struct Writer<'a> {
-    settings: &'a WriteSettings<'a>,
-    diagnostics: &'a mut Diagnostics,
-    lines: Lines,
+/// Writes a program for the frame kinematics.
+pub struct KinematicsWriter<'a> {
+    diagnostics: Diagnostics,
+    lines: Lines<'a>,
     frame: Frame,
     /// Whether the frame is taken off for the time being.
     suspended: bool,
@@ -85,9 +50,34 @@ struct Writer<'a> {
     radius_row: Option<u32>,
 }
 
-impl Writer<'_> {
-    fn block(&mut self, block: &Block) {
-        if !begin(&mut self.lines, block, self.settings) {
+impl<'a> KinematicsWriter<'a> {
+    /// A writer to `out`.
+    pub fn new(settings: &WriteSettings, out: &'a mut dyn io::Write) -> KinematicsWriter<'a> {
+        let mut lines = Lines::new(out);
+        // A program that was aborted may have left its frame.
+        lines.raw("o<frame_off> call");
+        KinematicsWriter {
+            diagnostics: Diagnostics::default(),
+            lines,
+            frame: Frame::default(),
+            suspended: false,
+            explicit: [false; 3],
+            plane: Plane::Xy,
+            feed_mode: FeedMode::PerMinute,
+            feed: None,
+            written_feed: None,
+            path_control: settings.path_mode,
+            tool_length: None,
+            scope: FrameScope::default(),
+            radius_row: None,
+        }
+    }
+}
+
+impl Writer for KinematicsWriter<'_> {
+    fn block(&mut self, block: &Block, scope: FrameScope, sources: &Sources) {
+        self.scope = scope;
+        if !begin(&mut self.lines, block, sources) {
             return;
         }
         if block.actions.iter().any(needs_no_frame) {
@@ -99,6 +89,17 @@ impl Writer<'_> {
         self.lines.end_block();
     }
 
+    fn diagnostics(&self) -> &Diagnostics {
+        &self.diagnostics
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<Diagnostics> {
+        self.lines.finish()?;
+        Ok(self.diagnostics)
+    }
+}
+
+impl KinematicsWriter<'_> {
     fn action(&mut self, action: &Action, span: Span) {
         match action {
             Action::Plane(plane) => self.plane = *plane,
@@ -120,7 +121,7 @@ impl Writer<'_> {
             Action::Feed(feed) => self.set_feed(*feed),
             Action::Compensation(compensation) => self.compensation(*compensation, span),
             Action::Frame(command) => self.frame_command(*command, span),
-            Action::Move(motion) => self.motion(motion),
+            Action::Move(motion) => self.motion(motion, span),
             Action::ToolNormal => {
                 self.resume();
                 self.lines.flush();
@@ -227,7 +228,7 @@ impl Writer<'_> {
         }
     }
 
-    fn motion(&mut self, motion: &Move) {
+    fn motion(&mut self, motion: &Move, span: Span) {
         if let MoveKind::Machine { rapid, tool_length } = motion.kind {
             let tool_length = tool_length && self.tool_length != Some(false);
             self.lines
@@ -238,28 +239,42 @@ impl Writer<'_> {
         if motion.exact_stop && self.path_control != PathControl::ExactStop {
             self.lines.add(Rank::PathControl, "G61.1");
         }
-        let mut words = Vec::new();
-        words.push(
-            match &motion.kind {
+        let mut targets = motion.target;
+        for (axis, target) in targets.iter_mut().enumerate() {
+            *target = self.written_target(motion, axis);
+        }
+        let feed = match motion.kind {
+            MoveKind::Line | MoveKind::Arc(_) => self.feed_for(motion),
+            _ => None,
+        };
+        let plane = self.plane;
+        if motion.follows_spindle() {
+            if self.frame.has_scale() || self.frame.has_stretch() {
+                self.diagnostics.push(scaled_thread(span));
+            }
+            // LinuxCNC takes no other word that concerns the feed beside it.
+            self.lines.flush();
+        }
+        self.lines.add_with(Rank::Motion, |line| {
+            if push_spindle_motion(line, &motion.kind, &targets) {
+                return;
+            }
+            line.push_str(match &motion.kind {
                 MoveKind::Rapid | MoveKind::Machine { .. } => "G0",
-                MoveKind::Line => "G1",
+                MoveKind::Line | MoveKind::Thread { .. } | MoveKind::Tap { .. } => "G1",
                 MoveKind::Arc(arc) if arc.clockwise => "G2",
                 MoveKind::Arc(_) => "G3",
+            });
+            push_axis_words(line, &targets);
+            if let MoveKind::Arc(arc) = &motion.kind {
+                line.push(' ');
+                line.push_str(&centre_words(arc.centre, arc.extra_turns, plane));
             }
-            .to_string(),
-        );
-        for axis in 0..9 {
-            words.extend(axis_word(axis, self.written_target(motion, axis)));
-        }
-        if let MoveKind::Arc(arc) = &motion.kind {
-            words.push(centre_words(arc.centre, arc.extra_turns, self.plane));
-        }
-        if motion.kind != MoveKind::Rapid
-            && let Some(feed) = self.feed_for(motion)
-        {
-            words.push(format!("F{}", coordinate(feed)));
-        }
-        self.lines.add(Rank::Motion, words.join(" "));
+            if let Some(feed) = feed {
+                line.push_str(" F");
+                push_coordinate(line, feed);
+            }
+        });
         if motion.exact_stop && self.path_control != PathControl::ExactStop {
             self.lines.flush();
             self.lines.line(&path_control_words(self.path_control));

@@ -1,9 +1,14 @@
 //! Putting the words of a block together, so that LinuxCNC executes them in the order of the program.
 
 use super::comment::comment;
+use super::number::push_whole;
+use std::io::{self, Write};
 
 /// The longest line, bytes.
 const LONGEST: usize = 250;
+
+/// How much is written at once, bytes.
+const PORTION: usize = 1 << 15;
 
 /// The highest block number that is written.
 const HIGHEST_NUMBER: u32 = 99_999;
@@ -28,39 +33,73 @@ pub enum Rank {
     Stop,
 }
 
-/// The finished lines and the one that is being made.
-#[derive(Debug, Default)]
-pub struct Lines {
+/// Writes lines, and puts the one together that is being made.
+pub struct Lines<'a> {
+    out: &'a mut dyn Write,
+    error: Option<io::Error>,
+    /// Finished lines that are still to be written.
     text: String,
-    words: Vec<(Rank, String)>,
+    /// The words of the line that is being made, without blanks between them.
+    line: String,
+    /// Where they end in it.
+    words: Vec<(Rank, usize)>,
     number: Option<u32>,
-    remark: Option<String>,
+    /// The remark of the block, with its parentheses; empty when it has been written.
+    remark: String,
 }
 
-impl Lines {
-    /// A block of the source begins: its number and its remark go to the next line.
-    pub fn begin_block(&mut self, number: Option<u32>, remark: Option<String>) {
+impl<'a> Lines<'a> {
+    /// No lines yet.
+    pub fn new(out: &'a mut dyn Write) -> Lines<'a> {
+        Lines {
+            out,
+            error: None,
+            text: String::with_capacity(2 * PORTION),
+            line: String::new(),
+            words: Vec::new(),
+            number: None,
+            remark: String::new(),
+        }
+    }
+
+    /// A block of the source begins: its number and the line it stands in go to the next line, with
+    /// what `remark` says about it.
+    pub fn begin_block(&mut self, number: Option<u32>, line: u32, remark: &str) {
         self.flush();
         self.number = number.filter(|number| *number <= HIGHEST_NUMBER);
-        self.remark = remark;
+        self.remark.clear();
+        if remark.is_empty() {
+            self.remark.push_str("(line ");
+            push_whole(&mut self.remark, line);
+            self.remark.push(')');
+        } else {
+            self.remark
+                .push_str(&comment(&format!("line {line}{remark}")));
+        }
     }
 
     /// The block ends. A remark that found no line gets its own.
     pub fn end_block(&mut self) {
         self.flush();
-        if self.remark.is_some() {
+        if !self.remark.is_empty() {
             self.line("");
         }
         self.number = None;
     }
 
     /// Adds words to the line; begins a new line when LinuxCNC would otherwise execute them too early.
-    pub fn add(&mut self, rank: Rank, words: impl Into<String>) {
+    pub fn add(&mut self, rank: Rank, words: impl AsRef<str>) {
+        self.add_with(rank, |line| line.push_str(words.as_ref()));
+    }
+
+    /// The same, with words that are put together behind the others.
+    pub fn add_with(&mut self, rank: Rank, words: impl FnOnce(&mut String)) {
         let too_late = self.words.last().is_some_and(|(last, _)| *last >= rank);
         if too_late {
             self.flush();
         }
-        self.words.push((rank, words.into()));
+        words(&mut self.line);
+        self.words.push((rank, self.line.len()));
     }
 
     /// Ends the line that is being made.
@@ -68,45 +107,95 @@ impl Lines {
         if self.words.is_empty() {
             return;
         }
+        let line = std::mem::take(&mut self.line);
         let mut words = std::mem::take(&mut self.words);
-        // For the reader: G functions, then the motion, then F, S, T and M.
-        words.sort_by_key(|(rank, _)| reading_order(*rank));
-        let words: Vec<String> = words.into_iter().map(|(_, words)| words).collect();
-        self.line(&words.join(" "));
+        match words[..] {
+            [_] => self.line(&line),
+            _ => {
+                // For the reader: G functions, then the motion, then F, S, T and M.
+                let mut start = 0;
+                let mut parts: Vec<(u8, &str)> = Vec::with_capacity(words.len());
+                for (rank, end) in &words {
+                    parts.push((reading_order(*rank), line.get(start..*end).unwrap_or("")));
+                    start = *end;
+                }
+                parts.sort_by_key(|(order, _)| *order);
+                let mut ordered = String::with_capacity(line.len() + words.len());
+                for (_, part) in parts {
+                    if !ordered.is_empty() {
+                        ordered.push(' ');
+                    }
+                    ordered.push_str(part);
+                }
+                self.line(&ordered);
+            }
+        }
+        // Their memory serves the next line.
+        self.line = line;
+        self.line.clear();
+        words.clear();
+        self.words = words;
     }
 
     /// A line of its own, with the number and the remark of the block if they are still to be written.
     pub fn line(&mut self, words: &str) {
-        let number = self.number.take().map(|number| format!("N{number}"));
-        let remark = self.remark.take().map(|remark| comment(&remark));
-        let mut parts: Vec<&str> = Vec::new();
-        parts.extend(number.as_deref());
-        if !words.is_empty() {
-            parts.push(words);
+        let start = self.text.len();
+        if let Some(number) = self.number.take() {
+            self.text.push('N');
+            push_whole(&mut self.text, number);
         }
-        if let Some(remark) = &remark {
-            let length: usize = parts.iter().map(|part| part.len() + 1).sum();
-            if length + remark.len() > LONGEST {
-                self.raw(remark);
-            } else {
-                parts.push(remark);
+        for part in [words, self.remark.as_str()] {
+            if part.is_empty() {
+                continue;
             }
+            if self.text.len() > start {
+                self.text.push(' ');
+            }
+            self.text.push_str(part);
         }
-        let line = parts.join(" ");
-        self.raw(&line);
+        if self.text.len() - start > LONGEST && !self.remark.is_empty() {
+            // The remark gets a line of its own before the words.
+            let words = self.text.len() - self.remark.len();
+            self.text.truncate(words.saturating_sub(1));
+            self.text.insert(start, '\n');
+            self.text.insert_str(start, &self.remark);
+        }
+        self.remark.clear();
+        self.end_line();
     }
 
     /// A line without number and remark.
     pub fn raw(&mut self, line: &str) {
         debug_assert!(self.words.is_empty(), "a line is being made");
         self.text.push_str(line);
-        self.text.push('\n');
+        self.end_line();
     }
 
-    /// All lines.
-    pub fn finish(mut self) -> String {
+    fn end_line(&mut self) {
+        self.text.push('\n');
+        if self.text.len() >= PORTION {
+            self.write_out();
+        }
+    }
+
+    fn write_out(&mut self) {
+        if self.error.is_none()
+            && let Err(error) = self.out.write_all(self.text.as_bytes())
+        {
+            self.error = Some(error);
+        }
+        self.text.clear();
+    }
+
+    /// Ends the last line.
+    ///
+    /// # Errors
+    ///
+    /// The first that occurred while the lines were written.
+    pub fn finish(mut self) -> io::Result<()> {
         self.flush();
-        self.text
+        self.write_out();
+        self.error.map_or(Ok(()), Err)
     }
 }
 

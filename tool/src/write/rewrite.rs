@@ -5,25 +5,24 @@
 //! with G42. Under unequal scales an arc becomes chords. A frame that tilts the plane would need
 //! tilted arcs and a tilted tool length: that is for the frame kinematics.
 
-use super::WriteSettings;
-use super::blocks::{begin, header};
+use super::blocks::begin;
 use super::line::{Lines, Rank};
-use super::number::coordinate;
+use super::number::push_coordinate;
 use super::words::{
-    axis_word, centre_words, common_action, compensation_words, machine_move_words,
-    path_control_words, radius_row,
+    centre_words, common_action, compensation_words, machine_move_words, path_control_words,
+    push_axis_words, push_spindle_motion, radius_row, scaled_thread,
 };
+use super::{WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::program::frame::Frame;
 use crate::program::moves::{Arc, Centre, Coordinate, Move, MoveKind};
 use crate::program::position::apply_partly;
 use crate::program::trace::frame_arc;
-use crate::program::{
-    Action, Block, Compensation, FeedMode, FrameScope, PathControl, Plane, Program,
-};
-use crate::source::Span;
+use crate::program::{Action, Block, Compensation, FeedMode, FrameScope, PathControl, Plane};
+use crate::source::{Sources, Span};
 use framepath::frame::Handedness;
 use nalgebra::Vector3;
+use std::io;
 
 /// How many chords one arc may become.
 const CHORD_LIMIT: f64 = 10_000.0;
@@ -31,44 +30,11 @@ const CHORD_LIMIT: f64 = 10_000.0;
 /// Entries of the map that are smaller, relative to the largest, are rounding.
 const NOTHING: f64 = 1e-14;
 
-/// The program as G-code; see [`super::kinematics::write`].
-pub fn write(
-    program: &Program,
-    settings: &WriteSettings,
-    diagnostics: &mut Diagnostics,
-    progress: &mut dyn FnMut(f64),
-) -> String {
-    let mut writer = Writer {
-        settings,
-        diagnostics,
-        lines: Lines::default(),
-        frame: Frame::default(),
-        plane: Plane::Xy,
-        compensation: Compensation::Off,
-        path_control: settings.path_mode,
-        feed_mode: FeedMode::PerMinute,
-        tool_length: None,
-        feed: None,
-        written_feed: None,
-        scope: program.frame_scope,
-        radius_row: None,
-    };
-    header(
-        &mut writer.lines,
-        settings,
-        "with frames worked into its coordinates",
-    );
-    for (index, block) in program.blocks.iter().enumerate() {
-        writer.block(block);
-        progress((index + 1) as f64 / program.blocks.len() as f64);
-    }
-    writer.lines.finish()
-}
-
-struct Writer<'a> {
-    settings: &'a WriteSettings<'a>,
-    diagnostics: &'a mut Diagnostics,
-    lines: Lines,
+/// Writes a program with its frames worked into the coordinates.
+pub struct RewriteWriter<'a> {
+    settings: WriteSettings<'a>,
+    diagnostics: Diagnostics,
+    lines: Lines<'a>,
     frame: Frame,
     plane: Plane,
     compensation: Compensation,
@@ -82,9 +48,31 @@ struct Writer<'a> {
     radius_row: Option<u32>,
 }
 
-impl Writer<'_> {
-    fn block(&mut self, block: &Block) {
-        if !begin(&mut self.lines, block, self.settings) {
+impl<'a> RewriteWriter<'a> {
+    /// A writer to `out`.
+    pub fn new(settings: &WriteSettings<'a>, out: &'a mut dyn io::Write) -> RewriteWriter<'a> {
+        RewriteWriter {
+            settings: *settings,
+            diagnostics: Diagnostics::default(),
+            lines: Lines::new(out),
+            frame: Frame::default(),
+            plane: Plane::Xy,
+            compensation: Compensation::Off,
+            path_control: settings.path_mode,
+            feed_mode: FeedMode::PerMinute,
+            tool_length: None,
+            feed: None,
+            written_feed: None,
+            scope: FrameScope::default(),
+            radius_row: None,
+        }
+    }
+}
+
+impl Writer for RewriteWriter<'_> {
+    fn block(&mut self, block: &Block, scope: FrameScope, sources: &Sources) {
+        self.scope = scope;
+        if !begin(&mut self.lines, block, sources) {
             return;
         }
         for action in &block.actions {
@@ -95,6 +83,17 @@ impl Writer<'_> {
         self.lines.end_block();
     }
 
+    fn diagnostics(&self) -> &Diagnostics {
+        &self.diagnostics
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<Diagnostics> {
+        self.lines.finish()?;
+        Ok(self.diagnostics)
+    }
+}
+
+impl RewriteWriter<'_> {
     fn action(&mut self, action: &Action, span: Span) -> Result<(), Box<Diagnostic>> {
         match action {
             Action::Plane(plane) => self.plane = *plane,
@@ -158,7 +157,10 @@ impl Writer<'_> {
     }
 
     fn write_feed(&mut self, feed: f64) {
-        self.lines.add(Rank::Feed, format!("F{}", coordinate(feed)));
+        self.lines.add_with(Rank::Feed, |line| {
+            line.push('F');
+            push_coordinate(line, feed);
+        });
         self.written_feed = Some(feed);
     }
 
@@ -257,10 +259,21 @@ impl Writer<'_> {
         }
         match &motion.kind {
             MoveKind::Arc(arc) => self.arc(arc, motion, span)?,
+            kind if motion.follows_spindle() => {
+                if self.frame.has_scale() || self.frame.has_stretch() {
+                    return Err(Box::new(scaled_thread(span)));
+                }
+                let targets = self.targets(motion, span)?;
+                // LinuxCNC takes no other word that concerns the feed beside it.
+                self.lines.flush();
+                self.lines.add_with(Rank::Motion, |line| {
+                    push_spindle_motion(line, kind, &targets);
+                });
+            }
             kind => {
                 let code = if *kind == MoveKind::Rapid { "G0" } else { "G1" };
-                let words = self.axis_words(motion, span)?;
-                self.lines.add(Rank::Motion, joined(code, &words));
+                let targets = self.targets(motion, span)?;
+                self.add_motion(code, &targets, "");
             }
         }
         if stops {
@@ -271,21 +284,31 @@ impl Writer<'_> {
     }
 
     /// Where each axis goes in coordinates of the work offset.
-    fn axis_words(&self, motion: &Move, span: Span) -> Result<Vec<String>, Box<Diagnostic>> {
+    fn targets(&self, motion: &Move, span: Span) -> Result<[Coordinate; 9], Box<Diagnostic>> {
         let mut targets = motion.target;
         if !self.frame.is_empty() {
             let linear = self.work_targets(motion, span)?;
             targets[..3].copy_from_slice(&linear);
         }
-        let words = targets.iter().enumerate();
-        Ok(words
-            .filter_map(|(axis, target)| axis_word(axis, *target))
-            .collect())
+        Ok(targets)
+    }
+
+    /// Adds a motion; `centre`: the words of an arc.
+    fn add_motion(&mut self, code: &str, targets: &[Coordinate; 9], centre: &str) {
+        self.lines.add_with(Rank::Motion, |line| {
+            line.push_str(code);
+            push_axis_words(line, targets);
+            if !centre.is_empty() {
+                line.push(' ');
+                line.push_str(centre);
+            }
+        });
     }
 
     fn work_targets(&self, motion: &Move, span: Span) -> Result<[Coordinate; 3], Box<Diagnostic>> {
         let map = self.frame.map();
-        let end = apply_partly(map, [0, 1, 2].map(|axis| motion.end(axis)));
+        let ends = [0, 1, 2].map(|axis| motion.reached(axis));
+        let end = apply_partly(map, ends);
         let largest = map.linear().amax();
         let mut targets = [Coordinate::Keep; 3];
         for (row, target) in targets.iter_mut().enumerate() {
@@ -361,10 +384,9 @@ impl Writer<'_> {
             }
         };
         let clockwise = arc.clockwise != self.mirrors_plane();
-        let mut words = self.axis_words(motion, span)?;
-        words.push(centre_words(centre, arc.extra_turns, self.plane));
-        let code = if clockwise { "G2" } else { "G3" };
-        self.lines.add(Rank::Motion, joined(code, &words));
+        let targets = self.targets(motion, span)?;
+        let centre = centre_words(centre, arc.extra_turns, self.plane);
+        self.add_motion(if clockwise { "G2" } else { "G3" }, &targets, &centre);
         Ok(())
     }
 
@@ -438,12 +460,7 @@ impl Writer<'_> {
             }
             let before = shape.point(f64::from(index - 1) / count);
             self.feed_along(&(shape.point(f64::from(index) / count) - before));
-            let words: Vec<String> = targets
-                .iter()
-                .enumerate()
-                .filter_map(|(axis, target)| axis_word(axis, *target))
-                .collect();
-            self.lines.add(Rank::Motion, joined("G1", &words));
+            self.add_motion("G1", &targets, "");
         }
         Ok(())
     }
@@ -456,11 +473,4 @@ fn in_plane(plane: Plane, along: [f64; 2]) -> Vector3<f64> {
     vector[first] = along[0];
     vector[second] = along[1];
     vector
-}
-
-fn joined(code: &str, words: &[String]) -> String {
-    std::iter::once(code)
-        .chain(words.iter().map(String::as_str))
-        .collect::<Vec<&str>>()
-        .join(" ")
 }

@@ -2,9 +2,11 @@
 
 use super::comment::message;
 use super::line::{Lines, Rank};
-use super::number::coordinate;
-use crate::program::moves::{Centre, Coordinate, Move};
+use super::number::{coordinate, push_coordinate};
+use crate::diagnostics::Diagnostic;
+use crate::program::moves::{Centre, Coordinate, Move, MoveKind};
 use crate::program::{Action, Compensation, Coolant, FeedMode, PathControl, Plane, Spindle};
+use crate::source::Span;
 
 /// The axes of LinuxCNC.
 pub const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
@@ -29,6 +31,21 @@ pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
                 Spindle::Stop => "M5",
             },
         ),
+        Action::SurfaceSpeed(Some(surface)) => {
+            let limit = surface
+                .limit
+                .map_or(String::new(), |limit| format!(" D{}", coordinate(limit)));
+            let speed = coordinate(surface.speed);
+            lines.add(Rank::Speed, format!("G96{limit} S{speed}"));
+        }
+        Action::SurfaceSpeed(None) => lines.add(Rank::FeedMode, "G97"),
+        Action::Orient(angle) => lines.add(Rank::Spindle, format!("M19 R{}", coordinate(*angle))),
+        Action::Overrides(on) => {
+            // It must not wait for the motion beside it.
+            lines.flush();
+            lines.add(Rank::Coolant, if *on { "M48" } else { "M49" });
+            lines.flush();
+        }
         Action::Tool(tool) => lines.add(Rank::Tool, format!("T{tool}")),
         Action::ToolChange => lines.add(Rank::ToolChange, "M6"),
         Action::ToolLength(on) => lines.add(Rank::ToolLength, if *on { "G43" } else { "G49" }),
@@ -144,17 +161,22 @@ pub fn path_control_words(control: PathControl) -> String {
     }
 }
 
-/// The word of an axis that goes somewhere; `None` for one that keeps its place.
-pub fn axis_word(axis: usize, target: Coordinate) -> Option<String> {
-    let letter = LETTERS[axis];
-    match target {
-        Coordinate::Keep => None,
-        Coordinate::At(value) => Some(format!("{letter}{}", coordinate(value))),
-        Coordinate::By(step) => Some(format!(
-            "{letter}[{}{}]",
-            present_position(axis),
-            signed(step)
-        )),
+/// Appends the words of the axes that go somewhere, each with a blank before it.
+pub fn push_axis_words(text: &mut String, targets: &[Coordinate; 9]) {
+    for (axis, target) in targets.iter().enumerate() {
+        let letter = LETTERS[axis];
+        match *target {
+            Coordinate::Keep => {}
+            Coordinate::At(value) => {
+                text.push(' ');
+                text.push_str(letter);
+                push_coordinate(text, value);
+            }
+            Coordinate::By(step) => {
+                let present = present_position(axis);
+                text.push_str(&format!(" {letter}[{present}{}]", signed(step)));
+            }
+        }
     }
 }
 
@@ -176,6 +198,34 @@ pub fn machine_move_words(motion: &Move, rapid: bool, tool_length: bool) -> Stri
         }
     }
     words.join(" ")
+}
+
+/// Appends the words of a motion that follows the spindle; the axes are those of `targets`. `false` for
+/// any other motion.
+pub fn push_spindle_motion(text: &mut String, kind: &MoveKind, targets: &[Coordinate; 9]) -> bool {
+    let (code, pitch, back) = match *kind {
+        MoveKind::Thread { pitch } => ("G33", pitch, 1.0),
+        MoveKind::Tap { pitch, back } => ("G33.1", pitch, back),
+        _ => return false,
+    };
+    text.push_str(code);
+    push_axis_words(text, targets);
+    text.push_str(" K");
+    push_coordinate(text, pitch);
+    if back != 1.0 {
+        text.push_str(" I");
+        push_coordinate(text, back);
+    }
+    true
+}
+
+/// Why a motion that follows the spindle cannot be written under a frame that scales.
+pub fn scaled_thread(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        span,
+        "a thread under a scale: its pitch would be scaled too",
+    )
+    .help("end the scale before the thread")
 }
 
 /// I, J, K or R, and P for several turns.

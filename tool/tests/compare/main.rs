@@ -5,6 +5,7 @@ mod canon;
 mod errors;
 mod measuring;
 mod operator;
+mod optimum;
 mod programs;
 mod stock;
 mod support;

@@ -6,7 +6,7 @@ use framepath_tool::dialects::{Dialect, evaluate};
 use framepath_tool::encoding::decode;
 use framepath_tool::program::trace::{Setup, contour};
 use framepath_tool::source::Sources;
-use framepath_tool::write::{WriteSettings, kinematics, rewrite};
+use framepath_tool::write::{Backend, WriteSettings, write};
 use std::path::Path;
 
 /// Programs of the tests that run more blocks never end.
@@ -40,11 +40,9 @@ pub fn run_with(settings: &Settings, dialect: Dialect, bytes: &[u8]) {
         path_mode: settings.path_mode,
         chord_tolerance: 0.01,
         arc_tolerance: &settings.arc_tolerance,
-        sources: &sources,
-        warnings: &[],
     };
-    for write in [kinematics::write, rewrite::write] {
-        let text = write(&program, &write_settings, &mut diagnostics, &mut |_| {});
+    for backend in [Backend::Kinematics, Backend::Program] {
+        let (text, _) = write(backend, &program, &write_settings, &sources, &[]).expect("memory");
         assert!(text.lines().all(|line| line.len() < 255));
         assert!(!text.contains("NaN") && !text.contains("inf"));
     }

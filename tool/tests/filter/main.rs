@@ -1,6 +1,7 @@
 //! Tests of `framepath filter` as a user runs it.
 
 mod contours;
+mod encodings;
 mod errors;
 mod expected;
 mod fagor;
@@ -9,8 +10,11 @@ mod language;
 mod linuxcnc;
 mod one_error;
 mod output;
+mod pieces;
+mod random;
 mod robustness;
 mod rs274;
 mod shop;
 mod simulator;
 mod sinumerik_forms;
+mod spindle;

@@ -1,4 +1,5 @@
-/* What the interpreter asks the machine (GET_EXTERNAL_.. of canon.hh). Every tool number exists, without length and radius.
+/* What the interpreter asks the machine (GET_EXTERNAL_.. of canon.hh). Without a tool table every tool number exists, without
+ * length and radius.
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -54,7 +55,7 @@ int GET_EXTERNAL_PROBE_TRIPPED_VALUE() { return 1; }
 double GET_EXTERNAL_FEED_RATE() { return now.rate; }
 double GET_EXTERNAL_TRAVERSE_RATE() { return 0; }
 CANON_UNITS GET_EXTERNAL_LENGTH_UNIT_TYPE() { return now.units; }
-double GET_EXTERNAL_LENGTH_UNITS() { return 1; }
+double GET_EXTERNAL_LENGTH_UNITS() { return 1 / machine.unit; }
 double GET_EXTERNAL_ANGLE_UNITS() { return 1; }
 CANON_PLANE GET_EXTERNAL_PLANE() { return now.plane; }
 CANON_MOTION_MODE GET_EXTERNAL_MOTION_CONTROL_MODE() { return now.mode; }
@@ -80,8 +81,20 @@ int GET_EXTERNAL_TC_FAULT() { return 0; }
 int GET_EXTERNAL_TC_REASON() { return 0; }
 int GET_EXTERNAL_OFFSET_APPLIED() { return 0; }
 EmcPose GET_EXTERNAL_OFFSETS() { return EmcPose{}; }
-int GET_EXTERNAL_TOOL_SLOT() { return now.tool_number; }
-int GET_EXTERNAL_SELECTED_TOOL_SLOT() { return now.selected_tool; }
+
+/* The index of a tool is its place in the table, without a table its number; index 0 is what the spindle holds. */
+static int index_of(int number)
+{
+    if (!machine.has_table || number <= 0)
+        return number;
+    for (size_t index = 1; index < machine.tools.size(); index++)
+        if (machine.tools[index].toolno == number)
+            return index;
+    return -1;
+}
+
+int GET_EXTERNAL_TOOL_SLOT() { return index_of(now.tool_number); }
+int GET_EXTERNAL_SELECTED_TOOL_SLOT() { return index_of(now.selected_tool); }
 
 USER_DEFINED_FUNCTION_TYPE USER_DEFINED_FUNCTION[USER_DEFINED_FUNCTION_NUM];
 int USER_DEFINED_FUNCTION_ADD(USER_DEFINED_FUNCTION_TYPE, int) { return -1; }
@@ -96,11 +109,21 @@ static CANON_TOOL_TABLE tool_without_length(int number)
     return tool;
 }
 
-CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int pocket) { return tool_without_length(pocket ? pocket : now.tool_number); }
+static CANON_TOOL_TABLE tool_at(int index)
+{
+    if (!machine.has_table)
+        return tool_without_length(index ? index : now.tool_number);
+    if (index == 0)
+        index = index_of(now.tool_number);
+    bool there = index > 0 && (size_t)index < machine.tools.size();
+    return there ? machine.tools[index] : tool_without_length(index ? -1 : 0);
+}
+
+CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int pocket) { return tool_at(pocket); }
 CANON_TOOL_TABLE tooldata_entry_init() { return tool_without_length(-1); }
-int tooldata_find_index_for_tool(int number) { return number; }
+int tooldata_find_index_for_tool(int number) { return index_of(number); }
 toolidx_t tooldata_get(CANON_TOOL_TABLE *tool, int index)
 {
-    *tool = tool_without_length(index ? index : now.tool_number);
+    *tool = tool_at(index);
     return IDX_OK;
 }

@@ -11,5 +11,8 @@ extern FILE *output;
 /* The file of numbered parameters. */
 void parameter_file(const char *name);
 
+/* Reads what an INI file says of the machine (settings.cc); false if it cannot be understood. */
+bool read_settings(const char *file);
+
 /* Name of the first call that cannot be printed, or a null pointer. */
 const char *unsupported_call();

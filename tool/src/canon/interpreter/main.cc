@@ -1,9 +1,11 @@
 /* Runs a program through LinuxCNC's interpreter (librs274) and prints what it asks of the machine, one call a line, with
  * all digits (rs274 prints four decimals).
  *
- *   interpreter FILE [PARAMETERS]
+ *   interpreter FILE [PARAMETERS [SETTINGS]]
  *
- * PARAMETERS is the file of numbered parameters; it is written anew at the end, so the caller gives a copy.
+ * PARAMETERS is the file of numbered parameters; it is written anew at the end, so the caller gives a copy. SETTINGS is
+ * what an INI file says of the machine, see settings.cc; what the interpreter itself takes from an INI file it reads
+ * there, by the variable INI_FILE_NAME of the environment.
  * The calls themselves are in calls.cc. A refusal is printed as two lines, REFUSED with line number and message, SOURCE
  * with the text of the line, and the exit code is 1.
  *
@@ -16,6 +18,7 @@
 #include "interp_base.hh"
 #include "interp_return.hh"
 #include "calls.hh"
+#include "state.hh"
 
 /* The interpreter's own Python module, which it imports when it is made. */
 struct _object;
@@ -40,14 +43,15 @@ static std::string one_line(const char *text)
     return line;
 }
 
-static int refuse(InterpBase &interpreter, int status)
+/* `what` stands before the message. */
+static int refuse(InterpBase &interpreter, int status, const char *what = "")
 {
     char message[1024] = "", line[1024] = "";
     interpreter.error_text(status, message, sizeof message);
     interpreter.line_text(line, sizeof line);
     if (!message[0])
         snprintf(message, sizeof message, "the interpreter gives up with code %d", status);
-    fprintf(output, "REFUSED %d %s\n", interpreter.sequence_number(), one_line(message).c_str());
+    fprintf(output, "REFUSED %d %s%s\n", interpreter.sequence_number(), what, one_line(message).c_str());
     fprintf(output, "SOURCE %s\n", one_line(line).c_str());
     return 1;
 }
@@ -57,11 +61,45 @@ static bool failed(int status)
     return status > INTERP_MIN_ERROR;
 }
 
+/* Whether the line that was read hands a frame to framekins: its subroutine frame_send, on behalf of any but those that
+ * take a frame away. Without HAL it would return at once, and the frame would be passed over in silence. */
+static bool sends_frame(InterpBase &interpreter)
+{
+    static std::string caller;
+    char path[4096] = "";
+    if (interpreter.call_level() == 0) {
+        caller.clear();
+        return false;
+    }
+    interpreter.file_name(path, sizeof path);
+    std::string name(path);
+    name.erase(0, name.rfind('/') + 1);
+    if (name != "frame_send.ngc") {
+        caller = name;
+        return false;
+    }
+    return caller != "frame_off.ngc" && caller != "frame_suspend.ngc" && caller != "frame_resume.ngc";
+}
+
+static int unsupported(InterpBase &interpreter, const char *what)
+{
+    char line[1024] = "";
+    interpreter.line_text(line, sizeof line);
+    fprintf(output, "REFUSED %d %s is not supported here\n", interpreter.sequence_number(), what);
+    fprintf(output, "SOURCE %s\n", one_line(line).c_str());
+    return 1;
+}
+
 static int interpret(InterpBase &interpreter, const char *file)
 {
     int status = interpreter.init();
     if (failed(status))
         return refuse(interpreter, status);
+    if (!machine.startup.empty()) {
+        status = interpreter.execute(machine.startup.c_str());
+        if (failed(status))
+            return refuse(interpreter, status, "[RS274NGC]RS274NGC_STARTUP_CODE: ");
+    }
     status = interpreter.open(file);
     if (failed(status))
         return refuse(interpreter, status);
@@ -71,17 +109,14 @@ static int interpret(InterpBase &interpreter, const char *file)
             break;
         if (failed(status))
             return refuse(interpreter, status);
+        if (sends_frame(interpreter))
+            return unsupported(interpreter, "a programmed frame (framekins)");
         if (status == INTERP_OK)
             status = interpreter.execute();
         if (failed(status))
             return refuse(interpreter, status);
-        if (unsupported_call()) {
-            fprintf(output, "REFUSED %d %s is not supported here\n", interpreter.sequence_number(), unsupported_call());
-            char line[1024] = "";
-            interpreter.line_text(line, sizeof line);
-            fprintf(output, "SOURCE %s\n", one_line(line).c_str());
-            return 1;
-        }
+        if (unsupported_call())
+            return unsupported(interpreter, unsupported_call());
         if (status == INTERP_EXIT)
             break;
         /* The program wants to know the state of the machine at this point: all motion counts as done. */
@@ -95,7 +130,7 @@ static int interpret(InterpBase &interpreter, const char *file)
 int main(int count, char **arguments)
 {
     if (count < 2) {
-        fputs("usage: interpreter FILE [PARAMETERS]\n", stderr);
+        fputs("usage: interpreter FILE [PARAMETERS [SETTINGS]]\n", stderr);
         return 2;
     }
     /* Programs may print, too: (PRINT, ..) goes to where errors go. */
@@ -108,6 +143,11 @@ int main(int count, char **arguments)
     setvbuf(output, buffer, _IOFBF, sizeof buffer);
     if (count > 2)
         parameter_file(arguments[2]);
+    if (count > 3 && !read_settings(arguments[3])) {
+        fprintf(stderr, "interpreter: %s cannot be read\n", arguments[3]);
+        return 2;
+    }
+    fprintf(output, "UNIT %.17g\n", now.unit);
     InterpBase *interpreter = makeInterp();
     int result = interpret(*interpreter, arguments[1]);
     if (result == 0)

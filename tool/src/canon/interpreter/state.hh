@@ -3,6 +3,8 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #pragma once
+#include <string>
+#include <vector>
 #include "canon.hh"
 
 const int AXES = 9;
@@ -30,6 +32,16 @@ struct Where {
 };
 
 extern Where now;
+
+/* What does not change while a program runs; without settings a machine in millimetres that has every tool. */
+struct Machine {
+    double unit = 1;                /* mm */
+    std::string startup;
+    bool has_table = false;
+    std::vector<CANON_TOOL_TABLE> tools;
+};
+
+extern Machine machine;
 
 inline bool rotary(int axis)
 {

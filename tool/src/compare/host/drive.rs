@@ -326,6 +326,7 @@ impl<'a> Drive<'a> {
             position,
             scale,
             id,
+            queued: depth,
             run: if busy { run.max(1) } else { 0 },
             flags: self.flags(scale, depth),
         }

@@ -26,6 +26,9 @@ impl Drive<'_> {
                 Operation::Move(ref a_move) => {
                     // SAFETY: the queue in the structure of the machine.
                     let full = unsafe { (self.tp.tcqFull)(&raw const (*tp).queue) != 0 };
+                    // SAFETY: the structure of the machine.
+                    let queued = unsafe { (self.tp.tpQueueDepth)(tp) };
+                    let full = full || usize::try_from(queued).unwrap_or(0) >= self.job.queue;
                     if added >= self.job.adds_per_cycle || full {
                         break;
                     }

@@ -6,12 +6,12 @@ use crate::compare::segment::Segment;
 
 /// Collects a program.
 pub(super) struct Builder {
-    program: Program,
+    pub(super) program: Program,
     mode: PathMode,
     /// G64 P, mm.
     tolerance: f64,
     /// First of the pieces that belong to no move yet.
-    first_free: usize,
+    pub(super) first_free: usize,
 }
 
 impl Builder {
@@ -130,7 +130,7 @@ impl Builder {
 }
 
 /// How far a programmed piece is from the move that stands for it.
-fn farthest(piece: &Segment, handed: &Segment) -> f64 {
+pub(super) fn farthest(piece: &Segment, handed: &Segment) -> f64 {
     if piece == handed {
         return 0.0;
     }

@@ -4,12 +4,13 @@
 //!
 //! Behaviour read in LinuxCNC 2.9 (`emccanon.cc`, `emctaskmain.cc`). [`straight`] is the arithmetic
 //! of a straight move, [`arc`] that of an arc, [`merging`] joins short lines, [`builder`] keeps
-//! the list of operations and pieces.
+//! the list of operations and pieces, [`stream`] hands them out while the program is read.
 
 mod arc;
 mod builder;
 mod merging;
 mod straight;
+pub(crate) mod stream;
 #[cfg(test)]
 mod tests;
 

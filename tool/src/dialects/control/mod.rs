@@ -13,19 +13,34 @@ mod modes;
 mod motion;
 pub mod offset_free;
 pub mod offset_row;
+pub mod plain;
+pub mod spindle_motion;
 pub mod words;
 
 use super::settings::Settings;
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::program::corners;
+use crate::program::corners::Corners;
 use crate::program::frame::FrameCommand;
-use crate::program::{self, Action, Compensation, FrameScope, Origin, Program};
+use crate::program::{self, Action, Compensation, FrameScope, Origin, Sink};
 use crate::source::{SourceFile, Sources, Span};
 use modal::Modal;
 use std::collections::BTreeSet;
 
+/// How many blocks of a program that is run piece by piece are handed on at once.
+const BATCH: usize = 256;
+
 /// The outcome of carrying out a part of a block.
 pub type Done = Result<(), Box<Diagnostic>>;
+
+/// What a program is read from, and who hears of it.
+pub struct About<'a> {
+    /// The files of the program; 0 is the program itself.
+    pub sources: &'a mut Sources,
+    /// What was found wrong.
+    pub diagnostics: &'a mut Diagnostics,
+    /// Takes what the program does.
+    pub sink: &'a mut dyn Sink,
+}
 
 /// A block of the source, to which actions belong.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +67,10 @@ pub struct Control<'a> {
     pub actions: Vec<Action>,
     /// Modes that the block sets, until [`Control::apply_states`] puts them in order.
     pub states: Vec<Action>,
-    program: Program,
+    sink: &'a mut dyn Sink,
+    scope: FrameScope,
+    corners: Corners,
+    finished: usize,
     running: Vec<String>,
     blocks_run: usize,
     block_limit: usize,
@@ -60,24 +78,20 @@ pub struct Control<'a> {
 }
 
 impl<'a> Control<'a> {
-    /// As it is after power on. `scope` is what the frames of the dialect turn.
-    pub fn new(
-        settings: &'a Settings,
-        sources: &'a mut Sources,
-        diagnostics: &'a mut Diagnostics,
-        scope: FrameScope,
-    ) -> Control<'a> {
+    /// As it is after power on. `scope` is what the frames of the dialect turn; `about` has the files of
+    /// the program, and takes what is said about it and what it does.
+    pub fn new(settings: &'a Settings, about: About<'a>, scope: FrameScope) -> Control<'a> {
         Control {
             settings,
-            sources,
-            diagnostics,
+            sources: about.sources,
+            diagnostics: about.diagnostics,
             modal: Modal::new(settings),
             actions: Vec::new(),
             states: Vec::new(),
-            program: Program {
-                frame_scope: scope,
-                ..Program::default()
-            },
+            sink: about.sink,
+            scope,
+            corners: Corners::default(),
+            finished: 0,
             running: Vec::new(),
             blocks_run: 0,
             block_limit: settings.most_blocks,
@@ -87,7 +101,7 @@ impl<'a> Control<'a> {
 
     /// Changes what the frames of the program turn.
     pub fn set_frame_scope(&mut self, scope: FrameScope) {
-        self.program.frame_scope = scope;
+        self.scope = scope;
     }
 
     /// Counts a block, or a step of a cycle, that is about to run; `false` when the program must not go on, because it does
@@ -95,8 +109,7 @@ impl<'a> Control<'a> {
     pub fn count_block(&mut self, block: Span) -> bool {
         self.blocks_run += 1;
         if self.blocks_run > self.block_limit {
-            let lines = |file: &SourceFile| file.text.matches('\n').count();
-            let written: usize = self.sources.iter().map(lines).sum();
+            let written: usize = self.sources.iter().map(SourceFile::lines).sum();
             self.block_limit = self.settings.most_blocks + 2 * written;
         }
         if self.blocks_run > self.block_limit {
@@ -127,7 +140,13 @@ impl<'a> Control<'a> {
         }
         // There may be very many blocks, and most have one action.
         actions.shrink_to_fit();
-        self.program.blocks.push(program::Block {
+        let is_frame = |action: &Action| matches!(action, Action::Frame(_));
+        let frame = !actions.is_empty() && actions.iter().all(is_frame);
+        let frame_text = frame.then(|| {
+            let text = self.sources.text(place.span.file);
+            text.slice(place.span.start..place.span.end).to_string()
+        });
+        self.add_block(program::Block {
             origin: Origin {
                 file: place.span.file,
                 line: self.sources.line(place.span),
@@ -136,12 +155,34 @@ impl<'a> Control<'a> {
             },
             actions,
             comment: place.comment.clone(),
+            frame_text,
         });
+    }
+
+    fn add_block(&mut self, block: program::Block) {
+        self.finished += 1;
+        if self.diagnostics.errors() > 0 {
+            // What follows an error may not be where it belongs, and is not written anyway.
+            self.corners = Corners::default();
+            return;
+        }
+        self.corners.push(block);
+        // What the frames of a program turn may come to light at its end.
+        if self.corners.waiting() >= BATCH && self.sources.file(0).is_windowed() {
+            let blocks = self.corners.take_finished(self.diagnostics);
+            self.hand_on(blocks);
+        }
+    }
+
+    fn hand_on(&mut self, blocks: Vec<program::Block>) {
+        if self.diagnostics.errors() == 0 {
+            self.sink.take(blocks, self.scope, self.sources);
+        }
     }
 
     /// How many blocks are finished.
     pub fn blocks_finished(&self) -> usize {
-        self.program.blocks.len()
+        self.finished
     }
 
     /// Reports an error. Where the axes are after a block that could not be carried out is anybody's
@@ -177,14 +218,12 @@ impl<'a> Control<'a> {
         self.actions.push(Action::End { rewind });
     }
 
-    /// The program that was run, with its roundings and chamfers.
-    pub fn into_program(self) -> Program {
-        let mut program = self.program;
-        // What follows an error may not be where it belongs.
+    /// Hands on what is left of the program, with its roundings and chamfers.
+    pub fn finish(&mut self) {
         if self.diagnostics.errors() == 0 {
-            corners::resolve(&mut program, self.diagnostics);
+            let blocks = self.corners.take_rest(self.diagnostics);
+            self.hand_on(blocks);
         }
-        program
     }
 }
 

@@ -35,6 +35,8 @@ pub struct Modal {
     pub feed_mode: FeedMode,
     /// Whether a feed is in force.
     pub has_feed: bool,
+    /// F as it was programmed last, in machine units; `None` before the first.
+    pub feed: Option<f64>,
     /// S, revolutions per minute.
     pub spindle_speed: Option<f64>,
     /// M3 to M5.
@@ -70,6 +72,7 @@ impl Modal {
             feed_factor: 1.0,
             feed_mode: FeedMode::PerMinute,
             has_feed: false,
+            feed: None,
             spindle_speed: None,
             spindle: None,
             compensation: Compensation::Off,

@@ -24,6 +24,7 @@ impl Control<'_> {
             self.modal.feed_mode = mode;
             // A number that meant mm/min must not go on as mm per revolution.
             self.modal.has_feed = false;
+            self.modal.feed = None;
         }
         self.actions.push(Action::FeedMode(mode));
     }
@@ -41,6 +42,7 @@ impl Control<'_> {
             FeedMode::PerMinute | FeedMode::PerRevolution => self.modal.feed_factor,
         };
         self.modal.has_feed = true;
+        self.modal.feed = Some(feed.value * factor);
         self.actions.push(Action::Feed(feed.value * factor));
         Ok(())
     }
@@ -224,6 +226,7 @@ impl Control<'_> {
         }
         if let (Some(feed), FeedMode::PerMinute) = (self.settings.feed, self.modal.feed_mode) {
             self.modal.has_feed = true;
+            self.modal.feed = Some(feed);
             self.actions.push(Action::Feed(feed));
             return Ok(());
         }

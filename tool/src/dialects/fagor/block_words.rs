@@ -29,6 +29,8 @@ pub struct BlockWords {
     pub tool: Option<At<(f64, Option<u32>)>>,
     /// D.
     pub offset: Option<At<f64>>,
+    /// L: the pitch of a thread.
+    pub pitch: Option<At<f64>>,
     /// N at the end of the block: how often it is repeated.
     pub times: Option<At<f64>>,
 }
@@ -84,7 +86,8 @@ impl BlockWords {
             'D' => set(&mut self.offset, value, span, letter),
             'T' => set(&mut self.tool, tool(word, value)?, span, letter),
             'N' => set(&mut self.times, value, span, letter),
-            'L' | 'H' | 'E' | 'O' => Err(Box::new(
+            'L' => set(&mut self.pitch, value, span, letter),
+            'H' | 'E' | 'O' => Err(Box::new(
                 Diagnostic::error(span, format!("the address {letter} is not supported")).help(
                     "axes are X Y Z A B C U V W; parameters are P1 and stand behind an address",
                 ),

@@ -1,4 +1,5 @@
-//! Canned cycles: drilling (G81, G82), deep hole drilling (G83), reaming (G85) and boring (G86, G89).
+//! Canned cycles: drilling (G81, G82), deep hole drilling (G83), tapping (G84), reaming (G85) and boring
+//! (G86, G89).
 //!
 //! A cycle that is defined runs at its own place and then at every place that the blocks after it move
 //! to, until G80, another cycle or another plane. Z is the reference plane and I the bottom; with G91 Z
@@ -10,9 +11,10 @@ use super::g_functions::OneShot;
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
+use crate::dialects::control::spindle_motion::Tap;
 use crate::dialects::control::words::At;
 use crate::program::moves::MoveKind;
-use crate::program::{Action, Spindle};
+use crate::program::{Action, FeedMode, Spindle};
 use crate::source::Span;
 
 /// How far before the last bottom a deep hole cycle ends its rapid motion, machine units.
@@ -33,6 +35,8 @@ pub struct Cycle {
     bottom: f64,
     /// G83: how many steps.
     steps: u32,
+    /// G84 R1: the spindle is followed; without it the chuck gives way.
+    rigid: bool,
     /// Seconds at the bottom.
     dwell: f64,
     /// G98.
@@ -119,7 +123,8 @@ impl Interpreter<'_> {
             }
             _ => 1,
         };
-        if let Some(other) = words.radius.or(words.angle).or(words.offset) {
+        let radius = words.radius.filter(|_| code != 84);
+        if let Some(other) = radius.or(words.angle).or(words.offset) {
             return Err(Box::new(
                 Diagnostic::error(
                     other.span,
@@ -154,6 +159,10 @@ impl Interpreter<'_> {
             reference,
             bottom,
             steps,
+            rigid: match (words.radius, &old) {
+                (Some(rigid), _) => rigid.value == 1.0,
+                (None, old) => old.as_ref().is_some_and(|old| old.rigid),
+            },
             dwell,
             to_start: match (withdrawal, &old) {
                 (Some(g), _) => g.value == 98,
@@ -167,6 +176,8 @@ impl Interpreter<'_> {
         let mut place = words.clone();
         place.axes[normal] = None;
         place.centre = [None; 3];
+        // Only G84 has one, which has been read.
+        place.radius = None;
         self.run_at(&place, block)
     }
 
@@ -225,6 +236,8 @@ impl Interpreter<'_> {
         self.to(cycle.reference, &MoveKind::Rapid, &cycle)?;
         match cycle.code {
             83 => self.deep_hole(&cycle)?,
+            84 if cycle.rigid => self.rigid_tap(&cycle)?,
+            84 => self.floating_tap(&cycle)?,
             _ => {
                 self.to(cycle.bottom, &MoveKind::Line, &cycle)?;
                 self.wait(&cycle);
@@ -245,6 +258,54 @@ impl Interpreter<'_> {
         if cycle.code == 86 {
             self.control.actions.push(Action::Spindle(spindle));
         }
+        Ok(())
+    }
+
+    /// G84 R1: the pitch is the feed over the speed of the spindle.
+    fn rigid_tap(&mut self, cycle: &Cycle) -> Done {
+        let modal = &self.control.modal;
+        let (feed, speed) = (modal.feed, modal.spindle_speed);
+        let (Some(feed), Some(speed), FeedMode::PerMinute) =
+            (feed, speed.filter(|speed| *speed > 0.0), modal.feed_mode)
+        else {
+            return Err(Box::new(
+                Diagnostic::error(
+                    cycle.span,
+                    "a rigid tap needs F in mm/min and S: they give its pitch",
+                )
+                .help("write S500 F500 for a pitch of 1"),
+            ));
+        };
+        let factor = modal.length_factor;
+        let before = self.last_spindle();
+        let pitch = match before {
+            Spindle::Counterclockwise => -feed / speed,
+            _ => feed / speed,
+        };
+        let tap = Tap {
+            bottom: cycle.bottom / factor,
+            pitch: pitch / factor,
+            back: 1.0,
+        };
+        self.control.tap(&tap, cycle.span)?;
+        self.control.set_spindle(before);
+        Ok(())
+    }
+
+    /// G84: the spindle turns back at the bottom, and the chuck gives way meanwhile.
+    fn floating_tap(&mut self, cycle: &Cycle) -> Done {
+        let before = self.last_spindle();
+        let back = match before {
+            Spindle::Counterclockwise => Spindle::Clockwise,
+            _ => Spindle::Counterclockwise,
+        };
+        self.control.actions.push(Action::Overrides(false));
+        self.to(cycle.bottom, &MoveKind::Line, cycle)?;
+        self.wait(cycle);
+        self.control.set_spindle(back);
+        self.to(cycle.reference, &MoveKind::Line, cycle)?;
+        self.control.actions.push(Action::Overrides(true));
+        self.control.set_spindle(before);
         Ok(())
     }
 

@@ -163,6 +163,15 @@ impl Interpreter<'_> {
         if let Some(span) = once.machine_coordinates {
             return self.machine_move(words, span);
         }
+        if let Some(span) = once.thread {
+            return self.thread(words, span);
+        }
+        if let Some(pitch) = words.pitch {
+            return Err(Box::new(
+                Diagnostic::error(pitch.span, "L is the pitch of a thread, and there is none")
+                    .help("write G33 Z-20 L1.5"),
+            ));
+        }
         if let Some(cycle) = once.cycle {
             return self.define_cycle(words, cycle, once.withdrawal, block);
         }
@@ -244,6 +253,22 @@ impl Interpreter<'_> {
             path.corner = Some(corner);
         }
         Ok(())
+    }
+
+    /// `G33 Z-20 L1.5`: a thread along one axis.
+    fn thread(&mut self, words: &BlockWords, span: Span) -> Done {
+        let motion = self.motion_words(words, &OneShot::default())?;
+        let named: Vec<usize> = (0..9).filter(|axis| motion.axes[*axis].is_some()).collect();
+        match (named[..].first(), named.len(), words.pitch, words.angle) {
+            (Some(&axis @ 0..3), 1, Some(pitch), None) => {
+                self.control.thread(&motion, pitch.value, axis, span)
+            }
+            _ => Err(Box::new(
+                Diagnostic::error(span, "a thread needs one of X, Y and Z and its pitch L").help(
+                    "write G33 Z-20 L1.5; an angle of entry (Q) and slopes are not supported",
+                ),
+            )),
+        }
     }
 
     /// G36 R, G39 R.

@@ -29,6 +29,8 @@ pub(super) struct OneShot {
     pub(super) cycle: Option<At<u32>>,
     /// G43 or G44.
     pub(super) length: Option<At<bool>>,
+    /// G33.
+    pub(super) thread: Option<Span>,
     /// G98 or G99.
     pub(super) withdrawal: Option<At<u32>>,
 }
@@ -146,7 +148,7 @@ impl Interpreter<'_> {
                 self.control.modal.use_inch(code == 70, true, settings);
                 11
             }
-            79 | 81..=83 | 85 | 86 | 89 => {
+            79 | 81..=86 | 89 => {
                 once.cycle = Some(at);
                 12
             }
@@ -169,7 +171,22 @@ impl Interpreter<'_> {
                 });
                 14
             }
+            96 => {
+                self.control.diagnostics.push(
+                    Diagnostic::warning(
+                        span,
+                        "G96 keeps the feed of the cutting edge, LinuxCNC that of the centre of the \
+                         tool: arcs under compensation run with another feed",
+                    )
+                    .help("write G97 if that is meant"),
+                );
+                15
+            }
             97 => 15,
+            33 => {
+                once.thread = Some(span);
+                12
+            }
             98 | 99 => {
                 once.withdrawal = Some(at);
                 16
@@ -206,7 +223,6 @@ fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
         23..=27 | 75 | 76 => "tracing and probing cannot be evaluated ahead of time",
         28..=30 => "switching spindles and synchronising axes is not supported",
         32 => "feed as a function of time is not supported: use G94",
-        33 | 84 => "threads and tapping are not supported: post the program with another cycle",
         52 => "a motion up to a stop cannot be evaluated ahead of time",
         58 | 59 => {
             "in this dialect it is added to G54 to G57, in LinuxCNC it would take their place: enter the \
@@ -221,7 +237,6 @@ fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
         }
         74 => "a reference search is done at the machine: take it out, or move with G53",
         77 | 78 => "slaved axes are not supported",
-        96 => "constant cutting speed is not supported: program S with G97",
         _ => {
             "look it up in the manual of the control, and write it with functions that are supported"
         }

@@ -9,12 +9,13 @@ use super::routine::Routine;
 use super::syntax::{Assignment, Block, HighLevel, Statement, Word};
 use super::transforms::Transforms;
 use crate::diagnostics::Diagnostic;
-use crate::diagnostics::Diagnostics;
-use crate::dialects::control::{Control, Done, Place};
+use crate::dialects::control::plain::PlainBlock;
+use crate::dialects::control::{About, Control, Done, Place};
 use crate::dialects::library::Library;
+use crate::dialects::run::Interpret;
 use crate::dialects::settings::Settings;
-use crate::program::{Action, FrameScope, Program};
-use crate::source::{Sources, Span};
+use crate::program::{Action, FrameScope};
+use crate::source::Span;
 use std::rc::Rc;
 
 /// Where the flow goes after a block.
@@ -66,11 +67,10 @@ impl<'a> Interpreter<'a> {
     pub fn new(
         settings: &'a Settings,
         library: Library<Routine>,
-        sources: &'a mut Sources,
-        diagnostics: &'a mut Diagnostics,
+        about: About<'a>,
     ) -> Interpreter<'a> {
         Interpreter {
-            control: Control::new(settings, sources, diagnostics, FrameScope::Block),
+            control: Control::new(settings, about, FrameScope::Block),
             library,
             parameters: Parameters::new(&settings.variables),
             transforms: Transforms::default(),
@@ -81,25 +81,6 @@ impl<'a> Interpreter<'a> {
             modal_call: None,
             repeats: Vec::new(),
         }
-    }
-
-    /// Runs the main program.
-    pub fn run(mut self) -> Program {
-        let Some(main) = self.library.main() else {
-            return self.control.into_program();
-        };
-        self.control.begin_main(&main.name);
-        let end = self.run_blocks(&main, 0, main.blocks.len());
-        if let (Next::Block(_) | Next::Return, Some(last)) = (end, main.blocks.last()) {
-            self.control.diagnostics.push(
-                Diagnostic::warning(last.span, "the program ends without M30")
-                    .help("put M30 into its last block"),
-            );
-            self.control.end_of_program(false);
-            self.control.finish_block(&place(last));
-        }
-        self.check_tool_length();
-        self.control.into_program()
     }
 
     /// Whether the control switches the length compensation on by itself is a setting of the machine.
@@ -274,6 +255,44 @@ impl<'a> Interpreter<'a> {
             self.parameters.assign(number, value, assignment.span)?;
         }
         Ok(())
+    }
+}
+
+impl<'a> Interpret<'a> for Interpreter<'a> {
+    type Routine = Routine;
+
+    fn control(&mut self) -> &mut Control<'a> {
+        &mut self.control
+    }
+
+    fn library(&self) -> &Library<Routine> {
+        &self.library
+    }
+
+    fn run_main(&mut self, main: &Rc<Routine>) -> bool {
+        let end = self.run_blocks(main, 0, main.blocks.len());
+        if end == Next::End {
+            self.check_tool_length();
+        }
+        matches!(end, Next::Block(_) | Next::Return)
+    }
+
+    fn end_is_missing(&mut self, last: &Rc<Routine>) {
+        if let Some(last) = last.blocks.last() {
+            self.control.diagnostics.push(
+                Diagnostic::warning(last.span, "the program ends without M30")
+                    .help("put M30 into its last block"),
+            );
+            self.control.end_of_program(false);
+            self.control.finish_block(&place(last));
+        }
+        self.check_tool_length();
+    }
+
+    fn takes(&self, block: &PlainBlock) -> bool {
+        self.cycle.is_none()
+            && self.modal_call.is_none()
+            && block.axes[3..].iter().all(Option::is_none)
     }
 }
 

@@ -6,12 +6,13 @@
 use super::token::{Token, TokenKind};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::scanner::{Scanner, is_blank};
+use crate::source::Text;
 
 /// All tokens of a file. What is no token is reported and left out; the rest of its line is left out
 /// too, so that one wrong character gives one error.
-pub fn tokens(file: usize, text: &str, diagnostics: &mut Diagnostics) -> Vec<Token> {
+pub fn tokens(text: Text, diagnostics: &mut Diagnostics) -> Vec<Token> {
     let mut lexer = Lexer {
-        scanner: Scanner::new(file, text),
+        scanner: Scanner::new(text),
         tokens: Vec::new(),
         depth: 0,
     };
@@ -127,7 +128,7 @@ mod tests {
 
     fn kinds(text: &str) -> Vec<TokenKind> {
         let mut diagnostics = Diagnostics::default();
-        let tokens = tokens(0, text, &mut diagnostics);
+        let tokens = tokens(Text::from(text), &mut diagnostics);
         assert_eq!(diagnostics.errors(), 0, "{text}");
         tokens.into_iter().map(|token| token.kind).collect()
     }
@@ -169,7 +170,7 @@ mod tests {
         fn spans_lie_in_the_text_in_order(text in "\\PC*") {
             let mut diagnostics = Diagnostics::default();
             let mut last = 0;
-            for token in tokens(0, &text, &mut diagnostics) {
+            for token in tokens(Text::from(text.as_str()), &mut diagnostics) {
                 prop_assert!(last <= token.span.start && token.span.start <= token.span.end);
                 prop_assert!(text.get(token.span.start..token.span.end).is_some());
                 last = token.span.end;

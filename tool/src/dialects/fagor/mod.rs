@@ -21,30 +21,24 @@ pub mod syntax;
 pub mod token;
 mod transforms;
 
+use super::control::About;
 use super::guess::Evidence;
 use super::library::Library;
+use super::run::run;
 use super::settings::Settings;
-use crate::diagnostics::Diagnostics;
-use crate::program::Program;
-use crate::source::Sources;
 use std::path::Path;
 
 /// Evaluates the part program in file 0 of `sources`; see [`super::evaluate`].
-pub fn evaluate(
-    path: &Path,
-    settings: &Settings,
-    sources: &mut Sources,
-    diagnostics: &mut Diagnostics,
-) -> Program {
+pub fn evaluate<'a>(path: &Path, settings: &'a Settings, about: About<'a>) {
     let library = Library::new(
         path,
         &routine::EXTENSIONS,
         settings,
-        sources,
-        diagnostics,
+        about.sources,
+        about.diagnostics,
         routine::routines,
     );
-    interpreter::Interpreter::new(settings, library, sources, diagnostics).run()
+    run(&mut interpreter::Interpreter::new(settings, library, about));
 }
 
 /// What speaks for this dialect; see [`super::guess`].

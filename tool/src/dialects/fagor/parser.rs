@@ -7,11 +7,11 @@ use super::high_level::high_level_block;
 use super::syntax::{Block, HighLevel, Section, Statement, Word};
 use super::token::{Token, TokenKind};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::source::{SourceFile, Span};
+use crate::source::{Span, Text};
 
 /// The name in the header and the sections of a file: the main program first, then its subroutines.
 pub fn parse(
-    file: &SourceFile,
+    text: Text,
     tokens: &[Token],
     diagnostics: &mut Diagnostics,
 ) -> (Option<String>, Vec<Section>) {
@@ -40,7 +40,7 @@ pub fn parse(
             name = Some(header.clone());
             continue;
         }
-        let Some(block) = parse_block(file, tokens, end.span, diagnostics) else {
+        let Some(block) = parse_block(text, tokens, end.span, diagnostics) else {
             continue;
         };
         match (&block.statement, &mut open) {
@@ -52,7 +52,7 @@ pub fn parse(
                 open = Some((section, block.span));
             }
             (Statement::Subroutine(_), Some((_, first))) => {
-                let line = line_of(file, *first);
+                let line = line_of(text, *first);
                 diagnostics.push(
                     Diagnostic::error(block.span, "a subroutine begins inside of another")
                         .help(format!("end the one of line {line} with (RET)")),
@@ -79,8 +79,8 @@ pub fn parse(
     (name, subroutines)
 }
 
-fn line_of(file: &SourceFile, span: Span) -> usize {
-    let before = file.text.get(..span.start).unwrap_or("");
+fn line_of(text: Text, span: Span) -> usize {
+    let before = text.slice(text.start..span.start);
     before.matches('\n').count() + 1
 }
 
@@ -90,7 +90,7 @@ pub fn is_empty(block: &Block) -> bool {
 }
 
 fn parse_block(
-    file: &SourceFile,
+    text: Text,
     tokens: &[Token],
     end: Span,
     diagnostics: &mut Diagnostics,
@@ -120,7 +120,7 @@ fn parse_block(
             ..last
         },
     );
-    let parsed = prefix(&mut cursor, &mut block).and_then(|()| statement(&mut cursor, &file.text));
+    let parsed = prefix(&mut cursor, &mut block).and_then(|()| statement(&mut cursor, text));
     block.statement = parsed.unwrap_or_else(|diagnostic| {
         diagnostics.push(*diagnostic);
         Statement::Invalid
@@ -145,7 +145,7 @@ fn prefix(cursor: &mut Cursor, block: &mut Block) -> Parsed<()> {
     Ok(())
 }
 
-fn statement(cursor: &mut Cursor, text: &str) -> Parsed<Statement> {
+fn statement(cursor: &mut Cursor, text: Text) -> Parsed<Statement> {
     let statement = match cursor.peek() {
         None => return Ok(Statement::Empty),
         Some(TokenKind::Symbol('(')) => high_level_block(cursor)?,
@@ -160,7 +160,7 @@ fn statement(cursor: &mut Cursor, text: &str) -> Parsed<Statement> {
     Ok(statement)
 }
 
-fn words(cursor: &mut Cursor, text: &str) -> Parsed<Vec<Word>> {
+fn words(cursor: &mut Cursor, text: Text) -> Parsed<Vec<Word>> {
     let mut list = Vec::new();
     while let Some(token) = cursor.peek() {
         let start = cursor.span();
@@ -197,7 +197,7 @@ fn words(cursor: &mut Cursor, text: &str) -> Parsed<Vec<Word>> {
             false => Some(word_value(cursor).map_err(|error| missing_value(*error, letter))?),
         };
         let span = start.to(cursor.last_span());
-        let digits = text.get(start.end..span.end).unwrap_or("").trim();
+        let digits = text.slice(start.end..span.end).trim();
         list.push(Word {
             letter,
             value,

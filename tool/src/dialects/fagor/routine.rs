@@ -5,7 +5,7 @@ use super::parser::{is_empty, parse};
 use super::syntax::{Block, Section};
 use crate::diagnostics::Diagnostics;
 use crate::dialects::library;
-use crate::source::{Sources, Span};
+use crate::source::{Sources, Span, Text};
 use std::collections::HashMap;
 
 /// Endings of program files.
@@ -57,22 +57,21 @@ pub fn subroutine_name(number: u32) -> String {
 
 /// The routines of a file. Of a file other than the program itself, the main program is not one.
 pub fn routines(
-    file: usize,
+    text: Text,
     stem: &str,
-    sources: &Sources,
+    _: &Sources,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Routine> {
-    let source = sources.file(file);
-    let tokens = tokens(file, &source.text, diagnostics);
-    let (header, sections) = parse(source, &tokens, diagnostics);
+    let tokens = tokens(text, diagnostics);
+    let (header, sections) = parse(text, &tokens, diagnostics);
     let routine = |section: Section| {
         let name = match section.subroutine {
             Some(number) => subroutine_name(number),
             None => header.clone().unwrap_or(stem.to_string()),
         };
-        Routine::new(name, file, section)
+        Routine::new(name, text.file, section)
     };
-    let wanted = |section: &Section| file == 0 || section.subroutine.is_some();
+    let wanted = |section: &Section| text.file == 0 || section.subroutine.is_some();
     let sections = sections.into_iter().filter(wanted);
     sections.map(routine).collect()
 }

@@ -4,7 +4,7 @@
 //! in the program.
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::source::Span;
+use crate::source::{Span, Text};
 
 /// A program without its comments.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,11 +15,13 @@ pub struct Clean {
     pub comments: Vec<(usize, String)>,
 }
 
-/// Cleans the text of the file with this index: comments in parentheses, which may hold others and
+/// Cleans the lines of a file: comments in parentheses, which may hold others and
 /// end with the line, comments after a semicolon, the lines from `#COMMENT BEGIN` to `#COMMENT END`,
 /// and line ends after a backslash.
-pub fn clean(file: usize, text: &str, diagnostics: &mut Diagnostics) -> Clean {
+pub fn clean(lines: Text, diagnostics: &mut Diagnostics) -> Clean {
+    let text = lines.text;
     let mut cleaner = Cleaner {
+        offset: lines.start,
         bytes: text.as_bytes().to_vec(),
         comments: Vec::new(),
     };
@@ -29,7 +31,11 @@ pub fn clean(file: usize, text: &str, diagnostics: &mut Diagnostics) -> Clean {
     for line in text.split_inclusive('\n') {
         let end = start + line.trim_end_matches('\n').len();
         let code = &text[start..end];
-        let span = Span { file, start, end };
+        let span = Span {
+            file: lines.file,
+            start: lines.start + start,
+            end: lines.start + end,
+        };
         match (block_comment(code), in_comment) {
             (Some(begins), before) => {
                 if begins && before.is_none() {
@@ -89,6 +95,8 @@ fn block_comment(line: &str) -> Option<bool> {
 }
 
 struct Cleaner {
+    /// The position of the first byte in its file.
+    offset: usize,
     bytes: Vec<u8>,
     comments: Vec<(usize, String)>,
 }
@@ -175,7 +183,7 @@ impl Cleaner {
         let text = &code[start - line..end - line];
         let text = text.trim_start_matches([';', '(']).trim();
         let text = text.strip_suffix(')').unwrap_or(text).trim();
-        self.comments.push((start, text.to_string()));
+        self.comments.push((self.offset + start, text.to_string()));
         self.blank(start, end);
     }
 }
@@ -187,7 +195,7 @@ mod tests {
 
     fn cleaned(text: &str) -> (String, Vec<String>, usize) {
         let mut diagnostics = Diagnostics::default();
-        let clean = clean(0, text, &mut diagnostics);
+        let clean = clean(Text::from(text), &mut diagnostics);
         let comments = clean.comments.into_iter().map(|(_, text)| text).collect();
         (clean.text, comments, diagnostics.errors())
     }

@@ -8,7 +8,7 @@ use crate::dialects::control::Done;
 use crate::dialects::control::groups::{Groups, in_order_of_compensation};
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::At;
-use crate::program::{Compensation, FeedMode, PathControl, Plane};
+use crate::program::{Compensation, FeedMode, Plane};
 use crate::source::Span;
 
 impl Interpreter<'_> {
@@ -104,7 +104,8 @@ impl Interpreter<'_> {
                 9
             }
             260 => {
-                self.control.path_control(PathControl::ExactPath);
+                // As before the program asked for contouring.
+                self.control.path_control(self.control.settings.path_mode);
                 9
             }
             70 | 71 => {

@@ -5,15 +5,16 @@ use super::frames::Frames;
 use super::modes::Modes;
 use super::syntax::{Block, Declaration, Item, Routine, Statement};
 use super::variables::VariableStore;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::Diagnostic;
 use crate::dialects::control::offset_free::OffsetFree;
 use crate::dialects::control::offset_row::OffsetRow;
-use crate::dialects::control::{Control, Done, Place};
+use crate::dialects::control::plain::PlainBlock;
+use crate::dialects::control::{About, Control, Done, Place};
 use crate::dialects::expression::Expression;
 use crate::dialects::library::Library;
+use crate::dialects::run::Interpret;
 use crate::dialects::settings::Settings;
-use crate::program::{FrameScope, Program};
-use crate::source::Sources;
+use crate::program::FrameScope;
 use std::rc::Rc;
 
 /// Where the flow goes after a block.
@@ -47,11 +48,10 @@ impl<'a> Interpreter<'a> {
     pub fn new(
         settings: &'a Settings,
         library: Library<Routine>,
-        sources: &'a mut Sources,
-        diagnostics: &'a mut Diagnostics,
+        about: About<'a>,
     ) -> Interpreter<'a> {
         Interpreter {
-            control: Control::new(settings, sources, diagnostics, FrameScope::Block),
+            control: Control::new(settings, about, FrameScope::Block),
             library,
             variables: VariableStore::new(&settings.variables),
             frames: Frames::default(),
@@ -62,17 +62,16 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs the main program.
-    pub fn run(mut self) -> Program {
-        if let Some(main) = self.library.main() {
-            self.control.begin_main(&main.title);
-            self.run_routine(&main);
+    /// Runs a subprogram. M17 and M29 may be left out at its end.
+    pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> Next {
+        match self.run_blocks(routine) {
+            Next::Block(_) => Next::Return,
+            other => other,
         }
-        self.control.into_program()
     }
 
-    /// Runs a program or subprogram.
-    pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> Next {
+    /// Runs blocks up to the last one, or to one that leads elsewhere.
+    fn run_blocks(&mut self, routine: &Rc<Routine>) -> Next {
         let mut at = 0;
         while let Some(block) = routine.blocks.get(at) {
             if !self.control.count_block(block.span) {
@@ -88,22 +87,7 @@ impl<'a> Interpreter<'a> {
                 other => return other,
             }
         }
-        self.end_is_missing(routine)
-    }
-
-    /// M17 and M29 may be left out of subprograms.
-    fn end_is_missing(&mut self, routine: &Rc<Routine>) -> Next {
-        let last = routine.blocks.last();
-        let Some(last) = last.filter(|_| self.control.is_in_main()) else {
-            return Next::Return;
-        };
-        self.control.diagnostics.push(
-            Diagnostic::warning(last.span, "the program ends without M30")
-                .help("put M30 into its last block"),
-        );
-        self.control.end_of_program(false);
-        self.control.finish_block(&place(last));
-        Next::End
+        Next::Block(at)
     }
 
     fn run_block(&mut self, routine: &Rc<Routine>, at: usize, block: &Block) -> Next {
@@ -203,6 +187,43 @@ impl<'a> Interpreter<'a> {
             .collect();
         let values = self.numbers(&declaration.values)?;
         self.variables.declare(declaration, size?, values)
+    }
+}
+
+impl<'a> Interpret<'a> for Interpreter<'a> {
+    type Routine = Routine;
+
+    fn control(&mut self) -> &mut Control<'a> {
+        &mut self.control
+    }
+
+    fn library(&self) -> &Library<Routine> {
+        &self.library
+    }
+
+    fn run_main(&mut self, main: &Rc<Routine>) -> bool {
+        matches!(self.run_blocks(main), Next::Block(_))
+    }
+
+    fn end_is_missing(&mut self, last: &Rc<Routine>) {
+        let Some(last) = last.blocks.iter().rfind(|block| !block.is_blank()) else {
+            return;
+        };
+        self.control.diagnostics.push(
+            Diagnostic::warning(last.span, "the program ends without M30")
+                .help("put M30 into its last block"),
+        );
+        self.control.end_of_program(false);
+        self.control.finish_block(&place(last));
+    }
+
+    fn takes(&self, block: &PlainBlock) -> bool {
+        self.unsettled == [false; 3]
+            && !self.modes.exact_stop
+            && !self.offset_free.active
+            // F has a meaning of its own in each feed mode.
+            && block.feed.is_none()
+            && block.axes[3..].iter().all(Option::is_none)
     }
 }
 

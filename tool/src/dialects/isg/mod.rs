@@ -23,33 +23,27 @@ mod structure;
 mod syntax;
 mod variables;
 
+use super::control::About;
 use super::guess::Evidence;
 use super::library::Library;
+use super::run::run;
 use super::settings::Settings;
-use crate::diagnostics::Diagnostics;
-use crate::program::Program;
-use crate::source::Sources;
 use std::path::Path;
 
 /// Endings of subprogram files.
 const EXTENSIONS: [&str; 6] = ["nc", "sub", "cnc", "iso", "prg", "txt"];
 
 /// Evaluates the part program in file 0 of `sources`; see [`super::evaluate`].
-pub fn evaluate(
-    path: &Path,
-    settings: &Settings,
-    sources: &mut Sources,
-    diagnostics: &mut Diagnostics,
-) -> Program {
+pub fn evaluate<'a>(path: &Path, settings: &'a Settings, about: About<'a>) {
     let library = Library::new(
         path,
         &EXTENSIONS,
         settings,
-        sources,
-        diagnostics,
+        about.sources,
+        about.diagnostics,
         parser::parse,
     );
-    interpreter::Interpreter::new(settings, library, sources, diagnostics).run()
+    run(&mut interpreter::Interpreter::new(settings, library, about));
 }
 
 /// What speaks for this dialect; see [`super::guess`].

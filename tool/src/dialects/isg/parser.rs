@@ -10,17 +10,21 @@ use super::structure::Structure;
 use super::syntax::{Assignment, Block, Call, Item, Routine, Statement, Word};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::expression::{Binary, Expression, ExpressionKind};
-use crate::source::{Sources, Span};
+use crate::source::{Sources, Span, Text};
 
 /// The programs and subprograms of a file; see [`crate::dialects::library::Parse`].
 pub fn parse(
-    file: usize,
+    text: Text,
     stem: &str,
     sources: &Sources,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Routine> {
-    let clean = clean(file, &sources.file(file).text, diagnostics);
-    let mut reader = Reader::new(file, &clean.text);
+    let file = text.file;
+    let clean = clean(text, diagnostics);
+    let mut reader = Reader::new(Text {
+        text: &clean.text,
+        ..text
+    });
     let file_name = |path: &str| {
         let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
         name.to_ascii_uppercase()

@@ -2,7 +2,7 @@
 
 use crate::diagnostics::Diagnostic;
 use crate::dialects::scanner::Scanner;
-use crate::source::Span;
+use crate::source::{Span, Text};
 
 /// The outcome of parsing a part of a block.
 pub type Parsed<T> = Result<T, Box<Diagnostic>>;
@@ -16,10 +16,10 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// At the beginning of the text of the file with this index.
-    pub fn new(file: usize, text: &'a str) -> Reader<'a> {
+    /// At the beginning of the lines.
+    pub fn new(text: Text<'a>) -> Reader<'a> {
         Reader {
-            scanner: Scanner::new(file, text),
+            scanner: Scanner::new(text),
             depth: 0,
         }
     }

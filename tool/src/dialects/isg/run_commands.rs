@@ -6,7 +6,7 @@ use super::syntax::{Command, Parameter};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::expression::Expression;
-use crate::program::{Action, PathControl};
+use crate::program::Action;
 use crate::source::Span;
 
 /// The contour error of `#HSC` when none is given, in millimetres.
@@ -163,7 +163,8 @@ impl Interpreter<'_> {
                 let tolerance = self.modes.contour_error.unwrap_or(in_program);
                 self.control.continuous_path(Some(tolerance), span)?;
             }
-            Some(false) => self.control.path_control(PathControl::ExactPath),
+            // As before the program asked for it.
+            Some(false) => self.control.path_control(self.control.settings.path_mode),
             None => {}
         }
         self.control.apply_states(false);
@@ -181,7 +182,8 @@ impl Interpreter<'_> {
                 let tolerance = self.modes.contour_deviation;
                 self.control.continuous_path(tolerance, span)?;
             }
-            Some(false) => self.control.path_control(PathControl::ExactPath),
+            // As before the program asked for it.
+            Some(false) => self.control.path_control(self.control.settings.path_mode),
             None => {}
         }
         self.control.apply_states(false);

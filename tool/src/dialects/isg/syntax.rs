@@ -22,6 +22,14 @@ pub struct Block {
     pub comment: Option<String>,
 }
 
+impl Block {
+    /// Whether its line holds nothing.
+    pub fn is_blank(&self) -> bool {
+        let nothing = self.number.is_none() && self.label.is_none() && self.comment.is_none();
+        self.statement == Statement::Empty && nothing
+    }
+}
+
 /// What a block says.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
@@ -203,6 +211,10 @@ pub struct Routine {
 }
 
 impl library::Routine for Routine {
+    fn title(&self) -> &str {
+        &self.title
+    }
+
     fn name(&self) -> &str {
         &self.name
     }

@@ -3,15 +3,17 @@
 use super::block_words::BlockWords;
 use super::recalculation::Recalculation;
 use super::syntax::{Block, Routine};
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::Diagnostic;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::offset_free::OffsetFree;
 use crate::dialects::control::offset_row::OffsetRow;
-use crate::dialects::control::{Control, Done, Place};
+use crate::dialects::control::plain::PlainBlock;
+use crate::dialects::control::{About, Control, Done, Place};
 use crate::dialects::library::Library;
+use crate::dialects::run::Interpret;
 use crate::dialects::settings::Settings;
-use crate::program::{Compensation, FrameScope, Program};
-use crate::source::{Sources, Span};
+use crate::program::{Compensation, FrameScope};
+use crate::source::Span;
 use std::rc::Rc;
 
 /// Where the flow goes after a block.
@@ -44,10 +46,9 @@ impl<'a> Interpreter<'a> {
     pub fn new(
         settings: &'a Settings,
         library: Library<Routine>,
-        sources: &'a mut Sources,
-        diagnostics: &'a mut Diagnostics,
+        about: About<'a>,
     ) -> Interpreter<'a> {
-        let mut control = Control::new(settings, sources, diagnostics, FrameScope::Block);
+        let mut control = Control::new(settings, about, FrameScope::Block);
         // A program that names no motion before its first axis moves with feed.
         control.modal.motion = Some(Motion::Line);
         Interpreter {
@@ -60,17 +61,19 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs the main program.
-    pub fn run(mut self) -> Program {
-        if let Some(main) = self.library.main() {
-            self.control.begin_main(&main.name);
-            self.run_routine(&main);
+    /// Runs a subprogram.
+    pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> Next {
+        match self.run_blocks(routine) {
+            Next::Continue => {
+                self.end_is_missing(routine);
+                Next::Return
+            }
+            other => other,
         }
-        self.control.into_program()
     }
 
-    /// Runs a program or subprogram.
-    pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> Next {
+    /// Runs blocks up to the last one, or to one that leads elsewhere.
+    fn run_blocks(&mut self, routine: &Rc<Routine>) -> Next {
         for block in &routine.blocks {
             if !self.control.count_block(block.span) {
                 return Next::Abort;
@@ -93,12 +96,12 @@ impl<'a> Interpreter<'a> {
                 other => return other,
             }
         }
-        self.end_is_missing(routine)
+        Next::Continue
     }
 
-    fn end_is_missing(&mut self, routine: &Rc<Routine>) -> Next {
-        let Some(last) = routine.blocks.last() else {
-            return Next::Return;
+    fn end_is_missing(&mut self, routine: &Rc<Routine>) {
+        let Some(last) = routine.blocks.iter().rfind(|block| !block.is_blank()) else {
+            return;
         };
         let main = self.control.is_in_main();
         let (kind, word) = match main {
@@ -109,12 +112,10 @@ impl<'a> Interpreter<'a> {
             Diagnostic::warning(last.span, format!("the {kind} ends without {word}"))
                 .help(format!("put {word} into its last block")),
         );
-        if !main {
-            return Next::Return;
+        if main {
+            self.control.end_of_program(false);
+            self.control.finish_block(&place(last));
         }
-        self.control.end_of_program(false);
-        self.control.finish_block(&place(last));
-        Next::End
     }
 
     fn run_block(&mut self, block: &Block) -> Next {
@@ -243,6 +244,30 @@ impl<'a> Interpreter<'a> {
                 .offset_free_motion(motion, state, block, own_feed, false);
         }
         self.control.motion(motion, block, own_feed, false)
+    }
+}
+
+impl<'a> Interpret<'a> for Interpreter<'a> {
+    type Routine = Routine;
+
+    fn control(&mut self) -> &mut Control<'a> {
+        &mut self.control
+    }
+
+    fn library(&self) -> &Library<Routine> {
+        &self.library
+    }
+
+    fn run_main(&mut self, main: &Rc<Routine>) -> bool {
+        self.run_blocks(main) == Next::Continue
+    }
+
+    fn end_is_missing(&mut self, last: &Rc<Routine>) {
+        Interpreter::end_is_missing(self, last);
+    }
+
+    fn takes(&self, block: &PlainBlock) -> bool {
+        self.motion_named && !self.offset_free.active && block.axes[3..].iter().all(Option::is_none)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::syntax::{Block, Routine, Word};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::scanner::Scanner;
-use crate::source::{Sources, Span};
+use crate::source::{Sources, Span, Text};
 
 /// Marks that begin a comment: the quotation mark of the control, and what word processors make of it.
 const COMMENT: [char; 9] = ['"', '“', '”', '„', '‟', '«', '»', '″', '‶'];
@@ -12,13 +12,8 @@ const COMMENT: [char; 9] = ['"', '“', '”', '„', '‟', '«', '»', '″', 
 const ADDRESSES: &str = "ABCDFGIJKLMNQRSTUVWXYZ";
 
 /// The programs and subprograms of a file; see [`crate::dialects::library::Parse`].
-pub fn parse(
-    file: usize,
-    stem: &str,
-    sources: &Sources,
-    diagnostics: &mut Diagnostics,
-) -> Vec<Routine> {
-    let text = &sources.file(file).text;
+pub fn parse(text: Text, stem: &str, _: &Sources, diagnostics: &mut Diagnostics) -> Vec<Routine> {
+    let file = text.file;
     let routine = |name: String, main: bool| Routine {
         name,
         main,
@@ -29,7 +24,7 @@ pub fn parse(
     let mut subprograms: Vec<Routine> = Vec::new();
     let mut in_subprogram = false;
     let mut reader = Reader {
-        scanner: Scanner::new(file, text),
+        scanner: Scanner::new(text),
     };
     while reader.scanner.peek().is_some() {
         match reader.line(diagnostics) {
@@ -285,7 +280,7 @@ mod tests {
         let mut sources = Sources::default();
         let mut diagnostics = Diagnostics::default();
         let file = sources.add("part.nc".into(), text.into());
-        let routines = parse(file, "PART", &sources, &mut diagnostics);
+        let routines = parse(sources.text(file), "PART", &sources, &mut diagnostics);
         (routines, diagnostics.errors())
     }
 

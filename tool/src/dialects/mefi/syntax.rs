@@ -37,6 +37,11 @@ impl Block {
         self.words.is_empty() && !self.invalid
     }
 
+    /// Whether its line holds nothing.
+    pub fn is_blank(&self) -> bool {
+        self.is_empty() && self.number.is_none() && self.comment.is_none()
+    }
+
     /// The word with this letter and number, if there is one: `G79`.
     pub fn function(&self, letter: char, number: f64) -> Option<&Word> {
         let wanted = |word: &&Word| word.letter == letter && word.value == number;

@@ -1,6 +1,7 @@
 //! The words of one block, evaluated and sorted by address.
 
-use super::syntax::{Word, WordValue};
+use super::spindle::Diameter;
+use super::syntax::{Way, Word, WordValue};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::control::words::{AXES, At, Dimension, MotionWords, set};
 use crate::dialects::expression::{Value, Variables};
@@ -46,6 +47,14 @@ pub struct BlockWords {
     pub tolerance: Option<At<f64>>,
     pub supa: Option<Span>,
     pub end_of_routine: Option<Span>,
+    /// Ways by which rotary axes turn to their angles.
+    pub ways: [Option<Way>; 9],
+    /// SPOS, SPOSA: the angle of the spindle, degrees.
+    pub spindle_angle: Option<At<f64>>,
+    /// LIMS: revolutions per minute.
+    pub most_speed: Option<At<f64>>,
+    /// DIAMON, DIAMOF, DIAM90.
+    pub diameter: Option<Diameter>,
     /// Commands that only tune the control.
     pub noted: Vec<At<String>>,
 }
@@ -74,6 +83,12 @@ impl BlockWords {
         let span = word.span;
         let address = word.address.as_str();
         if let Some(axis) = AXES.iter().position(|axis| *axis == address) {
+            if let WordValue::Angle(way, _) = &word.value {
+                if !matches!(address, "A" | "B" | "C") {
+                    return Err(error(span, "DC, ACP and ACN belong to rotary axes"));
+                }
+                self.ways[axis] = Some(*way);
+            }
             return set(
                 &mut self.motion.axes[axis],
                 dimensioned(word, variables)?,
@@ -135,6 +150,16 @@ impl BlockWords {
                 set(&mut self.corner, corner, span, "a rounding or chamfer")
             }
             "RNDM" => set(&mut self.rounding, number(word, variables)?, span, address),
+            "SPOS" | "SPOSA" => set(&mut self.spindle_angle, angle(word, variables)?, span, "SPOS"),
+            "LIMS" => set(&mut self.most_speed, number(word, variables)?, span, address),
+            "DIAMON" | "DIAMOF" | "DIAM90" => {
+                self.diameter = Some(match address {
+                    "DIAMON" => Diameter::Always,
+                    "DIAM90" => Diameter::Absolute,
+                    _ => Diameter::Never,
+                });
+                Ok(())
+            }
             "CIP" => {
                 self.cip = Some(span);
                 Ok(())
@@ -211,6 +236,19 @@ fn number(word: &Word, variables: &dyn Variables) -> Result<f64, Box<Diagnostic>
     }
 }
 
+/// The angle of the spindle, by whatever way.
+fn angle(word: &Word, variables: &dyn Variables) -> Result<f64, Box<Diagnostic>> {
+    match &word.value {
+        WordValue::Plain(value) | WordValue::Absolute(value) | WordValue::Angle(_, value) => {
+            value.number(variables)
+        }
+        _ => Err(error(
+            word.span,
+            "an angle from zero of the spindle is needed here",
+        )),
+    }
+}
+
 fn dimensioned(
     word: &Word,
     variables: &dyn Variables,
@@ -219,6 +257,7 @@ fn dimensioned(
         WordValue::Plain(value) => (value, Dimension::Modal),
         WordValue::Absolute(value) => (value, Dimension::Absolute),
         WordValue::Incremental(value) => (value, Dimension::Incremental),
+        WordValue::Angle(_, value) => (value, Dimension::Absolute),
         WordValue::None => return Err(error(word.span, "a value is missing here")),
     };
     Ok((value.number(variables)?, dimension))

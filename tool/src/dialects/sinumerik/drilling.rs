@@ -1,5 +1,6 @@
 //! Drilling cycles and patterns of holes, written out as moves: CYCLE81, CYCLE82 (drilling), CYCLE83 (deep
-//! holes), CYCLE85 and CYCLE89 (reaming, boring), HOLES1 (a row), HOLES2 (a circle). (Siemens, SINUMERIK
+//! holes), CYCLE84 (rigid tapping), CYCLE85, CYCLE87, CYCLE88 and CYCLE89 (reaming, boring), HOLES1 (a
+//! row), HOLES2 (a circle). (Siemens, SINUMERIK
 //! 840D, Programming Guide Cycles, "Drilling cycles and drilling patterns".)
 
 use super::interpreter::Interpreter;
@@ -7,8 +8,9 @@ use super::syntax::{Block, Call};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
-use crate::dialects::control::words::MotionWords;
-use crate::program::{Action, Compensation};
+use crate::dialects::control::spindle_motion::Tap;
+use crate::dialects::control::words::{At, MotionWords};
+use crate::program::{Action, Compensation, Spindle};
 use crate::source::Span;
 use framepath::frame::angle::sin_cos_degrees;
 
@@ -46,43 +48,137 @@ impl Interpreter<'_> {
         self.plunge(hole.safe, true, call.span)?;
         match call.name.as_str() {
             "CYCLE83" => self.deep_hole(&hole)?,
-            _ => {
+            "CYCLE84" => self.rigid_tap(&hole)?,
+            "CYCLE85" => self.ream(&hole)?,
+            name => {
                 self.plunge(hole.bottom, false, call.span)?;
-                let dwell = if call.name == "CYCLE81" {
-                    0.0
-                } else {
-                    self.value(call, 5)?.unwrap_or(0.0)
+                let dwell = match name {
+                    "CYCLE81" | "CYCLE87" => 0.0,
+                    _ => self.value(call, 5)?.unwrap_or(0.0),
                 };
                 self.wait(dwell, call.span)?;
             }
         }
-        if matches!(call.name.as_str(), "CYCLE85" | "CYCLE89") {
-            self.plunge(hole.safe, false, call.span)?;
+        match call.name.as_str() {
+            "CYCLE89" => self.plunge(hole.safe, false, call.span)?,
+            "CYCLE87" | "CYCLE88" => {
+                // The operator goes on when the spindle stands.
+                self.control.set_spindle(Spindle::Stop);
+                self.control.actions.push(Action::Pause { optional: false });
+            }
+            _ => {}
         }
         self.plunge(hole.retraction, true, call.span)
+    }
+
+    /// CYCLE84: DTB, SDAC, MPIT, PIT, POSS, SST, SST1 follow DPR. MPIT is the size of a metric thread.
+    fn rigid_tap(&mut self, hole: &Hole) -> Done {
+        let call = hole.call;
+        let value = |at: usize| self.value(call, at);
+        let (after, size, pitch) = (value(6)?, value(7)?, value(8)?);
+        let (speed, back) = (value(10)?, value(11)?);
+        let pitch = match (pitch, size) {
+            (Some(pitch), _) if pitch != 0.0 => pitch,
+            (_, Some(size)) if size != 0.0 => {
+                let pitch = coarse_pitch(size.abs()).ok_or_else(|| {
+                    Box::new(
+                        Diagnostic::error(call.span, format!("M{size} is not a metric thread"))
+                            .help("give the pitch itself as PIT, value 9"),
+                    )
+                })?;
+                pitch.copysign(size) / self.millimetres()
+            }
+            _ => {
+                return Err(Box::new(
+                    Diagnostic::error(call.span, "CYCLE84 needs a pitch")
+                        .help("give PIT, value 9, or MPIT, value 8, for a metric thread"),
+                ));
+            }
+        };
+        let Some(speed) = speed.filter(|speed| *speed > 0.0) else {
+            return Err(Box::new(
+                Diagnostic::error(call.span, "CYCLE84 needs a spindle speed")
+                    .help("give SST, value 11"),
+            ));
+        };
+        if value(5)?.is_some_and(|dwell| dwell != 0.0) {
+            self.control.note("the dwell (DTB) of CYCLE84", call.span);
+        }
+        let before = self.control.modal.spindle_speed;
+        let set = |value: f64| At {
+            value,
+            span: call.span,
+        };
+        self.control.speed(set(speed))?;
+        let tap = Tap {
+            bottom: hole.bottom,
+            pitch,
+            back: match back {
+                Some(back) if back > 0.0 => back / speed,
+                _ => 1.0,
+            },
+        };
+        self.control.tap(&tap, call.span)?;
+        if let Some(before) = before {
+            self.control.speed(set(before))?;
+        }
+        match after.unwrap_or(5.0) {
+            3.0 => self.control.set_spindle(Spindle::Clockwise),
+            4.0 => self.control.set_spindle(Spindle::Counterclockwise),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// CYCLE85: DTB, FFR and RFF follow DPR, the feeds in and out.
+    fn ream(&mut self, hole: &Hole) -> Done {
+        let call = hole.call;
+        let feeds = [6, 7].map(|at| self.value(call, at));
+        let before = self.control.modal.feed;
+        for (place, feed) in [hole.bottom, hole.safe].into_iter().zip(feeds) {
+            if let Some(value) = feed?.filter(|feed| *feed != 0.0) {
+                self.control.feed(At {
+                    value,
+                    span: call.span,
+                })?;
+            }
+            self.plunge(place, false, call.span)?;
+            if place == hole.bottom {
+                let dwell = self.value(call, 5)?.unwrap_or(0.0);
+                self.wait(dwell, call.span)?;
+            }
+        }
+        // The feed of the program holds again.
+        if let Some(before) = before.filter(|before| Some(*before) != self.control.modal.feed) {
+            self.control.modal.feed = Some(before);
+            self.control.actions.push(Action::Feed(before));
+        }
+        Ok(())
     }
 
     /// The planes of a cycle: RTP, RFP, SDIS, DP, DPR.
     fn hole<'a>(&self, call: &'a Call) -> Result<Hole<'a>, Box<Diagnostic>> {
         let known = match call.name.as_str() {
-            "CYCLE81" => 5,
-            "CYCLE83" => 12,
+            "CYCLE81" | "CYCLE87" => 5,
+            "CYCLE83" | "CYCLE84" => 12,
+            "CYCLE85" => 8,
             _ => 6,
         };
         for at in known..call.arguments.len() {
-            let meaning = match (call.name.as_str(), at) {
-                ("CYCLE85", 6 | 7) => "FFR and RFF: other feeds for the cycle",
-                _ => "the modes of newer controls",
-            };
+            // Which way the spindle turns at the bottom of CYCLE87 and CYCLE88 before it stops.
+            if matches!((call.name.as_str(), at), ("CYCLE87", 5) | ("CYCLE88", 6)) {
+                continue;
+            }
             if self.value(call, at)?.is_some_and(|value| value != 0.0) {
                 return Err(Box::new(
                     Diagnostic::error(
                         call.span,
                         format!("value {} of {} is not supported", at + 1, call.name),
                     )
-                    .help(format!(
-                        "{meaning}: post the program with the moves of the cycle"
-                    )),
+                    .help(
+                        "it belongs to the modes of newer controls: post the program with the moves \
+                         of the cycle",
+                    ),
                 ));
             }
         }
@@ -291,6 +387,36 @@ impl Interpreter<'_> {
             _ => Ok(None),
         }
     }
+}
+
+/// The pitch of a metric thread with coarse pitch, millimetres (ISO 261).
+fn coarse_pitch(size: f64) -> Option<f64> {
+    const PITCHES: [(f64, f64); 22] = [
+        (2.0, 0.4),
+        (2.5, 0.45),
+        (3.0, 0.5),
+        (3.5, 0.6),
+        (4.0, 0.7),
+        (4.5, 0.75),
+        (5.0, 0.8),
+        (6.0, 1.0),
+        (7.0, 1.0),
+        (8.0, 1.25),
+        (10.0, 1.5),
+        (12.0, 1.75),
+        (14.0, 2.0),
+        (16.0, 2.0),
+        (18.0, 2.5),
+        (20.0, 2.5),
+        (22.0, 2.5),
+        (24.0, 3.0),
+        (27.0, 3.0),
+        (30.0, 3.5),
+        (36.0, 4.0),
+        (48.0, 5.0),
+    ];
+    let found = PITCHES.iter().find(|(known, _)| *known == size);
+    found.map(|(_, pitch)| *pitch)
 }
 
 /// The depths of the strokes, from the reference plane: each stroke is shorter by `less` than the one

@@ -39,6 +39,7 @@ impl Interpreter<'_> {
         words: &BlockWords,
         block: Span,
     ) -> Result<BlockEnd, Box<Diagnostic>> {
+        let mut words = words.clone();
         for noted in &words.noted {
             self.control.note(&noted.value, noted.span);
         }
@@ -47,7 +48,9 @@ impl Interpreter<'_> {
             ..OneShot::default()
         };
         let compensated = self.control.modal.compensation != Compensation::Off;
-        self.g_functions(words, &mut once)?;
+        self.g_functions(&words, &mut once)?;
+        self.resolve_axes(&mut words)?;
+        let words = &words;
         if let Some(span) = once.dwell {
             self.control.apply_states(compensated);
             self.dwell(words, span)?;
@@ -56,9 +59,7 @@ impl Interpreter<'_> {
         if let Some(feed) = words.feed {
             self.control.feed(feed)?;
         }
-        if let Some(speed) = words.speed {
-            self.control.speed(speed)?;
-        }
+        self.spindle_words(words)?;
         if let (Some(at), Some(tool)) = (words.tool, &words.tool_word) {
             match tool {
                 ToolWord::Number(number) => self.control.tool(*number, at.span)?,
@@ -77,7 +78,9 @@ impl Interpreter<'_> {
                 .continuous_path(Some(tolerance.value), tolerance.span)?;
         }
         self.control.apply_states(compensated);
-        self.motion(words, &once, block)?;
+        if !self.spindle_motion(words, block)? {
+            self.motion(words, &once, block)?;
+        }
         self.stops(words);
         Ok(match end {
             Some(span) => BlockEnd::Ends(span),
@@ -132,6 +135,7 @@ impl Interpreter<'_> {
                     self.control.tool_change(span, true)?;
                     self.tool = self.selected;
                 }
+                19 => self.control.actions.push(Action::Orient(0.0)),
                 40..=45 => self.control.note(&format!("M{value}"), span),
                 _ if self.control.switch(value) => {}
                 _ => self.control.other_m(value, span)?,

@@ -2,15 +2,19 @@
 
 use super::interpreter::{Interpreter, Next};
 use super::routine::Routine;
-use super::syntax::{Assignment, Direction, Flow, Jump, Statement};
+use super::syntax::{Assignment, Direction, Flow, Jump, RepeatPart, Statement, Target};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Expression, ExpressionKind, Value};
+use std::rc::Rc;
+
+/// How often a part can be repeated by one statement.
+const MOST_REPEATS: u32 = 9999;
 
 impl Interpreter<'_> {
     pub(super) fn flow(
         &mut self,
         flow: &Flow,
-        routine: &Routine,
+        routine: &Rc<Routine>,
         at: usize,
     ) -> Result<Next, Box<Diagnostic>> {
         // A missing partner has been reported when the file was read.
@@ -40,6 +44,7 @@ impl Interpreter<'_> {
                 false => next,
             },
             Flow::Jump(jump) => self.jump(jump, routine, at)?,
+            Flow::RepeatPart(part) => self.repeat(part, routine, at)?,
             Flow::Case(value, cases, default) => {
                 let value = value.evaluate(&self.variables)?;
                 for (constant, jump) in cases {
@@ -58,9 +63,80 @@ impl Interpreter<'_> {
     /// Index of the block after the partner; for flow without partner, any.
     fn after_partner(&self, flow: &Flow, routine: &Routine, at: usize) -> Option<usize> {
         match flow {
-            Flow::JumpIf(..) | Flow::Jump(_) | Flow::Case(..) => Some(0),
+            Flow::JumpIf(..) | Flow::Jump(_) | Flow::Case(..) | Flow::RepeatPart(_) => Some(0),
             _ => routine.structure.partner(at).map(|partner| partner + 1),
         }
+    }
+
+    /// Runs a part of the program again.
+    fn repeat(
+        &mut self,
+        part: &RepeatPart,
+        routine: &Rc<Routine>,
+        at: usize,
+    ) -> Result<Next, Box<Diagnostic>> {
+        if self.repeats.contains(&part.span) {
+            return Err(Box::new(
+                Diagnostic::error(
+                    part.span,
+                    "this repetition is among the blocks that it repeats",
+                )
+                .help("let the part end before it"),
+            ));
+        }
+        let missing = |what: &str| {
+            Box::new(
+                Diagnostic::error(part.span, format!("there is no {what} for this repetition"))
+                    .help("labels are written NAME: at the beginning of a block"),
+            )
+        };
+        // The label nearest before the statement, else the first one behind it.
+        let nearest = |target: &Target| {
+            let targets = routine.targets(target);
+            let before = targets.partition_point(|place| *place < at);
+            let before = before.checked_sub(1).and_then(|last| targets.get(last));
+            before.or(targets.first()).copied()
+        };
+        let first = nearest(&part.first).ok_or_else(|| missing("label"))?;
+        let end_label = Target::Label("ENDLABEL".to_string());
+        let end = match &part.last {
+            _ if part.one_block => first + 1,
+            Some(last) => {
+                let places = routine.targets(last).iter();
+                let last = places.copied().find(|last| *last >= first);
+                last.ok_or_else(|| missing("last label"))? + 1
+            }
+            None => {
+                let mut ends = routine.targets(&end_label).iter().copied();
+                let end = ends.find(|end| *end > first && (*end < at || first > at));
+                match end {
+                    Some(end) => end,
+                    None if first < at => at,
+                    None => return Err(missing("ENDLABEL")),
+                }
+            }
+        };
+        let times = match &part.times {
+            Some(times) => times.whole(&self.variables, 0)?,
+            None => 1,
+        };
+        if times > MOST_REPEATS {
+            let message = format!("{times} repetitions are more than the control allows");
+            return Err(Box::new(Diagnostic::error(part.span, message)));
+        }
+        self.repeats.push(part.span);
+        let mut next = Next::Block(end);
+        for _ in 0..times {
+            next = self.run_range(routine, first..end);
+            if !matches!(next, Next::Block(_)) {
+                break;
+            }
+        }
+        self.repeats.pop();
+        Ok(match next {
+            Next::Block(_) => Next::Block(at + 1),
+            other => other,
+        })
     }
 
     fn holds(&self, condition: &Expression) -> Result<bool, Box<Diagnostic>> {

@@ -4,7 +4,7 @@ use super::cursor::Parsed;
 use super::expressions::{arguments, expression};
 use super::parser::BlockParser;
 use super::syntax::{
-    Definition, Direction, Flow, Jump, Parameter, Statement, Target, VariableKind,
+    Definition, Direction, Flow, Jump, Parameter, RepeatPart, Statement, Target, VariableKind,
 };
 use super::token::{Symbol, TokenKind};
 use super::words;
@@ -40,13 +40,14 @@ pub(super) fn flow(parser: &mut BlockParser, name: &str) -> Parsed<Option<Statem
         "ENDLOOP" => keyword(parser, Flow::EndLoop),
         "REPEAT" => {
             parser.cursor.advance();
-            if !parser.cursor.is_at_end() {
-                return Err(parser.error_with_help(
-                    "repeating a part between labels is not supported",
-                    "put the part in a subprogram and call it with P, or use FOR .. ENDFOR",
-                ));
+            match parser.cursor.is_at_end() {
+                true => Flow::Repeat,
+                false => Flow::RepeatPart(repeat_part(parser, false)?),
             }
-            Flow::Repeat
+        }
+        "REPEATB" => {
+            parser.cursor.advance();
+            Flow::RepeatPart(repeat_part(parser, true)?)
         }
         "UNTIL" => {
             parser.cursor.advance();
@@ -83,9 +84,40 @@ fn direction(parser: &mut BlockParser) -> Option<Direction> {
     Some(direction)
 }
 
+/// The labels and `P=2` of REPEAT and REPEATB.
+fn repeat_part(parser: &mut BlockParser, one_block: bool) -> Parsed<RepeatPart> {
+    let start = parser.cursor.span();
+    let first = target(parser)?;
+    let has_last = !one_block
+        && !parser.cursor.is_at_end()
+        && !matches!(parser.cursor.peek(), Some(TokenKind::Letter('P')));
+    let last = match has_last {
+        true => Some(target(parser)?),
+        false => None,
+    };
+    let span = start.to(parser.cursor.last_span());
+    Ok(RepeatPart {
+        first,
+        last,
+        one_block,
+        times: parser.passes()?,
+        span,
+    })
+}
+
 fn jump(parser: &mut BlockParser, direction: Direction) -> Parsed<Jump> {
     let start = parser.cursor.span();
-    let target = match parser.cursor.peek() {
+    let target = target(parser)?;
+    Ok(Jump {
+        direction,
+        target,
+        span: start.to(parser.cursor.last_span()),
+    })
+}
+
+/// A label or a block number.
+fn target(parser: &mut BlockParser) -> Parsed<Target> {
+    Ok(match parser.cursor.peek() {
         Some(TokenKind::Name(label)) => {
             parser.cursor.advance();
             Target::Label(label.clone())
@@ -100,15 +132,10 @@ fn jump(parser: &mut BlockParser, direction: Direction) -> Parsed<Jump> {
         }
         _ => {
             return Err(parser.error_with_help(
-                "the target of the jump is missing",
+                "the label is missing here",
                 "name a label or a block number: GOTOF END_OF_PART, GOTOB N100",
             ));
         }
-    };
-    Ok(Jump {
-        direction,
-        target,
-        span: start.to(parser.cursor.last_span()),
     })
 }
 

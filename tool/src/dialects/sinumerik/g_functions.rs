@@ -40,6 +40,9 @@ impl Interpreter<'_> {
                 });
                 1
             }
+            // They move by themselves, the others of the group go on behind them.
+            330 | 630 | 3310 | 3320 => 1,
+            960 | 970 => 15,
             40 => {
                 once.dwell = Some(span);
                 2
@@ -171,8 +174,8 @@ fn shown(tenfold: u32) -> String {
 
 fn unsupported_g(code: u32, span: Span) -> Box<Diagnostic> {
     let reason = match code {
-        330 | 340 | 350 | 3310 | 3320 => "threads and rigid tapping are not supported",
-        960 | 970 => "constant cutting speed is not supported",
+        340 | 350 => "threads whose pitch changes are not supported",
+        961 | 962 | 971 | 9610 | 9620 | 9710 | 9720 | 9730 => "write G96 or G97",
         580 | 590 => "programmable axis offsets are not supported",
         200 | 210 => "inch and millimetre are G70 and G71 in this dialect",
         _ => {

@@ -7,17 +7,21 @@ use super::frame_commands::frame_command;
 use super::polar::Pole;
 use super::procedures::ModalCall;
 use super::routine::Routine;
+use super::spindle::{Diameter, Tapping};
 use super::syntax::{Assignment, Block, Definition, Statement, Word};
 use super::variables::VariableStore;
-use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::diagnostics::Diagnostic;
 use crate::dialects::control::offset_free::OffsetFree;
-use crate::dialects::control::{Control, Place};
+use crate::dialects::control::plain::PlainBlock;
+use crate::dialects::control::{About, Control, Place};
 use crate::dialects::expression::{Expression, text};
 use crate::dialects::library::Library;
+use crate::dialects::run::Interpret;
 use crate::dialects::settings::Settings;
 use crate::program::frame::FrameOperation;
-use crate::program::{Action, FrameScope, Program};
-use crate::source::Sources;
+use crate::program::{Action, FrameScope};
+use crate::source::Span;
+use std::ops::Range;
 use std::rc::Rc;
 
 /// Where the flow goes after a block.
@@ -48,6 +52,16 @@ pub struct Interpreter<'a> {
     /// The frame of CYCLE800, in which that of TRANS and its like acts.
     pub(super) swivelled: Vec<FrameOperation>,
     pub(super) modal_call: Option<ModalCall>,
+    /// The REPEAT statements that are running.
+    pub(super) repeats: Vec<Span>,
+    /// G331, until its G332.
+    pub(super) tapping: Option<Tapping>,
+    /// DIAMON and DIAM90.
+    pub(super) diameter: Diameter,
+    /// LIMS: the most that G96 turns the spindle.
+    pub(super) most_speed: Option<f64>,
+    /// G96.
+    pub(super) surface_speed: bool,
 }
 
 impl<'a> Interpreter<'a> {
@@ -55,10 +69,9 @@ impl<'a> Interpreter<'a> {
     pub fn new(
         settings: &'a Settings,
         library: Library<Routine>,
-        sources: &'a mut Sources,
-        diagnostics: &'a mut Diagnostics,
+        about: About<'a>,
     ) -> Interpreter<'a> {
-        let mut control = Control::new(settings, sources, diagnostics, FrameScope::Machine);
+        let mut control = Control::new(settings, about, FrameScope::Machine);
         control.modal.follows_setting = true;
         Interpreter {
             control,
@@ -72,34 +85,52 @@ impl<'a> Interpreter<'a> {
             offset_free: OffsetFree::default(),
             swivelled: Vec::new(),
             modal_call: None,
+            repeats: Vec::new(),
+            tapping: None,
+            diameter: Diameter::default(),
+            most_speed: None,
+            surface_speed: false,
         }
     }
 
-    /// Runs the main program.
-    pub fn run(mut self) -> Program {
-        if let Some(main) = self.library.main() {
-            self.control.begin_main(&main.name);
-            self.run_routine(&main);
-        }
-        self.control.into_program()
-    }
-
-    /// Runs a program or subprogram; `false` when nothing can follow it.
+    /// Runs a subprogram; `false` when nothing can follow it.
     pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> bool {
-        let blocks = &routine.section.blocks;
-        let mut at = 0;
+        let next = self.run_blocks(routine);
+        if let Next::Block(_) = next {
+            self.end_is_missing(routine);
+        }
+        !matches!(next, Next::Abort)
+    }
+
+    /// Runs blocks up to the last one, or to one that leads elsewhere.
+    fn run_blocks(&mut self, routine: &Rc<Routine>) -> Next {
+        self.run_range(routine, 0..routine.section.blocks.len())
+    }
+
+    /// The same of a part of the blocks, which no jump may leave.
+    pub(super) fn run_range(&mut self, routine: &Rc<Routine>, range: Range<usize>) -> Next {
+        let blocks = &routine.section.blocks[..range.end];
+        let mut at = range.start;
         while let Some(block) = blocks.get(at) {
             if !self.control.count_block(block.span) {
-                return false;
+                return Next::Abort;
             }
             match self.run_block(routine, at, block) {
+                Next::Block(next) if next < range.start || next > range.end => {
+                    self.control.fail(
+                        Diagnostic::error(
+                            block.span,
+                            "this jump leaves the blocks that are repeated",
+                        )
+                        .help("let the repetition end before the jump"),
+                    );
+                    return Next::Abort;
+                }
                 Next::Block(next) => at = next,
-                Next::Return => return true,
-                Next::Abort => return false,
+                other => return other,
             }
         }
-        self.end_is_missing(routine);
-        true
+        Next::Block(at)
     }
 
     fn end_is_missing(&mut self, routine: &Rc<Routine>) {
@@ -143,6 +174,10 @@ impl<'a> Interpreter<'a> {
             Statement::Define(list) => self.define(list).map(|()| Next::Block(at + 1)),
             Statement::Message(message) => {
                 self.message(message.as_ref()).map(|()| Next::Block(at + 1))
+            }
+            Statement::Alarm(values, span) => {
+                self.control.diagnostics.push(self.alarm(values, *span));
+                return Next::Abort;
             }
             // It was read when the subprogram was called.
             Statement::Procedure(_) => Ok(Next::Block(at + 1)),
@@ -239,6 +274,21 @@ impl<'a> Interpreter<'a> {
         Ok(())
     }
 
+    /// What SETAL says.
+    fn alarm(&self, values: &[Expression], span: Span) -> Diagnostic {
+        let shown: Vec<String> = values
+            .iter()
+            .filter_map(|value| value.evaluate(&self.variables).ok())
+            .map(|value| text(&value))
+            .collect();
+        let message = format!(
+            "the program stops itself here with alarm {}",
+            shown.join(": ")
+        );
+        Diagnostic::error(span, message)
+            .help("the values that lead here are in the program or were given with --set")
+    }
+
     pub(super) fn assign(&mut self, list: &[Assignment]) -> Result<(), Box<Diagnostic>> {
         for assignment in list {
             let index: Result<Vec<f64>, _> = assignment
@@ -273,6 +323,35 @@ impl<'a> Interpreter<'a> {
             )?;
         }
         Ok(())
+    }
+}
+
+impl<'a> Interpret<'a> for Interpreter<'a> {
+    type Routine = Routine;
+
+    fn control(&mut self) -> &mut Control<'a> {
+        &mut self.control
+    }
+
+    fn library(&self) -> &Library<Routine> {
+        &self.library
+    }
+
+    fn run_main(&mut self, main: &Rc<Routine>) -> bool {
+        matches!(self.run_blocks(main), Next::Block(_))
+    }
+
+    fn end_is_missing(&mut self, last: &Rc<Routine>) {
+        Interpreter::end_is_missing(self, last);
+    }
+
+    fn takes(&self, _: &PlainBlock) -> bool {
+        self.arc_form.is_none()
+            && self.rounding.is_none()
+            && self.modal_call.is_none()
+            && self.tapping.is_none()
+            && self.diameter == Diameter::default()
+            && !self.offset_free.active
     }
 }
 

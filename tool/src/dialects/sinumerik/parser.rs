@@ -10,10 +10,10 @@ use super::word_parser::unknown_word;
 use super::words;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::expression::{Expression, ExpressionKind};
-use crate::source::{SourceFile, Span};
+use crate::source::{Span, Text};
 
 /// The sections of a file. A file without archive lines is one section without a name.
-pub fn parse(file: &SourceFile, tokens: &[Token], diagnostics: &mut Diagnostics) -> Vec<Section> {
+pub fn parse(text: Text, tokens: &[Token], diagnostics: &mut Diagnostics) -> Vec<Section> {
     let mut sections = vec![Section {
         name: String::new(),
         main: true,
@@ -35,7 +35,7 @@ pub fn parse(file: &SourceFile, tokens: &[Token], diagnostics: &mut Diagnostics)
             });
         } else if let (Some(section), Some(block)) = (
             sections.last_mut(),
-            parse_block(file, tokens, end.span, diagnostics),
+            parse_block(text, tokens, end.span, diagnostics),
         ) {
             section.blocks.push(block);
         }
@@ -51,7 +51,7 @@ pub fn parse(file: &SourceFile, tokens: &[Token], diagnostics: &mut Diagnostics)
 }
 
 fn parse_block(
-    file: &SourceFile,
+    text: Text,
     tokens: &[Token],
     end: Span,
     diagnostics: &mut Diagnostics,
@@ -84,7 +84,7 @@ fn parse_block(
                 ..last
             },
         ),
-        text: &file.text,
+        text,
     };
     if tokens.iter().any(|token| token.kind == TokenKind::Invalid) {
         block.statement = Statement::Invalid;
@@ -101,7 +101,7 @@ fn parse_block(
 /// Parses one block.
 pub(super) struct BlockParser<'a> {
     pub(super) cursor: Cursor<'a>,
-    text: &'a str,
+    text: Text<'a>,
 }
 
 impl BlockParser<'_> {
@@ -185,6 +185,15 @@ impl BlockParser<'_> {
         }
         if name == "CALL" {
             return self.call_by_text().map(Some);
+        }
+        if name == "SETAL" {
+            self.cursor.advance();
+            self.cursor.expect(Symbol::Open, "(")?;
+            let list = arguments(&mut self.cursor, Symbol::Close, ")")?;
+            return Ok(Some(Statement::Alarm(
+                list.into_iter().flatten().collect(),
+                keyword,
+            )));
         }
         if name == "RET" {
             self.cursor.advance();
@@ -294,10 +303,7 @@ impl BlockParser<'_> {
         }
         self.cursor.whole("the number of a subprogram")?;
         let span = start.to(self.cursor.last_span());
-        let digits = self
-            .text
-            .get(self.cursor.last_span().start..span.end)
-            .unwrap_or("");
+        let digits = self.text.slice(self.cursor.last_span().start..span.end);
         let passes = self.passes()?;
         Ok(Statement::Call(Call {
             name: format!("L{digits}"),
@@ -331,7 +337,7 @@ impl BlockParser<'_> {
         }))
     }
 
-    fn passes(&mut self) -> Parsed<Option<Expression>> {
+    pub(super) fn passes(&mut self) -> Parsed<Option<Expression>> {
         if !self.cursor.take_letter('P') {
             return Ok(None);
         }

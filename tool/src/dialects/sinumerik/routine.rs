@@ -6,7 +6,7 @@ use super::structure::Structure;
 use super::syntax::{Section, Statement, Target};
 use crate::diagnostics::Diagnostics;
 use crate::dialects::library;
-use crate::source::{Sources, Span};
+use crate::source::{Sources, Span, Text};
 use std::collections::HashMap;
 
 /// Endings of subprogram files; a subprogram file comes before a main program of the same name.
@@ -61,21 +61,20 @@ impl Routine {
 
 /// The routines of a file.
 pub fn routines(
-    file: usize,
+    text: Text,
     stem: &str,
-    sources: &Sources,
+    _: &Sources,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Routine> {
-    let source = sources.file(file);
-    let tokens = tokens(file, &source.text, diagnostics);
-    let sections = parse(source, &tokens, diagnostics);
+    let tokens = tokens(text, diagnostics);
+    let sections = parse(text, &tokens, diagnostics);
     let routine = |section: Section| {
         let name = match section.name.is_empty() {
             true => stem.to_string(),
             false => section.name.clone(),
         };
         let structure = Structure::of(&section, diagnostics);
-        Routine::new(name, file, section, structure)
+        Routine::new(name, text.file, section, structure)
     };
     sections.into_iter().map(routine).collect()
 }

@@ -38,7 +38,9 @@ impl Structure {
                 Flow::EndLoop => (None, Some("ENDLOOP")),
                 Flow::Repeat => (Some("UNTIL"), None),
                 Flow::Until(_) => (None, Some("UNTIL")),
-                Flow::JumpIf(..) | Flow::Jump(_) | Flow::Case(..) => (None, None),
+                Flow::JumpIf(..) | Flow::Jump(_) | Flow::Case(..) | Flow::RepeatPart(_) => {
+                    (None, None)
+                }
             };
             if let Some(end) = ends {
                 match open.pop() {

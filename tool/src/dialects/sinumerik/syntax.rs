@@ -59,6 +59,8 @@ pub enum Statement {
     Procedure(Vec<Parameter>),
     /// `MSG("text")`; without a text, `MSG()` clears.
     Message(Option<Expression>),
+    /// `SETAL(65000, "text")`: the program stops itself. Where the word stands.
+    Alarm(Vec<Expression>, Span),
     /// `STOPRE` and others that are part of the flow but need no evaluation ahead of time.
     Nothing,
     /// A command that does not change the part.
@@ -105,8 +107,21 @@ pub enum WordValue {
     Absolute(Expression),
     /// `IC(..)`.
     Incremental(Expression),
+    /// `DC(..)`, `ACP(..)`, `ACN(..)`: to an angle by a way.
+    Angle(Way, Expression),
     /// A word that is its own meaning: `SUPA`.
     None,
+}
+
+/// Which way a rotary axis turns to an angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// DC: the shorter one.
+    Shorter,
+    /// ACP: the positive one.
+    Positive,
+    /// ACN: the negative one.
+    Negative,
 }
 
 /// `R1 = ..`, `NAME[2] = ..`.
@@ -199,10 +214,28 @@ pub enum Flow {
     Repeat,
     /// `UNTIL condition`.
     Until(Expression),
+    /// `REPEAT FIRST LAST P=2`, `REPEATB BLOCK P=2`.
+    RepeatPart(RepeatPart),
     /// `GOTOF`, `GOTOB`, `GOTO`, `GOTOC`.
     Jump(Jump),
     /// `CASE value OF constant GOTOF .. DEFAULT GOTOF ..`.
     Case(Expression, Vec<(Expression, Jump)>, Option<Jump>),
+}
+
+/// A part of the program that is run again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RepeatPart {
+    /// The label of its first block.
+    pub first: Target,
+    /// The label of its last block. Without one: the block before ENDLABEL or before the statement, or
+    /// with `one_block` the first itself.
+    pub last: Option<Target>,
+    /// REPEATB.
+    pub one_block: bool,
+    /// How often; once if it is left out.
+    pub times: Option<Expression>,
+    /// Where the labels stand.
+    pub span: Span,
 }
 
 /// Where to go on.

@@ -3,7 +3,7 @@
 use super::cursor::Parsed;
 use super::expressions::expression;
 use super::parser::BlockParser;
-use super::syntax::{Word, WordValue};
+use super::syntax::{Way, Word, WordValue};
 use super::token::{Symbol, TokenKind};
 use super::words;
 use crate::diagnostics::Diagnostic;
@@ -111,10 +111,16 @@ impl BlockParser<'_> {
                     });
                 }
                 "DC" | "ACP" | "ACN" => {
-                    return Err(self.error_with_help(
-                        &format!("{name}(..) is not supported"),
-                        "write the angle of the rotary axis with AC(..) or IC(..)",
-                    ));
+                    let way = match name.as_str() {
+                        "DC" => Way::Shorter,
+                        "ACP" => Way::Positive,
+                        _ => Way::Negative,
+                    };
+                    self.cursor.advance();
+                    self.cursor.advance();
+                    let angle = expression(&mut self.cursor)?;
+                    self.cursor.expect(Symbol::Close, ")")?;
+                    return Ok(WordValue::Angle(way, angle));
                 }
                 _ => {}
             }

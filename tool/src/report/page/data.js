@@ -13,7 +13,7 @@ function decode(text, Kind) {
 
 const path = {};
 for (const name of ["time", "x", "y", "z", "speed"]) path[name] = decode(data.path[name], Float32Array);
-for (const name of ["line", "source"]) path[name] = decode(data.path[name], Int32Array);
+for (const name of ["line", "source", "cause"]) path[name] = decode(data.path[name] ?? "", Int32Array);
 const programmed = {};
 for (const name of ["x", "y", "z"]) programmed[name] = decode(data.programmed[name], Float32Array);
 programmed.rapid = decode(data.programmed.rapid, Int32Array);
@@ -41,6 +41,10 @@ function speedColours() {
 function speedStep(speed) {
   return Math.max(0, Math.min(SPEED_STEPS - 1, Math.floor((speed / greatestSpeed) * SPEED_STEPS)));
 }
+
+// How the path is coloured: a list of colours, and the colour of the stroke that ends at a point. The first colours are
+// drawn on top.
+const colouring = { colours: speedColours, step: (i) => speedStep((path.speed[i - 1] + path.speed[i]) / 2) };
 
 // At most `digits` significant digits, thin groups of thousands, a real minus sign.
 function number(value, digits = 5) {

@@ -1,7 +1,5 @@
 // Puts the page together and links the cursor of all drawings.
 
-const byId = (id) => document.getElementById(id);
-
 function fillHeader() {
   const period = number(report.servo_period * 1e3, 4);
   const parts = [report.machine, data.recording, `${number(report.rows, 9)} servo cycles of ${period} ms`];
@@ -69,19 +67,6 @@ function fillLegend() {
   if (programmed.x.length === 0) return;
   byId("legend").append(element("span", "key", "programmed path"));
   if (programmed.rapid.includes(1)) byId("legend").append(element("span", "key rapid", "programmed, rapid"));
-}
-
-// A table; a cell is text, or an element; `numbers` lists the columns that are numbers, and
-// `group` is how many rows belong together (0: each stands for itself).
-function table(headings, rows, numbers, group = 0) {
-  const row = (cells, kind, className) => element("tr", className, ...cells.map((cell, i) => {
-    const made = element(kind, numbers.includes(i) ? "number" : "", cell);
-    if (cell instanceof Element && cell.classList.contains("bar")) made.className = "wide";
-    return made;
-  }));
-  const place = (i) => (i % group === 0 ? "first" : i % group === group - 1 ? "last" : "");
-  const body = rows.map((cells, i) => row(cells, "td", group ? place(i) : ""));
-  return element("table", group ? "grouped" : "", element("thead", "", row(headings, "th", "")), element("tbody", "", ...body));
 }
 
 const JUDGEMENT = { within: ["within", "pass"], over: ["OVER", "fail"], unresolved: ["too few decimals", "incomplete"], not_limited: ["not limited", "quiet"] };
@@ -197,7 +182,12 @@ function redraw() {
 }
 const plan = makePlan(byId("plan"), setTime);
 const space = makeSpace(byId("space"), setTime);
-drawings = [plan, space, ...makeProfiles(byId("profiles"), setTime, (from, to) => {
+const columns = memberColumns(report.joints, data.profiles.joints);
+if (data.profiles.distance) {
+  const curves = [distanceCurve(data.profiles.distance, report.path.tolerance)];
+  columns.push({ letter: "Path", name: "distance from the programmed path", curves });
+}
+drawings = [plan, space, ...makeProfiles(byId("profiles"), columns, setTime, (from, to) => {
   span.from = from;
   span.to = to;
   redraw();

@@ -163,41 +163,43 @@ function makeProfile(holder, series, onTime, onSpan) {
   return { draw, show };
 }
 
-// All curves of all joints, one column for each joint.
-function makeProfiles(parent, onTime, onSpan) {
+// All curves, one column for each joint, axis or path: { letter, name, curves: [{ title, unit, limit, .. }] }.
+function makeProfiles(parent, columns, onTime, onSpan) {
   const profiles = [];
-  const add = (column, title, series) => {
-    const output = element("output");
-    const holder = element("div", "canvas profile" + (series.last ? " last" : ""));
-    column.append(element("div", "profile-title", element("span", "", title), output), holder);
-    profiles.push(makeProfile(holder, { ...series, output }, onTime, onSpan));
-  };
-  report.joints.forEach((joint, j) => {
-    const column = element("div", "joint");
-    const heading = element("h3", "", joint.letter + " ", element("span", "quiet", joint.name));
-    column.append(heading);
+  for (const { letter, name, curves } of columns) {
+    const column = element("div", "joint", element("h3", "", letter + " ", element("span", "quiet", name)));
     parent.append(column);
-    joint.peaks.forEach((peak, q) => {
-      const rate = rateUnit(joint.unit, peak.quantity);
-      const limit = peak.limit === null ? "not limited" : `limit ${number(peak.limit, 6)}`;
-      add(column, `${peak.quantity} (${rate}), ${limit}`, {
-        ...data.profiles.joints[j][q], limit: peak.limit, unit: rate, last: q === joint.peaks.length - 1,
-      });
-    });
-  });
-  if (data.profiles.distance) {
-    const column = element("div", "joint");
-    const tolerance = report.path.tolerance;
-    const heading = element("h3", "", "Path ", element("span", "quiet", "distance from the programmed path"));
-    column.append(heading);
-    parent.append(column);
-    const factor = data.profiles.distance_factor;
-    const name = factor === 1000 ? "\u00b5m" : unit;
-    const limit = tolerance === null ? "" : `, tolerance ${number(tolerance * factor, 5)}`;
-    add(column, `distance (${name})${limit}`, {
-      ...data.profiles.distance, limit: tolerance === null ? null : tolerance * factor,
-      unit: name, last: true, oneSided: true,
+    curves.forEach((curve, q) => {
+      const last = q === curves.length - 1;
+      const output = element("output");
+      const holder = element("div", "canvas profile" + (last ? " last" : ""));
+      column.append(element("div", "profile-title", element("span", "", curve.title), output), holder);
+      profiles.push(makeProfile(holder, { ...curve, last, output }, onTime, onSpan));
     });
   }
   return profiles;
+}
+
+// Velocity, acceleration and jerk of joints or axes.
+function memberColumns(members, envelopes) {
+  return members.map((member, m) => ({
+    letter: member.letter,
+    name: member.name,
+    curves: member.peaks.map((peak, q) => {
+      const unit = rateUnit(member.unit, peak.quantity);
+      const limit = peak.limit === null ? "not limited" : `limit ${number(peak.limit, 6)}`;
+      return { ...envelopes[m][q], title: `${peak.quantity} (${unit}), ${limit}`, limit: peak.limit, unit };
+    }),
+  }));
+}
+
+// The distance from the programmed path; without a tolerance `null`.
+function distanceCurve(series, tolerance) {
+  const factor = data.profiles.distance_factor;
+  const name = factor === 1000 ? "\u00b5m" : unit;
+  const limit = tolerance === null ? "" : `, tolerance ${number(tolerance * factor, 5)}`;
+  return {
+    ...series, title: `distance (${name})${limit}`, limit: tolerance === null ? null : tolerance * factor,
+    unit: name, oneSided: true,
+  };
 }

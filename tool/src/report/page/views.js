@@ -16,8 +16,11 @@ for (const name of ["x", "y", "z"]) {
 const boxCentre = box.low.map((low, i) => (low + box.high[i]) / 2);
 const boxDiagonal = Math.hypot(...box.low.map((low, i) => box.high[i] - low)) || 1;
 
-// Draws the programmed path under the executed path; `project(x, y, z)` gives pixels.
-function drawPaths(context, project) {
+// Points that are drawn while a drawing is being turned or moved.
+const COARSE_POINTS = 12000;
+
+// Draws the programmed path under the executed path; `project(x, y, z)` gives pixels. `coarse` leaves out points.
+function drawPaths(context, project, coarse = false) {
   const stroke = (rapid, width, dash) => {
     context.strokeStyle = colour("programmed");
     context.lineWidth = width;
@@ -36,21 +39,25 @@ function drawPaths(context, project) {
   context.lineCap = "round";
   stroke(false, 5, []);
 
-  const colours = speedColours();
-  context.lineWidth = 2;
-  let step = -1;
-  for (let i = 1; i < path.x.length; i++) {
-    const next = speedStep((path.speed[i - 1] + path.speed[i]) / 2);
-    if (next !== step) {
-      if (step >= 0) context.stroke();
-      context.strokeStyle = colours[next];
-      context.beginPath();
-      context.moveTo(...project(path.x[i - 1], path.y[i - 1], path.z[i - 1]));
-      step = next;
+  // Each colour in one go, the slow ones on top.
+  const colours = colouring.colours();
+  const strokes = colours.map(() => []);
+  const stride = coarse ? Math.max(1, Math.ceil(path.x.length / COARSE_POINTS)) : 1;
+  for (let i = stride; i < path.x.length; i += stride) strokes[colouring.step(i)].push(i);
+  // Thin where there is much to see.
+  context.lineWidth = path.x.length > 20000 ? 1.2 : 2;
+  for (let step = colours.length - 1; step >= 0; step--) {
+    context.strokeStyle = colours[step];
+    context.beginPath();
+    let last = -1;
+    for (const i of strokes[step]) {
+      const from = i - stride;
+      if (from !== last) context.moveTo(...project(path.x[from], path.y[from], path.z[from]));
+      context.lineTo(...project(path.x[i], path.y[i], path.z[i]));
+      last = i;
     }
-    context.lineTo(...project(path.x[i], path.y[i], path.z[i]));
+    context.stroke();
   }
-  if (step >= 0) context.stroke();
 }
 
 function drawDot(context, [x, y]) {
@@ -84,6 +91,14 @@ function timeAt(project, pixelX, pixelY) {
   return time;
 }
 
+// Draws coarsely now and finely when the pointer rests.
+const waiting = new Map();
+function draft(draw) {
+  draw(true);
+  clearTimeout(waiting.get(draw));
+  waiting.set(draw, setTimeout(draw, 150));
+}
+
 function makePlan(holder, onPoint) {
   const canvases = layers(holder);
   const margin = { left: 62, right: 18, top: 16, bottom: 44 };
@@ -107,7 +122,7 @@ function makePlan(holder, onPoint) {
     return [mx + (x - centre[0]) * scale(), my - (y - centre[1]) * scale()];
   };
 
-  function draw() {
+  function draw(coarse = false) {
     const { context, width, height } = canvases.base();
     size = { width, height };
     const s = scale();
@@ -154,7 +169,7 @@ function makePlan(holder, onPoint) {
     context.beginPath();
     context.rect(margin.left, margin.top, right - margin.left, bottom - margin.top);
     context.clip();
-    drawPaths(context, project);
+    drawPaths(context, project, coarse);
     context.restore();
     show(cursor);
   }
@@ -175,7 +190,7 @@ function makePlan(holder, onPoint) {
       const s = scale();
       centre = [centre[0] - (event.offsetX - drag[0]) / s, centre[1] + (event.offsetY - drag[1]) / s];
       drag = [event.offsetX, event.offsetY];
-      draw();
+      draft(draw);
     } else {
       onPoint(timeAt(project, event.offsetX, event.offsetY));
     }
@@ -200,6 +215,8 @@ function makeSpace(holder, onPoint) {
   // Seen from the front right and above, as most people stand at a mill.
   let turn = -0.6;
   let tilt = 0.55;
+  let zoom = 1;
+  let shift = [0, 0];
   let size = { width: 1, height: 1 };
   let cursor = null;
 
@@ -208,7 +225,7 @@ function makeSpace(holder, onPoint) {
     const [dx, dy, dz] = box.low.map((low, i) => box.high[i] - low);
     const flat = Math.hypot(dx, dy);
     const tall = Math.cos(tilt) * dz + Math.sin(tilt) * flat;
-    return Math.min((0.88 * size.width) / (flat || boxDiagonal), (0.74 * size.height) / (tall || boxDiagonal));
+    return zoom * Math.min((0.88 * size.width) / (flat || boxDiagonal), (0.74 * size.height) / (tall || boxDiagonal));
   };
   const project = (x, y, z) => {
     const s = spaceScale();
@@ -216,10 +233,10 @@ function makeSpace(holder, onPoint) {
     const across = Math.cos(turn) * dx - Math.sin(turn) * dy;
     const deep = Math.sin(turn) * dx + Math.cos(turn) * dy;
     const up = Math.cos(tilt) * dz + Math.sin(tilt) * deep;
-    return [size.width / 2 + across * s, size.height / 2 - up * s];
+    return [size.width / 2 + shift[0] + across * s, size.height / 2 + shift[1] - up * s];
   };
 
-  function draw() {
+  function draw(coarse = false) {
     const { context, width, height } = canvases.base();
     size = { width, height };
     const corner = (bits) => box.low.map((low, i) => (bits & (1 << i) ? box.high[i] : low));
@@ -234,7 +251,7 @@ function makeSpace(holder, onPoint) {
       }
     }
     context.stroke();
-    drawPaths(context, project);
+    drawPaths(context, project, coarse);
 
     // The three axes as a small cross of their own, where it is never in the way of the path.
     const origin = [46, height - 46];
@@ -271,7 +288,17 @@ function makeSpace(holder, onPoint) {
   function rotate(dx, dy) {
     turn += dx * 0.01;
     tilt = Math.max(0, Math.min(Math.PI / 2, tilt + dy * 0.01));
-    draw();
+    draft(draw);
+  }
+
+  // About a point of the drawing; 0 shows all again.
+  function enlarge(factor, about = [size.width / 2, size.height / 2]) {
+    const next = factor ? Math.max(1, Math.min(1e4, zoom * factor)) : 1;
+    const ratio = next / zoom;
+    const middle = [size.width / 2, size.height / 2];
+    shift = next === 1 ? [0, 0] : shift.map((moved, i) => about[i] - middle[i] - ratio * (about[i] - middle[i] - moved));
+    zoom = next;
+    draft(draw);
   }
 
   let drag = null;
@@ -286,17 +313,30 @@ function makeSpace(holder, onPoint) {
   holder.addEventListener("pointercancel", () => (drag = null));
   holder.addEventListener("pointermove", (event) => {
     if (drag) {
-      rotate(event.clientX - drag[0], event.clientY - drag[1]);
+      const way = [event.clientX - drag[0], event.clientY - drag[1]];
+      if (event.shiftKey) {
+        shift = [shift[0] + way[0], shift[1] + way[1]];
+        draft(draw);
+      } else {
+        rotate(...way);
+      }
       drag = [event.clientX, event.clientY];
     } else {
       onPoint(timeAt(project, event.offsetX, event.offsetY));
     }
   });
+  holder.addEventListener("dblclick", (event) => enlarge(2.5, [event.offsetX, event.offsetY]));
+  // The wheel scrolls the page until the drawing was clicked on.
+  holder.addEventListener("wheel", (event) => {
+    if (document.activeElement !== holder) return;
+    event.preventDefault();
+    enlarge(Math.exp(-0.002 * event.deltaY), [event.offsetX, event.offsetY]);
+  }, { passive: false });
   holder.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: [-10, 0], ArrowRight: [10, 0], ArrowUp: [0, -10], ArrowDown: [0, 10] }[event.key];
     if (!step) return;
     event.preventDefault();
     rotate(...step);
   });
-  return { draw, show };
+  return { draw, show, enlarge };
 }

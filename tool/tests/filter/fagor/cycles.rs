@@ -125,3 +125,33 @@ M30
         .rapid([-8., 0., 2.]);
     check(program, &expected);
 }
+
+#[test]
+fn tapping_with_and_without_a_chuck_that_gives_way() {
+    let program = "G90 G94 G0 X0 Y0 Z20 S500 M3\nG98 G84 X10 Y0 Z2 I-8 K50 F500\nG80\n\
+                   G98 G84 X20 Y0 Z2 I-8 F500 R1\nG80\nM30\n";
+    let text = super::translate(program, &[]).join("\n");
+    let floating = "G0 Z2\nM49\nG1 Z-8\nG4 P0.5\nG1 Z2 M4\nM48\nG0 Z20 M3";
+    assert!(text.contains(floating), "{text}");
+    // The pitch is the feed over the speed.
+    assert!(
+        text.contains("G0 Z2\nM3\nG33.1 Z-8 K1\nM5\nG0 Z20 M3"),
+        "{text}"
+    );
+    let shown = super::errors("G0 X0 Y0 Z20 M3\nG84 X1 Z2 I-8 F100 R1\nM30\n", &[]);
+    assert!(
+        shown.contains("a rigid tap needs F in mm/min and S"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn threads_and_feeds_of_the_cutting_edge() {
+    let program = "G90 G0 X0 Y0 Z5 S300 M3\nG33 Z-20 L1.5\nG96 G1 X5 F100\nG97 X6\nM30\n";
+    let text = super::translate(program, &[]).join("\n");
+    assert!(text.contains("G33 Z-20 K1.5\n"), "{text}");
+    assert!(
+        text.contains("G96 keeps the feed of the cutting edge"),
+        "{text}"
+    );
+}

@@ -16,7 +16,10 @@ fn words() {
     one_error("G0 X\nM30\n", "1:4", "the value of X is missing");
     one_error("G0 X-\nM30\n", "1:6", "the value of X is missing");
     one_error("G0 X1 X2\nM30\n", "1:7", "X is in this block twice");
-    one_error("G0 L5\nM30\n", "1:4", "the address L is not supported");
+    one_error("G0 H5\nM30\n", "1:4", "the address H is not supported");
+    one_error("G0 X1 L5\nM30\n", "1:7", "L is the pitch of a thread");
+    one_error("G33 Z-5\nM30\n", "1:1", "a thread needs one of X, Y and Z");
+    one_error("G33 Z-5 L1\nM30\n", "1:1", "the spindle does not turn");
     one_error("G0 G1 X1\nM30\n", "1:4", "G0 and G1 exclude each other");
     one_error("M77\nM30\n", "1:1", "M77 is not defined");
     one_error("P1=5\nM30\n", "1:1", "without an address");
@@ -43,13 +46,10 @@ fn functions_that_mean_something_else_to_linuxcnc_or_nothing() {
         (59, "added to G54"),
         (52, "up to a stop"),
         (74, "reference search"),
-        (33, "threads"),
-        (84, "tapping"),
         (66, "pockets"),
         (87, "pockets"),
         (60, "multiple machining"),
         (77, "slaved"),
-        (96, "cutting speed"),
         (100, "is not supported"),
     ] {
         one_error(

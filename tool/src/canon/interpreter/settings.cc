@@ -1,0 +1,63 @@
+/* What an INI file says of the machine, as the caller hands it over: a text file with a setting on each line.
+ *
+ *   UNIT mm                      length of the machine's unit
+ *   START nine numbers           where the machine stands, mm and degrees
+ *   STARTUP code                 runs before the program ([RS274NGC]RS274NGC_STARTUP_CODE)
+ *   TABLE                        the tools that follow are all there are
+ *   TOOL number pocket offset(9) diameter front back orientation     machine units
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include "state.hh"
+
+Machine machine;
+
+static bool read_tool(std::istream &words)
+{
+    CANON_TOOL_TABLE tool = {};
+    EmcPose &o = tool.offset;
+    words >> tool.toolno >> tool.pocketno >> o.tran.x >> o.tran.y >> o.tran.z >> o.a >> o.b >> o.c >> o.u >> o.v >> o.w
+          >> tool.diameter >> tool.frontangle >> tool.backangle >> tool.orientation;
+    machine.tools.push_back(tool);
+    return !words.fail();
+}
+
+static bool read_setting(const std::string &line)
+{
+    std::istringstream words(line);
+    std::string name;
+    words >> name;
+    if (name == "UNIT") {
+        words >> machine.unit;
+        now.unit = machine.unit;
+        now.units = fabs(machine.unit - 25.4) < 1e-3 ? CANON_UNITS_INCHES : CANON_UNITS_MM;
+    } else if (name == "START") {
+        for (double &coordinate : now.here.at)
+            words >> coordinate;
+    } else if (name == "STARTUP") {
+        std::getline(words >> std::ws, machine.startup);
+    } else if (name == "TABLE") {
+        machine.has_table = true;
+        /* Behind the index 0 is what the spindle holds. */
+        machine.tools.assign(1, CANON_TOOL_TABLE{});
+        machine.tools[0].toolno = -1;
+    } else if (name == "TOOL") {
+        return read_tool(words);
+    } else {
+        return false;
+    }
+    return !words.fail();
+}
+
+bool read_settings(const char *file)
+{
+    std::ifstream input(file);
+    std::string line;
+    while (std::getline(input, line))
+        if (!read_setting(line))
+            return false;
+    return input.eof();
+}

@@ -1,0 +1,84 @@
+//! What the interpreter finds around it: INI file, numbered parameters, tools, position.
+
+use super::call::Position;
+use super::tool_table::Tool;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The machine as the interpreter sees it. The default is a machine in millimetres at zero that has
+/// no INI file, no parameters and every tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surroundings {
+    /// Absolute path of the INI file: the interpreter takes subroutines, remaps and others from it.
+    pub ini: Option<PathBuf>,
+    /// File of numbered parameters, which is copied. One that does not exist counts as empty, as
+    /// for LinuxCNC.
+    pub parameters: Option<PathBuf>,
+    /// Length of the machine's unit, mm.
+    pub unit: f64,
+    /// Where the machine stands.
+    pub start: Position,
+    /// Code that runs before the program, empty for none.
+    pub startup: String,
+    /// All tools there are; `None`: every number is a tool without length and radius.
+    pub tools: Option<Vec<Tool>>,
+}
+
+impl Default for Surroundings {
+    fn default() -> Self {
+        Surroundings {
+            ini: None,
+            parameters: None,
+            unit: 1.0,
+            start: [0.0; 9],
+            startup: String::new(),
+            tools: None,
+        }
+    }
+}
+
+impl Surroundings {
+    /// Writes what the interpreter program reads; an error comes with its file.
+    pub(super) fn write(
+        &self,
+        parameters: &Path,
+        settings: &Path,
+    ) -> Result<(), (PathBuf, io::Error)> {
+        let known = match &self.parameters {
+            Some(file) => match std::fs::read(file) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+                known => known.map_err(|error| (file.clone(), error))?,
+            },
+            None => Vec::new(),
+        };
+        std::fs::write(parameters, known).map_err(|error| (parameters.to_owned(), error))?;
+        std::fs::write(settings, self.text()).map_err(|error| (settings.to_owned(), error))
+    }
+
+    /// The settings as `interpreter/settings.cc` reads them.
+    fn text(&self) -> String {
+        let numbers = |numbers: &[f64]| -> String {
+            let words = numbers.iter().map(|number| format!(" {number:e}"));
+            words.collect()
+        };
+        let mut text = format!("UNIT {:e}\nSTART{}\n", self.unit, numbers(&self.start));
+        if !self.startup.trim().is_empty() {
+            text += &format!("STARTUP {}\n", self.startup.trim());
+        }
+        if let Some(tools) = &self.tools {
+            text += "TABLE\n";
+            for tool in tools {
+                let angles = [tool.diameter, tool.front_angle, tool.back_angle];
+                text += &format!(
+                    "TOOL {} {}{}{} {}\n",
+                    tool.number,
+                    tool.pocket,
+                    numbers(&tool.offset),
+                    numbers(&angles),
+                    tool.orientation
+                );
+            }
+        }
+        text
+    }
+}

@@ -1,0 +1,240 @@
+//! The least time on the path that a module executed.
+
+use super::job::Job;
+use super::kinematics::{moves, step};
+use super::program::{Operation, Piece, Program};
+use super::progress::Progress;
+use super::recording::{DONE, Recording, Sample, WAITING};
+use super::rests::{exact_stop_near, is_slow};
+use crate::optimum::{
+    AxisLimits, Boundary, ExecutedPath, Grid, PathSample, SpeedCap, corners, least_time, spacing,
+    topp_ra,
+};
+use serde::Serialize;
+use std::ops::Range;
+
+/// Less travel than this does not count, mm or degrees (LinuxCNC's own limit).
+const LEAST_TRAVEL: f64 = 1e-7;
+
+/// The optimum of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct LeastTime {
+    /// With the limits of velocity, acceleration and jerk, s.
+    pub time: f64,
+    /// Without the limit of jerk (TOPP-RA), s.
+    pub without_jerk_limit: f64,
+    /// From the first motion to the last move that is handed over, at the earliest, s: no planner ends
+    /// before it.
+    pub supply: f64,
+    /// Time of the module without what it waited for the program, s.
+    pub executed: f64,
+    /// Executed over the greater one of optimum and supply.
+    pub ratio: f64,
+    /// The ratio is to the supply.
+    pub limited_by_supply: bool,
+    /// Stretches between standstills that the program asks for.
+    pub stretches: usize,
+    /// Those of them for which there is no optimum: they count as they were run.
+    pub not_solved: usize,
+    /// The first reason for one.
+    pub problem: Option<String>,
+}
+
+impl LeastTime {
+    /// Measures a run that came to its end, between the samples `range`.
+    pub(crate) fn of(
+        recording: &Recording,
+        program: &Program,
+        job: &Job,
+        range: (usize, usize),
+        progress: &Progress,
+    ) -> LeastTime {
+        let samples = &recording.samples;
+        let limits = axis_limits(recording, job);
+        let handed_over = recording.adds.len() as f64 / job.adds_per_cycle.max(1) as f64;
+        let mut found = LeastTime {
+            supply: (handed_over - range.0 as f64).max(0.0) * job.period,
+            ..LeastTime::default()
+        };
+        let waited = (range.0..=range.1)
+            .filter(|&k| samples[k].flags & WAITING != 0 && !moves(&step(samples, k)))
+            .count();
+        found.executed = (range.1 - range.0 + 1 - waited) as f64 * job.period;
+        let speeds = speeds(job);
+        for stretch in stretches(samples, program, job, range) {
+            let path: Vec<PathSample> = stretch
+                .clone()
+                .map(|k| path_sample(samples, program, &speeds, k))
+                .collect();
+            found.stretches += 1;
+            found.add(&path, &limits, job.period);
+            progress.optimum_done((stretch.end - range.0) as f64 / (range.1 + 2 - range.0) as f64);
+        }
+        let bound = found.time.max(found.supply);
+        found.limited_by_supply = found.supply > found.time;
+        found.ratio = found.executed / bound;
+        found
+    }
+
+    fn add(&mut self, path: &[PathSample], limits: &AxisLimits, period: f64) {
+        let mut cuts = corners(path, &limits.velocity);
+        cuts.push(path.len() - 1);
+        let mut from = 0;
+        for to in cuts {
+            let piece = &path[from..=to];
+            let run = (to - from) as f64 * period;
+            match optimum(piece, limits, period) {
+                Ok((time, bound)) => {
+                    self.time += time;
+                    self.without_jerk_limit += bound;
+                }
+                Err(problem) => {
+                    self.time += run;
+                    self.without_jerk_limit += run;
+                    self.not_solved += 1;
+                    let at = piece.first().map_or([0.0; 9], |sample| sample.position);
+                    self.problem
+                        .get_or_insert(format!("{problem} from {at:?} in {run} s"));
+                }
+            }
+            from = to;
+        }
+    }
+}
+
+/// Least time with and without the limit of jerk.
+fn optimum(piece: &[PathSample], limits: &AxisLimits, period: f64) -> Result<(f64, f64), String> {
+    let Some(path) = ExecutedPath::new(piece, period, &limits.velocity) else {
+        return Err("too few positions".to_owned());
+    };
+    let rests = (Boundary::Rest, Boundary::Rest);
+    let spacing = spacing(piece.len() as f64 * period);
+    let grid = Grid::new(&path, limits, (0.0, path.end()), rests, spacing);
+    let bound = topp_ra(&grid, limits).ok_or("no motion keeps the limits of acceleration")?;
+    if !limits.limit_jerk() {
+        return Ok((bound, bound));
+    }
+    let optimum = least_time(&grid, limits).map_err(|problem| problem.to_string())?;
+    Ok((optimum.time, bound))
+}
+
+fn axis_limits(recording: &Recording, job: &Job) -> AxisLimits {
+    let jerk = |limit: f64| {
+        if recording.takes_jerk && limit > 0.0 {
+            limit
+        } else {
+            f64::INFINITY
+        }
+    };
+    AxisLimits {
+        velocity: job.limits.velocity,
+        acceleration: job.limits.acceleration,
+        jerk: job.jerk.map(jerk),
+    }
+}
+
+/// Samples between standstills that the program asks for: from one at rest to the next.
+///
+/// A range counts positions: number k is the position after cycle k - 1, number 0 the origin.
+fn stretches(
+    samples: &[Sample],
+    program: &Program,
+    job: &Job,
+    (first, last): (usize, usize),
+) -> Vec<Range<usize>> {
+    let slow = |k: usize| is_slow(&step(samples, k), &job.limits, job.period);
+    let mut stretches = Vec::new();
+    let mut from = first;
+    let mut k = first;
+    while k <= last && slow(k) {
+        k += 1;
+    }
+    while k <= last {
+        if !slow(k) {
+            k += 1;
+            continue;
+        }
+        let begin = k;
+        while k <= last && slow(k) {
+            k += 1;
+        }
+        if k > last {
+            break;
+        }
+        let waits = (begin..k).any(|k| samples[k].flags & (WAITING | DONE) != 0);
+        let stops =
+            (begin..k).any(|k| exact_stop_near(program, samples[k].id, &samples[k].position));
+        if waits || stops {
+            // Position numbers: the slowest cycle lies between both.
+            let still: Vec<usize> = (begin..k).filter(|&k| !moves(&step(samples, k))).collect();
+            let (end, start) = match (still.first(), still.last()) {
+                (Some(&a), Some(&b)) => (a, b + 1),
+                _ => {
+                    let slowest = (begin..k)
+                        .min_by(|&a, &b| travel(samples, a).total_cmp(&travel(samples, b)));
+                    let slowest = slowest.unwrap_or(begin);
+                    (slowest + 1, slowest + 1)
+                }
+            };
+            stretches.push(from..end + 1);
+            from = start;
+        }
+    }
+    stretches.push(from..last + 2);
+    stretches
+}
+
+fn travel(samples: &[Sample], k: usize) -> f64 {
+    step(samples, k).iter().map(|part| part * part).sum()
+}
+
+fn path_sample(samples: &[Sample], program: &Program, speeds: &[f64], number: usize) -> PathSample {
+    let Some(sample) = number.checked_sub(1).and_then(|k| samples.get(k)) else {
+        return PathSample {
+            position: [0.0; 9],
+            cap: SpeedCap::NONE,
+        };
+    };
+    let index = usize::try_from(sample.id)
+        .ok()
+        .and_then(|id| id.checked_sub(1));
+    let cap = index.and_then(|index| {
+        let piece = program.handed.get(index)?;
+        Some(SpeedCap {
+            first_axis: counted_axis(piece),
+            speed: *speeds.get(index)?,
+        })
+    });
+    PathSample {
+        position: sample.position,
+        cap: cap.unwrap_or(SpeedCap::NONE),
+    }
+}
+
+/// What each move asks for, mm/s or degrees per second.
+fn speeds(job: &Job) -> Vec<f64> {
+    let moves = job
+        .operations
+        .iter()
+        .filter_map(|operation| match operation {
+            Operation::Move(a_move) => Some(a_move.velocity.min(a_move.greatest_velocity)),
+            _ => None,
+        });
+    moves.map(|speed| speed.min(job.velocity_limit)).collect()
+}
+
+/// First of the three axes that F counts: X Y Z, else U V W, else A B C.
+fn counted_axis(piece: &Piece) -> usize {
+    let segment = &piece.segment;
+    let moves = |axes: Range<usize>| {
+        axes.into_iter()
+            .any(|axis| (segment.end[axis] - segment.start[axis]).abs() > LEAST_TRAVEL)
+    };
+    if segment.arc.is_some() || moves(0..3) {
+        0
+    } else if moves(6..9) {
+        6
+    } else {
+        3
+    }
+}

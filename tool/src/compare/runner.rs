@@ -1,0 +1,218 @@
+//! Runs every module with every limit of jerk and every length of the queue.
+
+use super::CompareArguments;
+use super::error::CompareError;
+use super::figures::Figures;
+use super::holds::holds;
+use super::job::Job;
+use super::least_time::LeastTime;
+use super::limits::{Jerk, Limits};
+use super::operator::{Event, random_holds};
+use super::program::Program;
+use super::progress::Progress;
+use super::supervise;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Where Debian's linuxcnc-uspace has its modules.
+const STOCK: &str = "/usr/lib/linuxcnc/modules/tpmod.so";
+
+/// A module to run.
+struct Module {
+    name: String,
+    file: String,
+}
+
+/// What all runs have in common.
+pub(super) struct Runner<'a> {
+    arguments: &'a CompareArguments,
+    limits: Limits,
+    jerks: &'a [Jerk],
+    events: &'a [Event],
+    modules: Vec<Module>,
+}
+
+impl<'a> Runner<'a> {
+    /// # Errors
+    /// A module that does not exist.
+    pub(super) fn new(
+        arguments: &'a CompareArguments,
+        limits: Limits,
+        jerks: &'a [Jerk],
+        events: &'a [Event],
+    ) -> Result<Self, CompareError> {
+        Ok(Runner {
+            arguments,
+            limits,
+            jerks,
+            events,
+            modules: modules(&arguments.modules)?,
+        })
+    }
+
+    /// How many runs a program has at most.
+    pub(super) fn runs_of_a_program(&self) -> usize {
+        self.modules.len() * self.jerks.len() * self.arguments.queue.len().max(1)
+    }
+
+    /// All runs of a program.
+    pub(super) fn run(
+        &self,
+        name: &str,
+        program: &Program,
+        progress: &Progress,
+    ) -> Result<Vec<Figures>, CompareError> {
+        let mut runs = Vec::new();
+        for module in self.labelled() {
+            progress.name(&format!("{name}, {}", module.label));
+            runs.extend(self.run_module(&module, program, progress)?);
+        }
+        Ok(runs)
+    }
+
+    /// Each module with each length of the queue.
+    fn labelled(&self) -> Vec<Labelled<'_>> {
+        let mut labelled = Vec::new();
+        for Module { name, file } in &self.modules {
+            if self.arguments.queue.is_empty() {
+                labelled.push(Labelled {
+                    file,
+                    label: name.clone(),
+                    queue: usize::MAX,
+                });
+            }
+            for &queue in &self.arguments.queue {
+                labelled.push(Labelled {
+                    file,
+                    label: format!("{name} queue {queue}"),
+                    queue: usize::from(queue),
+                });
+            }
+        }
+        labelled
+    }
+
+    /// All runs of a module on a program with at most `queue` moves queued. One that has no limit of
+    /// jerk runs only once.
+    fn run_module(
+        &self,
+        module: &Labelled,
+        program: &Program,
+        progress: &Progress,
+    ) -> Result<Vec<Figures>, CompareError> {
+        let arguments = self.arguments;
+        let mut runs = Vec::new();
+        for (index, &jerk) in self.jerks.iter().enumerate() {
+            let mut job = Job {
+                module: module.file.to_owned(),
+                period: arguments.period,
+                limits: self.limits,
+                jerk: jerk.of_axes(&self.limits),
+                adds_per_cycle: usize::from(arguments.adds_per_cycle),
+                queue: module.queue,
+                velocity_limit: arguments.velocity_limit,
+                stuck_after: 10.0,
+                time_limit: 7200.0,
+                events: self.events.to_vec(),
+                operations: program.operations.clone(),
+            };
+            let patience = Duration::from_secs_f64(arguments.patience.min(1e6));
+            let (outcome, recording) = supervise::run(&job, patience).map_err(CompareError::Run)?;
+            let mut figures =
+                Figures::measure(&module.label, jerk, &job, program, outcome, &recording);
+            if let Some(range) = figures.motion.range
+                && arguments.optimum
+                && figures.came_through()
+            {
+                let optimum = LeastTime::of(&recording, program, &job, range, progress);
+                figures.optimum = Some(optimum);
+            }
+            if let Some(count) = arguments.holds
+                && figures.came_through()
+            {
+                job.events = random_holds(usize::from(count), figures.motion.time, hold_time(&job));
+                let (_, recording) = supervise::run(&job, patience).map_err(CompareError::Run)?;
+                let jerk = if recording.takes_jerk {
+                    job.jerk
+                } else {
+                    [0.0; 9]
+                };
+                figures.holds = holds(&recording, &job.limits, &jerk, job.period);
+            }
+            let takes_jerk = figures.takes_jerk;
+            runs.push(figures);
+            progress.run_done();
+            if !takes_jerk {
+                progress.runs_left_out(self.jerks.len() - index - 1);
+                break;
+            }
+        }
+        Ok(runs)
+    }
+}
+
+/// Long enough for every planner to come to rest, s: three times what the slowest axis needs from its
+/// greatest velocity.
+fn hold_time(job: &Job) -> f64 {
+    let axes = job.limits.velocity.iter().zip(&job.limits.acceleration);
+    axes.zip(&job.jerk)
+        .map(|((velocity, acceleration), &jerk)| {
+            let smooth = if jerk > 0.0 { acceleration / jerk } else { 0.0 };
+            3.0 * (velocity / acceleration + smooth)
+        })
+        .fold(0.0, f64::max)
+}
+
+/// A module with a length of the queue, and its name in the tables.
+struct Labelled<'a> {
+    file: &'a str,
+    label: String,
+    queue: usize,
+}
+
+fn modules(named: &[PathBuf]) -> Result<Vec<Module>, CompareError> {
+    let default;
+    let files = if named.is_empty() {
+        default = [PathBuf::from(STOCK), our_module()];
+        &default[..]
+    } else {
+        named
+    };
+    files
+        .iter()
+        .map(|file| {
+            let hint = if named.is_empty() {
+                "; install LinuxCNC and build the modules (make modules), or name modules with --with"
+            } else {
+                ""
+            };
+            // An absolute path: dlopen looks for a mere name elsewhere.
+            let absolute = std::fs::canonicalize(file).map_err(|_| CompareError::NoModule {
+                file: file.clone(),
+                hint,
+            })?;
+            Ok(Module {
+                name: file_name(file),
+                file: absolute.to_string_lossy().into_owned(),
+            })
+        })
+        .collect()
+}
+
+/// Where our module is: in the folder of the build, else among LinuxCNC's.
+fn our_module() -> PathBuf {
+    let folder = std::env::var_os("FRAMEPATH_MODULES").map(PathBuf::from);
+    let built = folder.map(|folder| folder.join("blendtp.so"));
+    let installed = Path::new(STOCK).with_file_name("blendtp.so");
+    match built {
+        Some(built) if built.exists() || !installed.exists() => built,
+        _ => installed,
+    }
+}
+
+pub(super) fn file_name(file: &Path) -> String {
+    file.file_name().map_or_else(
+        || file.display().to_string(),
+        |name| name.to_string_lossy().into_owned(),
+    )
+}

@@ -1,0 +1,215 @@
+//! The options of `framepath filter`.
+
+use crate::dialects::Dialect;
+use crate::dialects::settings::{
+    IncrementBase, MOST_BLOCKS, MirrorOutsideXy, MirroredCircle, Settings,
+};
+use crate::encoding::Encoding;
+use crate::program::PathControl;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Programs up to this length, bytes, are held as a whole.
+const LONGEST_WHOLE: u64 = 4 << 20;
+
+/// How much of a longer one is read at once, bytes.
+const PIECE: usize = 1 << 18;
+
+/// How frames are carried out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Backend {
+    /// By the frame kinematics: calls of its subroutines, moves as programmed.
+    Kinematics,
+    /// By rewriting the coordinates: runs on any machine, frames that tilt the plane are refused.
+    Program,
+    /// By rewriting the coordinates where that is possible, else by the frame kinematics.
+    Auto,
+}
+
+/// Arguments of `framepath filter`.
+#[derive(Clone, Debug, Args)]
+pub struct FilterArguments {
+    /// The language of the part program
+    #[arg(long, value_enum)]
+    pub dialect: Dialect,
+    /// How frames are carried out
+    #[arg(long, value_enum, default_value = "auto")]
+    pub backend: Backend,
+    /// Folder with subprogram files; may be given several times. The folder of FILE comes first
+    #[arg(long, value_name = "DIR")]
+    pub subprograms: Vec<PathBuf>,
+    /// LinuxCNC's unit of length is the inch: programs are taken as inch unless they say otherwise
+    #[arg(long)]
+    pub machine_in_inch: bool,
+    /// What an increment counts from when the frame changed since the axis moved last
+    #[arg(long, value_enum, default_value = "programmed")]
+    pub increment_after_frame: IncrementBase,
+    /// Leave out blocks that begin with /
+    #[arg(long)]
+    pub skip_blocks: bool,
+    /// M function that is passed on to LinuxCNC; may be given several times
+    #[arg(long, value_name = "NUMBER", value_delimiter = ',')]
+    pub pass_m: Vec<u32>,
+    /// Value of a variable (R5, P5, V.P.NAME) before the program begins; may be given several times
+    #[arg(long, value_name = "R5=VALUE", value_parser = variable)]
+    pub set: Vec<(String, f64)>,
+    /// Row of the tool table that holds a further edge (D2 to D9) of a tool; may be given several times
+    #[arg(long, value_name = "TOOL.EDGE=ROW", value_parser = edge)]
+    pub edge: Vec<((u32, u32), u32)>,
+    /// The feed in force when the program begins, machine units per minute
+    #[arg(long, value_name = "FEED", value_parser = feed)]
+    pub feed: Option<f64>,
+    /// How corners are passed until the program changes it: exactly (G61, with stops at corners only),
+    /// with a stop at the end of every move (G61.1), rounded as the machine has it (G64), or rounded by
+    /// at most so many mm (a number: G64 with that P)
+    #[arg(long, value_name = "G61|G61.1|G64|P", default_value = "G61", value_parser = path_mode)]
+    pub path_mode: PathControl,
+    /// How many blocks the program may run, besides twice the lines that it has, before it is taken
+    /// for one that never ends
+    #[arg(long, value_name = "NUMBER", default_value_t = MOST_BLOCKS, value_parser = most_blocks)]
+    pub most_blocks: usize,
+    /// Number of a tool that the program calls by name; may be given several times
+    #[arg(long, value_name = "NAME=NUMBER", value_parser = tool_name)]
+    pub tool: Vec<(String, u32)>,
+    /// What G21, G22 and G23 of ISG programs mirror outside of G17
+    #[arg(long, value_enum, default_value = "refuse")]
+    pub mirror_outside_xy: MirrorOutsideXy,
+    /// What becomes of a full circle with an absolute centre right after a mirror of an ISG program
+    #[arg(long, value_enum, default_value = "refuse")]
+    pub mirrored_circle: MirroredCircle,
+    /// Largest distance of the chords from the ellipse that unequal scales make of an arc, machine
+    /// units
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.005, value_parser = tolerance)]
+    pub chord_tolerance: f64,
+    /// How the characters of the program and its subprograms are written: auto, utf-8, utf-16le, utf-16be,
+    /// cp1252, cp1250, cp1251, cp850, cp852 or cp866
+    #[arg(long, value_name = "ENCODING", default_value = "auto", value_parser = encoding)]
+    pub encoding: EncodingChoice,
+    /// Programs longer than this are read piece by piece if they can be, bytes
+    #[arg(long, value_name = "BYTES", default_value_t = LONGEST_WHOLE, hide = true)]
+    pub longest_whole: u64,
+    /// How much is read at once then, bytes
+    #[arg(long, value_name = "BYTES", default_value_t = PIECE, hide = true)]
+    pub piece: usize,
+    /// The part program
+    pub file: PathBuf,
+}
+
+impl FilterArguments {
+    /// The settings of the control that is imitated.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            subprogram_folders: self.subprograms.clone(),
+            encoding: self.encoding.0,
+            machine_in_inch: self.machine_in_inch,
+            increment_after_frame: self.increment_after_frame,
+            skip_blocks: self.skip_blocks,
+            passed_m: self.pass_m.clone(),
+            variables: self.set.iter().cloned().collect(),
+            feed: self.feed,
+            path_mode: self.path_mode_of_machine(),
+            most_blocks: self.most_blocks,
+            tool_edges: self.edge.iter().copied().collect(),
+            tool_names: self.tool.iter().cloned().collect(),
+            mirror_outside_xy: self.mirror_outside_xy,
+            mirrored_circle: self.mirrored_circle,
+            ..Settings::default()
+        }
+    }
+
+    /// The path mode with its tolerance in machine units.
+    fn path_mode_of_machine(&self) -> PathControl {
+        match self.path_mode {
+            PathControl::Continuous {
+                tolerance: Some(tolerance),
+            } if self.machine_in_inch => PathControl::Continuous {
+                tolerance: Some(tolerance / 25.4),
+            },
+            mode => mode,
+        }
+    }
+}
+
+/// An encoding, or `None` for the likeliest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EncodingChoice(pub Option<Encoding>);
+
+fn encoding(text: &str) -> Result<EncodingChoice, String> {
+    match text.eq_ignore_ascii_case("auto") {
+        true => Ok(EncodingChoice(None)),
+        false => Encoding::from_str(text, true).map(|encoding| EncodingChoice(Some(encoding))),
+    }
+}
+
+fn variable(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("write R5=12.5")?;
+    let name = name.trim().to_ascii_uppercase();
+    let is_name = name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || "._[]".contains(c));
+    let value: Option<f64> = value
+        .trim()
+        .parse()
+        .ok()
+        .filter(|value: &f64| value.is_finite());
+    match (is_name, value) {
+        (true, Some(value)) => Ok((name, value)),
+        _ => Err("write R5=12.5".to_string()),
+    }
+}
+
+fn edge(text: &str) -> Result<((u32, u32), u32), String> {
+    let parse = || {
+        let (edge, row) = text.split_once('=')?;
+        let (tool, edge) = edge.split_once('.')?;
+        let numbers = [tool, edge, row].map(|number| number.trim().parse().ok());
+        match numbers {
+            [Some(tool), Some(edge @ 2..=9), Some(row)] => Some(((tool, edge), row)),
+            _ => None,
+        }
+    };
+    parse().ok_or_else(|| "write 3.2=13 for edge D2 of tool 3 in row 13".to_string())
+}
+
+fn feed(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if f64::is_finite(value) && value > 0.0 => Ok(value),
+        _ => Err("a feed above 0 is needed".to_string()),
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if (1e-6..=10.0).contains(&value) => Ok(value),
+        _ => Err("a length from 0.000001 to 10 is needed".to_string()),
+    }
+}
+
+fn path_mode(text: &str) -> Result<PathControl, String> {
+    match text.to_ascii_uppercase().as_str() {
+        "G61" => return Ok(PathControl::ExactPath),
+        "G61.1" => return Ok(PathControl::ExactStop),
+        "G64" => return Ok(PathControl::Continuous { tolerance: None }),
+        _ => {}
+    }
+    match text.parse() {
+        Ok(value) if (0.001..=10.0).contains(&value) => Ok(PathControl::Continuous {
+            tolerance: Some(value),
+        }),
+        _ => Err("write G61, G61.1, G64 or a tolerance from 0.001 to 10 mm".to_string()),
+    }
+}
+
+fn most_blocks(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(value) if (1..=100_000_000).contains(&value) => Ok(value),
+        _ => Err("a number from 1 to 100000000 is needed".to_string()),
+    }
+}
+
+fn tool_name(text: &str) -> Result<(String, u32), String> {
+    let (name, number) = text.rsplit_once('=').ok_or("write NAME=NUMBER")?;
+    let number = number.trim().parse().map_err(|_| "write NAME=NUMBER")?;
+    Ok((name.to_string(), number))
+}

@@ -1,0 +1,351 @@
+//! Takes in the plan, cycle by cycle, and keeps what a report shows of it: the length of the program
+//! does not matter.
+
+use super::cause::{Asked, AxisLimits, Cause, Phase, classify};
+use super::deviation::{Deviation, Follower};
+use super::drive::{Handed, Sample};
+use super::places::{Pace, Place, Places};
+use super::polyline::{PathPoint, Polyline};
+use super::profile::Profiles;
+use super::rates::{Differences, Rates};
+use super::setup::Setup;
+use crate::canon::call::Position;
+use framepath::axes::AXIS_COUNT;
+use std::collections::VecDeque;
+
+/// Quantities in [`Profiles`]: each axis' velocity, acceleration and jerk, then the speed, then the
+/// distance from the program.
+pub const CHANNELS: usize = 3 * AXIS_COUNT + 2;
+/// Channel of the speed along the path.
+pub const SPEED: usize = 3 * AXIS_COUNT;
+/// Channel of the distance from the program.
+pub const DISTANCE: usize = SPEED + 1;
+
+/// What the drawn path may be off at first, mm.
+const DRAWN_WITHIN: f64 = 2e-4;
+
+/// And its speed, as a share of the greatest velocity of an axis.
+const DRAWN_SPEED: f64 = 0.005;
+
+/// A greatest value and its place.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Peak {
+    /// Of the absolute value, machine units.
+    pub value: f64,
+    /// s.
+    pub time: f64,
+    /// Line of the program.
+    pub line: i32,
+}
+
+impl Peak {
+    fn note(&mut self, value: f64, time: f64, line: i32) {
+        if value.abs() > self.value {
+            *self = Peak {
+                value: value.abs(),
+                time,
+                line,
+            };
+        }
+    }
+}
+
+/// A cycle as it is shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    /// Since the program was started, s.
+    pub time: f64,
+    /// Machine units and degrees.
+    pub position: Position,
+    /// Number of the running move, from 1; 0 for none.
+    pub id: usize,
+    /// Line of the program, 0 for none.
+    pub line: i32,
+    /// Along the path, machine units (degrees where only rotary axes move) per second.
+    pub speed: f64,
+    /// What keeps the machine from being faster.
+    pub cause: Cause,
+}
+
+/// The moves that the planner has and that the collector has to know.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    index: usize,
+    line: i32,
+    asked: Asked,
+}
+
+/// Everything that is kept.
+#[derive(Debug)]
+pub struct Collected {
+    /// Servo cycles from the first motion to the last.
+    pub cycles: u64,
+    /// Cycles before the first motion.
+    pub before: u64,
+    /// Cycles behind the last motion.
+    pub after: u64,
+    /// Seconds by phase.
+    pub by_phase: [f64; Phase::COUNT],
+    /// Seconds lost against the feed, by phase.
+    pub lost_by_phase: [f64; Phase::COUNT],
+    /// Seconds by cause.
+    pub by_cause: [f64; Cause::COUNT],
+    /// Seconds lost against the feed, by cause.
+    pub lost_by_cause: [f64; Cause::COUNT],
+    /// Velocity, acceleration and jerk of each axis, shape (9, 3).
+    pub peaks: [[Peak; 3]; AXIS_COUNT],
+    /// Speed along the path.
+    pub speed: Peak,
+    /// Least and greatest coordinates, machine units.
+    pub box_low: Position,
+    /// See above.
+    pub box_high: Position,
+    /// Travel in X Y Z, machine units.
+    pub length: f64,
+    /// Distance from the program.
+    pub deviation: Deviation,
+    /// The worst first.
+    pub places: Vec<Place>,
+    /// Over time, see [`CHANNELS`].
+    pub profiles: Profiles,
+    /// For drawings.
+    pub path: Vec<PathPoint>,
+}
+
+/// Takes in the plan.
+pub struct Collector<'a> {
+    setup: &'a Setup,
+    limits: AxisLimits,
+    scale: Position,
+    differences: Differences,
+    known: VecDeque<Known>,
+    running: Option<Known>,
+    follower: Follower,
+    places: Places,
+    polyline: Polyline,
+    moved: bool,
+    /// Cycles since the last motion, with what they are: they count only when motion goes on.
+    standing: Vec<Pace>,
+    standing_cycles: u64,
+    out: Collected,
+}
+
+impl<'a> Collector<'a> {
+    /// For a machine at its start.
+    pub fn new(setup: &'a Setup) -> Self {
+        let scale: Position = std::array::from_fn(|axis| setup.scale(axis));
+        let scaled = |values: &Position| std::array::from_fn(|axis| values[axis] * scale[axis]);
+        let start = scaled(&setup.surroundings.start);
+        let limits = [
+            scaled(&setup.limits.velocity),
+            scaled(&setup.limits.acceleration),
+            scaled(&setup.jerk),
+        ];
+        let fastest = (0..AXIS_COUNT)
+            .filter(|axis| setup.axes[*axis])
+            .map(|axis| limits[0][axis])
+            .fold(0.0, f64::max);
+        Collector {
+            setup,
+            limits,
+            scale,
+            differences: Differences::new(start, setup.period),
+            known: VecDeque::new(),
+            running: None,
+            follower: Follower::default(),
+            places: Places::default(),
+            polyline: Polyline::new(DRAWN_WITHIN / setup.millimetres, DRAWN_SPEED * fastest),
+            moved: false,
+            standing: Vec::new(),
+            standing_cycles: 0,
+            out: Collected {
+                cycles: 0,
+                before: 0,
+                after: 0,
+                by_phase: [0.0; Phase::COUNT],
+                lost_by_phase: [0.0; Phase::COUNT],
+                by_cause: [0.0; Cause::COUNT],
+                lost_by_cause: [0.0; Cause::COUNT],
+                peaks: [[Peak::default(); 3]; AXIS_COUNT],
+                speed: Peak::default(),
+                box_low: start,
+                box_high: start,
+                length: 0.0,
+                deviation: Deviation::default(),
+                places: Vec::new(),
+                profiles: Profiles::new(CHANNELS),
+                path: Vec::new(),
+            },
+        }
+    }
+
+    /// A move that the planner was given.
+    pub fn add(&mut self, handed: &Handed) {
+        self.follower.add(handed);
+        self.known.push_back(Known {
+            index: handed.a_move.index,
+            line: handed.a_move.line,
+            asked: Asked {
+                velocity: handed.a_move.velocity,
+                greatest_velocity: handed.a_move.greatest_velocity,
+            },
+        });
+    }
+
+    /// A servo cycle; returns how it is shown.
+    pub fn note(&mut self, sample: &Sample) -> Shown {
+        if let Some(index) = sample.running {
+            while self.known.front().is_some_and(|known| known.index < index) {
+                self.running = self.known.pop_front();
+            }
+            if let Some(known) = self.known.front().filter(|known| known.index == index) {
+                self.running = Some(*known);
+            }
+        }
+        let position: Position =
+            std::array::from_fn(|axis| sample.position[axis] * self.scale[axis]);
+        let before = *self.differences.position();
+        let rates = self.differences.step(&position);
+        let asked = self.running.map(|known| known.asked);
+        let (phase, cause) = classify(
+            sample,
+            &rates,
+            asked,
+            &self.limits,
+            self.setup.velocity_limit,
+        );
+        let moves = phase != Phase::Standing;
+        if moves {
+            self.follower.step(&sample.position);
+            self.extend_box(&before, &position);
+        }
+        let line = self.running.map_or(0, |known| known.line);
+        let speed = speed(&rates);
+        let pace = Pace {
+            time: sample.time,
+            duration: self.setup.period,
+            share_of_feed: if moves {
+                sample.share_of_feed.clamp(0.0, 1.0)
+            } else {
+                0.0
+            },
+            speed,
+            line,
+            position,
+            phase,
+            cause,
+        };
+        self.count(&pace, &rates, moves);
+        self.draw(&pace, &rates);
+        Shown {
+            time: sample.time,
+            position,
+            id: sample.running.map_or(0, |index| index + 1),
+            line,
+            speed,
+            cause,
+        }
+    }
+
+    fn extend_box(&mut self, before: &Position, position: &Position) {
+        let mut square = 0.0;
+        for axis in 0..AXIS_COUNT {
+            self.out.box_low[axis] = self.out.box_low[axis].min(position[axis]);
+            self.out.box_high[axis] = self.out.box_high[axis].max(position[axis]);
+            if axis < 3 {
+                square += (position[axis] - before[axis]).powi(2);
+            }
+        }
+        self.out.length += square.sqrt();
+    }
+
+    /// Counts a cycle, standing only between motions.
+    fn count(&mut self, pace: &Pace, rates: &Rates, moves: bool) {
+        if !moves {
+            if !self.moved {
+                self.out.before += 1;
+                return;
+            }
+            self.standing_cycles += 1;
+            // A long rest is one entry for each cause.
+            match self
+                .standing
+                .last_mut()
+                .filter(|last| last.cause == pace.cause)
+            {
+                Some(last) => {
+                    last.duration += pace.duration;
+                    last.time = pace.time;
+                }
+                None => self.standing.push(*pace),
+            }
+        } else {
+            self.moved = true;
+            for rest in std::mem::take(&mut self.standing) {
+                self.enter(&rest);
+            }
+            self.out.cycles += self.standing_cycles + 1;
+            self.standing_cycles = 0;
+            self.enter(pace);
+        }
+        for axis in 0..AXIS_COUNT {
+            for order in 0..3 {
+                let value = rates.orders[order][axis];
+                self.out.peaks[axis][order].note(value, pace.time, pace.line);
+            }
+        }
+        self.out.speed.note(pace.speed, pace.time, pace.line);
+    }
+
+    fn enter(&mut self, pace: &Pace) {
+        let lost = pace.duration * (1.0 - pace.share_of_feed);
+        self.out.by_phase[pace.phase as usize] += pace.duration;
+        self.out.lost_by_phase[pace.phase as usize] += lost;
+        self.out.by_cause[pace.cause.index()] += pace.duration;
+        self.out.lost_by_cause[pace.cause.index()] += lost;
+        self.places.note(pace);
+    }
+
+    fn draw(&mut self, pace: &Pace, rates: &Rates) {
+        let mut values = [0.0; CHANNELS];
+        for axis in 0..AXIS_COUNT {
+            for order in 0..3 {
+                values[3 * axis + order] = rates.orders[order][axis] as f32;
+            }
+        }
+        values[SPEED] = pace.speed as f32;
+        values[DISTANCE] = (self.follower.found().now / self.setup.millimetres) as f32;
+        self.out.profiles.note(&values);
+        let [x, y, z, ..] = pace.position;
+        self.polyline.note(PathPoint {
+            point: [x, y, z],
+            time: pace.time,
+            speed: pace.speed as f32,
+            line: pace.line,
+            cause: pace.cause.index() as u8,
+        });
+    }
+
+    /// Everything that was kept.
+    pub fn finish(mut self) -> Collected {
+        self.out.after = self.standing_cycles;
+        self.out.deviation = self.follower.finish();
+        self.out.places = self.places.finish();
+        self.out.path = self.polyline.finish();
+        self.out
+    }
+}
+
+/// In X Y Z, else in U V W, else in A B C: the group that F counts.
+fn speed(rates: &Rates) -> f64 {
+    let velocity = &rates.orders[0];
+    let size = |group: std::ops::Range<usize>| -> f64 {
+        let square: f64 = velocity[group].iter().map(|v| v * v).sum();
+        square.sqrt()
+    };
+    [0..3, 6..9, 3..6]
+        .into_iter()
+        .map(size)
+        .find(|speed| *speed > 1e-9)
+        .unwrap_or(0.0)
+}

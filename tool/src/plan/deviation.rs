@@ -1,0 +1,213 @@
+//! Distance between the planned and the programmed path, both ways, while both go by.
+
+use super::drive::Handed;
+use crate::canon::call::{PathMode, Position};
+use crate::compare::program::Piece;
+use crate::compare::segment::Segment;
+use std::collections::VecDeque;
+
+/// Pieces behind and ahead of the nearest one that are looked at in each cycle.
+const NEAR: usize = 3;
+
+/// Pieces ahead that are looked at, at most, while that leads nearer.
+const FAR: usize = 400;
+
+/// Pieces behind the nearest one that are kept: the path may still come near their ends.
+const KEPT: usize = 32;
+
+/// The largest distance found.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Farthest {
+    /// mm, or degrees of rotary axes.
+    pub distance: f64,
+    /// The tolerance that rules there, mm; `None` where there is none (G64 without P).
+    pub tolerance: Option<f64>,
+    /// Line of the program there.
+    pub line: i32,
+}
+
+impl Farthest {
+    fn note(&mut self, distance: f64, piece: &Tracked) {
+        if distance > self.distance || self.line == 0 {
+            *self = Farthest {
+                distance,
+                tolerance: piece.allowed(),
+                line: piece.piece.line,
+            };
+        }
+    }
+
+    /// The same for the largest share of the tolerance.
+    fn note_share(&mut self, distance: f64, piece: &Tracked) {
+        let Some(tolerance) = piece.allowed().filter(|tolerance| *tolerance > 0.0) else {
+            return;
+        };
+        let share = |distance: f64, tolerance: f64| distance / tolerance;
+        let own = self.tolerance.map_or(-1.0, |t| share(self.distance, t));
+        if share(distance, tolerance) > own {
+            *self = Farthest {
+                distance,
+                tolerance: Some(tolerance),
+                line: piece.piece.line,
+            };
+        }
+    }
+}
+
+/// What was found along the whole path.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Deviation {
+    /// Of the planned path from the programmed one.
+    pub planned: Farthest,
+    /// Of the ends of programmed pieces from the planned path.
+    pub programmed: Farthest,
+    /// Where the tolerance P is used up most, of either.
+    pub tightest: Farthest,
+    /// In exact path and exact stop modes, of either.
+    pub exact: Farthest,
+    /// In a cycle, for the drawing: mm.
+    pub now: f64,
+}
+
+/// A piece on which the machine is or will be.
+#[derive(Debug)]
+struct Tracked {
+    piece: Piece,
+    /// Distance of its end from the planned path so far.
+    end_missed: f64,
+    /// P of this piece and the one before, with what merging adds; `None` without P.
+    tolerance: Option<f64>,
+}
+
+impl Tracked {
+    fn allowed(&self) -> Option<f64> {
+        self.tolerance
+    }
+}
+
+/// Follows the machine along the program.
+#[derive(Debug, Default)]
+pub struct Follower {
+    pieces: VecDeque<Tracked>,
+    /// The piece that the machine was nearest to.
+    near: usize,
+    all_axes: bool,
+    found: Deviation,
+    last: Option<Position>,
+}
+
+/// The tolerance on its own: `Some(0)` in exact modes.
+fn tolerance(piece: &Piece) -> Option<f64> {
+    match piece.mode {
+        PathMode::Continuous if piece.tolerance <= 0.0 => None,
+        PathMode::Continuous => Some(piece.tolerance + piece.merged_within),
+        _ => Some(0.0),
+    }
+}
+
+impl Follower {
+    /// A move that the planner was given.
+    pub(super) fn add(&mut self, handed: &Handed) {
+        for piece in &handed.pieces {
+            // Two moves may share a piece (a flat arc that merging has cut).
+            let last = self.pieces.back().map(|tracked| tracked.piece);
+            if last.is_some_and(|last| last.segment == piece.segment && last.line == piece.line) {
+                continue;
+            }
+            self.all_axes |= piece.segment.start[3..] != piece.segment.end[3..];
+            // Near its start the tolerance of the one before holds.
+            let own = tolerance(piece);
+            let before = last.as_ref().map_or(own, tolerance);
+            self.pieces.push_back(Tracked {
+                piece: *piece,
+                end_missed: f64::INFINITY,
+                tolerance: own.zip(before).map(|(own, before)| own.max(before)),
+            });
+        }
+    }
+
+    /// A servo cycle in which the machine moves.
+    pub fn step(&mut self, position: &Position) {
+        let Some((near, distance)) = self.nearest(position) else {
+            return;
+        };
+        let chord = Segment::line(self.last.unwrap_or(*position), *position);
+        let from = self.near.min(near).saturating_sub(NEAR);
+        let to = (self.near.max(near) + NEAR + 1).min(self.pieces.len());
+        for tracked in self.pieces.range_mut(from..to) {
+            let missed = chord.deviation(&tracked.piece.segment.end, self.all_axes).0;
+            tracked.end_missed = tracked.end_missed.min(missed);
+        }
+        self.last = Some(*position);
+        self.near = near;
+        self.found.now = distance;
+        if let Some(tracked) = self.pieces.get(near) {
+            self.found.planned.note(distance, tracked);
+            self.found.tightest.note_share(distance, tracked);
+            if tracked.tolerance == Some(0.0) {
+                self.found.exact.note(distance, tracked);
+            }
+        }
+        while self.near > KEPT {
+            self.leave();
+            self.near -= 1;
+        }
+    }
+
+    /// Drops the first piece.
+    fn leave(&mut self) {
+        let Some(left) = self.pieces.pop_front() else {
+            return;
+        };
+        // At the end of a piece the tolerance of the next one holds, too.
+        let next = self.pieces.front().map(|next| next.tolerance);
+        let judged = Tracked {
+            tolerance: match next {
+                Some(next) => left.tolerance.zip(next).map(|(own, next)| own.max(next)),
+                None => left.tolerance,
+            },
+            ..left
+        };
+        if judged.end_missed.is_finite() {
+            self.found.programmed.note(judged.end_missed, &judged);
+            self.found.tightest.note_share(judged.end_missed, &judged);
+            if judged.tolerance == Some(0.0) {
+                self.found.exact.note(judged.end_missed, &judged);
+            }
+        }
+    }
+
+    /// The nearest piece, and its distance.
+    fn nearest(&self, position: &Position) -> Option<(usize, f64)> {
+        let away = |index: usize| {
+            let piece = &self.pieces.get(index)?.piece;
+            Some(piece.segment.deviation(position, self.all_axes).0)
+        };
+        let first = self.near.saturating_sub(NEAR);
+        let mut best = (first, away(first)?);
+        let mut index = first;
+        // On as long as that leads nearer, and a little farther.
+        while index < best.0.max(self.near) + NEAR && index < self.near + FAR {
+            index += 1;
+            match away(index) {
+                Some(distance) if distance <= best.1 => best = (index, distance),
+                Some(_) => {}
+                None => break,
+            }
+        }
+        Some(best)
+    }
+
+    /// What was found so far.
+    pub fn found(&self) -> &Deviation {
+        &self.found
+    }
+
+    /// At the end of the program.
+    pub fn finish(mut self) -> Deviation {
+        while !self.pieces.is_empty() {
+            self.leave();
+        }
+        self.found
+    }
+}

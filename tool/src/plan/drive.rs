@@ -1,0 +1,356 @@
+//! Drives the planner of blendtp as the servo thread would, in place of task and motion controller,
+//! faster than real time.
+
+use super::error::PlanError;
+use super::setup::Setup;
+use super::source::Source;
+use super::spindle::Spindle;
+use crate::canon::call::{PathMode, Position};
+use crate::compare::program::{self, Move, Operation, Piece, Shape};
+use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
+use framepath::moves::{MotionType, STATE_TAG_SIZE, StateTag, TerminationCondition};
+use framepath::path::Circle;
+use framepath::planner::{AddError, CycleInputs, MoveRequest, Planner, Status};
+use nalgebra::Vector3;
+use std::path::Path;
+
+/// Which overrides apply: LinuxCNC's feed, spindle and adaptive override and feed hold.
+const ALL_OVERRIDES: u8 = 0x0f;
+
+/// Cycles without any change after which the plan counts as stuck.
+const STUCK: u64 = 100_000;
+
+/// Cycles for planning what is in the queue, while the machine is held at the start.
+const SETTLING: u64 = 1000;
+
+/// Travel of an axis below it counts as none, mm or degrees.
+const NO_TRAVEL: f64 = 1e-8;
+
+/// Why the machine stands, or that it moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Activity {
+    /// The planner has moves.
+    Moves,
+    /// G4.
+    Dwells,
+    /// The program waits for the end of motion, or has ended.
+    Waits,
+}
+
+/// One servo cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Since the program was started, s.
+    pub time: f64,
+    /// mm and degrees.
+    pub position: Position,
+    /// Number of the move that runs, from 0.
+    pub running: Option<usize>,
+    /// Speed along the path over what the move asks for; 0 where nothing runs.
+    pub share_of_feed: f64,
+    /// Whether the next move waits for the spindle: its index or its speed.
+    pub awaits_spindle: bool,
+    /// What goes on.
+    pub activity: Activity,
+}
+
+/// A move on its way through the planner, with what the program says of it.
+pub struct Handed {
+    pub(super) a_move: Move,
+    pub(super) pieces: Vec<Piece>,
+}
+
+/// The planner and the program that it runs.
+pub struct Drive<'a> {
+    file: &'a Path,
+    setup: &'a Setup,
+    planner: Box<Planner>,
+    spindle: Spindle,
+    inputs: CycleInputs,
+    cycle: u64,
+    dwell_until: Option<u64>,
+    /// Held at the start while the queue fills: until this cycle, which every move puts off.
+    hold_until: Option<u64>,
+    last_line: i32,
+    last_change: u64,
+    finished: bool,
+}
+
+impl<'a> Drive<'a> {
+    /// The planner as the motion controller sets it up. `fill_queue` holds the machine at the start
+    /// until no more moves can be handed over.
+    ///
+    /// # Errors
+    /// Settings that the planner does not take.
+    pub fn new(file: &'a Path, setup: &'a Setup, fill_queue: bool) -> Result<Self, PlanError> {
+        let mut planner = Box::new(Planner::new());
+        let refused = |what: &str| PlanError::Option(format!("the planner refuses {what}"));
+        let unit = |axis: usize| setup.scale(axis);
+        let scaled =
+            |values: &[f64; AXIS_COUNT]| Axes::from_fn(|axis, _| values[axis] * unit(axis));
+        if !planner.set_cycle_time(setup.period) {
+            return Err(refused("the servo period"));
+        }
+        planner.set_limits(&AxisLimits {
+            velocity: scaled(&setup.limits.velocity),
+            acceleration: scaled(&setup.limits.acceleration),
+            jerk: scaled(&setup.jerk),
+        });
+        let length = 1.0 / setup.millimetres;
+        planner
+            .set_blending(
+                length,
+                setup.rotary_tolerance,
+                setup.default_tolerance * length,
+            )
+            .map_err(|_| refused("the tolerances: they must be 0 or positive"))?;
+        planner.set_velocity_limit(setup.velocity_limit * length);
+        planner
+            .set_position(&scaled(&setup.surroundings.start))
+            .map_err(|_| refused("the start: [JOINT_n]HOME"))?;
+        Ok(Drive {
+            file,
+            setup,
+            planner,
+            spindle: Spindle::default(),
+            inputs: CycleInputs::default(),
+            cycle: 0,
+            dwell_until: None,
+            hold_until: fill_queue.then_some(SETTLING),
+            last_line: 0,
+            last_change: 0,
+            finished: false,
+        })
+    }
+
+    /// One servo cycle; `None` when the program has come to its end. `handed` gets the moves that
+    /// the planner is given in it.
+    ///
+    /// # Errors
+    /// What the interpreter or the planner refuses.
+    pub fn step(
+        &mut self,
+        source: &mut Source,
+        mut handed: impl FnMut(Handed),
+    ) -> Result<Option<Sample>, PlanError> {
+        if self.finished {
+            return Ok(None);
+        }
+        self.task(source, &mut handed)?;
+        let dwells = self.dwell_until.is_some();
+        if self.hold_until.is_some_and(|until| self.cycle >= until) {
+            self.hold_until = None;
+        }
+        // As with the pin motion.feed-inhibit.
+        self.inputs.net_feed_scale = if self.hold_until.is_some() { 0.0 } else { 1.0 };
+        self.inputs.spindles[0] = self.spindle.turn(self.setup.period);
+        let status = *self.planner.cycle(&self.inputs);
+        self.spindle.obey(&status);
+        self.judge(&status)?;
+        self.cycle += 1;
+        let at_end = !dwells && status.done && source.peek()?.is_none();
+        self.finished = at_end;
+        Ok(Some(self.sample(&status, dwells)))
+    }
+
+    /// The task controller and the command handler: what may be handed over in this cycle, one
+    /// move at most.
+    fn task(
+        &mut self,
+        source: &mut Source,
+        handed: &mut impl FnMut(Handed),
+    ) -> Result<(), PlanError> {
+        if self.dwell_until.is_some_and(|until| self.cycle >= until) {
+            self.dwell_until = None;
+        }
+        while self.dwell_until.is_none() {
+            let Some(next) = source.peek()? else { break };
+            let status = self.planner.status();
+            let waits = match next {
+                Operation::Move(_) => status.queue_full,
+                Operation::WaitForMotion => !status.done,
+                _ => false,
+            };
+            if waits {
+                break;
+            }
+            let Some((operation, pieces)) = source.take() else {
+                break;
+            };
+            self.last_change = self.cycle;
+            match operation {
+                Operation::Move(a_move) => {
+                    self.add(&a_move)?;
+                    if let Some(until) = &mut self.hold_until {
+                        *until = self.cycle + SETTLING;
+                    }
+                    let a_move = *a_move;
+                    handed(Handed { a_move, pieces });
+                    break;
+                }
+                Operation::WaitForMotion => {}
+                Operation::Dwell(seconds) => {
+                    let cycles = (seconds / self.setup.period).round().max(0.0);
+                    self.dwell_until = Some(self.cycle + cycles as u64);
+                }
+                Operation::Termination(mode, tolerance) => self.set_termination(mode, tolerance),
+                Operation::Synchronise {
+                    per_revolution,
+                    velocity_mode,
+                } => {
+                    let per_turn = per_revolution / self.setup.millimetres;
+                    self.planner
+                        .set_spindle_synchronisation(0, per_turn, velocity_mode);
+                }
+                Operation::Spindle(revolutions) => self.spindle.command(revolutions),
+            }
+        }
+        Ok(())
+    }
+
+    fn set_termination(&mut self, mode: PathMode, tolerance: f64) {
+        self.planner.set_termination(match mode {
+            PathMode::ExactStop => TerminationCondition::Stop,
+            PathMode::ExactPath => TerminationCondition::Exact,
+            PathMode::Continuous => TerminationCondition::Continuous {
+                tolerance: tolerance / self.setup.millimetres,
+            },
+        });
+    }
+
+    fn add(&mut self, a_move: &Move) -> Result<(), PlanError> {
+        self.last_line = a_move.line;
+        let length = 1.0 / self.setup.millimetres;
+        let linear = (0..AXIS_COUNT).any(|axis| {
+            !crate::compare::limits::is_rotary(axis)
+                && (a_move.end[axis] - self.program_position(axis)).abs() > NO_TRAVEL
+        });
+        let rate = if linear { length } else { 1.0 };
+        let request = MoveRequest {
+            motion_type: match a_move.motion_type {
+                program::MotionType::Traverse => MotionType::Traverse,
+                program::MotionType::Feed => MotionType::Feed,
+                program::MotionType::Arc => MotionType::Arc,
+                program::MotionType::Probing => MotionType::Probing,
+            },
+            feed: a_move.velocity * rate,
+            max_velocity: a_move.greatest_velocity * rate,
+            enables: ALL_OVERRIDES,
+            wait_for_spindle: a_move.at_speed,
+            indexer_joint: None,
+            tag: StateTag([0; STATE_TAG_SIZE]),
+        };
+        self.planner
+            .set_id(i32::try_from(a_move.index + 1).unwrap_or(i32::MAX));
+        let end = Axes::from_fn(|axis, _| a_move.end[axis] * self.setup.scale(axis));
+        let vector = |values: [f64; 3]| Vector3::from(values);
+        let added = match a_move.shape {
+            Shape::Line => self.planner.add_line(&end, &request),
+            Shape::Arc {
+                centre,
+                normal,
+                turn,
+            } => {
+                let circle = Circle {
+                    center: vector(centre) * length,
+                    normal: vector(normal),
+                    turn,
+                };
+                self.planner.add_circle(&end, &circle, &request)
+            }
+            Shape::Tap => {
+                let request = MoveRequest {
+                    feed: request.max_velocity,
+                    wait_for_spindle: true,
+                    ..request
+                };
+                self.planner.add_rigid_tap(&end, 1.0, &request)
+            }
+        };
+        added.map(|_| ()).map_err(|error| PlanError::MoveRefused {
+            file: self.file.to_owned(),
+            line: a_move.line,
+            reason: words(&error),
+        })
+    }
+
+    /// Where the last move that was handed over ends, mm and degrees.
+    fn program_position(&self, axis: usize) -> f64 {
+        self.planner.goal()[axis] / self.setup.scale(axis)
+    }
+
+    /// What must not happen.
+    fn judge(&mut self, status: &Status) -> Result<(), PlanError> {
+        let stopped = |reason: String| {
+            Err(PlanError::Stopped {
+                file: self.file.to_owned(),
+                line: self.last_line,
+                reason,
+            })
+        };
+        if let Some(fault) = status.fault {
+            return stopped(format!(
+                "{fault:?}. This is a fault of blendtp: please report it with the program"
+            ));
+        }
+        if let Some(error) = status.spindle_error {
+            return stopped(format!("spindle: {error:?}"));
+        }
+        if status.active_depth > 0 || self.dwell_until.is_some() || status.done {
+            self.last_change = self.cycle;
+        }
+        if self.cycle - self.last_change > STUCK {
+            let why = if status.waiting_for_index {
+                "it waits for the index of a spindle that does not turn"
+            } else {
+                "it stands still with moves to go"
+            };
+            return stopped(why.to_owned());
+        }
+        Ok(())
+    }
+
+    fn sample(&self, status: &Status, dwells: bool) -> Sample {
+        let running = (status.active_depth > 0)
+            .then(|| usize::try_from(status.exec_id).ok()?.checked_sub(1))
+            .flatten();
+        let asked = status
+            .requested_velocity
+            .min(self.setup.velocity_limit / self.setup.millimetres);
+        Sample {
+            time: self.cycle as f64 * self.setup.period,
+            position: std::array::from_fn(|axis| status.position[axis] / self.setup.scale(axis)),
+            running,
+            share_of_feed: if asked > 0.0 {
+                status.current_velocity / asked
+            } else {
+                0.0
+            },
+            awaits_spindle: status.waiting_for_spindle || status.waiting_for_index,
+            activity: if dwells {
+                Activity::Dwells
+            } else if status.done {
+                Activity::Waits
+            } else {
+                Activity::Moves
+            },
+        }
+    }
+}
+
+/// Why the planner refuses a move.
+fn words(error: &AddError) -> String {
+    match error {
+        AddError::Feed { .. } => "it has no feed: F is zero".to_owned(),
+        AddError::RigidTap => "a rigid tap (G33.1) has no pitch to follow".to_owned(),
+        AddError::AxisLimits { axis } => format!(
+            "axis {} has no limits",
+            framepath::axes::AXIS_LETTERS
+                .get(*axis)
+                .copied()
+                .unwrap_or('?')
+        ),
+        AddError::Shape(shape) => format!("its shape cannot be used: {shape:?}"),
+        other => format!("{other:?}"),
+    }
+}

@@ -1,0 +1,286 @@
+//! All figures of a plan, as they are shown and written as JSON. Lengths are machine units.
+
+use super::cause::{Cause, Phase};
+use super::collector::{Collected, Peak};
+use super::deviation::Farthest;
+use super::places::Place;
+use super::setup::Setup;
+use crate::report::differences::Quantity;
+use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
+use serde::Serialize;
+
+/// A share of the time.
+#[derive(Clone, Debug, Serialize)]
+pub struct TimeShare {
+    /// What it is.
+    pub name: String,
+    /// Seconds.
+    pub time: f64,
+    /// Seconds that would be saved at feed.
+    pub lost: f64,
+    /// Share of the whole time.
+    pub share: f64,
+    /// Number of the cause, for the colours of the page.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cause: Option<usize>,
+}
+
+/// A greatest value.
+#[derive(Clone, Debug, Serialize)]
+pub struct PeakFigure {
+    /// Of what.
+    pub quantity: Quantity,
+    /// The greatest value.
+    pub peak: f64,
+    /// What is allowed; `None`: not limited.
+    pub limit: Option<f64>,
+    /// Of the limit.
+    pub share: Option<f64>,
+    /// s.
+    pub time: f64,
+    /// Line of the program.
+    pub line: i32,
+}
+
+/// An axis.
+#[derive(Clone, Debug, Serialize)]
+pub struct AxisFigures {
+    /// Its letter.
+    pub letter: char,
+    /// `axis.x`.
+    pub name: String,
+    /// `mm`, `in` or `deg`.
+    pub unit: &'static str,
+    /// Number of the axis.
+    #[serde(skip)]
+    pub index: usize,
+    /// Where it goes.
+    pub from: f64,
+    /// See above.
+    pub to: f64,
+    /// Velocity, acceleration, jerk.
+    pub peaks: Vec<PeakFigure>,
+}
+
+/// The greatest speed along the path.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct SpeedFigure {
+    /// Machine units per second.
+    pub value: f64,
+    /// s.
+    pub time: f64,
+    /// Line of the program.
+    pub line: i32,
+}
+
+/// A largest distance.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct DistanceFigure {
+    /// Machine units.
+    pub distance: f64,
+    /// What is allowed there; `None`: G64 without P.
+    pub tolerance: Option<f64>,
+    /// Line of the program.
+    pub line: i32,
+}
+
+/// Distance from the program.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct DeviationFigures {
+    /// Of the planned path from the program.
+    pub planned: DistanceFigure,
+    /// Of the ends of programmed moves from the planned path.
+    pub programmed: DistanceFigure,
+    /// Where P is used up most.
+    pub tightest: Option<DistanceFigure>,
+    /// In exact modes (G61, G61.1).
+    pub exact: Option<DistanceFigure>,
+}
+
+/// A slow place.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlaceFigure {
+    /// Line where the machine is slowest.
+    pub line: i32,
+    /// Lines from, to.
+    pub lines: [i32; 2],
+    /// Text of the line, empty if it is not known.
+    pub text: String,
+    /// s.
+    pub time: f64,
+    /// s.
+    pub duration: f64,
+    /// Seconds that would be saved at feed.
+    pub lost: f64,
+    /// The least speed, machine units per second.
+    pub least_speed: f64,
+    /// The same over the feed.
+    pub least_share: f64,
+    /// X Y Z.
+    pub position: [f64; 3],
+    /// What the machine does there.
+    pub phase: &'static str,
+    /// What keeps it from being faster.
+    pub cause: String,
+}
+
+/// All figures of a plan.
+#[derive(Clone, Debug, Serialize)]
+pub struct Figures {
+    /// Name of the program.
+    pub program: String,
+    /// Name of the machine.
+    pub machine: String,
+    /// Where the limits come from.
+    pub limits_from: String,
+    /// `mm` or `in`.
+    pub length_unit: &'static str,
+    /// s.
+    pub servo_period: f64,
+    /// From the first motion to the last, s.
+    pub time: f64,
+    /// The same in servo cycles.
+    pub cycles: u64,
+    /// Standing before the first motion, s.
+    pub before: f64,
+    /// Standing behind the last motion, s.
+    pub after: f64,
+    /// Moves handed to the planner.
+    pub moves: usize,
+    /// Travel in X Y Z.
+    pub path_length: f64,
+    /// Along the path.
+    pub greatest_speed: SpeedFigure,
+    /// Where the time goes.
+    pub phases: Vec<TimeShare>,
+    /// What limits the machine.
+    pub limited_by: Vec<TimeShare>,
+    /// The worst first.
+    pub slowest: Vec<PlaceFigure>,
+    /// Distance from the program.
+    pub deviation: DeviationFigures,
+    /// Axes that move.
+    pub axes: Vec<AxisFigures>,
+}
+
+impl Figures {
+    /// Shows what was collected. `moves` were handed to the planner; the text of the slowest lines
+    /// is put in by the caller.
+    pub fn new(program: &str, setup: &Setup, moves: usize, collected: &Collected) -> Figures {
+        let time = collected.cycles as f64 * setup.period;
+        let share = |part: f64| if time > 0.0 { part / time } else { 0.0 };
+        let phases = Phase::ALL.map(|phase| TimeShare {
+            name: phase.name().to_owned(),
+            time: collected.by_phase[phase as usize],
+            lost: collected.lost_by_phase[phase as usize],
+            share: share(collected.by_phase[phase as usize]),
+            cause: None,
+        });
+        let mut limited_by: Vec<TimeShare> = (0..Cause::COUNT)
+            .filter(|index| collected.by_cause[*index] > 0.0)
+            .map(|index| TimeShare {
+                name: Cause::at(index).name(),
+                time: collected.by_cause[index],
+                lost: collected.lost_by_cause[index],
+                share: share(collected.by_cause[index]),
+                cause: Some(index),
+            })
+            .collect();
+        limited_by.sort_by(|a, b| b.time.total_cmp(&a.time));
+        Figures {
+            program: program.to_owned(),
+            machine: setup.machine.clone(),
+            limits_from: setup.origin.clone(),
+            length_unit: setup.unit,
+            servo_period: setup.period,
+            time,
+            cycles: collected.cycles,
+            before: collected.before as f64 * setup.period,
+            after: collected.after as f64 * setup.period,
+            moves,
+            path_length: collected.length,
+            greatest_speed: SpeedFigure {
+                value: collected.speed.value,
+                time: collected.speed.time,
+                line: collected.speed.line,
+            },
+            phases: phases.into(),
+            limited_by,
+            slowest: collected.places.iter().map(place_figure).collect(),
+            deviation: deviation_figures(setup, collected),
+            axes: axes(setup, collected),
+        }
+    }
+}
+
+fn place_figure(place: &Place) -> PlaceFigure {
+    let [x, y, z, ..] = place.position;
+    PlaceFigure {
+        line: place.line,
+        lines: [place.first_line, place.last_line],
+        text: String::new(),
+        time: place.time,
+        duration: place.duration,
+        lost: place.lost,
+        least_speed: place.least_speed,
+        least_share: place.least_share,
+        position: [x, y, z],
+        phase: place.phase.name(),
+        cause: place.cause.name(),
+    }
+}
+
+fn deviation_figures(setup: &Setup, collected: &Collected) -> DeviationFigures {
+    let figure = |farthest: &Farthest| DistanceFigure {
+        distance: farthest.distance / setup.millimetres,
+        tolerance: farthest.tolerance.map(|t| t / setup.millimetres),
+        line: farthest.line,
+    };
+    let there = |farthest: &Farthest| farthest.tolerance.map(|_| figure(farthest));
+    let deviation = &collected.deviation;
+    DeviationFigures {
+        planned: figure(&deviation.planned),
+        programmed: figure(&deviation.programmed),
+        tightest: there(&deviation.tightest),
+        exact: there(&deviation.exact),
+    }
+}
+
+/// Travel below this is none, machine units or degrees.
+const NO_TRAVEL: f64 = 1e-9;
+
+fn axes(setup: &Setup, collected: &Collected) -> Vec<AxisFigures> {
+    let limits = [
+        &setup.limits.velocity,
+        &setup.limits.acceleration,
+        &setup.jerk,
+    ];
+    let of_axis = |axis: usize| {
+        let peak = |(order, quantity): (usize, Quantity)| {
+            let Peak { value, time, line } = collected.peaks[axis][order];
+            let limit = limits[order][axis] * setup.scale(axis);
+            let limit = limit.is_finite().then_some(limit);
+            PeakFigure {
+                quantity,
+                peak: value,
+                limit,
+                share: limit.map(|limit| value / limit),
+                time,
+                line,
+            }
+        };
+        AxisFigures {
+            letter: AXIS_LETTERS[axis],
+            name: format!("axis.{}", AXIS_LETTERS[axis].to_ascii_lowercase()),
+            unit: setup.unit_of(axis),
+            index: axis,
+            from: collected.box_low[axis],
+            to: collected.box_high[axis],
+            peaks: Quantity::ALL.into_iter().enumerate().map(peak).collect(),
+        }
+    };
+    (0..AXIS_COUNT)
+        .filter(|axis| collected.box_high[*axis] - collected.box_low[*axis] > NO_TRAVEL)
+        .map(of_axis)
+        .collect()
+}

@@ -1,0 +1,239 @@
+//! `framepath plan`: what the planner of blendtp will do with a program, before anything is cut.
+//!
+//! The files in the order of the work: [`setup`] is the machine, [`source`] the program as the task
+//! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with a
+//! [`spindle`]; [`collector`] takes in each servo cycle: [`rates`] and [`cause`] say what limits the
+//! machine, [`places`] where time is lost, [`deviation`] how far the plan is from the program,
+//! [`profile`] and [`polyline`] are for the drawings; [`figures`] holds all of it; [`text`], [`page`],
+//! [`svg`] and [`csv`] show it, with a [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
+
+mod cause;
+mod collector;
+mod csv;
+mod deviation;
+mod drive;
+mod error;
+mod figures;
+mod listing;
+mod page;
+mod places;
+mod polyline;
+mod profile;
+mod progress;
+mod rates;
+mod setup;
+mod source;
+mod spindle;
+mod svg;
+mod text;
+
+pub use error::PlanError;
+
+use crate::compare::layer::LayerSettings;
+use crate::compare::layer::stream::LayerStream;
+use collector::{Collected, Collector};
+use csv::Table;
+use drive::Drive;
+use figures::Figures;
+use listing::Listing;
+use progress::Progress;
+use setup::Setup;
+use source::Source;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Stack for a planner, which is a few megabytes and made in place.
+const STACK: usize = 256 << 20;
+
+/// Arguments of `framepath plan`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct PlanArguments {
+    /// G-code programs, as LinuxCNC runs them
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// INI file of the machine: limits, servo period, units, parameters, tool table, subroutines
+    /// [default: a machine in mm with 100 mm/s, 1000 mm/s2 and 20000 mm/s3 on each axis, 1 ms]
+    #[arg(long, value_name = "MACHINE.ini")]
+    pub ini: Option<PathBuf>,
+    /// Limits of the axes in place of those of the machine, mm (degrees) and seconds: V=100,A=1000
+    /// for all, XY:V=50 for some, several separated by `;`
+    #[arg(long, value_name = "LIMITS")]
+    pub limits: Option<String>,
+    /// Jerk limits in place of those of the machine: `unlimited`, a number (mm/s3), or a number of
+    /// accelerations per second (20A)
+    #[arg(long, value_name = "JERK")]
+    pub jerk: Option<String>,
+    /// Greatest velocity along the path, mm/s, in place of [TRAJ]MAX_LINEAR_VELOCITY
+    #[arg(long, value_name = "V", value_parser = positive)]
+    pub velocity_limit: Option<f64>,
+    /// Servo period in place of [EMCMOT]SERVO_PERIOD
+    #[arg(long, value_name = "SECONDS", value_parser = period)]
+    pub period: Option<f64>,
+    /// Raise every F to at least this
+    #[arg(long, value_name = "MM_MIN", value_parser = positive)]
+    pub feed_at_least: Option<f64>,
+    /// Hold the machine at the start until the queue is full or the program waits, as a feed hold
+    /// does: the plan then depends less on how fast moves come
+    #[arg(long)]
+    pub fill_queue: bool,
+    /// blendtp.rotary-tolerance: how far rotary axes may leave the program, degrees [default: as
+    /// many as P has mm]
+    #[arg(long, value_name = "DEGREES", value_parser = positive)]
+    pub rotary_tolerance: Option<f64>,
+    /// blendtp.default-tolerance: tolerance of runs of short moves under G64 without P, machine units
+    /// [default: 0.02]
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
+    pub default_tolerance: Option<f64>,
+    /// All figures as JSON in place of the text
+    #[arg(long)]
+    pub json: bool,
+    /// Write a page with drawings to this file: one file that needs no network
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Write a drawing of path and speed to this file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write a row for every servo cycle to this file
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("a number above 0 is needed".to_owned()),
+    }
+}
+
+fn period(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (1e-5..=0.1).contains(&number) => Ok(number),
+        _ => Err("seconds from 0.00001 to 0.1 are needed".to_owned()),
+    }
+}
+
+/// Plans; text or JSON on standard output, drawings into files where asked for.
+///
+/// # Errors
+/// See [`PlanError`]. Then nothing is on standard output.
+pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> {
+    let files = [&arguments.html, &arguments.svg, &arguments.csv];
+    if arguments.files.len() > 1 && files.iter().any(|file| file.is_some()) {
+        let problem = "--html, --svg and --csv are for one program: plan them one by one";
+        return Err(PlanError::Option(problem.to_owned()).into());
+    }
+    let setup = Setup::new(arguments)?;
+    let mut all = Vec::new();
+    for file in &arguments.files {
+        all.push(in_a_thread(|| plan(file, &setup, arguments))?);
+    }
+    let mut output = std::io::stdout().lock();
+    let unwritable = |source| PlanError::Write {
+        file: PathBuf::from("standard output"),
+        source,
+    };
+    if arguments.json {
+        let programs = serde_json::json!({ "programs": all });
+        serde_json::to_writer_pretty(&mut output, &programs)?;
+        writeln!(output).map_err(unwritable)?;
+    } else {
+        let texts = all.iter().map(text::render);
+        let texts = texts.collect::<Result<Vec<_>, _>>()?;
+        write!(output, "{}", texts.join("\n\n")).map_err(unwritable)?;
+        for file in files.into_iter().flatten() {
+            writeln!(output, "\nWritten: {}", file.display()).map_err(unwritable)?;
+        }
+    }
+    Ok(())
+}
+
+/// Runs `work` where a planner has room.
+fn in_a_thread<T: Send>(
+    work: impl FnOnce() -> Result<T, PlanError> + Send,
+) -> Result<T, PlanError> {
+    let failed = |problem: &str| Err(PlanError::Option(format!("the plan: {problem}")));
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new()
+            .stack_size(STACK)
+            .spawn_scoped(scope, work);
+        match thread {
+            Ok(thread) => thread
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Err(error) => failed(&error.to_string()),
+        }
+    })
+}
+
+/// Plans a program and writes its files.
+fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures, PlanError> {
+    let settings = LayerSettings {
+        limits: setup.limits,
+        feed_at_least: arguments.feed_at_least,
+    };
+    let layer = LayerStream::new(&settings, setup.surroundings.start);
+    let mut source = Source::open(file, setup, layer)?;
+    let name = file_name(file);
+    let mut progress = Progress::new(&name, listing::count_lines(file));
+    let mut table = match &arguments.csv {
+        Some(file) => Some(Table::create(file, setup)?),
+        None => None,
+    };
+    let mut drive = Drive::new(file, setup, arguments.fill_queue)?;
+    let mut collector = Collector::new(setup);
+    while let Some(sample) = drive.step(&mut source, |handed| collector.add(&handed))? {
+        let shown = collector.note(&sample);
+        if let Some(table) = &mut table {
+            table.note(&shown)?;
+        }
+        progress.note(shown.line, shown.time);
+    }
+    progress.finish();
+    if let Some(table) = table {
+        table.finish()?;
+    }
+    let collected = collector.finish();
+    if collected.cycles == 0 {
+        return Err(PlanError::NoMoves(file.to_owned()));
+    }
+    let mut figures = Figures::new(&name, setup, source.moves, &collected);
+    let listing = listing::read(file, &figures, &collected);
+    for place in &mut figures.slowest {
+        place.text = listing.text(place.line);
+    }
+    write_drawings(arguments, &figures, &collected, &listing)?;
+    Ok(figures)
+}
+
+/// Writes the page and the drawing where asked for.
+fn write_drawings(
+    arguments: &PlanArguments,
+    figures: &Figures,
+    collected: &Collected,
+    listing: &Listing,
+) -> Result<(), PlanError> {
+    let write = |file: &Path, content: Result<String, std::io::Error>| {
+        let written = content.and_then(|content| std::fs::write(file, content));
+        written.map_err(|source| PlanError::Write {
+            file: file.to_owned(),
+            source,
+        })
+    };
+    if let Some(file) = &arguments.html {
+        let text = text::render(figures).map_err(std::io::Error::other);
+        let page = text.and_then(|text| Ok(page::render(figures, collected, listing, &text)?));
+        write(file, page)?;
+    }
+    if let Some(file) = &arguments.svg {
+        let drawing = svg::render(figures, collected).map_err(std::io::Error::other);
+        write(file, drawing)?;
+    }
+    Ok(())
+}
+
+fn file_name(file: &Path) -> String {
+    file.file_name().map_or_else(
+        || file.display().to_string(),
+        |name| name.to_string_lossy().into_owned(),
+    )
+}

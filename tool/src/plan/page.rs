@@ -1,0 +1,161 @@
+//! The HTML page of a plan: one file that needs nothing else. Drawings, tables and style are those of
+//! the page of `framepath report`.
+
+use super::cause::Cause;
+use super::collector::{Collected, DISTANCE, SPEED};
+use super::figures::Figures;
+use super::listing::Listing;
+use crate::report::decimation::Envelope;
+use crate::report::differences::Quantity;
+use crate::report::page::{EnvelopeData, SCRIPTS, STYLE, escape, fill, floats, integers};
+use serde::Serialize;
+
+const HTML: &str = include_str!("page/plan.html");
+const OWN_STYLE: &str = include_str!("page/plan.css");
+const SCRIPT: &str = include_str!("page/plan.js");
+
+#[derive(Serialize)]
+struct PageData<'a> {
+    report: &'a Figures,
+    path: PathData,
+    /// A plan has no programmed path to be seen beside it.
+    programmed: NoPath,
+    profiles: ProfileData,
+    /// By their number.
+    causes: Vec<CauseData>,
+    listing: &'a Listing,
+}
+
+#[derive(Default, Serialize)]
+struct NoPath {
+    x: String,
+    y: String,
+    z: String,
+    rapid: String,
+}
+
+/// 32-bit numbers in base64, shape (points).
+#[derive(Serialize)]
+struct PathData {
+    time: String,
+    x: String,
+    y: String,
+    z: String,
+    speed: String,
+    line: String,
+    cause: String,
+}
+
+#[derive(Serialize)]
+struct ProfileData {
+    time: String,
+    end: f64,
+    /// Shape (axes, 3).
+    axes: Vec<Vec<EnvelopeData>>,
+    speed: EnvelopeData,
+    distance: EnvelopeData,
+    distance_factor: f64,
+}
+
+#[derive(Serialize)]
+struct CauseData {
+    name: String,
+    kind: &'static str,
+}
+
+/// The name of the colour of a cause.
+pub fn kind(cause: Cause) -> &'static str {
+    match cause {
+        Cause::Feed => "feed",
+        Cause::PathVelocity => "path",
+        Cause::Between => "between",
+        Cause::Dwell | Cause::Spindle | Cause::Rest | Cause::Program => "waiting",
+        Cause::Axis(_, quantity) => quantity.name(),
+    }
+}
+
+/// Writes the page; `text` is for readers without JavaScript.
+///
+/// # Errors
+/// Those of `serde_json`, which do not occur with finite numbers.
+pub fn render(
+    figures: &Figures,
+    collected: &Collected,
+    listing: &Listing,
+    text: &str,
+) -> Result<String, serde_json::Error> {
+    let data = PageData {
+        report: figures,
+        path: path_data(collected),
+        programmed: NoPath::default(),
+        profiles: profile_data(figures, collected),
+        causes: (0..Cause::COUNT)
+            .map(|index| CauseData {
+                name: Cause::at(index).name(),
+                kind: kind(Cause::at(index)),
+            })
+            .collect(),
+        listing,
+    };
+    // Inside a script element only "</script" and "<!--" would end the data.
+    let json = serde_json::to_string(&data)?.replace('<', "\\u003c");
+    Ok(fill(
+        HTML,
+        &[
+            ("{{title}}", &escape(&figures.program)),
+            ("{{style}}", &(STYLE.to_owned() + OWN_STYLE)),
+            ("{{text}}", &escape(text)),
+            ("{{data}}", &json),
+            ("{{script}}", &(SCRIPTS.concat() + SCRIPT)),
+        ],
+    ))
+}
+
+fn path_data(collected: &Collected) -> PathData {
+    let path = &collected.path;
+    let column = |axis: usize| floats(path.iter().map(|point| point.point[axis] as f32));
+    PathData {
+        time: floats(path.iter().map(|point| point.time as f32)),
+        x: column(0),
+        y: column(1),
+        z: column(2),
+        speed: floats(path.iter().map(|point| point.speed)),
+        line: integers(path.iter().map(|point| point.line)),
+        cause: integers(path.iter().map(|point| i32::from(point.cause))),
+    }
+}
+
+fn profile_data(figures: &Figures, collected: &Collected) -> ProfileData {
+    let profiles = &collected.profiles;
+    let period = figures.servo_period;
+    let envelope = |channel: usize, factor: f64| {
+        let scaled = |value: f32| (f64::from(value) * factor) as f32;
+        let (low, high) = profiles
+            .channel(channel)
+            .map(|[low, high]| (scaled(low), scaled(high)))
+            .unzip();
+        EnvelopeData::from(Envelope { low, high })
+    };
+    let distance_factor = if figures.length_unit == "mm" {
+        1000.0
+    } else {
+        1.0
+    };
+    let times = (0..profiles.buckets()).map(|bucket| (bucket * profiles.cycles) as f64 * period);
+    ProfileData {
+        time: floats(times.map(|time| time as f32)),
+        end: collected.path.last().map_or(0.0, |point| point.time),
+        axes: figures
+            .axes
+            .iter()
+            .map(|axis| {
+                let first = 3 * axis.index;
+                let channels = first..first + Quantity::ALL.len();
+                channels.map(|channel| envelope(channel, 1.0)).collect()
+            })
+            .collect(),
+        speed: envelope(SPEED, 1.0),
+        distance: envelope(DISTANCE, distance_factor),
+        distance_factor,
+    }
+}

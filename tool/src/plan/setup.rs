@@ -1,0 +1,204 @@
+//! The machine to plan for: an INI file, or options with stated defaults.
+
+use super::PlanArguments;
+use super::error::PlanError;
+use crate::canon::Surroundings;
+use crate::canon::tool_table::read_tool_table;
+use crate::compare::limits::{Jerk, Limits, is_rotary};
+use crate::report::ini::Ini;
+use crate::report::machine::{AXIS_LETTERS, Machine};
+use framepath::axes::AXIS_COUNT;
+use std::path::{Path, PathBuf};
+
+const MM_PER_INCH: f64 = 25.4;
+
+/// The machine. Lengths are millimetres unless it says machine units.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// Where the limits come from, for the reader.
+    pub origin: String,
+    /// Name of the machine, empty if it has none.
+    pub machine: String,
+    /// The INI file.
+    pub ini: Option<PathBuf>,
+    /// Seconds.
+    pub period: f64,
+    /// `mm` or `in`.
+    pub unit: &'static str,
+    /// Length of a machine unit, mm.
+    pub millimetres: f64,
+    /// Velocity and acceleration of each axis, mm (degrees) and seconds.
+    pub(super) limits: Limits,
+    /// Jerk of each axis, mm (degrees) per second cubed, infinite where it is not limited.
+    pub jerk: [f64; AXIS_COUNT],
+    /// Which axes the machine has.
+    pub axes: [bool; AXIS_COUNT],
+    /// Greatest velocity along the path, mm/s.
+    pub velocity_limit: f64,
+    /// How far rotary axes may leave the program, degrees; 0: as many as P has millimetres.
+    pub rotary_tolerance: f64,
+    /// Tolerance of short moves under G64 without P, mm.
+    pub default_tolerance: f64,
+    /// What the interpreter finds around it.
+    pub surroundings: Surroundings,
+}
+
+impl Setup {
+    /// # Errors
+    /// An INI file that is missing or lacks limits, options that make no sense.
+    pub fn new(arguments: &PlanArguments) -> Result<Setup, PlanError> {
+        let mut setup = match &arguments.ini {
+            Some(file) => from_ini(file)?,
+            None => without_ini(),
+        };
+        let mut changed = Vec::new();
+        if let Some(text) = &arguments.limits {
+            let apply = setup.limits.apply(text);
+            apply.map_err(|problem| PlanError::Option(format!("--limits: {problem}")))?;
+            changed.push(format!("--limits {text}"));
+        }
+        if let Some(text) = &arguments.jerk {
+            let jerk = Jerk::parse(text);
+            let jerk = jerk.map_err(|problem| PlanError::Option(format!("--jerk: {problem}")))?;
+            setup.jerk = jerk.of_axes(&setup.limits).map(finite_or_none);
+            changed.push(format!("--jerk {text}"));
+        } else if setup.ini.is_none() {
+            let jerk = Jerk::Accelerations(DEFAULT_JERK).of_axes(&setup.limits);
+            setup.jerk = jerk.map(finite_or_none);
+        }
+        if let Some(period) = arguments.period {
+            setup.period = period;
+            changed.push(format!("--period {period}"));
+        }
+        if let Some(velocity) = arguments.velocity_limit {
+            setup.velocity_limit = velocity;
+            changed.push(format!("--velocity-limit {velocity}"));
+        }
+        if !changed.is_empty() {
+            setup.origin = format!("{}, changed by {}", setup.origin, changed.join(" "));
+        }
+        setup.rotary_tolerance = arguments.rotary_tolerance.unwrap_or(0.0);
+        if let Some(tolerance) = arguments.default_tolerance {
+            setup.default_tolerance = tolerance * setup.millimetres;
+        }
+        Ok(setup)
+    }
+
+    /// Machine units that an axis counts for one mm, or one degree.
+    pub fn scale(&self, axis: usize) -> f64 {
+        if is_rotary(axis) {
+            1.0
+        } else {
+            1.0 / self.millimetres
+        }
+    }
+
+    /// `mm`, `in` or `deg`.
+    pub fn unit_of(&self, axis: usize) -> &'static str {
+        if is_rotary(axis) { "deg" } else { self.unit }
+    }
+}
+
+/// Jerk limits where nothing says otherwise, accelerations per second.
+pub const DEFAULT_JERK: f64 = 20.0;
+
+fn finite_or_none(jerk: f64) -> f64 {
+    if jerk > 0.0 { jerk } else { f64::INFINITY }
+}
+
+fn without_ini() -> Setup {
+    Setup {
+        origin:
+            "no INI file: 100 mm/s (degrees/s), 1000 mm/s2, 20 accelerations per second of jerk"
+                .to_owned(),
+        machine: String::new(),
+        ini: None,
+        period: 0.001,
+        unit: "mm",
+        millimetres: 1.0,
+        limits: Limits::default(),
+        jerk: [f64::INFINITY; AXIS_COUNT],
+        axes: [true; AXIS_COUNT],
+        velocity_limit: f64::INFINITY,
+        rotary_tolerance: 0.0,
+        default_tolerance: DEFAULT_TOLERANCE,
+        surroundings: Surroundings::default(),
+    }
+}
+
+/// Of the planner, in machine units.
+const DEFAULT_TOLERANCE: f64 = framepath::planner::Blending::DEFAULT_TOLERANCE;
+
+fn from_ini(file: &Path) -> Result<Setup, PlanError> {
+    let ini = Ini::read(file)?;
+    let machine = Machine::from_ini(&ini)?;
+    let millimetres = if machine.length_unit == "in" {
+        MM_PER_INCH
+    } else {
+        1.0
+    };
+    let mut setup = Setup {
+        origin: file.display().to_string(),
+        machine: machine.name.clone(),
+        period: machine.servo_period,
+        unit: machine.length_unit,
+        millimetres,
+        axes: [false; AXIS_COUNT],
+        default_tolerance: DEFAULT_TOLERANCE * millimetres,
+        ..without_ini()
+    };
+    for member in &machine.axes {
+        let Some(axis) = AXIS_LETTERS.find(member.letter) else {
+            continue;
+        };
+        let unit = 1.0 / setup.scale(axis);
+        setup.axes[axis] = true;
+        setup.limits.velocity[axis] = member.limits.velocity * unit;
+        setup.limits.acceleration[axis] = member.limits.acceleration * unit;
+        setup.jerk[axis] = member.limits.jerk.unwrap_or(f64::INFINITY) * unit;
+    }
+    if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
+        setup.velocity_limit = velocity * millimetres;
+    }
+    setup.surroundings = surroundings(&ini, file, &machine, millimetres)?;
+    setup.ini.clone_from(&setup.surroundings.ini);
+    Ok(setup)
+}
+
+/// What LinuxCNC's task hands the interpreter.
+fn surroundings(
+    ini: &Ini,
+    file: &Path,
+    machine: &Machine,
+    unit: f64,
+) -> Result<Surroundings, PlanError> {
+    let absolute =
+        std::fs::canonicalize(file).map_err(|source| crate::report::ReportError::Read {
+            file: file.to_owned(),
+            source,
+        })?;
+    let folder = absolute.parent().unwrap_or(Path::new("/")).to_owned();
+    let named = |section, key| ini.text(section, key).filter(|name| !name.is_empty());
+    let mut start = [0.0; AXIS_COUNT];
+    for (number, joint) in machine.joints.iter().enumerate() {
+        if let Some(axis) = AXIS_LETTERS.find(joint.letter) {
+            let home = ini.number(&format!("JOINT_{number}"), "HOME")?;
+            let length = if is_rotary(axis) { 1.0 } else { unit };
+            start[axis] = home.unwrap_or(0.0) * length;
+        }
+    }
+    let tools = match named("EMCIO", "TOOL_TABLE") {
+        Some(name) => Some(read_tool_table(&folder.join(name))?),
+        None => None,
+    };
+    Ok(Surroundings {
+        parameters: named("RS274NGC", "PARAMETER_FILE").map(|name| folder.join(name)),
+        unit,
+        start,
+        startup: named("RS274NGC", "RS274NGC_STARTUP_CODE")
+            .unwrap_or_default()
+            .to_owned(),
+        tools,
+        ini: Some(absolute),
+    })
+}

@@ -1,0 +1,102 @@
+//! The operations of the task controller, read as they are needed: from the interpreter through the
+//! canonical layer.
+
+use super::error::PlanError;
+use super::setup::Setup;
+use crate::canon::{CallStream, stream_program};
+use crate::compare::layer::stream::{Laid, LayerStream};
+use crate::compare::program::{Operation, Piece, Shape};
+use std::collections::VecDeque;
+use std::path::Path;
+
+/// Millimetres (degrees): travel of an axis below it counts as none.
+const NO_TRAVEL: f64 = 1e-9;
+
+/// A program that is being read.
+pub struct Source<'a> {
+    file: &'a Path,
+    setup: &'a Setup,
+    calls: CallStream,
+    layer: LayerStream<'a>,
+    waiting: VecDeque<Laid>,
+    ended: bool,
+    /// Moves read so far.
+    pub moves: usize,
+    /// The last line of the program that was read, from 1.
+    pub line: i32,
+}
+
+impl<'a> Source<'a> {
+    /// # Errors
+    /// A program that cannot be opened.
+    pub fn open(
+        file: &'a Path,
+        setup: &'a Setup,
+        layer: LayerStream<'a>,
+    ) -> Result<Self, PlanError> {
+        Ok(Source {
+            file,
+            setup,
+            calls: stream_program(file, &setup.surroundings)?,
+            layer,
+            waiting: VecDeque::new(),
+            ended: false,
+            moves: 0,
+            line: 0,
+        })
+    }
+
+    /// The next operation, left where it is; `None` at the end of the program.
+    ///
+    /// # Errors
+    /// What the interpreter refuses, an axis that the machine does not have.
+    pub(super) fn peek(&mut self) -> Result<Option<&Operation>, PlanError> {
+        while self.waiting.is_empty() && !self.ended {
+            let call = self.calls.next().transpose()?;
+            self.ended = call.is_none();
+            let waiting = &mut self.waiting;
+            self.layer
+                .take(call.as_ref(), |laid| waiting.push_back(laid));
+            self.check()?;
+        }
+        Ok(self.waiting.front().map(|laid| &laid.operation))
+    }
+
+    /// Takes the operation that was looked at, with the pieces of a move.
+    pub(super) fn take(&mut self) -> Option<(Operation, Vec<Piece>)> {
+        let laid = self.waiting.pop_front()?;
+        Some((laid.operation, laid.pieces))
+    }
+
+    fn check(&mut self) -> Result<(), PlanError> {
+        for laid in &self.waiting {
+            let Operation::Move(a_move) = &laid.operation else {
+                continue;
+            };
+            self.moves = self.moves.max(a_move.index + 1);
+            self.line = self.line.max(a_move.line);
+            let Some(piece) = laid.pieces.last() else {
+                continue;
+            };
+            let (start, end) = (&piece.segment.start, &piece.segment.end);
+            let turns = matches!(a_move.shape, Shape::Arc { .. });
+            for axis in 0..end.len() {
+                let travels = (end[axis] - start[axis]).abs() > NO_TRAVEL;
+                let there = self.setup.axes[axis];
+                if travels
+                    && !there
+                    && let Some(ini) = &self.setup.ini
+                    && !(turns && axis < 3)
+                {
+                    return Err(PlanError::NoAxis {
+                        file: self.file.to_owned(),
+                        line: a_move.line,
+                        letter: framepath::axes::AXIS_LETTERS[axis],
+                        ini: ini.clone(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}

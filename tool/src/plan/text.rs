@@ -1,0 +1,204 @@
+//! The plan as text for a terminal: plain ASCII, aligned.
+
+use super::figures::{DistanceFigure, Figures};
+use crate::report::differences::Quantity;
+use crate::report::format::{duration, grouped, length, significant, unit};
+use std::fmt::{self, Write};
+
+/// Places that the text lists; all are in the JSON.
+const LISTED_PLACES: usize = 10;
+
+/// Width of the column of labels.
+const LABEL: usize = 22;
+
+/// Characters of a program line that are shown.
+const LINE_WIDTH: usize = 40;
+
+/// All figures, ending in a line feed.
+///
+/// # Errors
+/// Those of the writer; a `String` has none.
+pub fn render(figures: &Figures) -> Result<String, fmt::Error> {
+    let mut text = String::new();
+    let out = &mut text;
+    writeln!(out, "{}", figures.program)?;
+    writeln!(out, "{}\n", "=".repeat(figures.program.chars().count()))?;
+    heading(out, figures)?;
+    times(out, figures)?;
+    places(out, figures)?;
+    axes(out, figures)?;
+    Ok(text)
+}
+
+fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
+    let u = figures.length_unit;
+    let mut entry = |label: &str, value: String| writeln!(out, "{label:LABEL$}{value}");
+    entry(
+        "Time",
+        format!(
+            "{:.3} s{}, {} servo cycles of {} ms",
+            figures.time,
+            if figures.time < 60.0 {
+                String::new()
+            } else {
+                format!(" ({})", duration(figures.time))
+            },
+            grouped(figures.cycles as usize),
+            significant(figures.servo_period * 1e3, 6)
+        ),
+    )?;
+    // A few cycles pass in any case until the first move is planned.
+    for (label, time) in [
+        ("Standing before", figures.before),
+        ("Standing after", figures.after),
+    ] {
+        if time > 20.0 * figures.servo_period {
+            entry(label, duration(time))?;
+        }
+    }
+    if !figures.machine.is_empty() {
+        entry("Machine", figures.machine.clone())?;
+    }
+    entry("Limits", figures.limits_from.clone())?;
+    entry("Moves", grouped(figures.moves))?;
+    let long = significant(figures.path_length, 7);
+    entry("Path length", format!("{long} {u}"))?;
+    let speed = figures.greatest_speed;
+    entry(
+        "Greatest speed",
+        format!(
+            "{} {u}/s ({} {u}/min) at {:.3} s, line {}",
+            significant(speed.value, 5),
+            significant(speed.value * 60.0, 5),
+            speed.time,
+            speed.line
+        ),
+    )?;
+    let far = |figure: &DistanceFigure| {
+        let tolerance = match figure.tolerance {
+            Some(0.0) => "exact mode".to_owned(),
+            Some(tolerance) => format!(
+                "{:.0} % of the tolerance {}",
+                100.0 * figure.distance / tolerance,
+                length(tolerance, u)
+            ),
+            None => "G64 without P".to_owned(),
+        };
+        format!(
+            "{}, line {} ({tolerance})",
+            length(figure.distance, u),
+            figure.line
+        )
+    };
+    let deviation = &figures.deviation;
+    entry(
+        "Off the program",
+        format!("at most {}", far(&deviation.planned)),
+    )?;
+    entry(
+        "Programmed points",
+        format!("passed at {}", far(&deviation.programmed)),
+    )?;
+    if let Some(tightest) = &deviation.tightest {
+        entry("Nearest to P", far(tightest))?;
+    }
+    if let Some(exact) = &deviation.exact {
+        entry("In exact modes", far(exact))?;
+    }
+    Ok(())
+}
+
+fn times(out: &mut String, figures: &Figures) -> fmt::Result {
+    for (title, shares) in [
+        ("Where the time goes", &figures.phases),
+        (
+            "What keeps the machine from being faster",
+            &figures.limited_by,
+        ),
+    ] {
+        writeln!(out, "\n{title:44}{:>12}{:>9}{:>14}", "s", "share", "s lost")?;
+        for share in shares {
+            writeln!(
+                out,
+                "  {:42}{:>12.3}{:>7.1} %{:>14.3}",
+                share.name,
+                share.time,
+                100.0 * share.share,
+                share.lost
+            )?;
+        }
+    }
+    writeln!(
+        out,
+        "  (lost: what would be saved if these stretches were run at feed)"
+    )
+}
+
+fn places(out: &mut String, figures: &Figures) -> fmt::Result {
+    if figures.slowest.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nSlowest places")?;
+    writeln!(
+        out,
+        "  {:>8}{:>11}{:>10}{:>12}{:>8}  {:<22}{:<26}",
+        "line",
+        "at s",
+        "s lost",
+        format!("{}/s", figures.length_unit),
+        "of F",
+        "what it does",
+        "limited by"
+    )?;
+    for place in figures.slowest.iter().take(LISTED_PLACES) {
+        let row = format!(
+            "  {:>8}{:>11.3}{:>10.4}{:>12}{:>6.0} %  {:<22}{:<26}{}",
+            place.line,
+            place.time,
+            place.lost,
+            significant(place.least_speed, 4),
+            100.0 * place.least_share,
+            place.phase,
+            place.cause,
+            place.text.chars().take(LINE_WIDTH).collect::<String>()
+        );
+        writeln!(out, "{}", row.trim_end())?;
+    }
+    let more = figures.slowest.len().saturating_sub(LISTED_PLACES);
+    if more > 0 {
+        writeln!(out, "  and {more} more with --json or --html")?;
+    }
+    Ok(())
+}
+
+fn axes(out: &mut String, figures: &Figures) -> fmt::Result {
+    writeln!(out, "\nPeaks of the axes")?;
+    writeln!(
+        out,
+        "  {:4}{:14}{:>12}{:>12}  {:8}{:>8}{:>11}{:>9}",
+        "", "quantity", "peak", "limit", "unit", "share", "at s", "line"
+    )?;
+    for axis in &figures.axes {
+        for peak in &axis.peaks {
+            let limit = peak.limit.map(|limit| significant(limit, 7));
+            let share = peak.share.map(|share| format!("{:.1} %", 100.0 * share));
+            let letter = if peak.quantity == Quantity::Velocity {
+                axis.letter.to_string()
+            } else {
+                String::new()
+            };
+            writeln!(
+                out,
+                "  {letter:4}{:14}{:>12}{:>12}  {:8}{:>8}{:>11.3}{:>9}",
+                peak.quantity.name(),
+                significant(peak.peak, 6),
+                limit.as_deref().unwrap_or("-"),
+                unit(axis.unit, peak.quantity),
+                share.as_deref().unwrap_or("-"),
+                peak.time,
+                peak.line
+            )?;
+        }
+    }
+    Ok(())
+}

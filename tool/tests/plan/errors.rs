@@ -1,0 +1,136 @@
+//! What is refused, and how it is said.
+
+use crate::support::{Bench, MILL};
+
+#[test]
+fn ini_files_that_cannot_be_used() {
+    let bench = Bench::new();
+    bench.write("part.ngc", "G21 F100\nG1 X1\nM2\n");
+    let missing = bench.refused(&["part.ngc", "--ini", "nowhere.ini"]);
+    assert!(missing.contains("nowhere.ini: cannot be read"), "{missing}");
+    for (taken, named) in [
+        (
+            "MAX_VELOCITY = 50\nMAX_ACCELERATION = 500\nMAX_JERK",
+            "[AXIS_Z]MAX_VELOCITY",
+        ),
+        (
+            "MAX_ACCELERATION = 500\nMAX_JERK",
+            "[AXIS_Z]MAX_ACCELERATION",
+        ),
+        ("SERVO_PERIOD = 1000000", "[EMCMOT]SERVO_PERIOD"),
+        ("LINEAR_UNITS = mm", "[TRAJ]LINEAR_UNITS"),
+    ] {
+        let kept = if taken.ends_with("MAX_JERK") {
+            "MAX_JERK"
+        } else {
+            ""
+        };
+        bench.write("mill.ini", &MILL.replace(taken, kept));
+        let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+        assert!(
+            error.contains("mill.ini") && error.contains(named),
+            "{error}"
+        );
+        assert!(error.contains("is missing"), "{error}");
+    }
+    let negative = MILL.replace("MAX_JERK = 5000", "MAX_JERK = -5");
+    bench.write("mill.ini", &negative);
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(error.contains("[AXIS_Z]MAX_JERK = -5"), "{error}");
+    let no_table = MILL.to_owned() + "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
+    bench.write("mill.ini", &no_table);
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.contains("tools.tbl: the tool table cannot be read"),
+        "{error}"
+    );
+    bench.write("tools.tbl", "T1 P1\nT2 length 5\n");
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(error.contains("tools.tbl:2: `length`"), "{error}");
+}
+
+#[test]
+fn programs_that_cannot_be_planned() {
+    let bench = Bench::new();
+    bench.write("mill.ini", MILL);
+    let refused = |program: &str| {
+        bench.write("part.ngc", program);
+        bench.refused(&["part.ngc", "--ini", "mill.ini"])
+    };
+    let syntax = refused("G21 F100\nG1 X1\nG1 X2 Q?\nG1 X3\nM2\n");
+    assert!(
+        syntax.starts_with("part.ngc:3: ") && syntax.contains("G1 X2 Q?"),
+        "{syntax}"
+    );
+    let no_feed = refused("G21\nG1 X1\nM2\n");
+    assert!(no_feed.starts_with("part.ngc:2: "), "{no_feed}");
+    let nothing = refused("G21\nM2\n");
+    assert!(nothing.contains("part.ngc: nothing moves"), "{nothing}");
+    let axis = refused("G21 F100\nG1 X1\nG1 A5\nM2\n");
+    assert!(axis.starts_with("part.ngc:3: axis A moves"), "{axis}");
+    let startup = MILL.replace("G61.1 G21", "G61.1 G999");
+    bench.write("mill.ini", &startup);
+    bench.write("part.ngc", "G1 X1 F100\nM2\n");
+    let code = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(code.contains("[RS274NGC]RS274NGC_STARTUP_CODE: "), "{code}");
+    assert!(code.contains("G61.1 G999"), "{code}");
+    let missing = bench.refused(&["nothing.ngc"]);
+    assert!(missing.contains("nothing.ngc: cannot be read"), "{missing}");
+}
+
+#[test]
+fn options_that_make_no_sense() {
+    let bench = Bench::new();
+    bench.write("part.ngc", "G21 F100\nG1 X1\nM2\n");
+    let limits = bench.refused(&["part.ngc", "--limits", "V=fast"]);
+    assert!(limits.starts_with("--limits: `fast`"), "{limits}");
+    let jerk = bench.refused(&["part.ngc", "--jerk=-3"]);
+    assert!(jerk.starts_with("--jerk: "), "{jerk}");
+    let two = bench.refused(&["part.ngc", "part.ngc", "--html", "both.html"]);
+    assert!(two.contains("one by one"), "{two}");
+    let unwritable = bench.refused(&["part.ngc", "--svg", "no/folder.svg"]);
+    assert!(
+        unwritable.contains("no/folder.svg: cannot be written"),
+        "{unwritable}"
+    );
+    assert_eq!(
+        bench.plan(&["part.ngc", "--period", "0"]).status.code(),
+        Some(2)
+    );
+    assert_eq!(bench.plan(&[]).status.code(), Some(2));
+}
+
+#[test]
+fn a_spindle_that_does_not_turn_is_told() {
+    let bench = Bench::new();
+    bench.write("part.ngc", "G21 F100\nG33 Z-5 K1\nM2\n");
+    let error = bench.refused(&["part.ngc"]);
+    assert!(error.contains("part.ngc:2: "), "{error}");
+}
+
+/// The plan would be that of a program without its frame.
+#[test]
+fn frames_are_refused() {
+    let bench = Bench::new();
+    let ini = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../hal-component/configs/framepath-sim/framepath-sim.ini"
+    );
+    for frame in [
+        "o<trans> call [10] [0] [0]",
+        "G77.2 Z30",
+        "o<amirror> call [1] [0] [0]",
+    ] {
+        bench.write(
+            "part.ngc",
+            &format!("G21 F1000 G61.1\n{frame}\nG1 X5\nM2\n"),
+        );
+        let error = bench.refused(&["part.ngc", "--ini", ini]);
+        assert!(
+            error.contains("a programmed frame (framekins)"),
+            "{frame}: {error}"
+        );
+    }
+    bench.write("part.ngc", "G21 F1000 G61.1\nG77\nG1 X5\nM2\n");
+    assert!(bench.plan(&["part.ngc", "--ini", ini]).status.success());
+}

@@ -1,0 +1,187 @@
+//! Times where they are known, and what limits the machine.
+
+use crate::support::{Bench, MILL, number, time_of};
+
+/// The least time from rest to rest within velocity, acceleration and jerk (Biagiotti and Melchiorri,
+/// chapter 3).
+fn rest_to_rest(length: f64, velocity: f64, acceleration: f64, jerk: f64) -> f64 {
+    let delay = acceleration / jerk;
+    let ramp = if acceleration * delay >= velocity {
+        2.0 * (velocity / jerk).sqrt()
+    } else {
+        velocity / acceleration + delay
+    };
+    if length >= velocity * ramp {
+        return length / velocity + ramp;
+    }
+    let square = acceleration * delay;
+    let peak = ((square * square + 4.0 * acceleration * length).sqrt() - square) / 2.0;
+    if peak >= square {
+        2.0 * (peak / acceleration + delay)
+    } else {
+        4.0 * (length / (2.0 * jerk)).cbrt()
+    }
+}
+
+/// The plan ends within a cycle, and begins at one.
+const CYCLES: f64 = 0.0021;
+
+#[test]
+fn lines_take_the_least_time() {
+    let bench = Bench::new();
+    for length in [0.01, 0.3, 5.0, 200.0] {
+        let program = format!("G21 G61.1 F60000\nG1 X{length}\nM2\n");
+        let figures = bench.figures(&program, &[]);
+        let expected = rest_to_rest(length, 100.0, 1000.0, 20_000.0);
+        assert!(
+            (number(&figures["time"]) - expected).abs() < CYCLES,
+            "{length}"
+        );
+    }
+    let changed = [
+        "--limits",
+        "V=50,A=400",
+        "--jerk",
+        "5000",
+        "--period",
+        "0.0005",
+    ];
+    let figures = bench.figures("G21 G61.1 F60000\nG1 Y20\nM2\n", &changed);
+    let expected = rest_to_rest(20.0, 50.0, 400.0, 5000.0);
+    assert!((number(&figures["time"]) - expected).abs() < CYCLES);
+    assert_eq!(figures["axes"][0]["letter"], "Y");
+}
+
+#[test]
+fn limits_start_and_startup_code_come_from_the_ini_file() {
+    let bench = Bench::new();
+    // The machine starts at Z 10 in G61.1.
+    let ini = format!("{MILL}HOME = 10\n");
+    let figures = bench.figures_on(&ini, "F60000\nG1 Z30\nZ10\nM2\n");
+    let expected = 2.0 * rest_to_rest(20.0, 50.0, 500.0, 5000.0);
+    assert!((number(&figures["time"]) - expected).abs() < 3.0 * CYCLES);
+    let axis = &figures["axes"][0];
+    assert_eq!(
+        (axis["letter"].as_str(), number(&axis["to"])),
+        (Some("Z"), 30.0)
+    );
+    assert!((number(&axis["from"]) - 10.0).abs() < 1e-6);
+    for peak in axis["peaks"].as_array().expect("peaks") {
+        let share = number(&peak["share"]);
+        assert!((0.99..1.05).contains(&share), "{peak}");
+    }
+}
+
+#[test]
+fn a_machine_in_inches() {
+    let bench = Bench::new();
+    let mut inches = MILL.replace("LINEAR_UNITS = mm", "LINEAR_UNITS = inch");
+    for (mm, inch) in [
+        ("= 100\n", "= 4\n"),
+        ("= 1000\n", "= 40\n"),
+        ("= 20000\n", "= 800\n"),
+    ] {
+        inches = inches.replace(mm, inch);
+    }
+    let figures = bench.figures_on(&inches, "G20\nF6000\nG1 X8\nM2\n");
+    let expected = rest_to_rest(8.0, 4.0, 40.0, 800.0);
+    assert!((number(&figures["time"]) - expected).abs() < CYCLES);
+    assert_eq!(figures["length_unit"], "in");
+    assert!((number(&figures["path_length"]) - 8.0).abs() < 1e-9);
+    assert!((number(&figures["axes"][0]["peaks"][0]["peak"]) - 4.0).abs() < 1e-3);
+}
+
+#[test]
+fn tool_table_and_parameters_count() {
+    let bench = Bench::new();
+    bench.write("tools.tbl", "T1 P1 Z5 ;short\nT7 P2 Z40 D6 ;long\n");
+    bench.write("mill.var", "5221\t100.0\n5222\t0.0\n5223\t0.0\n");
+    let ini = MILL.replace("[RS274NGC]\n", "[RS274NGC]\nPARAMETER_FILE = mill.var\n")
+        + "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
+    let figures = bench.figures_on(&ini, "F6000\nT7 M6 G43\nG0 Z0\nG1 X-50\nM2\n");
+    let axis = |index: usize| {
+        let axis = &figures["axes"][index];
+        [number(&axis["from"]), number(&axis["to"])]
+    };
+    assert_eq!(axis(0), [0.0, 50.0], "G54 is at X 100");
+    assert_eq!(axis(1), [0.0, 40.0], "the tool is 40 long");
+    assert_eq!(
+        bench.read("mill.var").lines().next(),
+        Some("5221\t100.0"),
+        "left alone"
+    );
+}
+
+#[test]
+fn what_limits_a_plain_program() {
+    let bench = Bench::new();
+    let slow = bench.figures("G21 G61.1 F600\nG1 X50\nM2\n", &[]);
+    assert!(time_of(&slow["limited_by"], "programmed feed") > 4.9);
+    assert!(time_of(&slow["phases"], "at feed") > 4.9);
+    let fast = bench.figures("G21 G61.1\nG0 X300\nM2\n", &[]);
+    assert!(time_of(&fast["limited_by"], "velocity of X") > 2.8);
+    assert!(time_of(&fast["limited_by"], "acceleration of X") > 0.08);
+    assert!(time_of(&fast["limited_by"], "jerk of X") > 0.08);
+    let capped = bench.figures("G21 G61.1 F6000\nG1 X50\nM2\n", &["--velocity-limit", "20"]);
+    assert!(time_of(&capped["limited_by"], "greatest path velocity") > 2.3);
+    let waiting = bench.figures("G21 G61.1 F6000\nG1 X5\nG4 P1.5\nX0\nM2\n", &[]);
+    let dwell = time_of(&waiting["limited_by"], "dwell (G4)");
+    assert!((dwell - 1.5).abs() < 0.01, "{dwell}");
+    for figures in [slow, fast, capped, waiting] {
+        for shares in ["phases", "limited_by"] {
+            let shares = figures[shares].as_array().expect("shares");
+            let all: f64 = shares.iter().map(|share| number(&share["time"])).sum();
+            assert!((all - number(&figures["time"])).abs() < 1e-6);
+        }
+    }
+}
+
+#[test]
+fn corners_are_slow_places_within_p() {
+    let bench = Bench::new();
+    let program = "G21 G64 P0.05 F3000\nG1 X40\nX40 Y40\nX0 Y40\nM2\n";
+    let figures = bench.figures(program, &[]);
+    assert!(time_of(&figures["phases"], "in corners and curves") > 0.005);
+    let slowest = figures["slowest"].as_array().expect("places");
+    let corners: Vec<&serde_json::Value> = slowest
+        .iter()
+        .filter(|place| number(&place["least_share"]) > 0.01)
+        .collect();
+    assert_eq!(corners.len(), 2, "{slowest:?}");
+    let mut lines: Vec<i64> = corners.iter().filter_map(|p| p["line"].as_i64()).collect();
+    lines.sort_unstable();
+    assert!(lines[0] == 2 || lines[0] == 3, "{lines:?}");
+    assert!(
+        corners
+            .iter()
+            .all(|p| !p["text"].as_str().expect("text").is_empty())
+    );
+    let tightest = &figures["deviation"]["tightest"];
+    let share = number(&tightest["distance"]) / number(&tightest["tolerance"]);
+    assert!((0.5..1.01).contains(&share), "{tightest}");
+    // The path crosses the corner at the tolerance from its point.
+    assert_eq!(
+        tightest["distance"],
+        figures["deviation"]["programmed"]["distance"]
+    );
+}
+
+#[test]
+fn exact_modes_are_exact() {
+    let bench = Bench::new();
+    let figures = bench.figures("G21 G61 F3000\nG1 X40\nG3 X40 Y20 J10\nG1 X0\nM2\n", &[]);
+    assert!(number(&figures["deviation"]["exact"]["distance"]) < 2e-3);
+    assert!(number(&figures["deviation"]["planned"]["distance"]) < 2e-3);
+    let stops = bench.figures("G21 G61.1 F3000\nG1 X40\nG3 X40 Y20 J10\nG1 X0\nM2\n", &[]);
+    assert!(number(&stops["deviation"]["planned"]["distance"]) < 1e-9);
+}
+
+#[test]
+fn a_thread_and_a_tap_follow_the_spindle() {
+    let bench = Bench::new();
+    let program = "G21 G61.1 F600\nM3 S600\nG33 Z-20 K1\nG0 Z5\nG33.1 Z-5 K1\nM5\nM2\n";
+    let figures = bench.figures(program, &[]);
+    // 20 mm and twice 10 mm at 10 mm/s
+    let time = number(&figures["time"]);
+    assert!((4.0..6.0).contains(&time), "{time}");
+}

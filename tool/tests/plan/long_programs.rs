@@ -1,0 +1,52 @@
+//! Memory does not grow with the program.
+
+use crate::support::Bench;
+use std::fmt::Write;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+/// Lines of 0.2 mm over a wavy surface.
+fn surface(moves: usize) -> String {
+    let mut text = "G21 G90 G64 P0.01 Q0\nG0 Z10\nF6000\n".to_owned();
+    for k in 0..moves {
+        let (row, place) = (k / 1000, k % 1000);
+        let x = 0.2 * if row % 2 == 0 { place } else { 999 - place } as f64;
+        let z = 4.0 * (x / 15.0).sin() + 0.5 * (x / 3.1).sin();
+        let y = 0.3 * row as f64;
+        writeln!(text, "G1 X{x:.4} Y{y:.4} Z{z:.4}").expect("a string");
+    }
+    text + "M2\n"
+}
+
+/// Greatest resident memory while a program is planned, MB, and the output.
+fn plan(bench: &Bench, moves: usize) -> (f64, String) {
+    bench.write("long.ngc", &surface(moves));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_framepath"))
+        .current_dir(bench.path())
+        .args(["plan", "long.ngc", "--html", "long.html"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    let status = format!("/proc/{}/status", child.id());
+    let mut greatest: f64 = 0.0;
+    while child.try_wait().expect("a child").is_none() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
+        greatest = greatest.max(kilobytes.unwrap_or(0.0) / 1024.0);
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let output = child.wait_with_output().expect("output");
+    assert!(output.status.success());
+    (greatest, String::from_utf8(output.stdout).expect("text"))
+}
+
+#[test]
+fn memory_and_page_stay_small() {
+    let bench = Bench::new();
+    let (short, _) = plan(&bench, 1000);
+    let (long, text) = plan(&bench, 25_000);
+    assert!(text.contains("25,001"), "{text}");
+    assert!(short > 5.0 && long < short + 40.0, "{short} {long} MB");
+    assert!(bench.read("long.html").len() < 6_000_000);
+}

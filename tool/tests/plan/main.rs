@@ -1,0 +1,8 @@
+//! `framepath plan` as its users run it.
+
+mod errors;
+mod figures;
+mod files;
+mod long_programs;
+mod page;
+mod support;

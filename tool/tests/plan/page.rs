@@ -1,0 +1,137 @@
+//! The page: needs nothing from anywhere, and works in a browser.
+
+use crate::support::Bench;
+use std::path::Path;
+use std::process::Command;
+
+const PROGRAM: &str =
+    "G21 G64 P0.05 F3000\nG1 X20 </script>\nX20 Y10 Z3\nG2 X0 Y10 I-10\nG0 X0 Y0 Z0\nM2\n";
+
+fn page(bench: &Bench) -> String {
+    bench.write("part.ngc", &PROGRAM.replace(" </script>", " (</script>)"));
+    let output = bench.plan(&["part.ngc", "--html", "plan.html"]);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    bench.read("plan.html")
+}
+
+#[test]
+fn the_page_needs_nothing_from_anywhere() {
+    let page = page(&Bench::new());
+    for word in [
+        "http",
+        "src=",
+        "@import",
+        "url(",
+        "fetch(",
+        "XMLHttpRequest",
+        "<link",
+        "{{",
+    ] {
+        assert!(!page.contains(word), "{word}");
+    }
+    assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
+    assert_eq!(page.matches("</script>").count(), 2);
+    let (_, rest) = page.split_once("id=\"data\">").expect("data");
+    let data: serde_json::Value =
+        serde_json::from_str(rest.split_once("</script>").expect("an end").0).expect("valid JSON");
+    assert_eq!(data["listing"]["lines"][1][1], "G1 X20 (</script>)");
+}
+
+/// Turns the drawing in space and looks at everything that must not overlap; what it finds becomes the
+/// title of the page.
+const PROBE: &str = r##"<script>
+window.addEventListener("error", (event) => (document.title = "error: " + event.message));
+window.addEventListener("load", () => setTimeout(() => {
+  try {
+    const space = document.getElementById("space");
+    const place = space.getBoundingClientRect();
+    const send = (type, x) => space.dispatchEvent(new PointerEvent(type, {
+      clientX: place.left + x, clientY: place.top + 150, bubbles: true, pointerId: 1 }));
+    space.setPointerCapture = () => {};
+    const before = space.firstChild.toDataURL();
+    send("pointerdown", 100);
+    const begin = performance.now();
+    for (let k = 1; k <= 20; k++) send("pointermove", 100 + 5 * k);
+    const frame = (performance.now() - begin) / 20;
+    send("pointerup", 200);
+    const turned = space.firstChild.toDataURL() !== before;
+    const boxes = [...document.querySelectorAll(".figure, h2, .canvas, table, .legend, .profile-title, footer")]
+      .map((e) => [e, e.getBoundingClientRect()]).filter(([, b]) => b.width * b.height > 0);
+    let overlaps = 0;
+    boxes.forEach(([a, p], i) => boxes.slice(i + 1).forEach(([b, q]) => {
+      if (a.contains(b) || b.contains(a)) return;
+      if (p.left < q.right - 1 && q.left < p.right - 1 && p.top < q.bottom - 1 && q.top < p.bottom - 1) overlaps++;
+    }));
+    const wide = document.documentElement.scrollWidth - innerWidth;
+    const rows = document.querySelectorAll("#places tbody tr").length;
+    const choice = document.querySelector("[value=cause]");
+    choice.click();
+    const kinds = document.querySelectorAll("#legend .swatch").length;
+    document.title = JSON.stringify({ turned, frame, overlaps, wide, rows, kinds,
+      curves: document.querySelectorAll(".profile").length });
+  } catch (error) {
+    document.title = "error: " + error;
+  }
+}, 200));
+</script>"##;
+
+fn browser() -> Option<&'static str> {
+    [
+        "/usr/bin/chromium",
+        "/usr/bin/chromium-browser",
+        "/usr/bin/google-chrome",
+    ]
+    .into_iter()
+    .find(|path| Path::new(path).exists())
+}
+
+/// Opens a page; what the browser prints.
+fn open(browser: &str, folder: &Path, more: &[&str], file: &str) -> std::process::Output {
+    Command::new(browser)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--hide-scrollbars",
+        ])
+        .arg(format!(
+            "--user-data-dir={}",
+            folder.join("browser").display()
+        ))
+        .args(["--virtual-time-budget=6000", "--window-size=1400,2400"])
+        .args(more)
+        .arg(format!("file://{}", folder.join(file).display()))
+        .output()
+        .expect("the browser runs")
+}
+
+#[test]
+fn the_page_turns_and_nothing_overlaps() {
+    let browser = browser().expect("a browser: ./prerequisites browser installs chromium");
+    let bench = Bench::new();
+    let page = page(&bench);
+    let probed = page.replace("</body>", &format!("{PROBE}</body>"));
+    bench.write("probed.html", &probed);
+    let output = open(browser, bench.path(), &["--dump-dom"], "probed.html");
+    let dom = String::from_utf8_lossy(&output.stdout);
+    let (_, rest) = dom.split_once("<title>").expect("a title");
+    let found = rest.split_once("</title>").expect("an end").0;
+    let found: serde_json::Value = serde_json::from_str(found).expect(found);
+    assert_eq!(found["turned"], true, "{found}");
+    assert_eq!(found["overlaps"], 0, "{found}");
+    assert!(found["wide"].as_f64().expect("a number") <= 0.0, "{found}");
+    assert!(
+        found["rows"].as_u64() > Some(0) && found["kinds"].as_u64() > Some(2),
+        "{found}"
+    );
+    // Three axes, speed and distance.
+    assert_eq!(found["curves"], 11, "{found}");
+    let picture = format!("--screenshot={}", bench.path().join("page.png").display());
+    open(browser, bench.path(), &[&picture], "plan.html");
+    let size = std::fs::metadata(bench.path().join("page.png")).map_or(0, |file| file.len());
+    assert!(size > 50_000, "{size}");
+}
