@@ -380,6 +380,42 @@ fn run(
     Ok((extremes, machine.positions.len()))
 }
 
+/// A failing case: between the samples of a plan the third derivative of the path in a narrow corner
+/// left its linear interpolation by more than the jerk allows.
+#[test]
+fn a_narrow_corner_behind_a_reversal_keeps_the_jerk() {
+    let jerk = 13_014.075;
+    with_room(|| {
+        let mut machine = Machine::new(planner_common::equal_limits(jerk));
+        let ways: [([f64; 3], f64, f64); 5] = [
+            ([1.325357, 0.0, 0.0], 0.0, 63.767),
+            ([0.0, -0.029627, 0.0], 1.0, 35.438),
+            ([1.049039, -1.058961, -3.027968], 0.0996507, 30.611),
+            ([0.064107, -0.072084, 0.0], 1.0, 27.425),
+            ([-0.303147, 0.0, 0.603955], 1.0, 61.728),
+        ];
+        let mut position = Axes::zeros();
+        for (way, tolerance, feed) in ways {
+            for (axis, part) in way.into_iter().enumerate() {
+                position[axis] += part;
+            }
+            machine.planner.set_termination(if tolerance > 0.0 {
+                TerminationCondition::Continuous { tolerance }
+            } else {
+                TerminationCondition::Stop
+            });
+            machine.line(position, &feed_move(feed)).expect("a line");
+        }
+        machine
+            .line(position - Axes::ith(2, 0.7829138), &feed_move(5.0))
+            .expect("a line");
+        machine.inputs.feed_scale = 1.815;
+        machine.run(5000);
+        let extremes = machine.extremes();
+        assert!(extremes.jerk <= 1.05, "{extremes:?}");
+    });
+}
+
 #[test]
 fn programs_keep_the_limits_whatever_the_operator_does() {
     let strategy = (

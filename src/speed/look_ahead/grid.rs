@@ -20,7 +20,7 @@ const FREE_TIME: f64 = 8e-3;
 const RADIUS_SHARE: f64 = 0.25;
 
 /// The share of J that the third derivative of the path may leave its linear interpolation by.
-const THIRD_DERIVATIVE_ERROR: f64 = 0.06;
+const THIRD_DERIVATIVE_ERROR: f64 = 0.04;
 
 /// What the grid has come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
