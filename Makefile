@@ -26,6 +26,7 @@ help:
 	@echo 'make tool       build the framepath command'
 	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
 	@echo 'make uninstall  remove them again'
+	@echo 'make contract   promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC (7 minutes)'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
@@ -58,6 +59,10 @@ test: lint modules
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules tool
 	$(PYTHON) -B tests/linuxcnc/run_all.py
+
+# Those that need a machine which does nothing else: the table of promises, two minutes of soak, plan against LinuxCNC.
+contract: modules tool
+	$(PYTHON) -B tests/linuxcnc/run_all.py --alone
 
 soak: modules
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner_programs -- --nocapture
@@ -102,4 +107,4 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules tool demo lint test linuxcnc-test bench fuzz compare header install uninstall clean
+.PHONY: help prerequisites modules tool demo lint test linuxcnc-test contract bench fuzz compare header install uninstall clean

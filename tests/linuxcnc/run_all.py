@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs all test files of this folder, a few at a time: each LinuxCNC has a world of its own and mostly waits.
+"""Runs the test files of this folder, a few at a time: each LinuxCNC has a world of its own and mostly waits.
 
 The output of a file is printed when it is done. Exit code 1 if a test failed.
 """
@@ -10,8 +10,8 @@ import os
 import subprocess
 import sys
 
-#: What takes longest begins first.
-LONGEST = ("test_contract_table", "test_contract_soak", "test_plan", "test_dialect_sinumerik")
+#: What runs several LinuxCNCs at once, or compares times, needs a machine that does nothing else: --alone runs these.
+ALONE = ("test_contract_table", "test_contract_soak", "test_plan")
 HERE = os.path.dirname(os.path.abspath(__file__))
 AT_A_TIME = 3
 
@@ -25,9 +25,10 @@ def run(name):
 def main():
     files = sorted(glob.glob(os.path.join(HERE, "test_*.py")), key=os.path.getsize, reverse=True)
     names = [os.path.splitext(os.path.basename(file))[0] for file in files]
-    names.sort(key=lambda name: LONGEST.index(name) if name in LONGEST else len(LONGEST))
+    alone = sys.argv[1:] == ["--alone"]
+    names = list(ALONE) if alone else [name for name in names if name not in ALONE]
     failed = []
-    with concurrent.futures.ThreadPoolExecutor(AT_A_TIME) as pool:
+    with concurrent.futures.ThreadPoolExecutor(1 if alone else AT_A_TIME) as pool:
         for future in concurrent.futures.as_completed([pool.submit(run, name) for name in names]):
             name, code, output = future.result()
             print(f"== {name}\n{output}", flush=True)

@@ -2,7 +2,7 @@
 
 use super::job::Job;
 use super::kinematics::{moves, step};
-use super::program::{Operation, Piece, Program};
+use super::program::{Operation, Piece, Program, Shape};
 use super::progress::Progress;
 use super::recording::{DONE, Recording, Sample, WAITING};
 use super::rests::{exact_stop_near, is_slow};
@@ -34,6 +34,9 @@ pub(crate) struct LeastTime {
     pub limited_by_supply: bool,
     /// Stretches between standstills that the program asks for.
     pub stretches: usize,
+    /// Those of them with moves that follow the spindle, which says how fast they are: they count as
+    /// they were run.
+    pub with_spindle: usize,
     /// Those of them for which there is no optimum: they count as they were run.
     pub not_solved: usize,
     /// The first reason for one.
@@ -61,13 +64,27 @@ impl LeastTime {
             .count();
         found.executed = (range.1 - range.0 + 1 - waited) as f64 * job.period;
         let speeds = speeds(job);
+        let followers = with_spindle(job);
         for stretch in stretches(samples, program, job, range) {
             let path: Vec<PathSample> = stretch
                 .clone()
                 .map(|k| path_sample(samples, program, &speeds, k))
                 .collect();
             found.stretches += 1;
-            found.add(&path, &limits, job.period);
+            let ids = stretch.clone().filter_map(|k| k.checked_sub(1));
+            let follows =
+                ids.filter_map(|k| usize::try_from(samples.get(k)?.id).ok()?.checked_sub(1));
+            if follows
+                .into_iter()
+                .any(|index| followers.get(index) == Some(&true))
+            {
+                let run = (path.len() - 1) as f64 * job.period;
+                found.time += run;
+                found.without_jerk_limit += run;
+                found.with_spindle += 1;
+            } else {
+                found.add(&path, &limits, job.period);
+            }
             progress.optimum_done((stretch.end - range.0) as f64 / (range.1 + 2 - range.0) as f64);
         }
         let bound = found.time.max(found.supply);
@@ -221,6 +238,20 @@ fn speeds(job: &Job) -> Vec<f64> {
             _ => None,
         });
     moves.map(|speed| speed.min(job.velocity_limit)).collect()
+}
+
+/// Whether each move follows the spindle.
+fn with_spindle(job: &Job) -> Vec<bool> {
+    let mut synchronised = false;
+    let mut found = Vec::new();
+    for operation in &job.operations {
+        match operation {
+            Operation::Synchronise { per_revolution, .. } => synchronised = *per_revolution != 0.0,
+            Operation::Move(a_move) => found.push(synchronised || a_move.shape == Shape::Tap),
+            _ => {}
+        }
+    }
+    found
 }
 
 /// First of the three axes that F counts: X Y Z, else U V W, else A B C.
