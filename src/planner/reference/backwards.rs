@@ -1,7 +1,7 @@
 //! Back along the path: the same path, run through from where the machine is to what it remembers.
 
 use super::reference::Reference;
-use super::run::{Run, speed_cap, vertex};
+use super::run::{speed_cap, vertex};
 use crate::axes::Axes;
 use crate::moves::{MotionType, MoveQueue};
 use crate::path::PathPoint;
@@ -25,7 +25,7 @@ impl Reference {
             None => self.rest,
         };
         for run in &mut self.runs {
-            Run::clear(run);
+            run.clear();
         }
         self.backwards = backwards;
         self.rested(s);
