@@ -243,7 +243,11 @@ fn explains_rest(supplied: &[Supplied], next: i32, cycle: usize) -> bool {
     let stops = of(next - 1).is_some_and(|before| {
         !matches!(before.termination, TerminationCondition::Continuous { .. })
     });
-    late || silence || stops || of(next).is_some_and(|supplied| supplied.wait_for_spindle)
+    // What is to be followed exactly is so from its start on.
+    let begins = of(next).is_some_and(|next| {
+        next.wait_for_spindle || next.termination == TerminationCondition::Exact
+    });
+    late || silence || stops || begins
 }
 
 /// Runs a program to its end, with the greatest values and the number of cycles.

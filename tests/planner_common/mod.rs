@@ -8,7 +8,7 @@ use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::moves::{MotionType, StateTag, TerminationCondition};
 use framepath::path::Circle;
 use framepath::planner::{AddError, Added, CycleInputs, MoveRequest, Planner, Status};
-use proptest::test_runner::{Config as ProptestConfig, RngAlgorithm, TestRng, TestRunner};
+use proptest::test_runner::{Config as ProptestConfig, RngSeed, TestRunner};
 
 pub const PERIOD: f64 = 1e-3;
 
@@ -47,20 +47,20 @@ pub fn with_room<R: Send>(test: impl FnOnce() -> R + Send) -> R {
     })
 }
 
-/// A runner whose cases can be had again: FRAMEPATH_SEED=<what it prints>.
+/// A runner whose cases can be had again: PROPTEST_RNG_SEED=<what it prints>.
 pub fn seeded_runner(config: ProptestConfig) -> TestRunner {
-    let seed: u64 = std::env::var("FRAMEPATH_SEED").map_or_else(
-        |_| {
+    let seed = match config.rng_seed {
+        RngSeed::Fixed(seed) => seed,
+        RngSeed::Random => {
             let now = std::time::UNIX_EPOCH.elapsed().expect("a clock");
             u64::from(now.subsec_nanos()) ^ now.as_secs() << 30
-        },
-        |seed| seed.parse().expect("a number"),
-    );
-    println!("FRAMEPATH_SEED={seed}");
-    let mut bytes = [0; 32];
-    bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
-    TestRunner::new_with_rng(config, rng)
+        }
+    };
+    println!("PROPTEST_RNG_SEED={seed}");
+    TestRunner::new(ProptestConfig {
+        rng_seed: RngSeed::Fixed(seed),
+        ..config
+    })
 }
 
 /// A position in the XY plane.
