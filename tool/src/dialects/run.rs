@@ -12,6 +12,19 @@ use crate::source::{Span, Text};
 use std::ops::Range;
 use std::rc::Rc;
 
+/// Where the flow goes after a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Next {
+    /// To the block with this index.
+    Block(usize),
+    /// Out of the routine.
+    Return,
+    /// The program is at its end.
+    End,
+    /// Nowhere: what follows cannot be known after an error.
+    Abort,
+}
+
 /// The interpreter of a dialect.
 pub trait Interpret<'a> {
     /// Its programs and subprograms.

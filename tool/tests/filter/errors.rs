@@ -40,9 +40,9 @@ fn words_that_are_none() {
     one_error("M77\nM30\n", "1:1", "M77 is not defined");
     one_error("TRAORI\nM30\n", "1:1", "TRAORI is not supported");
     one_error(
-        "CYCLE840(10,0,2,-5)\nM30\n",
+        "CYCLE71(10,0,2,-5)\nM30\n",
         "1:1",
-        "the cycle CYCLE840 is not supported",
+        "the cycle CYCLE71 is not supported",
     );
     one_error(
         "R1=$AA_IW[X]\nM30\n",

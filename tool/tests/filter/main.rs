@@ -16,5 +16,6 @@ mod robustness;
 mod rs274;
 mod shop;
 mod simulator;
+mod sinumerik_cycles;
 mod sinumerik_forms;
 mod spindle;

@@ -218,6 +218,24 @@ impl<'a> Control<'a> {
         self.actions.push(Action::End { rewind });
     }
 
+    /// The program or subprogram that runs has come to its last block without its end, which in a
+    /// subprogram is `end_of_subprogram`.
+    pub fn end_is_missing(&mut self, last: &Place, end_of_subprogram: &str) {
+        let main = self.is_in_main();
+        let (kind, word) = match main {
+            true => ("program", "M30"),
+            false => ("subprogram", end_of_subprogram),
+        };
+        self.diagnostics.push(
+            Diagnostic::warning(last.span, format!("the {kind} ends without {word}"))
+                .help(format!("put {word} into its last block")),
+        );
+        if main {
+            self.end_of_program(false);
+            self.finish_block(last);
+        }
+    }
+
     /// Hands on what is left of the program, with its roundings and chamfers.
     pub fn finish(&mut self) {
         if self.diagnostics.errors() == 0 {

@@ -33,6 +33,15 @@ pub fn set<T>(place: &mut Option<At<T>>, value: T, span: Span, address: impl Dis
     Ok(())
 }
 
+/// The names of those words that are there, and where they stand.
+pub fn named<'a>(
+    words: &'a [(&str, Option<At<f64>>)],
+) -> impl Iterator<Item = (String, Span)> + 'a {
+    let there =
+        |(name, word): &(&str, Option<At<f64>>)| word.map(|word| (name.to_string(), word.span));
+    words.iter().filter_map(there)
+}
+
 /// Whether a coordinate is absolute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
@@ -58,6 +67,12 @@ pub struct MotionWords {
 }
 
 impl MotionWords {
+    /// I, J and K as far as they are there, and where they stand.
+    pub fn named_centre(&self) -> impl Iterator<Item = (String, Span)> {
+        let words = ["I", "J", "K"].into_iter().zip(self.centre);
+        words.filter_map(|(name, word)| word.map(|word| (name.to_string(), word.span)))
+    }
+
     /// Whether any axis is named.
     pub fn names_an_axis(&self) -> bool {
         self.axes.iter().any(Option::is_some)

@@ -1,11 +1,12 @@
 //! Subroutines and repetitions.
 
-use super::interpreter::{Interpreter, Next, find_label, place};
+use super::interpreter::{Interpreter, find_label, place};
 use super::parameters::checked;
 use super::routine::{Routine, defines, subroutine_name};
 use super::syntax::{Block, Call, CallKind, Label};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::calls::CallRules;
+use crate::dialects::run::Next;
 use crate::source::Span;
 use std::rc::Rc;
 

@@ -27,6 +27,7 @@ impl Interpreter<'_> {
                 72 => self.scale(words, g.span)?,
                 73 => self.rotation(words, g.span)?,
                 93 => self.polar_origin(words, g.span)?,
+                60..=64 => self.pattern(words, g.value, g.span)?,
                 _ => continue,
             }
             return Ok(false);

@@ -229,9 +229,7 @@ fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
              sum of both into one of G54 to G57"
         }
         159 => "further zero offsets are not supported: use G54 to G57",
-        60..=65 => {
-            "multiple machining is not supported: write the places, or a loop with IF and GOTO"
-        }
+        65 => "the hole at the end of a chord: write its place",
         66..=69 | 87 | 88 => {
             "pockets and deep holes with variable steps are not supported: post the moves"
         }

@@ -12,24 +12,11 @@ use crate::diagnostics::Diagnostic;
 use crate::dialects::control::plain::PlainBlock;
 use crate::dialects::control::{About, Control, Done, Place};
 use crate::dialects::library::Library;
-use crate::dialects::run::Interpret;
+use crate::dialects::run::{Interpret, Next};
 use crate::dialects::settings::Settings;
 use crate::program::{Action, FrameScope};
 use crate::source::Span;
 use std::rc::Rc;
-
-/// Where the flow goes after a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Next {
-    /// To the block with this index.
-    Block(usize),
-    /// Out of the subroutine.
-    Return,
-    /// The program has ended.
-    End,
-    /// Nowhere: what follows cannot be known after an error.
-    Abort,
-}
 
 /// What the program has said about its tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -279,12 +266,7 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
 
     fn end_is_missing(&mut self, last: &Rc<Routine>) {
         if let Some(last) = last.blocks.last() {
-            self.control.diagnostics.push(
-                Diagnostic::warning(last.span, "the program ends without M30")
-                    .help("put M30 into its last block"),
-            );
-            self.control.end_of_program(false);
-            self.control.finish_block(&place(last));
+            self.control.end_is_missing(&place(last), "(RET)");
         }
         self.check_tool_length();
     }

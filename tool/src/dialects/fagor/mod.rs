@@ -15,6 +15,7 @@ mod interpreter;
 pub mod lexer;
 mod parameters;
 pub mod parser;
+mod patterns;
 mod polar;
 mod routine;
 pub mod syntax;

@@ -2,7 +2,7 @@
 
 use super::syntax::Word;
 use crate::diagnostics::Diagnostic;
-use crate::dialects::control::words::{AXES, At, Dimension, MotionWords, set};
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords, named, set};
 use crate::dialects::expression::Variables;
 use crate::source::Span;
 
@@ -110,14 +110,8 @@ impl BlockWords {
             ("T", self.tool),
             ("D", self.offset),
         ];
-        others.extend(
-            single
-                .into_iter()
-                .filter_map(|(name, word)| word.map(|word| (name.to_string(), word.span))),
-        );
-        for (name, word) in ["I", "J", "K"].iter().zip(self.motion.centre) {
-            others.extend(word.map(|word| (name.to_string(), word.span)));
-        }
+        others.extend(named(&single));
+        others.extend(self.motion.named_centre());
         others.into_iter().min_by_key(|(_, span)| span.start)
     }
 }

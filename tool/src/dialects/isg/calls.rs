@@ -1,10 +1,11 @@
 //! Subprogram calls.
 
-use super::interpreter::{Interpreter, Next};
+use super::interpreter::Interpreter;
 use super::syntax::Call;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Place;
 use crate::dialects::control::calls::CallRules;
+use crate::dialects::run::Next;
 
 const RULES: CallRules = CallRules {
     nesting: 20,

@@ -1,10 +1,11 @@
 //! Which block comes next: conditions, loops and jumps.
 
-use super::interpreter::{Interpreter, Next};
+use super::interpreter::Interpreter;
 use super::structure::Links;
 use super::syntax::{Assignment, Flow, Jump, Routine, Statement, Target};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Expression, Variables};
+use crate::dialects::run::Next;
 
 /// Values that differ by less are the same to `$SWITCH`.
 const SAME_CASE: f64 = 0.001;

@@ -12,23 +12,10 @@ use crate::dialects::control::plain::PlainBlock;
 use crate::dialects::control::{About, Control, Done, Place};
 use crate::dialects::expression::Expression;
 use crate::dialects::library::Library;
-use crate::dialects::run::Interpret;
+use crate::dialects::run::{Interpret, Next};
 use crate::dialects::settings::Settings;
 use crate::program::FrameScope;
 use std::rc::Rc;
-
-/// Where the flow goes after a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Next {
-    /// To the block with this index.
-    Block(usize),
-    /// Out of the routine.
-    Return,
-    /// The program is at its end.
-    End,
-    /// Nowhere: what follows cannot be known after an error.
-    Abort,
-}
 
 /// Runs a program.
 pub struct Interpreter<'a> {
@@ -209,12 +196,7 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
         let Some(last) = last.blocks.iter().rfind(|block| !block.is_blank()) else {
             return;
         };
-        self.control.diagnostics.push(
-            Diagnostic::warning(last.span, "the program ends without M30")
-                .help("put M30 into its last block"),
-        );
-        self.control.end_of_program(false);
-        self.control.finish_block(&place(last));
+        self.control.end_is_missing(&place(last), "M29");
     }
 
     fn takes(&self, block: &PlainBlock) -> bool {

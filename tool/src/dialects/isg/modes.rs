@@ -2,11 +2,12 @@
 //! tool, spindle, coolant, offsets, motion, stop.
 
 use super::block_words::BlockWords;
-use super::interpreter::{Interpreter, Next};
+use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, Dimension};
 use crate::dialects::control::{Done, Place};
+use crate::dialects::run::Next;
 use crate::dialects::settings::MirroredCircle;
 use crate::program::{Action, Compensation, FeedMode};
 use crate::source::Span;

@@ -2,7 +2,7 @@
 
 use super::syntax::{Block, Word};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::control::words::{AXES, At, Dimension, MotionWords, set};
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords, named, set};
 use crate::source::Span;
 
 /// All words of a block.
@@ -114,14 +114,8 @@ impl BlockWords {
             ("L", self.label),
             ("Q", self.passes),
         ];
-        others.extend(
-            single
-                .into_iter()
-                .filter_map(|(name, word)| word.map(|word| (name.to_string(), word.span))),
-        );
-        for (name, word) in ["I", "J", "K"].iter().zip(self.motion.centre) {
-            others.extend(word.map(|word| (name.to_string(), word.span)));
-        }
+        others.extend(named(&single));
+        others.extend(self.motion.named_centre());
         others.into_iter().min_by_key(|(_, span)| span.start)
     }
 }

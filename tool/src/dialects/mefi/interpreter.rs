@@ -103,19 +103,7 @@ impl<'a> Interpreter<'a> {
         let Some(last) = routine.blocks.iter().rfind(|block| !block.is_blank()) else {
             return;
         };
-        let main = self.control.is_in_main();
-        let (kind, word) = match main {
-            true => ("program", "M30"),
-            false => ("subprogram", "G70"),
-        };
-        self.control.diagnostics.push(
-            Diagnostic::warning(last.span, format!("the {kind} ends without {word}"))
-                .help(format!("put {word} into its last block")),
-        );
-        if main {
-            self.control.end_of_program(false);
-            self.control.finish_block(&place(last));
-        }
+        self.control.end_is_missing(&place(last), "G70");
     }
 
     fn run_block(&mut self, block: &Block) -> Next {

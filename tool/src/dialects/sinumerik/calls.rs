@@ -89,8 +89,8 @@ impl Interpreter<'_> {
                 self.control.apply_states(false);
             }
             "CYCLE800" => self.swivel(call)?,
-            "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE84" | "CYCLE85" | "CYCLE87" | "CYCLE88"
-            | "CYCLE89" => self.drill(call)?,
+            "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE84" | "CYCLE840" | "CYCLE85" | "CYCLE86"
+            | "CYCLE87" | "CYCLE88" | "CYCLE89" => self.drill(call)?,
             "HOLES1" | "HOLES2" => return self.holes(call, block).map(|()| true),
             _ => return Ok(false),
         }

@@ -1,14 +1,13 @@
 //! Drilling cycles and patterns of holes, written out as moves: CYCLE81, CYCLE82 (drilling), CYCLE83 (deep
-//! holes), CYCLE84 (rigid tapping), CYCLE85, CYCLE87, CYCLE88 and CYCLE89 (reaming, boring), HOLES1 (a
-//! row), HOLES2 (a circle). (Siemens, SINUMERIK
-//! 840D, Programming Guide Cycles, "Drilling cycles and drilling patterns".)
+//! holes), CYCLE85 to CYCLE89 (reaming, boring), HOLES1 (a row), HOLES2 (a circle); CYCLE84 and CYCLE840
+//! are in [`super::tapping`]. (Siemens, SINUMERIK 840D, Programming Guide Cycles, "Drilling cycles and
+//! drilling patterns".)
 
 use super::interpreter::Interpreter;
 use super::syntax::{Block, Call};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
-use crate::dialects::control::spindle_motion::Tap;
 use crate::dialects::control::words::{At, MotionWords};
 use crate::program::{Action, Compensation, Spindle};
 use crate::source::Span;
@@ -24,16 +23,16 @@ const HOLE_LIMIT: u32 = 10_000;
 const CHIP_BREAKING: f64 = 1.0;
 
 /// A drilling cycle; coordinates along the normal of the plane, units of the program.
-struct Hole<'a> {
-    call: &'a Call,
+pub(super) struct Hole<'a> {
+    pub call: &'a Call,
     /// RTP.
     retraction: f64,
     /// RFP.
     reference: f64,
     /// RFP and SDIS.
-    safe: f64,
+    pub safe: f64,
     /// DP.
-    bottom: f64,
+    pub bottom: f64,
 }
 
 impl Interpreter<'_> {
@@ -49,7 +48,9 @@ impl Interpreter<'_> {
         match call.name.as_str() {
             "CYCLE83" => self.deep_hole(&hole)?,
             "CYCLE84" => self.rigid_tap(&hole)?,
+            "CYCLE840" => self.floating_chuck(&hole)?,
             "CYCLE85" => self.ream(&hole)?,
+            "CYCLE86" => return self.bore(&hole),
             name => {
                 self.plunge(hole.bottom, false, call.span)?;
                 let dwell = match name {
@@ -71,65 +72,6 @@ impl Interpreter<'_> {
         self.plunge(hole.retraction, true, call.span)
     }
 
-    /// CYCLE84: DTB, SDAC, MPIT, PIT, POSS, SST, SST1 follow DPR. MPIT is the size of a metric thread.
-    fn rigid_tap(&mut self, hole: &Hole) -> Done {
-        let call = hole.call;
-        let value = |at: usize| self.value(call, at);
-        let (after, size, pitch) = (value(6)?, value(7)?, value(8)?);
-        let (speed, back) = (value(10)?, value(11)?);
-        let pitch = match (pitch, size) {
-            (Some(pitch), _) if pitch != 0.0 => pitch,
-            (_, Some(size)) if size != 0.0 => {
-                let pitch = coarse_pitch(size.abs()).ok_or_else(|| {
-                    Box::new(
-                        Diagnostic::error(call.span, format!("M{size} is not a metric thread"))
-                            .help("give the pitch itself as PIT, value 9"),
-                    )
-                })?;
-                pitch.copysign(size) / self.millimetres()
-            }
-            _ => {
-                return Err(Box::new(
-                    Diagnostic::error(call.span, "CYCLE84 needs a pitch")
-                        .help("give PIT, value 9, or MPIT, value 8, for a metric thread"),
-                ));
-            }
-        };
-        let Some(speed) = speed.filter(|speed| *speed > 0.0) else {
-            return Err(Box::new(
-                Diagnostic::error(call.span, "CYCLE84 needs a spindle speed")
-                    .help("give SST, value 11"),
-            ));
-        };
-        if value(5)?.is_some_and(|dwell| dwell != 0.0) {
-            self.control.note("the dwell (DTB) of CYCLE84", call.span);
-        }
-        let before = self.control.modal.spindle_speed;
-        let set = |value: f64| At {
-            value,
-            span: call.span,
-        };
-        self.control.speed(set(speed))?;
-        let tap = Tap {
-            bottom: hole.bottom,
-            pitch,
-            back: match back {
-                Some(back) if back > 0.0 => back / speed,
-                _ => 1.0,
-            },
-        };
-        self.control.tap(&tap, call.span)?;
-        if let Some(before) = before {
-            self.control.speed(set(before))?;
-        }
-        match after.unwrap_or(5.0) {
-            3.0 => self.control.set_spindle(Spindle::Clockwise),
-            4.0 => self.control.set_spindle(Spindle::Counterclockwise),
-            _ => {}
-        }
-        Ok(())
-    }
-
     /// CYCLE85: DTB, FFR and RFF follow DPR, the feeds in and out.
     fn ream(&mut self, hole: &Hole) -> Done {
         let call = hole.call;
@@ -148,12 +90,58 @@ impl Interpreter<'_> {
                 self.wait(dwell, call.span)?;
             }
         }
-        // The feed of the program holds again.
+        self.restore_feed(before);
+        Ok(())
+    }
+
+    /// The feed of the program holds again.
+    pub(super) fn restore_feed(&mut self, before: Option<f64>) {
         if let Some(before) = before.filter(|before| Some(*before) != self.control.modal.feed) {
             self.control.modal.feed = Some(before);
             self.control.actions.push(Action::Feed(before));
         }
-        Ok(())
+    }
+
+    /// CYCLE86: DTB, SDIR, RPA, RPO, RPAP and POSS follow DPR. At the bottom the spindle stops at the
+    /// angle POSS, the cutting edge moves off the wall by RPA, RPO and RPAP, and the tool leaves the
+    /// hole in rapid motion, then goes back over its middle.
+    fn bore(&mut self, hole: &Hole) -> Done {
+        let call = hole.call;
+        let mut values = [0.0; 6];
+        for (at, value) in values.iter_mut().enumerate() {
+            *value = self.value(call, 5 + at)?.unwrap_or(0.0);
+        }
+        let [dwell, direction, off @ .., angle] = values;
+        let spindle = match direction {
+            3.0 => Spindle::Clockwise,
+            4.0 => Spindle::Counterclockwise,
+            _ => {
+                return Err(Box::new(
+                    Diagnostic::error(call.span, "CYCLE86 needs SDIR, how the spindle turns")
+                        .help("value 7 is 3 for M3 or 4 for M4"),
+                ));
+            }
+        };
+        let [first, second, normal] = self.control.modal.plane.axes();
+        let (Some(x), Some(y)) = (self.control.present(first), self.control.present(second)) else {
+            return Err(Box::new(
+                Diagnostic::error(call.span, "where this hole is, is not known ahead of time")
+                    .help("program its place absolute before the cycle"),
+            ));
+        };
+        if self.control.modal.spindle != Some(spindle) {
+            self.control.set_spindle(spindle);
+        }
+        self.plunge(hole.bottom, false, call.span)?;
+        self.wait(dwell, call.span)?;
+        self.control.modal.spindle = None;
+        let angle = angle.rem_euclid(360.0);
+        self.control.actions.push(Action::Orient(angle));
+        let lifted = [x + off[0], y + off[1], hole.bottom + off[2]];
+        let axes = [first, second, normal];
+        self.rapid_to(&axes, &lifted, call.span)?;
+        self.plunge(hole.safe, true, call.span)?;
+        self.rapid_to(&axes, &[x, y, hole.retraction], call.span)
     }
 
     /// The planes of a cycle: RTP, RFP, SDIS, DP, DPR.
@@ -161,6 +149,7 @@ impl Interpreter<'_> {
         let known = match call.name.as_str() {
             "CYCLE81" | "CYCLE87" => 5,
             "CYCLE83" | "CYCLE84" => 12,
+            "CYCLE840" | "CYCLE86" => 11,
             "CYCLE85" => 8,
             _ => 6,
         };
@@ -290,7 +279,7 @@ impl Interpreter<'_> {
     }
 
     /// How many millimetres a unit of the program has.
-    fn millimetres(&self) -> f64 {
+    pub(super) fn millimetres(&self) -> f64 {
         match self.control.settings.machine_in_inch {
             true => 25.4 * self.control.modal.length_factor,
             false => self.control.modal.length_factor,
@@ -345,9 +334,18 @@ impl Interpreter<'_> {
 
     fn go_to(&mut self, place: [f64; 2], span: Span) -> Done {
         let [first, second, _] = self.control.modal.plane.axes();
+        self.rapid_to(&[first, second], &place, span)
+    }
+
+    fn rapid_to(&mut self, axes: &[usize], place: &[f64], span: Span) -> Done {
         let mut words = MotionWords::default();
-        for (axis, value) in [first, second].into_iter().zip(place) {
-            words.axes[axis] = Some(super::arc_words::absolute(value, span));
+        for (axis, value) in axes.iter().zip(place) {
+            if self.control.present(*axis) != Some(*value) {
+                words.axes[*axis] = Some(super::arc_words::absolute(*value, span));
+            }
+        }
+        if !words.names_an_axis() {
+            return Ok(());
         }
         let before = self.control.modal.motion.replace(Motion::Rapid);
         let done = self.control.motion(&words, span, false, false);
@@ -355,7 +353,7 @@ impl Interpreter<'_> {
         done
     }
 
-    fn plunge(&mut self, place: f64, rapid: bool, span: Span) -> Done {
+    pub(super) fn plunge(&mut self, place: f64, rapid: bool, span: Span) -> Done {
         let [_, _, normal] = self.control.modal.plane.axes();
         if self.control.present(normal) == Some(place) {
             return Ok(());
@@ -364,7 +362,7 @@ impl Interpreter<'_> {
     }
 
     /// Seconds, or if negative revolutions of the spindle.
-    fn wait(&mut self, time: f64, span: Span) -> Done {
+    pub(super) fn wait(&mut self, time: f64, span: Span) -> Done {
         let seconds = match (time < 0.0, self.control.modal.spindle_speed) {
             (false, _) => time,
             (true, Some(speed)) if speed > 0.0 => -60.0 * time / speed,
@@ -381,42 +379,12 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    fn value(&self, call: &Call, at: usize) -> Result<Option<f64>, Box<Diagnostic>> {
+    pub(super) fn value(&self, call: &Call, at: usize) -> Result<Option<f64>, Box<Diagnostic>> {
         match call.arguments.get(at) {
             Some(Some(argument)) => argument.number(&self.variables).map(Some),
             _ => Ok(None),
         }
     }
-}
-
-/// The pitch of a metric thread with coarse pitch, millimetres (ISO 261).
-fn coarse_pitch(size: f64) -> Option<f64> {
-    const PITCHES: [(f64, f64); 22] = [
-        (2.0, 0.4),
-        (2.5, 0.45),
-        (3.0, 0.5),
-        (3.5, 0.6),
-        (4.0, 0.7),
-        (4.5, 0.75),
-        (5.0, 0.8),
-        (6.0, 1.0),
-        (7.0, 1.0),
-        (8.0, 1.25),
-        (10.0, 1.5),
-        (12.0, 1.75),
-        (14.0, 2.0),
-        (16.0, 2.0),
-        (18.0, 2.5),
-        (20.0, 2.5),
-        (22.0, 2.5),
-        (24.0, 3.0),
-        (27.0, 3.0),
-        (30.0, 3.5),
-        (36.0, 4.0),
-        (48.0, 5.0),
-    ];
-    let found = PITCHES.iter().find(|(known, _)| *known == size);
-    found.map(|(_, pitch)| *pitch)
 }
 
 /// The depths of the strokes, from the reference plane: each stroke is shorter by `less` than the one

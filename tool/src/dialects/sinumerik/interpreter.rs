@@ -134,21 +134,8 @@ impl<'a> Interpreter<'a> {
     }
 
     fn end_is_missing(&mut self, routine: &Rc<Routine>) {
-        let main = self.control.is_in_main();
-        let Some(last) = routine.section.blocks.last() else {
-            return;
-        };
-        let (kind, word) = match main {
-            true => ("program", "M30"),
-            false => ("subprogram", "M17"),
-        };
-        self.control.diagnostics.push(
-            Diagnostic::warning(last.span, format!("the {kind} ends without {word}"))
-                .help(format!("put {word} into its last block")),
-        );
-        if main {
-            self.control.end_of_program(false);
-            self.finish_block(last);
+        if let Some(last) = routine.section.blocks.last() {
+            self.control.end_is_missing(&place(last), "M17");
         }
     }
 

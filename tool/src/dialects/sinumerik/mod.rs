@@ -24,6 +24,7 @@ mod spindle;
 mod structure;
 mod swivel;
 pub mod syntax;
+mod tapping;
 pub mod token;
 mod variables;
 mod word_parser;

@@ -155,3 +155,107 @@ fn threads_and_feeds_of_the_cutting_edge() {
         "{text}"
     );
 }
+
+/// A hole of 10 at the first place, and at each of the others.
+fn drilled(places: &[(f64, f64)]) -> Path {
+    let mut path = Path::from([0., 0., 20.]);
+    let mut above = 20.;
+    for (x, y) in places {
+        path = path
+            .rapid([*x, *y, above])
+            .rapid([*x, *y, 2.])
+            .line([*x, *y, -8.])
+            .rapid([*x, *y, 2.]);
+        above = 2.;
+    }
+    path
+}
+
+/// Rows by two of length, step and number; both kinds of rectangle; circles by step or number; arcs.
+#[test]
+fn patterns_of_holes() {
+    let row = [(10., 5.), (20., 5.), (30., 5.)];
+    let turned = |x: f64, y: f64, degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        (10. + x * cos - y * sin, 5. + x * sin + y * cos)
+    };
+    // About (40, 5), 30 away.
+    let around = |degrees: f64| {
+        let (sin, cos) = (degrees + 180.).to_radians().sin_cos();
+        (40. + 30. * cos, 5. + 30. * sin)
+    };
+    let frame = [
+        (10., 5.),
+        (20., 5.),
+        (30., 5.),
+        (30., 12.),
+        (30., 19.),
+        (20., 19.),
+        (10., 19.),
+        (10., 12.),
+    ];
+    let grid = [
+        (10., 5.),
+        (20., 5.),
+        (30., 5.),
+        (30., 12.),
+        (20., 12.),
+        (10., 12.),
+    ];
+    let skewed = [
+        (10., 5.),
+        turned(10., 0., 30.),
+        {
+            let (x, y) = turned(10., 0., 30.);
+            let (sin, cos) = 90_f64.to_radians().sin_cos();
+            (x + 4. * cos, y + 4. * sin)
+        },
+        (10., 9.),
+    ];
+    for (pattern, places) in [
+        ("G60 X20 I10", row.to_vec()),
+        ("G60 X20 K3", row.to_vec()),
+        ("G60 I10 K3", row.to_vec()),
+        ("G60 A30 I10 K2", vec![(10., 5.), turned(10., 0., 30.)]),
+        ("G61 X20 I10 Y14 J7", frame.to_vec()),
+        ("G62 X20 K3 J7 D2", grid.to_vec()),
+        ("G62 A30 B60 I10 K2 J4 D2", skewed.to_vec()),
+        ("G63 X30 Y0 K4", [0., 90., 180., 270.].map(around).to_vec()),
+        (
+            "G63 X30 Y0 I-90",
+            [0., -90., -180., -270.].map(around).to_vec(),
+        ),
+        ("G64 X30 Y0 B60 K3 C0", [0., 30., 60.].map(around).to_vec()),
+        (
+            "G64 X30 Y0 B60 I-20",
+            [0., -20., -40., -60.].map(around).to_vec(),
+        ),
+    ] {
+        let program =
+            format!("G90 G0 X0 Y0 Z20\nG99 G81 X10 Y5 Z2 I-8 F100\n{pattern}\nG80\nM30\n");
+        check(&program, &drilled(&places));
+        let increments = program.replace("F100\n", "F100\nG91\n");
+        check(&increments, &drilled(&places));
+    }
+}
+
+#[test]
+fn patterns_that_are_no_patterns() {
+    for (program, text) in [
+        ("G60 X20 I10", "none is active"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I7", "make 3.857"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 K5", "two of X, I and K"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I0", "above 0"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 Q2", "left out"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG63 X20 Y0 K4 C2", "only C0"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG63 X20 K4", "centre are missing"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG60 X-20 K3", "above 0"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG64 X20 Y0 K4", "B, the angle"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG64 X20 Y0 B-60 K4", "above 0"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG63 X20 Y0 I0", "whole number"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG61 X20 I10", "two of Y, J and D"),
+    ] {
+        let shown = super::errors(&format!("G90 G0 X0 Y0 Z20\n{program}\nM30\n"), &[]);
+        assert!(shown.contains(text), "{program}\n{shown}");
+    }
+}

@@ -48,7 +48,7 @@ fn functions_that_mean_something_else_to_linuxcnc_or_nothing() {
         (74, "reference search"),
         (66, "pockets"),
         (87, "pockets"),
-        (60, "multiple machining"),
+        (65, "at the end of a chord"),
         (77, "slaved"),
         (100, "is not supported"),
     ] {
