@@ -1,6 +1,7 @@
 //! Drives the planner of blendtp as the servo thread would, in place of task and motion controller,
 //! faster than real time.
 
+use super::arrivals::Arrivals;
 use super::error::PlanError;
 use super::setup::Setup;
 use super::source::Source;
@@ -60,6 +61,17 @@ pub struct Handed {
     pub(super) pieces: Vec<Piece>,
 }
 
+/// When moves reach the planner.
+#[derive(Debug)]
+pub enum Supply {
+    /// One in each servo cycle, as far as there is room.
+    EveryCycle,
+    /// The same, and the machine is held until no more can be handed over.
+    BeforeStart,
+    /// When they were recorded to come.
+    Recorded(Arrivals),
+}
+
 /// The planner and the program that it runs.
 pub struct Drive<'a> {
     file: &'a Path,
@@ -71,18 +83,21 @@ pub struct Drive<'a> {
     dwell_until: Option<u64>,
     /// Held at the start while the queue fills: until this cycle, which every move puts off.
     hold_until: Option<u64>,
+    /// When moves come, where that was recorded; else one comes in each cycle.
+    arrivals: Option<Arrivals>,
+    /// Moves that the planner was given.
+    moves: usize,
     last_line: i32,
     last_change: u64,
     finished: bool,
 }
 
 impl<'a> Drive<'a> {
-    /// The planner as the motion controller sets it up. `fill_queue` holds the machine at the start
-    /// until no more moves can be handed over.
+    /// The planner as the motion controller sets it up. `supply` says when moves come.
     ///
     /// # Errors
     /// Settings that the planner does not take.
-    pub fn new(file: &'a Path, setup: &'a Setup, fill_queue: bool) -> Result<Self, PlanError> {
+    pub fn new(file: &'a Path, setup: &'a Setup, supply: Supply) -> Result<Self, PlanError> {
         let mut planner = Box::new(Planner::new());
         let refused = |what: &str| PlanError::Option(format!("the planner refuses {what}"));
         let unit = |axis: usize| setup.scale(axis);
@@ -116,7 +131,12 @@ impl<'a> Drive<'a> {
             inputs: CycleInputs::default(),
             cycle: 0,
             dwell_until: None,
-            hold_until: fill_queue.then_some(SETTLING),
+            hold_until: matches!(supply, Supply::BeforeStart).then_some(SETTLING),
+            arrivals: match supply {
+                Supply::Recorded(arrivals) => Some(arrivals),
+                _ => None,
+            },
+            moves: 0,
             last_line: 0,
             last_change: 0,
             finished: false,
@@ -136,13 +156,20 @@ impl<'a> Drive<'a> {
         if self.finished {
             return Ok(None);
         }
+        if let Some(arrivals) = &mut self.arrivals {
+            arrivals.pass_to(self.cycle);
+        }
         self.task(source, &mut handed)?;
         let dwells = self.dwell_until.is_some();
         if self.hold_until.is_some_and(|until| self.cycle >= until) {
             self.hold_until = None;
         }
         // As with the pin motion.feed-inhibit.
-        self.inputs.net_feed_scale = if self.hold_until.is_some() { 0.0 } else { 1.0 };
+        self.inputs.net_feed_scale = match &self.arrivals {
+            Some(arrivals) => arrivals.scale(),
+            None if self.hold_until.is_some() => 0.0,
+            None => 1.0,
+        };
         self.inputs.spindles[0] = self.spindle.turn(self.setup.period);
         let status = *self.planner.cycle(&self.inputs);
         self.spindle.obey(&status);
@@ -166,9 +193,16 @@ impl<'a> Drive<'a> {
         while self.dwell_until.is_none() {
             let Some(next) = source.peek()? else { break };
             let status = self.planner.status();
-            let waits = match next {
-                Operation::Move(_) => status.queue_full,
-                Operation::WaitForMotion => !status.done,
+            let waits = match (next, &self.arrivals) {
+                (Operation::Move(_), Some(arrivals)) => {
+                    let late = self.moves >= arrivals.moves();
+                    if late && status.done {
+                        arrivals.expect_more()?;
+                    }
+                    late
+                }
+                (Operation::Move(_), None) => status.queue_full,
+                (Operation::WaitForMotion, _) => !status.done,
                 _ => false,
             };
             if waits {
@@ -181,14 +215,19 @@ impl<'a> Drive<'a> {
             match operation {
                 Operation::Move(a_move) => {
                     self.add(&a_move)?;
+                    self.moves += 1;
                     if let Some(until) = &mut self.hold_until {
                         *until = self.cycle + SETTLING;
                     }
                     let a_move = *a_move;
                     handed(Handed { a_move, pieces });
-                    break;
+                    if self.arrivals.is_none() {
+                        break;
+                    }
                 }
                 Operation::WaitForMotion => {}
+                // The next move was recorded behind it.
+                Operation::Dwell(_) if self.arrivals.is_some() => {}
                 Operation::Dwell(seconds) => {
                     let cycles = (seconds / self.setup.period).round().max(0.0);
                     self.dwell_until = Some(self.cycle + cycles as u64);

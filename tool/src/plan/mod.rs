@@ -2,11 +2,12 @@
 //!
 //! The files in the order of the work: [`setup`] is the machine, [`source`] the program as the task
 //! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with a
-//! [`spindle`]; [`collector`] takes in each servo cycle: [`rates`] and [`cause`] say what limits the
+//! [`spindle`], moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo cycle: [`rates`] and [`cause`] say what limits the
 //! machine, [`places`] where time is lost, [`deviation`] how far the plan is from the program,
 //! [`profile`] and [`polyline`] are for the drawings; [`figures`] holds all of it; [`text`], [`page`],
 //! [`svg`] and [`csv`] show it, with a [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
 
+mod arrivals;
 mod cause;
 mod collector;
 mod csv;
@@ -31,9 +32,10 @@ pub use error::PlanError;
 
 use crate::compare::layer::LayerSettings;
 use crate::compare::layer::stream::LayerStream;
+use arrivals::Arrivals;
 use collector::{Collected, Collector};
 use csv::Table;
-use drive::Drive;
+use drive::{Drive, Supply};
 use figures::Figures;
 use listing::Listing;
 use progress::Progress;
@@ -76,6 +78,10 @@ pub struct PlanArguments {
     /// does: the plan then depends less on how fast moves come
     #[arg(long)]
     pub fill_queue: bool,
+    /// Hand over each move when it came in a LinuxCNC that ran, in place of one in each servo cycle.
+    /// Lines of a servo cycle, the moves that have come by then, and what all feeds are multiplied by
+    #[arg(long, value_name = "FILE", conflicts_with = "fill_queue")]
+    pub arrivals: Option<PathBuf>,
     /// blendtp.rotary-tolerance: how far rotary axes may leave the program, degrees [default: as
     /// many as P has mm]
     #[arg(long, value_name = "DEGREES", value_parser = positive)]
@@ -118,8 +124,10 @@ fn period(text: &str) -> Result<f64, String> {
 /// See [`PlanError`]. Then nothing is on standard output.
 pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> {
     let files = [&arguments.html, &arguments.svg, &arguments.csv];
-    if arguments.files.len() > 1 && files.iter().any(|file| file.is_some()) {
-        let problem = "--html, --svg and --csv are for one program: plan them one by one";
+    let single = files.iter().any(|file| file.is_some()) || arguments.arrivals.is_some();
+    if arguments.files.len() > 1 && single {
+        let problem =
+            "--html, --svg, --csv and --arrivals are for one program: plan them one by one";
         return Err(PlanError::Option(problem.to_owned()).into());
     }
     let setup = Setup::new(arguments)?;
@@ -179,7 +187,12 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
         Some(file) => Some(Table::create(file, setup)?),
         None => None,
     };
-    let mut drive = Drive::new(file, setup, arguments.fill_queue)?;
+    let supply = match &arguments.arrivals {
+        Some(recording) => Supply::Recorded(Arrivals::read(recording)?),
+        None if arguments.fill_queue => Supply::BeforeStart,
+        None => Supply::EveryCycle,
+    };
+    let mut drive = Drive::new(file, setup, supply)?;
     let mut collector = Collector::new(setup);
     while let Some(sample) = drive.step(&mut source, |handed| collector.add(&handed))? {
         let shown = collector.note(&sample);

@@ -1,5 +1,6 @@
 //! `framepath plan` as its users run it.
 
+mod arrivals;
 mod errors;
 mod figures;
 mod files;
