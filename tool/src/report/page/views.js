@@ -227,18 +227,25 @@ function makeSpace(holder, onPoint) {
     const tall = Math.cos(tilt) * dz + Math.sin(tilt) * flat;
     return zoom * Math.min((0.88 * size.width) / (flat || boxDiagonal), (0.74 * size.height) / (tall || boxDiagonal));
   };
-  const project = (x, y, z) => {
+  // From a place to pixels, as the drawing is turned now: there are many points, so the angles are worked out once.
+  const projection = () => {
     const s = spaceScale();
-    const [dx, dy, dz] = [x - boxCentre[0], y - boxCentre[1], z - boxCentre[2]];
-    const across = Math.cos(turn) * dx - Math.sin(turn) * dy;
-    const deep = Math.sin(turn) * dx + Math.cos(turn) * dy;
-    const up = Math.cos(tilt) * dz + Math.sin(tilt) * deep;
-    return [size.width / 2 + shift[0] + across * s, size.height / 2 + shift[1] - up * s];
+    const [cosTurn, sinTurn, cosTilt, sinTilt] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
+    const [middleX, middleY] = [size.width / 2 + shift[0], size.height / 2 + shift[1]];
+    const [centreX, centreY, centreZ] = boxCentre;
+    return (x, y, z) => {
+      const dx = x - centreX;
+      const dy = y - centreY;
+      const across = cosTurn * dx - sinTurn * dy;
+      const deep = sinTurn * dx + cosTurn * dy;
+      return [middleX + across * s, middleY - (cosTilt * (z - centreZ) + sinTilt * deep) * s];
+    };
   };
 
   function draw(coarse = false) {
     const { context, width, height } = canvases.base();
     size = { width, height };
+    const project = projection();
     const corner = (bits) => box.low.map((low, i) => (bits & (1 << i) ? box.high[i] : low));
     context.strokeStyle = colour("rule");
     context.lineWidth = 1;
@@ -282,7 +289,7 @@ function makeSpace(holder, onPoint) {
   function show(point) {
     cursor = point;
     const { context } = canvases.overlay();
-    if (point) drawDot(context, project(point.x, point.y, point.z));
+    if (point) drawDot(context, projection()(point.x, point.y, point.z));
   }
 
   function rotate(dx, dy) {
@@ -322,7 +329,7 @@ function makeSpace(holder, onPoint) {
       }
       drag = [event.clientX, event.clientY];
     } else {
-      onPoint(timeAt(project, event.offsetX, event.offsetY));
+      onPoint(timeAt(projection(), event.offsetX, event.offsetY));
     }
   });
   holder.addEventListener("dblclick", (event) => enlarge(2.5, [event.offsetX, event.offsetY]));
