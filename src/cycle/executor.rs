@@ -93,7 +93,6 @@ impl Executor {
         check(limits)?;
         self.servo_period = servo_period;
         self.limits = Limits::new(limits, servo_period);
-        self.greatest_programmed_feed = 0.0;
         self.reset();
         Ok(())
     }
@@ -118,6 +117,7 @@ impl Executor {
             release.clear();
         }
         self.fraction = 1.0;
+        self.greatest_programmed_feed = 0.0;
         self.wall = false;
         self.started = false;
         self.starved = false;

@@ -26,6 +26,7 @@ mod decision;
 mod demand;
 mod executor;
 mod follow;
+mod jerk;
 mod lanes;
 mod release;
 mod rows;

@@ -198,29 +198,37 @@ mod tests {
     use super::*;
     use crate::axes::{Axes, AxisLimits};
 
-    /// X moves 0.1 per period, for ever.
-    fn cruise(count: usize) -> Box<Table> {
+    fn table(count: u32, cell_at: impl Fn(f64) -> Cell) -> Box<Table> {
         let mut table = Box::new(Table::new());
         table.clear();
-        for _ in 0..count {
-            let cell = Cell {
-                velocity: Axes::x() * 0.1,
-                acceleration: Axes::zeros(),
-                acceleration_min: Axes::zeros(),
-                acceleration_max: Axes::zeros(),
-                jerk_min: Axes::zeros(),
-                jerk_max: Axes::zeros(),
-                path_velocity: 0.1,
-                path_acceleration: 0.0,
-                feed_ratio: 1.0,
-                programmed_feed: 0.1,
-                per_turn: false,
-                rapid: false,
-                override_enabled: true,
-            };
-            table.push(&cell, 1.0).unwrap();
+        for i in 0..count {
+            table.push(&cell_at(f64::from(i)), 1.0).unwrap();
         }
         table
+    }
+
+    fn cell(velocity: f64, acceleration: f64, jerk: f64) -> Cell {
+        let acceleration_end = acceleration + jerk;
+        Cell {
+            velocity: Axes::x() * velocity,
+            acceleration: Axes::x() * acceleration,
+            acceleration_min: Axes::x() * acceleration.min(acceleration_end),
+            acceleration_max: Axes::x() * acceleration.max(acceleration_end),
+            jerk_min: Axes::x() * jerk,
+            jerk_max: Axes::x() * jerk,
+            path_velocity: velocity,
+            path_acceleration: acceleration,
+            feed_ratio: 1.0,
+            programmed_feed: 0.1,
+            per_turn: false,
+            rapid: false,
+            override_enabled: true,
+        }
+    }
+
+    /// X moves 0.1 per period, for ever.
+    fn cruise(count: u32) -> Box<Table> {
+        table(count, |_| cell(0.1, 0.0, 0.0))
     }
 
     fn limits() -> Limits {
@@ -278,10 +286,19 @@ mod tests {
 
     #[test]
     fn the_end_of_the_reference_releases_too() {
-        let mut table = cruise(10);
+        // X comes to rest with constant jerk in ten periods.
+        let jerk = 1e-5;
+        let mut table = table(10, |time| {
+            let left = 10.0 - time;
+            cell(0.5 * jerk * left * left, -jerk * left, jerk)
+        });
         table.close(1.0, 0.0).unwrap();
+        let nearly_there = State {
+            time: 9.6,
+            ..BRAKING
+        };
         let mut release = Release::EMPTY;
-        let found = release.find(&table, &limits(), BRAKING, 0.0, &mut 100);
+        let found = release.find(&table, &limits(), nearly_there, 0.0, &mut 100);
         assert_eq!(found, Ok(()));
         assert!(release.relies_on_end());
     }

@@ -4,8 +4,15 @@ use crate::axes::AxisLimits;
 use crate::moves::{MoveQueue, TerminationCondition};
 use crate::path::blend::BlendSettings;
 
-/// Moves that are looked at for the first tolerance of a program.
+/// Moves that are looked at for the first tolerance of a program, of those that have come when its
+/// path begins.
 const MOVES: u64 = 16;
+
+/// Bounds of the weight of rotary axes. Where they bind both tolerances are still kept: a greater
+/// weight lets rotary axes deviate less, and no P exceeds what
+/// [`greatest_tolerance`](Blending::greatest_tolerance) says.
+const LEAST_WEIGHT: f64 = 1e-9;
+const GREATEST_WEIGHT: f64 = 1e9;
 
 /// Why settings were refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,8 +83,18 @@ impl Blending {
     }
 
     /// The settings of a path that begins with the first move of the queue. Finds the weight of
-    /// rotary axes: linear and rotary axes use up their tolerances together.
-    pub(super) fn settings(&mut self, queue: &MoveQueue, limits: &AxisLimits) -> BlendSettings {
+    /// rotary axes: linear and rotary axes use up their tolerances together. The weight belongs to the
+    /// first P of the moves that have come so far, or to the tolerance for G64 without P where they
+    /// have none; a P that comes later on the same path is held down so that rotary axes keep their
+    /// tolerance.
+    ///
+    /// `None` where a limit is not positive, which [`Planner::set_limits`](super::Planner::set_limits)
+    /// never takes over.
+    pub(super) fn settings(
+        &mut self,
+        queue: &MoveQueue,
+        limits: &AxisLimits,
+    ) -> Option<BlendSettings> {
         self.weight = self.millimetre;
         if self.rotary_tolerance > 0.0 {
             let first = queue.first_serial();
@@ -90,9 +107,45 @@ impl Blending {
                     _ => None,
                 });
             let tolerance = given.unwrap_or(self.default_tolerance.max(1e-4 * self.millimetre));
-            self.weight = tolerance / self.rotary_tolerance;
+            self.weight = (tolerance / self.rotary_tolerance).clamp(LEAST_WEIGHT, GREATEST_WEIGHT);
         }
         BlendSettings::new(self.millimetre, self.weight, self.default_tolerance, limits)
-            .unwrap_or(BlendSettings::DEFAULT)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axes::Axes;
+
+    static EMPTY: MoveQueue = MoveQueue::new();
+
+    fn limits(jerk: f64) -> AxisLimits {
+        AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(jerk),
+        }
+    }
+
+    #[test]
+    fn tolerances_that_are_taken_make_settings() {
+        for (rotary, default) in [
+            (0.0, 0.02),
+            (0.5, 0.02),
+            (f64::MIN_POSITIVE, f64::MAX),
+            (f64::MAX, 0.0),
+        ] {
+            let mut blending = Blending::DEFAULT;
+            assert_eq!(blending.set(1.0, rotary, default), Ok(()));
+            assert!(blending.settings(&EMPTY, &limits(2e4)).is_some());
+            assert!(blending.greatest_tolerance() > 0.0);
+        }
+    }
+
+    #[test]
+    fn limits_that_are_not_positive_make_none() {
+        let mut blending = Blending::DEFAULT;
+        assert!(blending.settings(&EMPTY, &limits(0.0)).is_none());
     }
 }

@@ -58,7 +58,10 @@ impl Planner {
         // In the middle of a move there is only the path that led here.
         if !self.reference.is_active() || stale && !begun && !backwards {
             let first = self.queue.first_serial();
-            let settings = self.blending.settings(&self.queue, &self.limits);
+            let Some(settings) = self.blending.settings(&self.queue, &self.limits) else {
+                self.fail(Fault::SettingsRefused);
+                return;
+            };
             let position = self.status.position;
             self.reference
                 .restart(first, inputs.stepping, &position, &settings);

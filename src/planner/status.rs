@@ -17,6 +17,8 @@ pub enum Fault {
     Starved,
     /// The executor refused the limits of the axes.
     LimitsRefused,
+    /// No path can be made with the limits and tolerances there are.
+    SettingsRefused,
     /// A move could not be put on the path.
     MoveRefused,
     /// No plan was found that keeps the limits.

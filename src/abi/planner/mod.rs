@@ -10,6 +10,7 @@ mod settings;
 
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
+use core::mem::MaybeUninit;
 use core::ptr;
 
 use libc::{c_char, c_double, c_int, c_ulong};
@@ -99,6 +100,24 @@ impl Handle {
     }
 }
 
+/// A page is at least so many bytes.
+const PAGE: usize = 4096;
+
+/// Writes to each page of the planner's memory what is there: the kernel fetches a page when it is first written to, which
+/// takes longer than a servo cycle should, and is done here instead, before there is a servo thread.
+fn touch_memory() {
+    let memory = MEMORY.0.get().cast::<MaybeUninit<u8>>();
+    let mut offset = 0;
+    while offset < size_of::<Handle>() {
+        // SAFETY: a byte of the planner, which keeps its value; one thread at a time, see the head of this file.
+        unsafe {
+            let byte = memory.add(offset);
+            byte.write_volatile(byte.read_volatile());
+        }
+        offset += PAGE;
+    }
+}
+
 /// Makes the planner ready for a queue of `queue_size` moves. Null if that is more than there is room for.
 ///
 /// # Safety
@@ -115,6 +134,7 @@ pub unsafe extern "C" fn framepath_planner_create(
     if !(0..=FRAMEPATH_QUEUE_CAPACITY).contains(&queue_size) {
         return ptr::null_mut();
     }
+    touch_memory();
     let handle = module();
     handle.planner.clear();
     handle.report(tp);

@@ -148,6 +148,9 @@ pub unsafe extern "C" fn framepath_planner_fault_text(handle: *const Handle) -> 
         Some(Fault::Starved) => c"the executor had nothing left to run on".as_ptr(),
         Some(Fault::MoveRefused) => c"a move could not be put on the path".as_ptr(),
         Some(Fault::NoPlan) => c"no plan was found that keeps the limits".as_ptr(),
+        Some(Fault::SettingsRefused) => {
+            c"no path can be made with these limits and tolerances".as_ptr()
+        }
         Some(Fault::LimitsRefused) => c"the executor refused the limits of the axes".as_ptr(),
     }
 }

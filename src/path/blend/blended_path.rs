@@ -332,7 +332,7 @@ impl BlendedPath {
             speed: leg.speed,
             greatest_speed: leg.greatest_speed,
             measure_rate: leg.measure_rate,
-            measure: leg.measure(),
+            measure: leg.measure,
         }
     }
 

@@ -1,5 +1,7 @@
 //! The legs that are known and the vertices between them, in a ring.
 
+use core::cell::Cell;
+
 use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
@@ -28,6 +30,8 @@ pub(super) struct Chain {
     next: u64,
     /// Number of the leg that the path began with.
     begin: u64,
+    /// Number of the leg that was found last: the next one asked for is mostly near it.
+    found: Cell<u64>,
 }
 
 const fn slot(number: u64) -> usize {
@@ -42,6 +46,7 @@ impl Chain {
             first: 0,
             next: 0,
             begin: 0,
+            found: Cell::new(0),
         }
     }
 
@@ -139,7 +144,7 @@ impl Chain {
     /// Number of the leg at path distance `s`: the later one where two meet. Held within what
     /// there is; the chain must not be empty.
     pub fn locate(&self, s: f64) -> u64 {
-        let (mut low, mut high) = (self.first, self.next);
+        let (mut low, mut high) = self.around(s);
         while high.saturating_sub(low) > 1 {
             let middle = low + (high - low) / 2;
             if self.leg(middle).start <= s {
@@ -148,7 +153,31 @@ impl Chain {
                 high = middle;
             }
         }
+        self.found.set(low);
         low
+    }
+
+    /// Numbers that the leg at path distance `s` lies between, the first one included: steps from
+    /// the leg that was found last, each twice as long as the one before.
+    fn around(&self, s: f64) -> (u64, u64) {
+        let last = self.next.saturating_sub(1);
+        let near = self.found.get().min(last).max(self.first);
+        let (mut low, mut high) = (near, near);
+        let mut step = 1;
+        if self.leg(near).start <= s {
+            while high < self.next && self.leg(high).start <= s {
+                low = high;
+                high = self.next.min(high.saturating_add(step));
+                step *= 2;
+            }
+        } else {
+            while low > self.first && self.leg(low).start > s {
+                high = low;
+                low = self.first.max(low.saturating_sub(step));
+                step *= 2;
+            }
+        }
+        (low, high)
     }
 
     /// Drops the legs that nothing from the leg with this number on depends on.

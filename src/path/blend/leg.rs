@@ -44,6 +44,8 @@ pub(super) struct Leg {
     pub length: f64,
     /// How much F counts for a unit of path distance.
     pub measure_rate: f64,
+    /// What F counts.
+    pub measure: Measure,
     /// Programmed speed, path distance per second.
     pub speed: f64,
     /// The speed that no override may exceed.
@@ -70,6 +72,7 @@ impl Leg {
         start: 0.0,
         length: 0.0,
         measure_rate: 1.0,
+        measure: Measure::Linear,
         speed: 0.0,
         greatest_speed: 0.0,
         allowance: Allowance::Exact(0.0),
@@ -92,6 +95,13 @@ impl Leg {
             first: programmed.serial,
             length,
             measure_rate: 1.0 / per_measure,
+            measure: match &programmed.shape {
+                Shape::Line(line) => {
+                    let displacement = line.direction() * line.length();
+                    measure::of(&displacement).map_or(Measure::Linear, |(measure, _)| measure)
+                }
+                Shape::Arc(_) => Measure::Linear,
+            },
             speed,
             greatest_speed: programmed.greatest_feed.max(programmed.feed) * per_measure,
             allowance: match programmed.termination {
@@ -156,16 +166,6 @@ impl Leg {
             curvature.recip()
         } else {
             half
-        }
-    }
-
-    /// What F counts.
-    pub fn measure(&self) -> Measure {
-        match &self.shape {
-            Shape::Line(line) => {
-                measure::of(&(line.direction() * line.length())).map_or(Measure::Linear, |m| m.0)
-            }
-            Shape::Arc(_) => Measure::Linear,
         }
     }
 

@@ -77,7 +77,7 @@ impl LineMerger {
         self.keep(line.end());
         self.allowance = leg.allowance;
         self.feed = programmed.feed;
-        self.measure = leg.measure();
+        self.measure = leg.measure;
         true
     }
 
@@ -99,7 +99,7 @@ impl LineMerger {
             || leg.stop_after
             || leg.allowance != self.allowance
             || programmed.feed != self.feed
-            || leg.measure() != self.measure
+            || leg.measure != self.measure
             || !(1.0 / SAME_RATE..=SAME_RATE).contains(&rates)
             || self.count >= POINTS
         {
@@ -124,8 +124,7 @@ impl LineMerger {
             settings,
             metric,
         );
-        if merged.measure() != self.measure || merged.length > GREATEST_CHORD * merged.design_width
-        {
+        if merged.measure != self.measure || merged.length > GREATEST_CHORD * merged.design_width {
             return false;
         }
         self.chord = Leg {

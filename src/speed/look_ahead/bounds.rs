@@ -3,8 +3,8 @@
 //! The jerk of an axis has three terms, `q' j`, `3 q'' v a` and `q''' v^3`. Each is given a share
 //! of J in advance, so that speed, acceleration and jerk along the path are limited one by one.
 
-use super::rows::{AxisRows, Sample};
-use crate::axes::{AXIS_COUNT, Axes};
+use super::rows::{AxisRows, MovingAxes, Sample};
+use crate::axes::AXIS_COUNT;
 
 /// Share of the speed cap, so that the barrier of the cap has room.
 const CAP_SHARE: f64 = 0.98;
@@ -14,6 +14,25 @@ const CURVE_SHARE: f64 = 0.6;
 const CURVE_JERK_SHARE: f64 = 0.6;
 /// Share of the jerk for accelerating in a curve.
 const ACROSS_SHARE: f64 = 0.25;
+
+/// The greatest amounts of an axis' rows in an interval.
+#[derive(Clone, Copy)]
+struct AxisBounds {
+    first: f64,
+    second: f64,
+    third: f64,
+    /// J / A.
+    time: f64,
+}
+
+impl AxisBounds {
+    const NONE: Self = Self {
+        first: 0.0,
+        second: 0.0,
+        third: 0.0,
+        time: 0.0,
+    };
+}
 
 /// Limits along the path in one interval.
 #[derive(Clone, Copy, Debug)]
@@ -40,22 +59,41 @@ impl Bounds {
     /// Of an interval with these samples at start, middle and end; `margin` is the share of the
     /// limits that is handed out.
     pub fn of(rows: &AxisRows, samples: [&Sample; 3], raise_squared: f64, margin: f64) -> Self {
-        let mut first = Axes::zeros();
-        let mut second = Axes::zeros();
-        let mut third = Axes::zeros();
         let mut cap = Self::NONE.cap;
         for sample in samples {
-            first = first.sup(&sample.first.abs());
-            second = second.sup(&sample.second.abs());
-            third = third.sup(&sample.third.abs());
             cap = cap.min(CAP_SHARE * sample.cap(raise_squared));
         }
-        let time = rows.jerk_time();
-        let curve = second.component_mul(time).max() / 3.0;
+        let moving = MovingAxes::at_any(samples);
+        let times = rows.jerk_time();
+        let [start, middle, end] = samples;
+        let greatest = |a: f64, b: f64, c: f64| a.abs().max(b.abs()).max(c.abs());
+        let mut axes = [AxisBounds::NONE; AXIS_COUNT];
+        let (mut curve, mut twist, mut steepest) = (0.0, 0.0, 0.0);
+        let mut count = 0;
+        for axis in 0..AXIS_COUNT {
+            if !moving.contains(axis) {
+                continue;
+            }
+            let time = times[axis];
+            let second = greatest(start.second[axis], middle.second[axis], end.second[axis]);
+            let third = greatest(start.third[axis], middle.third[axis], end.third[axis]);
+            if let Some(bounds) = axes.get_mut(count) {
+                *bounds = AxisBounds {
+                    first: greatest(start.first[axis], middle.first[axis], end.first[axis]),
+                    second,
+                    third,
+                    time,
+                };
+            }
+            count += 1;
+            curve = f64::max(curve, second * time);
+            twist = f64::max(twist, third);
+            steepest = f64::max(steepest, second);
+        }
+        curve /= 3.0;
         if curve * cap > CURVE_SHARE {
             cap = CURVE_SHARE / curve;
         }
-        let twist = third.max();
         if twist * cap * cap.sqrt() > CURVE_JERK_SHARE {
             let root = (CURVE_JERK_SHARE / twist).cbrt();
             cap = root * root;
@@ -63,22 +101,21 @@ impl Bounds {
 
         let v = cap.sqrt();
         let mut acceleration = Self::NONE.acceleration;
-        for axis in 0..AXIS_COUNT {
-            let slope = first[axis] * time[axis];
-            let left = margin - second[axis] * time[axis] / 3.0 * cap;
+        for bounds in axes.iter().take(count) {
+            let slope = bounds.first * bounds.time;
+            let left = margin - bounds.second * bounds.time / 3.0 * cap;
             if acceleration * slope > left {
                 acceleration = left / slope;
             }
         }
         let mut jerk = Self::NONE.jerk;
-        for axis in 0..AXIS_COUNT {
-            let across = (second[axis] * acceleration * v).min(ACROSS_SHARE);
-            let left = margin - third[axis] * cap * v - across;
-            if jerk * first[axis] > left {
-                jerk = left / first[axis];
+        for bounds in axes.iter().take(count) {
+            let across = (bounds.second * acceleration * v).min(ACROSS_SHARE);
+            let left = margin - bounds.third * cap * v - across;
+            if jerk * bounds.first > left {
+                jerk = left / bounds.first;
             }
         }
-        let steepest = second.max();
         let across = if steepest > 0.0 {
             (ACROSS_SHARE / steepest) * (ACROSS_SHARE / steepest)
         } else {

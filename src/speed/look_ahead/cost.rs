@@ -4,25 +4,31 @@
 
 /// An evaluation of the path and the rows there, where so many kernels overlap in the mean.
 pub(super) fn evaluation(kernels: f64) -> u32 {
-    4 + (0.1 * kernels.clamp(0.0, MOST_KERNELS)) as u32
+    4 + (0.16 * kernels.clamp(0.0, MOST_KERNELS)) as u32
 }
 /// More never overlap.
 const MOST_KERNELS: f64 = 64.0;
+/// Choosing where a draft begins and ends.
+pub(super) const BEGIN_DRAFT: u32 = 60;
+/// Choosing a window of the polish.
+pub(super) const BEGIN_POLISH: u32 = 10;
 /// A try of an arc at rest, besides ..
-pub(super) const REST_ARC: u32 = 10;
+pub(super) const REST_ARC: u32 = 20;
 /// .. so many evaluations.
 pub(super) const REST_ARC_EVALUATIONS: u32 = 5;
 /// A node of the grid or a vertex that asks for some, besides ..
 pub(super) const NODE: u32 = 8;
 /// .. so many evaluations: two or three, seldom nine.
 pub(super) const NODE_EVALUATIONS: u32 = 3;
-/// The bounds of an interval.
-pub(super) const BOUNDS: u32 = 2;
+/// The bounds of an interval in which so many axes move.
+pub(super) fn bounds(axes: u32) -> u32 {
+    3 + axes / 2
+}
 /// A coefficient in one direction, or in the hull.
 pub(super) const SWEEP: u32 = 1;
-/// The rows of all axes at three points.
+/// The rows of all axes at three places: of three axes, twice as much of nine.
 pub(super) const CHECK: u32 = 2;
-/// Gradient and second derivatives of an interval, and the elimination of a coefficient.
+/// Gradient and second derivatives of an interval, and the elimination of a coefficient; the same.
 pub(super) const ASSEMBLE: u32 = 8;
 /// A coefficient of a step.
 pub(super) const SUBSTITUTE: u32 = 1;

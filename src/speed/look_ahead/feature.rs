@@ -1,8 +1,9 @@
-//! What the grid has to resolve: vertices with the spacing that each asks for.
+//! What the grid has to resolve: a vertex with the spacing that it asks for.
 
 use super::grid::GROWTH;
 use super::route::{Route, Vertex};
 use super::rows::AxisRows;
+use crate::axes::Axes;
 
 /// Seconds between nodes in a change of shape, at its limit speed.
 const SHAPE_TIME: f64 = 2.5e-3;
@@ -13,6 +14,9 @@ const CAP_TIME: f64 = 5e-3;
 /// The share of J by which the path's part of the jerk may jump inside of an interval.
 const NOTICEABLE_JUMP: f64 = 0.02;
 
+/// Where the curvature of most blends changes most, share of their reach.
+pub(super) const TWIST_AT: f64 = 0.45;
+
 /// How near to a vertex is before it, share of the path distance.
 const BESIDE: f64 = 1e-13;
 
@@ -20,9 +24,6 @@ const BESIDE: f64 = 1e-13;
 pub(super) fn before(vertex: f64) -> f64 {
     vertex - BESIDE * (1.0 + vertex.abs())
 }
-
-/// A power of two, so that a masked index is in range for the compiler too.
-const SLOTS: usize = 256;
 
 /// A vertex, or several that lie closer together than they need nodes.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +47,7 @@ pub(super) struct Feature {
 }
 
 impl Feature {
-    const NONE: Self = Self {
+    pub const NONE: Self = Self {
         start: 0.0,
         center: 0.0,
         end: 0.0,
@@ -57,14 +58,8 @@ impl Feature {
         single: true,
     };
 
-    /// Of a vertex, with three evaluations of the path. `longest` is as far as it is known.
-    fn of<R: Route>(
-        vertex: &Vertex,
-        rows: &AxisRows,
-        route: &R,
-        raise_squared: f64,
-        longest: f64,
-    ) -> Self {
+    /// Of a vertex, with three evaluations of the path.
+    pub fn of<R: Route>(vertex: &Vertex, path: &mut Look<R>) -> Self {
         let Vertex {
             position,
             reach,
@@ -79,23 +74,14 @@ impl Feature {
             ..Self::NONE
         };
         if cap_changes {
-            let cap = rows
-                .sample(route, position.min(longest), 0.0)
-                .cap(raise_squared);
-            feature.spacing = CAP_TIME * cap.sqrt();
+            feature.spacing = CAP_TIME * path.at(position).cap_speed;
         }
         if reach > 0.0 {
-            let mut speed = f64::INFINITY;
-            // Curvature is greatest at the centre, its derivative of most blends near 0.45.
-            let mut sample = |place: f64| {
-                let sample = rows.sample(route, place.min(longest), 0.0);
-                speed = speed
-                    .min(sample.curve_speed(rows))
-                    .min(sample.cap(raise_squared).sqrt());
-                sample.third
-            };
-            sample(position + 0.45 * reach);
-            let jump = sample(position) - sample(before(position));
+            // Curvature is greatest at the centre.
+            let (twisted, center) = (path.at(position + TWIST_AT * reach), path.at(position));
+            let beside = path.at(before(position));
+            let speed = twisted.speed.min(center.speed).min(beside.speed);
+            let jump = center.third - beside.third;
             feature.jumps = jump.amax() * speed * speed * speed > NOTICEABLE_JUMP;
             let spacing = (SHAPE_TIME * speed).max(reach / 12.0).min(reach / 4.8);
             feature.speed = speed;
@@ -129,172 +115,49 @@ impl Feature {
     }
 }
 
-/// Features in the order of the path, around the place where the grid is being made.
-///
-/// What lies within the known path never changes, so that it is kept for the drafts to come. Places
-/// in the ring are counted on without end.
-#[derive(Debug)]
-pub(super) struct Features {
-    slots: [Feature; SLOTS],
-    /// The first one that is kept.
-    oldest: usize,
-    /// The first one that matters where the grid is.
-    first: usize,
-    /// The place behind the last one.
-    next: usize,
-    /// Where the search for vertices began.
-    begin: f64,
-    /// The position of the last vertex that was taken, the start of the search for the next.
-    taken: f64,
-    /// Whether there is no further one.
-    exhausted: bool,
-    /// The place behind the last one that never changes, as long as all before it are like that.
-    lasting: usize,
-    /// The position of the last vertex that was taken up to there.
-    lasting_taken: f64,
-    /// What the program's caps were multiplied by, squared.
-    raise_squared: f64,
+/// What a feature has to know of a place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    s: f64,
+    /// The speed cap.
+    cap_speed: f64,
+    /// What cap and curvature allow.
+    speed: f64,
+    /// As in the rows, shape (9).
+    third: Axes,
 }
 
-impl Features {
-    pub const fn new() -> Self {
-        Self {
-            slots: [Feature::NONE; SLOTS],
-            oldest: 0,
-            first: 0,
-            next: 0,
-            begin: f64::INFINITY,
-            taken: 0.0,
-            exhausted: false,
-            lasting: 0,
-            lasting_taken: 0.0,
-            raise_squared: 0.0,
+/// The path as features see it: what is not known yet looks like its end.
+pub(super) struct Look<'a, R: Route> {
+    pub rows: &'a AxisRows,
+    pub route: &'a R,
+    /// Square of what the program's caps are multiplied by.
+    pub raise_squared: f64,
+    /// How far the path is known.
+    pub longest: f64,
+    /// The end, which stands for many places.
+    pub end: &'a mut Option<Place>,
+}
+
+impl<R: Route> Look<'_, R> {
+    fn at(&mut self, s: f64) -> Place {
+        if s < self.longest {
+            return self.evaluate(s);
+        }
+        match *self.end {
+            Some(end) if end.s == self.longest => end,
+            _ => *self.end.insert(self.evaluate(self.longest)),
         }
     }
 
-    /// Drops what is kept: the path is another one.
-    pub fn forget(&mut self) {
-        self.begin = f64::INFINITY;
-    }
-
-    /// Begins with the first vertex behind `s`.
-    pub fn restart(&mut self, s: f64, raise_squared: f64) {
-        self.exhausted = false;
-        let kept = self.lasting > self.oldest
-            && self.raise_squared == raise_squared
-            && self.begin <= s
-            && self.lasting_taken > s
-            && (self.oldest == 0 || self.slots[self.oldest & (SLOTS - 1)].center <= s);
-        if !kept {
-            self.oldest = 0;
-            self.first = 0;
-            self.next = 0;
-            self.begin = s;
-            self.taken = s;
-            self.lasting = 0;
-            self.lasting_taken = s;
-            self.raise_squared = raise_squared;
-            return;
+    fn evaluate(&self, s: f64) -> Place {
+        let sample = self.rows.sample(self.route, s, 0.0);
+        let cap_speed = sample.cap(self.raise_squared).sqrt();
+        Place {
+            s,
+            cap_speed,
+            speed: sample.curve_speed(self.rows).min(cap_speed),
+            third: sample.third,
         }
-        self.next = self.lasting;
-        self.taken = self.lasting_taken;
-        self.first = self.oldest;
-        while self.first + 1 < self.next && self.slots[(self.first + 1) & (SLOTS - 1)].center <= s {
-            self.first += 1;
-        }
-    }
-
-    /// Whether all features up to `s` are there.
-    pub fn covers(&self, s: f64) -> bool {
-        self.exhausted || self.taken >= s || self.next - self.first >= SLOTS
-    }
-
-    /// Takes one more vertex.
-    pub fn take_next<R: Route>(&mut self, rows: &AxisRows, route: &R, raise_squared: f64) {
-        let longest = route.known_end();
-        // A vertex behind the known end may reach back over it.
-        let farthest = longest + route.greatest_reach();
-        let next = route
-            .vertex_after(self.taken)
-            .filter(|vertex| vertex.position > self.taken && vertex.position <= farthest);
-        let Some(vertex) = next else {
-            self.exhausted = true;
-            return;
-        };
-        let all_lasting = self.lasting == self.next && self.lasting_taken == self.taken;
-        let lasting = all_lasting && vertex.position + vertex.reach.max(vertex.core) <= longest;
-        self.taken = vertex.position;
-        let changes = vertex.reach > 0.0 || vertex.cap_changes;
-        if changes && vertex.position - vertex.reach <= longest {
-            self.take(&vertex, lasting, rows, route, raise_squared);
-        }
-        if lasting {
-            self.lasting = self.next;
-            self.lasting_taken = self.taken;
-        }
-    }
-
-    /// Adds a vertex that asks for nodes, or lets the last feature stand for it too.
-    fn take<R: Route>(
-        &mut self,
-        vertex: &Vertex,
-        lasting: bool,
-        rows: &AxisRows,
-        route: &R,
-        raise_squared: f64,
-    ) {
-        let feature = Feature::of(vertex, rows, route, raise_squared, route.known_end());
-        // What never changes is not joined with what may.
-        let may_join = lasting || self.next > self.lasting;
-        if let Some(last) = self.last_mut()
-            && may_join
-            && !last.wants_node()
-            && !feature.wants_node()
-            && feature.center - last.center < 0.25 * last.spacing.min(feature.spacing)
-        {
-            last.end = last.end.max(feature.end);
-            last.start = last.start.min(feature.start);
-            last.spacing = last.spacing.min(feature.spacing);
-            last.speed = last.speed.max(feature.speed);
-            last.single = false;
-        } else {
-            self.push(feature);
-        }
-        if vertex.core > 0.0 {
-            let core = Vertex {
-                reach: vertex.core,
-                ..*vertex
-            };
-            let core = Feature::of(&core, rows, route, raise_squared, route.known_end());
-            self.push(core);
-        }
-    }
-
-    /// Appends a feature, over the oldest one that does not matter any more.
-    fn push(&mut self, feature: Feature) {
-        if self.next - self.first < SLOTS {
-            self.slots[self.next & (SLOTS - 1)] = feature;
-            self.next += 1;
-            self.oldest = self.oldest.max(self.next.saturating_sub(SLOTS));
-        }
-    }
-
-    /// Leaves those in front that say nothing any more for spacings below `most` from `s` on.
-    pub fn drop_before(&mut self, s: f64, most: f64) {
-        while self.next - self.first > 1
-            && let front = &self.slots[self.first & (SLOTS - 1)]
-            && front.end < s
-            && front.spacing_at(s) > most
-        {
-            self.first += 1;
-        }
-    }
-
-    pub fn iter(&self) -> impl Iterator<Item = &Feature> {
-        (self.first..self.next).map(|place| &self.slots[place & (SLOTS - 1)])
-    }
-
-    fn last_mut(&mut self) -> Option<&mut Feature> {
-        (self.next > self.first).then(|| &mut self.slots[(self.next - 1) & (SLOTS - 1)])
     }
 }

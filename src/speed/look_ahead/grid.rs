@@ -3,7 +3,8 @@
 //! The spacing is what a change of shape or of the speed cap asks for, grows by [`GROWTH`] of the
 //! distance from it, and is at most what is run in [`FREE_TIME`] at the cap.
 
-use super::feature::{Feature, Features, before};
+use super::feature::before;
+use super::features::Features;
 use super::rest_arc::RestArc;
 use super::route::Route;
 use super::rows::{AxisRows, IntervalSamples, Sample};
@@ -129,7 +130,7 @@ impl Grid {
         samples_here.middle = middle;
         samples_here.end = right;
         samples_here.cover(rows, raise_squared);
-        let right = if self.is_on_vertex(end) {
+        let right = if self.features.is_on_vertex(end) {
             rows.sample(route, end, length)
         } else {
             right
@@ -156,12 +157,8 @@ impl Grid {
 
     /// The length of the interval from `s` on, by features and neighbours.
     fn step(&self, s: f64, previous: f64, free: f64, left: &Sample) -> Step {
-        let mut length = free.min(previous * (1.0 + 2.0 * GROWTH));
-        let mut within = false;
-        for feature in self.features.iter() {
-            length = length.min(feature.spacing_at(s));
-            within |= feature.speed > 0.0 && feature.start <= s && s < feature.end;
-        }
+        let most = free.min(previous * (1.0 + 2.0 * GROWTH));
+        let (mut length, within) = self.features.spacing(s, most);
         if !within {
             length = length.min((RADIUS_SHARE * left.radius()).max(0.02 * free));
         }
@@ -169,10 +166,10 @@ impl Grid {
         let mut near_end = by_end < 0.9 * length;
         length = length.min(by_end);
         let mut end = s + length;
-        if let Some(place) = self.landmark(s, length) {
+        if let Some(place) = self.features.landmark(s, length) {
             end = place;
             length = place - s;
-        } else if let Some(place) = self.cap_change(s, length) {
+        } else if let Some(place) = self.features.cap_change(s, length) {
             length = 0.5 * (place - s);
             end = s + length;
         }
@@ -193,55 +190,9 @@ impl Grid {
         }
     }
 
-    /// The next place that a node should be on, if it is near the end of the interval: start,
-    /// center and end of a blend that stands alone, and changes of the speed cap.
-    fn landmark(&self, s: f64, length: f64) -> Option<f64> {
-        let near = |place: f64| place - s > 0.3 * length && place - s < 1.3 * length;
-        let mut best: Option<f64> = None;
-        let mut consider = |place: f64| {
-            if near(place) && best.is_none_or(|other| place < other) {
-                best = Some(place);
-            }
-        };
-        let mut before: Option<&Feature> = None;
-        let mut features = self.features.iter().peekable();
-        while let Some(feature) = features.next() {
-            let free_before = before.is_none_or(|other| other.end <= feature.start);
-            let free_behind = features
-                .peek()
-                .is_none_or(|other| feature.end <= other.start);
-            if feature.wants_node() {
-                consider(feature.center);
-            }
-            if feature.speed > 0.0 && feature.single && free_before && free_behind {
-                consider(feature.start);
-                consider(feature.center);
-                consider(feature.end);
-            }
-            before = Some(feature);
-        }
-        best
-    }
-
-    /// A change of the speed cap that two intervals would not quite come to.
-    fn cap_change(&self, s: f64, length: f64) -> Option<f64> {
-        self.features
-            .iter()
-            .filter(|feature| feature.wants_node())
-            .map(|feature| feature.center)
-            .find(|place| place - s >= 1.3 * length && place - s < 2.0 * length)
-    }
-
-    /// Whether there is a vertex at `s` that has a node of its own.
-    fn is_on_vertex(&self, s: f64) -> bool {
-        self.features
-            .iter()
-            .any(|feature| feature.wants_node() && feature.center == s)
-    }
-
     /// The rows at the end of an interval, as they are inside of it.
     fn sample_end<R: Route>(&self, end: f64, length: f64, rows: &AxisRows, route: &R) -> Sample {
-        let place = if self.is_on_vertex(end) {
+        let place = if self.features.is_on_vertex(end) {
             before(end)
         } else {
             end
@@ -265,18 +216,15 @@ impl Grid {
         route: &R,
         raise_squared: f64,
     ) -> (f64, f64, Sample, Sample) {
-        let acceleration = rows.acceleration_from_rest(left);
-        let center = s + 0.5 * length;
-        let (mut within, mut most, mut finest) = (false, left.cap(raise_squared), f64::INFINITY);
-        for feature in self.features.iter().filter(|feature| feature.speed > 0.0) {
-            let beside = 0.1 * length;
-            if end > feature.start - beside && s < feature.end + beside {
-                within = true;
-                finest = finest.min(feature.spacing);
-            }
-            most = most.min(feature.greatest_speed_squared(center, acceleration));
+        let (mut speed, mut finest) = (0.0, f64::INFINITY);
+        if let Some(spacing) = self.features.finest(s, end) {
+            finest = spacing;
+            let acceleration = rows.acceleration_from_rest(left);
+            let (center, cap) = (s + 0.5 * length, left.cap(raise_squared));
+            let features = &self.features;
+            let most = features.greatest_speed_squared(center, acceleration, cap);
+            speed = 1.2 * most.sqrt();
         }
-        let speed = if within { 1.2 * most.sqrt() } else { 0.0 };
         let cubed = speed * speed * speed;
         let mut middle = rows.sample(route, s + 0.5 * length, length);
         let mut right = self.sample_end(end, length, rows, route);

@@ -138,16 +138,19 @@ impl LookAhead {
         self.state.braking_in < seconds
     }
 
-    /// Looks how long it is until the final braking.
+    /// Looks how long it is until the final braking: goes on from where it looked before.
     fn look_for_braking(&mut self) {
-        let mut time = 0.0;
-        for k in self.state.next..self.state.braking {
-            time += self.plan.duration(k);
-            if time >= BRAKING_SEEN {
-                break;
-            }
+        while self.state.counted < self.state.braking && self.state.braking_in < BRAKING_SEEN {
+            self.state.braking_in += self.plan.duration(self.state.counted);
+            self.state.counted += 1;
         }
-        self.state.braking_in = time;
+    }
+
+    /// The same anew: the plan behind the frozen part has changed.
+    fn look_anew_for_braking(&mut self) {
+        self.state.braking_in = 0.0;
+        self.state.counted = self.state.next;
+        self.look_for_braking();
     }
 
     /// The next piece, which stays as it is from now on. `None` if there is no plan, or the
@@ -159,11 +162,11 @@ impl LookAhead {
         let piece = Piece::of(&self.plan, self.state.next, self.state.frozen_time);
         self.state.next += 1;
         self.state.frozen_time += piece.duration;
-        self.state.braking_in = if self.state.next < self.state.braking {
-            self.state.braking_in - piece.duration
+        if self.state.next < self.state.counted {
+            self.state.braking_in -= piece.duration;
         } else {
-            0.0
-        };
+            self.look_anew_for_braking();
+        }
         self.state.idle_steps = 0;
         Some(piece)
     }
@@ -188,7 +191,14 @@ impl LookAhead {
                 self.continue_draft(route, &mut left);
             } else if !self.newton.is_idle() {
                 self.continue_polish(&mut left);
-            } else if !self.begin_work(route) {
+            } else if self.begin_work(route) {
+                let price = if self.state.drafting {
+                    cost::BEGIN_DRAFT
+                } else {
+                    cost::BEGIN_POLISH
+                };
+                left = left.saturating_sub(price);
+            } else {
                 break;
             }
             left = left.saturating_sub(1);
@@ -342,6 +352,7 @@ impl LookAhead {
         self.newton
             .advance(&mut self.plan, &self.samples, &self.rows, raise, left);
         if self.newton.is_idle() {
+            self.look_anew_for_braking();
             self.state.steps = self.state.steps.saturating_add(1);
             self.state.idle_steps = self.state.idle_steps.saturating_add(1);
         }
@@ -385,7 +396,7 @@ impl LookAhead {
             .max(self.state.settled.min(base))
             .min(self.plan.last - 1);
         self.state.braking = self.plan.final_braking(base + 1);
-        self.look_for_braking();
+        self.look_anew_for_braking();
         self.state.failures = 0;
         self.state.lead = SHORTEST_LEAD;
         self.state.idle_steps = 0;

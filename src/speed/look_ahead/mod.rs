@@ -20,6 +20,7 @@ mod context;
 mod cost;
 mod draft;
 mod feature;
+mod features;
 mod grid;
 mod hull;
 mod interval;

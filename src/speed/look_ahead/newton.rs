@@ -81,7 +81,6 @@ pub(super) struct NewtonStep {
     share: f64,
     shortenings: u32,
     clean: bool,
-    last_pass: bool,
     rows: [Row; SLOTS],
 }
 
@@ -94,7 +93,6 @@ impl NewtonStep {
         share: 1.0,
         shortenings: 0,
         clean: true,
-        last_pass: false,
         rows: [Row::NONE; SLOTS],
     };
 
@@ -271,7 +269,6 @@ impl NewtonStep {
         let margin = MARGIN * (1.0 - 1e-5);
         if !axes.keeps(&parabola, samples.of(plan, k), raise_squared, margin) {
             self.clean = false;
-            self.last_pass = false;
             self.share *= SHORTER;
             self.shortenings += 1;
             self.row_mut(k).refusals *= RESISTANCE_GROWTH;
@@ -286,9 +283,6 @@ impl NewtonStep {
         } else if !self.clean {
             // Intervals before the refusing one have only seen a longer step.
             self.clean = true;
-            self.k = self.first;
-        } else if self.share < 1.0 && !self.last_pass {
-            self.last_pass = true;
             self.share *= LAST_SHARE;
             self.k = self.first;
         } else {

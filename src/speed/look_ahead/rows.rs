@@ -101,11 +101,11 @@ impl AxisRows {
         } = route.speed_cap(s, &point.first);
         let second = self.map.apply(&point.second);
         let mut most = (greatest * greatest).min(GREATEST_SPEED_SQUARED);
-        let mut moving = 0;
+        let mut axes = MovingAxes::NONE;
         for axis in 0..AXIS_COUNT {
             let slope = first[axis].abs() + third[axis].abs() * beside;
             if slope > 0.0 || second[axis] != 0.0 {
-                moving = axis + 1;
+                axes.add(axis);
             }
             if slope > 0.0 {
                 let speed = self.velocity[axis] / slope;
@@ -118,7 +118,7 @@ impl AxisRows {
             third: third.component_mul(&self.inverse_jerk),
             programmed: programmed * programmed * CAP_SHARE,
             greatest: most * CAP_SHARE,
-            moving,
+            axes,
         }
     }
 
@@ -170,18 +170,19 @@ impl AxisRows {
         let u = parabola.u;
         let [v0, v1, v2] = [b0.sqrt(), b1.sqrt(), b2.sqrt()];
         let [start, middle, end] = samples;
-        let (mut acceleration, mut jerk) = (0.0, 0.0);
-        let moving = start.moving.max(middle.moving).max(end.moving);
+        let moving = MovingAxes::at_any(samples);
         for axis in 0..AXIS_COUNT {
-            if axis >= moving {
-                break;
+            if !moving.contains(axis) {
+                continue;
             }
             let time = self.jerk_time[axis];
             let row = |sample: &Sample, b: f64, a: f64| {
                 (sample.first[axis] * a + sample.second[axis] * (b / 3.0)) * time
             };
             let rows = [row(start, b0, a0), row(middle, b1, a1), row(end, b2, a2)];
-            acceleration = f64::max(acceleration, greatest(rows, ACCELERATION_BETWEEN));
+            if !is_within(rows, margin, ACCELERATION_BETWEEN) {
+                return false;
+            }
             let row = |sample: &Sample, b: f64, a: f64, v: f64| {
                 (sample.first[axis] * u + sample.second[axis] * a + sample.third[axis] * b) * v
             };
@@ -190,23 +191,57 @@ impl AxisRows {
                 row(middle, b1, a1, v1),
                 row(end, b2, a2, v2),
             ];
-            jerk = f64::max(jerk, greatest(rows, JERK_BETWEEN));
+            if !is_within(rows, margin, JERK_BETWEEN) {
+                return false;
+            }
         }
-        acceleration <= margin && jerk <= margin
+        true
     }
 }
 
-/// The greatest amount of three values at start, middle and end, and of the parabola through them,
-/// of which `between` is for free.
+/// Whether the amounts of three values at start, middle and end are at most `most`, and those of the
+/// parabola through them exceed it by `between` at most.
 #[inline]
-fn greatest([start, middle, end]: [f64; 3], between: f64) -> f64 {
+fn is_within([start, middle, end]: [f64; 3], most: f64, between: f64) -> bool {
     let at_places = start.abs().max(middle.abs()).max(end.abs());
+    if at_places.is_nan() || at_places > most {
+        return false;
+    }
     let slope = 0.5 * (end - start);
+    // Where the parabola has its extremum in between, it is no farther from the middle than this.
+    if middle.abs() + 0.5 * slope.abs() <= most + between {
+        return true;
+    }
     let bend = start + end - 2.0 * middle;
-    if slope.abs() < bend.abs() {
-        at_places.max((middle - 0.5 * slope * slope / bend).abs() - between)
-    } else {
-        at_places
+    slope.abs() >= bend.abs() || (middle - 0.5 * slope * slope / bend).abs() - between <= most
+}
+
+/// The axes that move at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct MovingAxes(u16);
+
+impl MovingAxes {
+    pub const NONE: Self = Self(0);
+
+    fn add(&mut self, axis: usize) {
+        self.0 |= 1 << (axis & 15);
+    }
+
+    /// Those that move at any of these places.
+    #[inline]
+    pub fn at_any(samples: [&Sample; 3]) -> Self {
+        let [start, middle, end] = samples;
+        Self(start.axes.0 | middle.axes.0 | end.axes.0)
+    }
+
+    #[inline]
+    pub fn contains(self, axis: usize) -> bool {
+        self.0 >> (axis & 15) & 1 == 1
+    }
+
+    /// How many there are.
+    pub fn count(self) -> u32 {
+        self.0.count_ones()
     }
 }
 
@@ -223,8 +258,8 @@ pub(super) struct Sample {
     programmed: f64,
     /// v^2 that neither override nor axes exceed.
     greatest: f64,
-    /// The last axis that moves, and one: rows of axes from here on are 0.
-    pub moving: usize,
+    /// Rows of all other axes are 0.
+    pub axes: MovingAxes,
 }
 
 impl Sample {
@@ -234,7 +269,7 @@ impl Sample {
         third: ZERO,
         programmed: 0.0,
         greatest: 0.0,
-        moving: 0,
+        axes: MovingAxes::NONE,
     };
 
     /// The cap of v^2 while the program's caps are raised by sqrt(`raise_squared`).

@@ -21,6 +21,8 @@ pub(super) struct RunState {
     pub braking: usize,
     /// Seconds from the frozen part until then, as far as anybody asks.
     pub braking_in: f64,
+    /// Up to this interval its seconds are counted in that.
+    pub counted: usize,
     /// What the program's speeds are multiplied by.
     pub raise: f64,
     /// Share of them for a first plan that was refused otherwise.
@@ -55,6 +57,7 @@ impl RunState {
         settled: 1,
         braking: 1,
         braking_in: 0.0,
+        counted: 0,
         raise: 1.0,
         slower: 1.0,
         spacing: 0.0,

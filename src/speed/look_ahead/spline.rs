@@ -21,7 +21,7 @@ pub(super) const CAPACITY: usize = 512;
 const MASK: usize = CAPACITY - 1;
 
 /// The barrier's weight in a part that no polish has seen.
-pub(super) const FIRST_BARRIER: f64 = 0.1;
+pub(super) const FIRST_BARRIER: f64 = 0.06;
 
 /// An interval of the spline.
 #[derive(Clone, Copy, Debug)]

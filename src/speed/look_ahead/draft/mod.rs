@@ -16,6 +16,7 @@ use super::grid::Grid;
 use super::refusal::Refusal;
 use super::rest_arc::{RestArcSearch, free_length};
 use super::route::Route;
+use super::rows::MovingAxes;
 use super::spline::{CAPACITY, SampleBanks, Spline};
 use super::sweeps::{SweepFault, Sweeps};
 
@@ -192,7 +193,7 @@ impl Draft {
                     cost::REST_ARC + cost::REST_ARC_EVALUATIONS * self.evaluation
                 }
                 Phase::Grid => cost::NODE + cost::NODE_EVALUATIONS * self.evaluation,
-                Phase::Bounds(_) => cost::BOUNDS,
+                Phase::Bounds(k) => cost::bounds(self.axes(samples, k)),
                 Phase::Check(_) => cost::CHECK,
                 Phase::Finished(step) => return step,
                 _ => cost::SWEEP,
@@ -204,6 +205,11 @@ impl Draft {
             Phase::Finished(step) => step,
             _ => DraftStep::More,
         }
+    }
+
+    /// How many axes move in interval k.
+    fn axes(&self, samples: &SampleBanks, k: usize) -> u32 {
+        MovingAxes::at_any(samples.of(&self.spline, k)).count()
     }
 
     fn step<R: Route>(&mut self, context: &DraftContext<R>, samples: &mut SampleBanks) -> Phase {

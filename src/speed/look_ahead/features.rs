@@ -1,0 +1,350 @@
+//! The features around the place where the grid is being made.
+//!
+//! There may be hundreds of them within the reach of the largest spacing, but few say anything about
+//! a place: what is farther away than the spacing that was found so far is left out.
+
+use super::feature::{Feature, Look, Place, TWIST_AT};
+use super::grid::GROWTH;
+use super::route::{Route, Vertex};
+use super::rows::AxisRows;
+
+/// A power of two, so that a masked index is in range for the compiler too.
+const SLOTS: usize = 256;
+
+/// Features in the order of the path, around the place where the grid is being made.
+///
+/// What lies within the known path never changes, so that it is kept for the drafts to come. Places
+/// in the ring are counted on without end.
+#[derive(Debug)]
+pub(super) struct Features {
+    slots: [Feature; SLOTS],
+    /// The first one that is kept.
+    oldest: usize,
+    /// The first one that matters where the grid is.
+    first: usize,
+    /// The place behind the last one.
+    next: usize,
+    /// Where the search for vertices began.
+    begin: f64,
+    /// The position of the last vertex that was taken, the start of the search for the next.
+    taken: f64,
+    /// Whether there is no further one.
+    exhausted: bool,
+    /// The place behind the last one that never changes, as long as all before it are like that.
+    lasting: usize,
+    /// The position of the last vertex that was taken up to there.
+    lasting_taken: f64,
+    /// What the program's caps were multiplied by, squared.
+    raise_squared: f64,
+    /// No feature begins farther before its center ..
+    before: f64,
+    /// .. or ends farther behind it.
+    behind: f64,
+    /// The end of the known path, in this draft.
+    end: Option<Place>,
+}
+
+impl Features {
+    pub const fn new() -> Self {
+        Self {
+            slots: [Feature::NONE; SLOTS],
+            oldest: 0,
+            first: 0,
+            next: 0,
+            begin: f64::INFINITY,
+            taken: 0.0,
+            exhausted: false,
+            lasting: 0,
+            lasting_taken: 0.0,
+            raise_squared: 0.0,
+            before: 0.0,
+            behind: 0.0,
+            end: None,
+        }
+    }
+
+    /// Drops what is kept: the path is another one.
+    pub fn forget(&mut self) {
+        self.begin = f64::INFINITY;
+    }
+
+    /// Begins with the first vertex behind `s`.
+    pub fn restart(&mut self, s: f64, raise_squared: f64) {
+        self.exhausted = false;
+        self.end = None;
+        let kept = self.lasting > self.oldest
+            && self.raise_squared == raise_squared
+            && self.begin <= s
+            && self.lasting_taken > s
+            && (self.oldest == 0 || self.slots[self.oldest & (SLOTS - 1)].center <= s);
+        if !kept {
+            self.oldest = 0;
+            self.first = 0;
+            self.next = 0;
+            self.begin = s;
+            self.taken = s;
+            self.lasting = 0;
+            self.lasting_taken = s;
+            self.raise_squared = raise_squared;
+            self.before = 0.0;
+            self.behind = 0.0;
+            return;
+        }
+        self.next = self.lasting;
+        self.taken = self.lasting_taken;
+        self.first = self.oldest;
+        while self.first + 1 < self.next && self.slots[(self.first + 1) & (SLOTS - 1)].center <= s {
+            self.first += 1;
+        }
+    }
+
+    /// Whether all features up to `s` are there.
+    pub fn covers(&self, s: f64) -> bool {
+        self.exhausted || self.taken >= s || self.next - self.first >= SLOTS
+    }
+
+    /// Takes one more vertex.
+    pub fn take_next<R: Route>(&mut self, rows: &AxisRows, route: &R, raise_squared: f64) {
+        let longest = route.known_end();
+        // A vertex behind the known end may reach back over it.
+        let farthest = longest + route.greatest_reach();
+        let next = route
+            .vertex_after(self.taken)
+            .filter(|vertex| vertex.position > self.taken && vertex.position <= farthest);
+        let Some(vertex) = next else {
+            self.exhausted = true;
+            return;
+        };
+        let all_lasting = self.lasting == self.next && self.lasting_taken == self.taken;
+        let widest = vertex.reach.max(vertex.core);
+        let lasting = all_lasting && vertex.position + TWIST_AT * widest <= longest;
+        self.taken = vertex.position;
+        let changes = vertex.reach > 0.0 || vertex.cap_changes;
+        if changes && vertex.position - vertex.reach <= longest {
+            self.take(&vertex, lasting, rows, route, raise_squared);
+        }
+        if lasting {
+            self.lasting = self.next;
+            self.lasting_taken = self.taken;
+        }
+    }
+
+    /// Adds a vertex that asks for nodes, or lets the last feature stand for it too.
+    fn take<R: Route>(
+        &mut self,
+        vertex: &Vertex,
+        lasting: bool,
+        rows: &AxisRows,
+        route: &R,
+        raise_squared: f64,
+    ) {
+        let mut path = Look {
+            rows,
+            route,
+            raise_squared,
+            longest: route.known_end(),
+            end: &mut self.end,
+        };
+        let feature = Feature::of(vertex, &mut path);
+        let core = (vertex.core > 0.0).then(|| {
+            let reach = vertex.core;
+            Feature::of(&Vertex { reach, ..*vertex }, &mut path)
+        });
+        // What never changes is not joined with what may.
+        let may_join = lasting || self.next > self.lasting;
+        if let Some(last) = self.last_mut()
+            && may_join
+            && !last.wants_node()
+            && !feature.wants_node()
+            && feature.center - last.center < 0.25 * last.spacing.min(feature.spacing)
+        {
+            last.end = last.end.max(feature.end);
+            last.start = last.start.min(feature.start);
+            last.spacing = last.spacing.min(feature.spacing);
+            last.speed = last.speed.max(feature.speed);
+            last.single = false;
+            let (before, behind) = (last.center - last.start, last.end - last.center);
+            self.before = self.before.max(before);
+            self.behind = self.behind.max(behind);
+        } else {
+            self.push(feature);
+        }
+        if let Some(core) = core {
+            self.push(core);
+        }
+    }
+
+    /// Appends a feature, over the oldest one that does not matter any more.
+    fn push(&mut self, feature: Feature) {
+        if self.next - self.first < SLOTS {
+            self.before = self.before.max(feature.center - feature.start);
+            self.behind = self.behind.max(feature.end - feature.center);
+            self.slots[self.next & (SLOTS - 1)] = feature;
+            self.next += 1;
+            self.oldest = self.oldest.max(self.next.saturating_sub(SLOTS));
+        }
+    }
+
+    /// Leaves those in front that say nothing any more for spacings below `most` from `s` on.
+    pub fn drop_before(&mut self, s: f64, most: f64) {
+        while self.next - self.first > 1
+            && let front = &self.slots[self.first & (SLOTS - 1)]
+            && front.end < s
+            && front.spacing_at(s) > most
+        {
+            self.first += 1;
+        }
+    }
+
+    /// The feature at a place in the ring, if it matters.
+    fn get(&self, place: usize) -> Option<&Feature> {
+        (self.first <= place && place < self.next).then(|| self.at(place))
+    }
+
+    fn at(&self, place: usize) -> &Feature {
+        &self.slots[place & (SLOTS - 1)]
+    }
+
+    /// The place of the first feature with its center behind `s`.
+    fn place_behind(&self, s: f64) -> usize {
+        let (mut low, mut high) = (self.first, self.next);
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if self.at(middle).center <= s {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
+    /// The features with their centers behind `s`, from the first on.
+    fn behind(&self, s: f64) -> impl Iterator<Item = &Feature> {
+        (self.place_behind(s)..self.next).map(|place| self.at(place))
+    }
+
+    /// The features with their centers at `s` or before, from the last on.
+    fn before(&self, s: f64) -> impl Iterator<Item = &Feature> {
+        (self.first..self.place_behind(s))
+            .rev()
+            .map(|place| self.at(place))
+    }
+
+    /// The least spacing at `s` and `most`, and whether `s` lies in a change of shape.
+    pub fn spacing(&self, s: f64, most: f64) -> (f64, bool) {
+        let (mut least, mut within) = (most, false);
+        let mut consider = |feature: &Feature| {
+            least = least.min(feature.spacing_at(s));
+            within |= feature.speed > 0.0 && feature.start <= s && s < feature.end;
+            least
+        };
+        let mut reached = most;
+        // Features farther away say nothing about less than this.
+        for feature in self.behind(s) {
+            if GROWTH / (1.0 + GROWTH) * (feature.center - self.before - s) > reached {
+                break;
+            }
+            reached = consider(feature);
+        }
+        for feature in self.before(s) {
+            if GROWTH * (s - feature.center - self.behind) > reached {
+                break;
+            }
+            reached = consider(feature);
+        }
+        (least, within)
+    }
+
+    /// The next place that a node should be on, if it is near the end of an interval from `s` on:
+    /// start, center and end of a blend that stands alone, and changes of the speed cap.
+    pub fn landmark(&self, s: f64, length: f64) -> Option<f64> {
+        let mut best: Option<f64> = None;
+        let mut consider = |place: f64| {
+            let near = place - s > 0.3 * length && place - s < 1.3 * length;
+            if near && best.is_none_or(|other| place < other) {
+                best = Some(place);
+            }
+        };
+        let first = self.place_behind(s + 0.3 * length - self.behind);
+        for place in first..self.next {
+            let feature = self.at(place);
+            if feature.center - self.before - s >= 1.3 * length {
+                break;
+            }
+            if feature.wants_node() {
+                consider(feature.center);
+            }
+            let free_before = || {
+                let other = place.checked_sub(1).and_then(|other| self.get(other));
+                other.is_none_or(|other| other.end <= feature.start)
+            };
+            let free_behind = || {
+                let other = self.get(place + 1);
+                other.is_none_or(|other| feature.end <= other.start)
+            };
+            if feature.speed > 0.0 && feature.single && free_before() && free_behind() {
+                consider(feature.start);
+                consider(feature.center);
+                consider(feature.end);
+            }
+        }
+        best
+    }
+
+    /// A change of the speed cap that two intervals of a `length` from `s` on would not quite come
+    /// to.
+    pub fn cap_change(&self, s: f64, length: f64) -> Option<f64> {
+        self.behind(s + length)
+            .take_while(|feature| feature.center - s < 2.0 * length)
+            .find(|feature| feature.wants_node() && feature.center - s >= 1.3 * length)
+            .map(|feature| feature.center)
+    }
+
+    /// Whether there is a vertex at `s` that has a node of its own.
+    pub fn is_on_vertex(&self, s: f64) -> bool {
+        self.before(s)
+            .take_while(|feature| feature.center == s)
+            .any(Feature::wants_node)
+    }
+
+    /// The least spacing of the changes of shape that an interval touches; `None` if it touches
+    /// none.
+    pub fn finest(&self, s: f64, end: f64) -> Option<f64> {
+        let beside = 0.1 * (end - s);
+        self.behind(s - beside - self.behind)
+            .take_while(|feature| feature.center - self.before < end + beside)
+            .filter(|feature| feature.speed > 0.0)
+            .filter(|feature| end > feature.start - beside && s < feature.end + beside)
+            .map(|feature| feature.spacing)
+            .reduce(f64::min)
+    }
+
+    /// About the most that v^2 can be at `s`, and no more than `most`, with this acceleration
+    /// between there and where the features are at their limit speeds.
+    pub fn greatest_speed_squared(&self, s: f64, acceleration: f64, most: f64) -> f64 {
+        let widest = 0.25 * (self.before + self.behind);
+        let mut least = most;
+        for feature in self.behind(s) {
+            if 2.0 * acceleration * (feature.center - s - widest) > least {
+                break;
+            }
+            if feature.speed > 0.0 {
+                least = least.min(feature.greatest_speed_squared(s, acceleration));
+            }
+        }
+        for feature in self.before(s) {
+            if 2.0 * acceleration * (s - feature.center - widest) > least {
+                break;
+            }
+            if feature.speed > 0.0 {
+                least = least.min(feature.greatest_speed_squared(s, acceleration));
+            }
+        }
+        least
+    }
+
+    fn last_mut(&mut self) -> Option<&mut Feature> {
+        (self.next > self.first).then(|| &mut self.slots[(self.next - 1) & (SLOTS - 1)])
+    }
+}
