@@ -26,7 +26,7 @@ help:
 	@echo 'make tool       build the framepath command'
 	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
 	@echo 'make uninstall  remove them again'
-	@echo 'make contract   promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC (7 minutes)'
+	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
@@ -63,9 +63,9 @@ test: lint modules
 linuxcnc-test: modules tool
 	$(PYTHON) -B tests/linuxcnc/run_all.py
 
-# Those that need a machine which does nothing else: the table of promises, two minutes of soak, plan against LinuxCNC.
+# What comes last in make test: the table of promises, two minutes of soak, plan against LinuxCNC.
 contract: modules tool
-	$(PYTHON) -B tests/linuxcnc/run_all.py --alone
+	$(PYTHON) -B tests/linuxcnc/run_all.py --last
 
 soak: modules
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner_programs -- --nocapture
@@ -73,10 +73,20 @@ soak: modules
 
 bench: prerequisites
 	$(CARGO) bench --locked --workspace
+	FRAMEPATH_PAGE_MOVES=1000000 $(CARGO) test --locked --release -p framepath-tool --test page_speed -- --nocapture
+	$(PYTHON) -B benches/table.py $(TARGET)/criterion
 
-# Random bytes through the filter; wants a nightly Rust and cargo-fuzz.
+# Random bytes through the filter; wants a nightly Rust.
+DIALECT ?= sinumerik
+FUZZED = tool/fuzz/target/x86_64-unknown-linux-gnu/debug/$(DIALECT)
+FUZZ_FLAGS = -Cpasses=sancov-module --cfg fuzzing \
+    $(addprefix -Cllvm-args=-sanitizer-coverage-,level=4 inline-8bit-counters pc-table trace-compares)
+
 fuzz:
-	cd tool/fuzz && $(CARGO) +nightly fuzz run $(or $(DIALECT),sinumerik)
+	cd tool/fuzz && CARGO_TARGET_DIR=target CARGO_PROFILE_DEV_OPT_LEVEL=1 RUSTFLAGS="$(FUZZ_FLAGS)" \
+	    $(CARGO) +nightly build --locked --target x86_64-unknown-linux-gnu
+	mkdir -p tool/fuzz/corpus/$(DIALECT)
+	$(FUZZED) -max_total_time=120 -timeout=20 tool/fuzz/corpus/$(DIALECT)
 
 # LinuxCNC's sample programs as they are, where the feed limits most of them, then with every F raised, and the
 # generated programs.
