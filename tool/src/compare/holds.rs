@@ -100,21 +100,29 @@ struct Stop<'a> {
 /// on.
 const AROUND: usize = 40;
 
+/// A stop of less is none, s at full velocity.
+const STANDSTILL: f64 = 1e-7;
+
+/// Where a path bends, the axes may brake more than in the direction it starts in: less than twice as
+/// much.
+const BENDS: f64 = 0.5;
+
 impl Stop<'_> {
     /// Least time to rest, s, in whole cycles: positions are seen at the end of each.
     ///
-    /// On the straight line first. Only if the machine takes longer than that, what the path itself
-    /// allows is worth its effort.
+    /// What each axis needs by itself first: on a straight line that is all. Only if the machine takes
+    /// longer than that, what the path itself allows is worth its effort.
     fn ideal(&self, state: &State) -> f64 {
         let cycles = |time: f64| (time / self.period - 1e-6).ceil().max(1.0) * self.period;
-        let straight = cycles(state.shortest_stop());
+        let axes = cycles(state.least_time);
         let time = (self.rest - self.start) as f64 * self.period;
-        if time < straight + 1.5 * self.period || state.jerk.is_infinite() {
-            return straight;
+        let unlimited = self.jerk.iter().all(|jerk| *jerk <= 0.0);
+        if time < axes + 1.5 * self.period || unlimited {
+            return axes;
         }
-        let along_path = self.along_path(state).map_or(straight, cycles);
+        let along_path = self.along_path(state).map_or(axes, cycles);
         // What the machine has done is possible.
-        along_path.clamp(straight, time.max(straight))
+        along_path.clamp(axes, time.max(axes))
     }
 
     /// Least time to rest on the path as it was run on after the hold.
@@ -134,13 +142,16 @@ impl Stop<'_> {
         let at = |k: usize| (k - from) as f64 * self.period;
         let (start, squared, acceleration) = path.state(at(self.start.checked_sub(1)?))?;
         let stopped = path.parameter_at(at(self.rest)) - start;
+        if stopped <= STANDSTILL {
+            return None;
+        }
         let limit = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
         let limits = AxisLimits {
             velocity: self.limits.velocity,
             acceleration: self.limits.acceleration,
             jerk: self.jerk.map(limit),
         };
-        let least = 0.98 * state.least_distance() * squared.sqrt() / state.speed;
+        let least = BENDS * state.least_distance() * squared.sqrt() / state.speed;
         shortest_stop(
             &path,
             &limits,

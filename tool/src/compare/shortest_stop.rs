@@ -1,20 +1,18 @@
-//! The shortest stop from a state of motion on a straight path.
+//! No stop is shorter than that of each axis by itself.
 
 use super::kinematics::step;
 use super::limits::Limits;
 use super::recording::Sample;
 
-/// Speed and acceleration along the path at a moment, and what the axes allow there.
+/// A moment of motion, and what no stop from there undercuts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct State {
-    /// Above 0.
+    /// Along the path, above 0.
     pub speed: f64,
-    /// Negative if it slows down.
-    pub acceleration: f64,
     /// Greatest acceleration along the path.
-    pub most: f64,
-    /// Greatest jerk along the path; infinite if there is no limit.
-    pub jerk: f64,
+    most: f64,
+    /// Time to rest of the axis that takes longest by itself, s.
+    pub least_time: f64,
 }
 
 impl State {
@@ -28,55 +26,39 @@ impl State {
         period: f64,
     ) -> Option<State> {
         let travel = step(samples, k);
-        let size = |k: Option<usize>| k.map_or(0.0, |k| norm(&step(samples, k)));
+        let earlier = |cycles: usize| k.checked_sub(cycles).map_or([0.0; 9], |k| step(samples, k));
+        let (before, first) = (earlier(1), earlier(2));
         let length = norm(&travel);
         if length <= 0.0 {
             return None;
         }
-        let along = |limits: &[f64; 9]| {
-            let axes = limits.iter().zip(&travel);
-            axes.filter(|(limit, travel)| **limit > 0.0 && **travel != 0.0)
-                .map(|(limit, travel)| limit * length / travel.abs())
-                .fold(f64::INFINITY, f64::min)
-        };
-        let (most, jerk) = (along(&limits.acceleration), along(jerk));
-        let before = size(k.checked_sub(1));
-        let earlier = size(k.checked_sub(2));
-        // The mean speeds of the cycles, carried on to the end of the last.
-        let change = (length - before) / period.powi(2);
-        let bend = ((length - 2.0 * before + earlier) / period.powi(3)).clamp(-jerk, jerk);
-        let acceleration = (change + bend * period).clamp(-most, most);
-        let speed = length / period + 0.5 * period * (change + 0.5 * period * bend);
+        let (mut most, mut least_time) = (f64::INFINITY, 0.0_f64);
+        for (axis, &now) in travel.iter().enumerate() {
+            let limit = limits.acceleration[axis];
+            if limit <= 0.0 {
+                continue;
+            }
+            let jerk = if jerk[axis] > 0.0 {
+                jerk[axis]
+            } else {
+                f64::INFINITY
+            };
+            if now != 0.0 {
+                most = most.min(limit * length / now.abs());
+            }
+            // The mean velocities of the cycles, carried on to the end of the last.
+            let change = (now - before[axis]) / period.powi(2);
+            let third = (now - 2.0 * before[axis] + first[axis]) / period.powi(3);
+            let bend = third.clamp(-jerk, jerk);
+            let acceleration = (change + bend * period).clamp(-limit, limit);
+            let velocity = now / period + 0.5 * period * (change + 0.5 * period * bend);
+            least_time = least_time.max(axis_stop(velocity, acceleration, limit, jerk));
+        }
         Some(State {
-            speed: speed.max(length / period * 1e-3),
-            acceleration,
+            speed: length / period,
             most,
-            jerk,
+            least_time,
         })
-    }
-
-    /// Time to rest, s. A path that bends leaves less for braking: no stop is shorter.
-    ///
-    /// Full jerk down to the braking acceleration, that one held if it is the greatest, full jerk up
-    /// to rest.
-    pub(crate) fn shortest_stop(&self) -> f64 {
-        let State {
-            speed,
-            acceleration,
-            most,
-            jerk,
-        } = *self;
-        if !jerk.is_finite() {
-            return speed / most;
-        }
-        // Braking so hard already that only letting go is left.
-        if acceleration < 0.0 && speed <= acceleration * acceleration / (2.0 * jerk) {
-            return -2.0 * speed / acceleration;
-        }
-        let square = jerk * speed + 0.5 * acceleration * acceleration;
-        let braking = square.sqrt().min(most);
-        let held = (square - braking * braking).max(0.0) / (jerk * braking);
-        (acceleration + braking) / jerk + held + braking / jerk
     }
 
     /// A distance that no stop undercuts.
@@ -84,6 +66,33 @@ impl State {
         // Constant full braking at once.
         self.speed * self.speed / (2.0 * self.most)
     }
+}
+
+/// Least time, s, in which an axis by itself comes from a velocity and an acceleration to rest, with
+/// at most the acceleration `most` and the jerk `jerk`, which may be infinite. Where it comes to rest
+/// is free, and on the way it may turn back.
+///
+/// Full jerk to the braking acceleration, that one held if it is the greatest, full jerk back to none:
+/// the time-optimal control of a double integrator whose second state is bounded.
+fn axis_stop(velocity: f64, acceleration: f64, most: f64, jerk: f64) -> f64 {
+    if !jerk.is_finite() {
+        return velocity.abs() / most;
+    }
+    // The velocity that is left once the acceleration has been let go tells which way to brake.
+    let left = velocity + acceleration * acceleration.abs() / (2.0 * jerk);
+    let (velocity, acceleration) = if left >= 0.0 {
+        (velocity, acceleration)
+    } else {
+        (-velocity, -acceleration)
+    };
+    let square = (jerk * velocity + 0.5 * acceleration * acceleration).max(0.0);
+    let braking = square.sqrt().min(most);
+    let held = if square.sqrt() > most {
+        (square - most * most) / (jerk * most)
+    } else {
+        0.0
+    };
+    (acceleration + braking).max(0.0) / jerk + held + braking / jerk
 }
 
 fn norm(vector: &[f64; 9]) -> f64 {
@@ -94,14 +103,11 @@ fn norm(vector: &[f64; 9]) -> f64 {
 mod tests {
     use super::*;
 
-    fn stop(speed: f64, acceleration: f64) -> f64 {
-        let state = State {
-            speed,
-            acceleration,
-            most: 1000.0,
-            jerk: 20_000.0,
-        };
-        state.shortest_stop()
+    fn stop(velocity: f64, acceleration: f64) -> f64 {
+        let time = axis_stop(velocity, acceleration, 1000.0, 20_000.0);
+        let mirrored = axis_stop(-velocity, -acceleration, 1000.0, 20_000.0);
+        assert!((time - mirrored).abs() < 1e-12);
+        time
     }
 
     #[test]
@@ -114,6 +120,15 @@ mod tests {
         assert!((stop(75.0, -1000.0) - (stop(100.0, 0.0) - 0.05)).abs() < 1e-12);
         // The last part of a stop.
         assert!((stop(10.0, -(2.0 * 20_000.0 * 10.0f64).sqrt()) - 0.001f64.sqrt()).abs() < 1e-9);
+        assert_eq!(axis_stop(-50.0, 300.0, 1000.0, f64::INFINITY), 0.05);
+        assert_eq!(stop(0.0, 0.0), 0.0);
+    }
+
+    #[test]
+    fn braking_too_hard_for_the_velocity_that_is_left_it_turns_back() {
+        // Letting go of 1000 mm/s2 takes 50 ms and makes -25 mm/s of 0.
+        assert!((stop(0.0, -1000.0) - (0.05 + stop(25.0, 0.0))).abs() < 1e-12);
+        assert!((stop(5.0, -1000.0) - (0.05 + stop(20.0, 0.0))).abs() < 1e-12);
     }
 
     #[test]
@@ -129,12 +144,13 @@ mod tests {
             .collect();
         let limits = Limits::default();
         let state = State::after(&samples, 19, &limits, &[20_000.0; 9], 1e-3).expect("it moves");
+        assert!((state.speed - 51.0).abs() < 5.0, "{state:?}");
+        // At 20 ms 54 mm/s and 900 mm/s2.
         assert!(
-            (state.speed - (40.0 + 500.0 * 0.02 + 10_000.0 * 0.0004)).abs() < 2e-2,
+            (state.least_time - stop(54.0, 900.0)).abs() < 1e-3,
             "{state:?}"
         );
-        assert!((state.acceleration - 900.0).abs() < 1e-6, "{state:?}");
-        assert_eq!((state.most, state.jerk), (1000.0, 20_000.0));
+        assert!((state.least_distance() - state.speed.powi(2) / 2000.0).abs() < 1e-9);
         assert_eq!(State::after(&[], 3, &limits, &[0.0; 9], 1e-3), None);
     }
 }
