@@ -56,7 +56,7 @@ class Operator:
                 return
             if time.monotonic() > limit:
                 raise Failure(f"timed out waiting for {what}")
-            time.sleep(0.002)
+            time.sleep(0.004)
 
     def insist(self, what, command, condition):
         """Repeats a command until it took effect: early ones get lost while LinuxCNC's parts come up."""
@@ -101,8 +101,12 @@ class Operator:
         """Opens a program and starts it, without waiting for its end."""
         self.open(program)
         self.command.auto(linuxcnc.AUTO_RUN, line)
-        self.wait_for("the program to start", lambda: self.status.interp_state != linuxcnc.INTERP_IDLE
-                      or self.has_error(), 10)
+        self.wait_for("the program to start", self.was_heard)
+
+    def was_heard(self):
+        """Whether the task controller has begun with the last command: from then on the status tells of it. What is
+        short may be over when the status is read."""
+        return self.status.echo_serial_number >= self.command.serial
 
     def finish(self, timeout=None):
         """Waits until the interpreter is idle and motion has ended."""
@@ -177,14 +181,9 @@ class Operator:
         """Waits until motion is at this line of the program or behind it."""
         self.wait_for(f"line {line}", lambda: self.status.motion_line >= line, timeout)
 
-    def fill_queue(self):
-        """Waits until motion's queue has not grown for a while: it is full, or the program waits."""
-        length, since = None, time.monotonic()
-        while time.monotonic() - since < 0.4:
-            self.poll()
-            if self.status.queue != length:
-                length, since = self.status.queue, time.monotonic()
-            time.sleep(0.01)
+    def wait_queue(self, count):
+        """Waits until motion's queue has so many moves."""
+        self.wait_for(f"{count} moves", lambda: self.status.queue >= count)
 
     def wait_moving(self):
         self.wait_for("motion", lambda: self.status.current_vel > 0, 10)
@@ -268,9 +267,6 @@ class Operator:
         self.poll()
         self.answers[name] = [text for kind, text in self.messages[self.heard:] if kind in ERRORS]
         self.messages[self.heard:] = [[kind, text] for kind, text in self.messages[self.heard:] if kind not in ERRORS]
-
-    def has_error(self):
-        return any(kind in ERRORS for kind, _ in self.messages)
 
 
 def write_result(operator, failure):

@@ -18,7 +18,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 SAMPLES = os.path.join(ROOT, "hal-component")
 MODULES = os.environ.get("FRAMEPATH_MODULES", os.path.join(ROOT, "target", "modules"))
+TOOL = os.environ.get("FRAMEPATH_TOOL", os.path.join(ROOT, "target", "release", "framepath"))
 
+#: Seconds that the task controller waits for the motion controller.
+COMMAND_TIMEOUT = 30
 # halsampler prints six decimals: positions are recorded in millionths.
 RECORDED_SCALE = 1e6
 
@@ -153,7 +156,9 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
         ini_path = os.path.join(config, f"{sample}.ini")
         with open(ini_path, encoding="utf-8") as file:
             text = file.read()
-        changes = {("DISPLAY", "DISPLAY"): f"./{display}"}
+        # without real-time rights the servo thread may stand still for a while, after which the task controller would
+        # give up the program
+        changes = {("DISPLAY", "DISPLAY"): f"./{display}", ("EMCMOT", "COMM_TIMEOUT"): COMMAND_TIMEOUT}
         changes.update(ini or {})
         text = edit_ini(text, changes)
         extra = hal

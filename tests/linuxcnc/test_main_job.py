@@ -8,7 +8,7 @@ import harness
 from geometry import Frame, chained, follow
 
 PROGRAM = os.path.join(harness.ROOT, "demo", "programs", "seed2d.mpf")
-TOOL = os.environ.get("FRAMEPATH_TOOL", os.path.join(harness.ROOT, "target", "release", "framepath"))
+TOOL = harness.TOOL
 
 
 def subprogram(frame):

@@ -1,11 +1,13 @@
 """`framepath plan` against a real LinuxCNC with blendtp: time, and the position in every servo cycle.
 
-Ten programs run one after the other in one LinuxCNC; between them the machine goes back to where a plan begins. It is
-held at the start until the queue is full (plan --fill-queue): how fast LinuxCNC hands over moves depends on what else
-the computer has to do.
+Ten programs run one after the other in one LinuxCNC; between them the machine goes back to where a plan begins. In which
+cycle each move reached the planner is recorded along with the positions (arrivals.c). A plan with the same arrivals has
+to have the same positions, however busy the computer is; and the plan as users get it, with a move in each cycle, the
+same time. Where only the second fails, and moves did come late, the program is run again.
 """
 
 import csv
+import glob
 import json
 import math
 import os
@@ -21,10 +23,15 @@ INI = os.path.join(harness.SAMPLES, "configs", "framepath-sim", "framepath-sim.i
 NCFILES = "/usr/share/linuxcnc/ncfiles"
 PERIOD = 1e-3
 AXES = "xyz"
-#: seconds of standstill between two programs; none of them stands as long on its way
-PAUSE = 0.4
-#: cycles of standstill that divide the recording
-STANDSTILL = 60
+#: how often a program is run whose moves came late
+ATTEMPTS = 3
+#: cycles between two moves of a program, at most, where the computer has nothing else to do; such waits change the
+#: time of no program
+PROMPT = 20
+#: mm
+SAME = 1e-6
+#: decimals of a recorded position, mm
+DIGITS = 12
 HEAD = "G21 G17 G90 G94 G54 G40 G49"
 
 
@@ -74,71 +81,117 @@ def plan(*arguments, check=True):
     return done
 
 
-def from_first_motion(positions):
-    """What lies between the first and the last change."""
-    moving = [n for n in range(1, len(positions)) if positions[n] != positions[n - 1]]
-    return positions[moving[0] - 1:moving[-1] + 1]
+def modules_for_recording(folder):
+    """The modules, and arrivals.so, which shows when a move reaches the planner."""
+    for file in glob.glob(os.path.join(harness.MODULES, "*.so")):
+        os.symlink(file, os.path.join(folder, os.path.basename(file)))
+    subprocess.run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-DRTAPI", "-DUSPACE", "-D__MODULE__",
+                    "-D_GNU_SOURCE", "-isystem", os.environ.get("LINUXCNC_INCLUDE", "/usr/include/linuxcnc"),
+                    "-o", os.path.join(folder, "arrivals.so"), os.path.join(harness.HERE, "arrivals.c")], check=True)
+
+
+def motion(positions):
+    """The first and the last cycle in which anything moves by what the recording shows."""
+    shown = [tuple(round(place, DIGITS) for place in position) for position in positions]
+    changes = [n for n in range(1, len(shown)) if shown[n] != shown[n - 1]]
+    return changes[0], changes[-1]
+
+
+class Recording:
+    """A program as it ran, from the servo cycle in which its first move came."""
+
+    def __init__(self, result, number):
+        rows = result.columns("program", "moves", "scale", *(f"axis.{axis}" for axis in AXES))
+        rows = [row[1:] for row in rows if row[0] == number]
+        before = rows[0][0]
+        rows = [row for row in rows if row[0] > before]
+        #: moves that have come, and what all feeds are multiplied by
+        self.supply = [(moves - before, scale / 1e6) for moves, scale, *_ in rows]
+        self.positions = [tuple(row[2:]) for row in rows]
+        first, self.end = motion(self.positions)
+        self.cycles = self.end - first + 1
+
+    def arrivals(self):
+        """What --arrivals reads."""
+        changes = [n for n in range(len(self.supply)) if n == 0 or self.supply[n] != self.supply[n - 1]]
+        return "".join(f"{n} {self.supply[n][0]} {self.supply[n][1]:g}\n" for n in changes)
+
+    def longest_wait(self):
+        """The longest time between two moves, cycles."""
+        arrivals = [n for n in range(1, len(self.supply)) if self.supply[n][0] != self.supply[n - 1][0]]
+        return max((b - a for a, b in zip([0, *arrivals], arrivals)), default=0)
+
+
+def record(names):
+    """{name: Recording} from one LinuxCNC."""
+    steps = [["mdi", "G0 X1"]]
+    for number, name in enumerate(names, 1):
+        steps += [["mdi", "G61.1 G21 G90 G54 G53 G0 X0 Y0 Z0"], ["halcmd", "sets", "record-program", str(number)],
+                  ["run", f"PROGRAMS/{name}.ngc"], ["halcmd", "sets", "record-program", "0"]]
+    with tempfile.TemporaryDirectory() as modules:
+        modules_for_recording(modules)
+        result = harness.run(steps, {f"{name}.ngc": PROGRAMS[name] for name in names}, modules=modules,
+                             hal="loadrt arrivals\naddf arrivals servo-thread\n",
+                             integers={"moves": "arrivals.moves", "scale": "arrivals.scale", "program": ""})
+    if result.failure or result.errors:
+        raise AssertionError(f"{result.failure} {result.errors}\n{result.log}")
+    return {name: Recording(result, number) for number, name in enumerate(names, 1)}
 
 
 class AgainstLinuxCnc(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        steps = []
-        for name in PROGRAMS:
-            steps += [["mdi", "G61.1 G21 G90 G54"], ["mdi", "G53 G0 X0 Y0 Z0"], ["sleep", PAUSE],
-                      ["setp", "motion.feed-inhibit", 1],
-                      ["start", f"PROGRAMS/{name}.ngc"], ["fill_queue"], ["setp", "motion.feed-inhibit", 0],
-                      ["finish"], ["sleep", PAUSE]]
-        files = {f"{name}.ngc": text for name, text in PROGRAMS.items()}
-        # the first way back to zero has to be one, too
-        steps = [["mdi", "G0 X1"], ["sleep", PAUSE], *steps]
-        result = harness.run(steps, files)
-        if result.failure or result.errors:
-            raise AssertionError(f"{result.failure} {result.errors}\n{result.log}")
-        cls.motions = cls.divide([tuple(p) for p in result.columns(*(f"axis.{axis}" for axis in AXES))])
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
 
-    @staticmethod
-    def divide(positions):
-        """The motions, divided by long standstills."""
-        motions, start, still = [], None, 0
-        for n in range(1, len(positions)):
-            if positions[n] != positions[n - 1]:
-                start, still = (n - 1 if start is None else start), 0
-                last = n
-            elif start is not None:
-                still += 1
-                if still == STANDSTILL:
-                    motions.append(positions[start:last + 1])
-                    start = None
-        return motions
+    def file(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as out:
+            out.write(text)
+        return path
 
-    def predicted(self, name, folder):
-        file, table = os.path.join(folder, name + ".ngc"), os.path.join(folder, name + ".csv")
-        with open(file, "w", encoding="utf-8") as out:
-            out.write(PROGRAMS[name])
-        figures = json.loads(plan(file, "--ini", INI, "--fill-queue", "--csv", table, "--json").stdout)["programs"][0]
+    def planned(self, name, *options):
+        """The position in each cycle, and how many there are from the first motion to the last."""
+        program, table = self.file(name + ".ngc", PROGRAMS[name]), os.path.join(self.folder, name + ".csv")
+        figures = json.loads(plan(program, "--ini", INI, "--json", "--csv", table, *options).stdout)["programs"][0]
         with open(table, encoding="utf-8") as rows:
             positions = [tuple(float(row[f"axis.{axis}"]) for axis in AXES) for row in csv.DictReader(rows)]
-        return figures, from_first_motion(positions)
+        first, last = motion(positions)
+        # the plan also counts a cycle with less than what a recording shows
+        self.assertLessEqual(figures["cycles"] - (last - first + 1), 2)
+        # the first row is the start
+        return positions[1:], last - first + 1
+
+    def with_the_same_arrivals(self, name, recording):
+        """Cycles, and how far any position is from the recorded one."""
+        positions, cycles = self.planned(name, "--arrivals", self.file(name + ".txt", recording.arrivals()))
+        compared = positions[:recording.end + 1]
+        self.assertEqual(len(compared), recording.end + 1, "the plan is shorter")
+        return cycles, max(math.dist(a, b) for a, b in zip(compared, recording.positions))
 
     def test_times_and_positions(self):
-        self.assertEqual(len(self.motions), 1 + 2 * len(PROGRAMS))
-        same = 0
-        with tempfile.TemporaryDirectory() as folder:
-            for n, name in enumerate(PROGRAMS):
-                real = self.motions[2 + 2 * n]
-                figures, positions = self.predicted(name, folder)
-                cycles, predicted = len(real) - 1, len(positions) - 1
-                with self.subTest(program=name):
-                    self.assertEqual(figures["cycles"], predicted)
-                    self.assertLessEqual(abs(cycles - predicted), max(3, 0.002 * cycles))
-                    self.assertLess(math.dist(real[-1], positions[-1]), 1e-6)
-                away = max((math.dist(a, b) for a, b in zip(real, positions)), default=0)
-                same += away < 1e-6 and cycles == predicted
-                print(f"{name:10} LinuxCNC {cycles * PERIOD:8.3f} s, planned {predicted * PERIOD:8.3f} s, "
-                      f"positions within {away:.2g} mm")
-        # where the plan does not depend on when a move comes
-        self.assertGreaterEqual(same, 3)
+        left, planned = list(PROGRAMS), {}
+        for _ in range(ATTEMPTS):
+            late = []
+            for name, recording in record(left).items():
+                same, away = self.with_the_same_arrivals(name, recording)
+                if name not in planned:
+                    planned[name] = self.planned(name)[1]
+                off = planned[name] - recording.cycles
+                print(f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, planned {off:+d} cycles; with the same "
+                      f"arrivals {same - recording.cycles:+d} cycles, positions within {away:.2g} mm; longest wait "
+                      f"for a move {recording.longest_wait()} cycles", flush=True)
+                with self.subTest("the same arrivals", program=name):
+                    self.assertLessEqual(abs(same - recording.cycles), 1)
+                    self.assertLess(away, SAME)
+                if abs(off) > max(3, 0.002 * recording.cycles):
+                    self.assertGreater(recording.longest_wait(), PROMPT, f"{name} takes another time than planned, "
+                                       "although its moves came promptly")
+                    late.append(name)
+            left = late
+            if not left:
+                return
+        self.skipTest(f"the computer is too busy: the moves of {left} came late, {ATTEMPTS} times")
 
 
 class Refusals(unittest.TestCase):

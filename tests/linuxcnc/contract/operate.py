@@ -7,12 +7,15 @@ import time
 
 import hal
 import linuxcnc
+from delays import Witness
 from driver import ERRORS, Failure, Operator, main, write_result
 from row import PERIOD, Broken, all_rows
 
 HEADER = "G21 G17 G40 G49 G54 G80 G90 G94 F3000"
-#: A row that takes longer than this hangs, seconds.
-PATIENCE = 40
+#: A wait that takes longer than this hangs, seconds of servo periods.
+PATIENCE = 20
+#: The same by the clock on the wall, where the servo thread does not run.
+LAST_PATIENCE = 120
 
 
 class RowOperator(Operator):
@@ -20,7 +23,10 @@ class RowOperator(Operator):
 
     def __init__(self):
         super().__init__()
-        self.component = None
+        self.component = hal.component("operator")
+        self.component.newpin("row", hal.HAL_S32, hal.HAL_OUT)
+        self.component.ready()
+        hal.connect("operator.row", "row")
         self.changed = {}
         self.kept = {}
         self.programs = 0
@@ -43,6 +49,18 @@ class RowOperator(Operator):
 
     def until(self, what, condition, timeout=PATIENCE):
         self.wait_for(what, condition, timeout)
+
+    def wait_for(self, what, condition, timeout=None):
+        """As for any Operator, but so many seconds of servo periods: a loaded machine runs late."""
+        end = self.period() + round((timeout or PATIENCE) / PERIOD)
+        super().wait_for(what, lambda: condition() or self.period() > end, LAST_PATIENCE)
+        if self.period() > end and not condition():
+            raise Failure(f"timed out waiting for {what}")
+
+    @staticmethod
+    def period():
+        """Servo periods so far."""
+        return hal.get_value("threadtest.0.count")
 
     def write(self, lines, header=HEADER):
         self.programs += 1
@@ -68,13 +86,16 @@ class RowOperator(Operator):
 
     def sleep(self, seconds):
         """Waits by the servo periods that are run: a loaded machine without a real-time kernel runs late."""
-        end = hal.get_value("threadtest.0.count") + round(seconds / PERIOD)
-        limit = time.monotonic() + PATIENCE
-        while hal.get_value("threadtest.0.count") < end:
-            self.poll()
+        end = self.period() + round(seconds / PERIOD)
+        limit = time.monotonic() + LAST_PATIENCE
+        while True:
+            left = end - self.period()
+            if left <= 0:
+                break
             if time.monotonic() > limit:
                 raise Failure("the servo thread does not run")
-            time.sleep(0.002)
+            time.sleep(min(max(0.5 * left * PERIOD, 0.001), 0.02))
+        self.poll()
 
     def begin(self, *lines):
         self.start(self.write(lines))
@@ -84,15 +105,18 @@ class RowOperator(Operator):
         self.mdi(text, PATIENCE)
 
     def stopped(self, quiet=0.06):
-        """Waits until every axis has stood for so many seconds."""
-        last, since = None, time.monotonic()
-        limit = since + PATIENCE
-        while time.monotonic() - since < quiet:
+        """Waits until every axis has stood for so many seconds of servo periods."""
+        last, since = None, 0
+        limit = self.period() + round(PATIENCE / PERIOD)
+        while True:
             self.poll()
+            period = self.period()
             now = tuple(self.get(f"axis.{axis}.pos-cmd") for axis in "xyzab")
             if now != last:
-                last, since = now, time.monotonic()
-            if time.monotonic() > limit:
+                last, since = now, self.period()
+            elif period - since >= round(quiet / PERIOD):
+                return
+            if period > limit:
                 raise Failure("the axes do not come to rest")
             time.sleep(0.004)
 
@@ -123,19 +147,16 @@ class RowOperator(Operator):
 
     def rows(self, names):
         """Carries out rows of the table; what comes of each is written at once."""
-        self.component = hal.component("operator")
-        self.component.newpin("row", hal.HAL_S32, hal.HAL_OUT)
-        self.component.ready()
-        hal.connect("operator.row", "row")
         known = {row.name(): row for row in all_rows()}
         outcomes = self.answers["rows"]
+        witness = Witness(os.path.join(os.environ["KEEP"], "delays.txt"))
         self.recover()
         for number, name in enumerate(names, 1):
             self.poll()
             heard = len(self.messages)
             self.kept = {}
             outcome = outcomes[name] = {"number": number, "failure": "LinuxCNC did not answer any more", "kept": {},
-                                        "errors": [], "recovered": False}
+                                        "errors": [], "recovered": False, "delay": 0.0}
             write_result(self, None)
             self.component["row"] = number
             started = time.monotonic()
@@ -146,6 +167,7 @@ class RowOperator(Operator):
                 outcome["failure"] = str(failure)
             self.sleep(0.03)
             self.component["row"] = 0
+            outcome["delay"] = witness.longest(started)
             outcome["kept"], outcome["errors"] = self.kept, self.heard_since(heard)
             operated = time.monotonic()
             try:

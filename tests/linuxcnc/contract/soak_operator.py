@@ -10,25 +10,21 @@ import linuxcnc
 from driver import ERRORS, Failure, main, write_result
 from operate import RowOperator
 from random_program import RandomProgram
+from row import PERIOD
+from soak_checks import ALL, INTERRUPTED, JOGGING, PROGRAM
 
-#: What the limits of a period allow: all of them; velocity and acceleration (LinuxCNC's own jogs); nothing (emergency
-#: stop and machine off, where LinuxCNC drops the motion).
-ALL, JOGGING, INTERRUPTED = 1, 2, 0
 #: Said by LinuxCNC's interpreter at the end of a program that was stepped, also with its own planner.
 EXPECTED = ("File ended with no percent sign or program end", "Must be in MDI mode to issue MDI command")
-#: Seconds that the machine has for coming to rest, and a program for its end once nothing interferes.
+#: Seconds of servo periods that the machine has for coming to rest, and a program for its end once nothing interferes.
 REST, END = 4.0, 90.0
 
 
 class SoakOperator(RowOperator):
     def soak(self, seed, seconds):
-        self.component = hal.component("operator")
-        self.component.newpin("row", hal.HAL_S32, hal.HAL_OUT)
-        self.component.ready()
-        hal.connect("operator.row", "row")
         self.source = random.Random(seed)
         self.actions = []
-        self.answers.update(programs=0, completed=0, aborted=0, actions=0, log=self.actions, program=[])
+        self.answers.update(programs=0, completed=0, aborted=0, actions=0, reversed=0, turned=0, no_way_back=0,
+                            log=self.actions, program=[])
         self.recover()
         limit = time.monotonic() + seconds
         while time.monotonic() < limit:
@@ -52,8 +48,9 @@ class SoakOperator(RowOperator):
         del self.messages[:]
 
     def one_program(self, program):
-        self.component["row"] = ALL
+        self.component["row"] = PROGRAM
         self.began = time.monotonic()
+        self.backwards = False
         stepping = self.source.random() < 0.1
         self.open(self.write(program.lines))
         if stepping:
@@ -79,6 +76,7 @@ class SoakOperator(RowOperator):
                               f"interpreter {self.status.interp_state}, queue {self.status.queue}, line "
                               f"{self.status.read_line} read, {self.status.motion_line} in motion")
             self.answers["completed"] += 1
+            self.component["row"] = ALL
         self.without_errors()
         if self.source.random() < 0.25:
             self.jog_somewhere()
@@ -87,13 +85,13 @@ class SoakOperator(RowOperator):
 
     def at_the_end(self, patience):
         """Waits until nothing is left to do, for some time: on a loaded machine the status comes late."""
-        since = time.monotonic()
-        limit = since + patience
-        while time.monotonic() - since < 0.25:
+        since = self.period()
+        limit = since + round(patience / PERIOD)
+        while self.period() - since < round(0.25 / PERIOD):
             self.sleep(0.02)
             if not (self.status.interp_state == linuxcnc.INTERP_IDLE and self.status.inpos and self.status.queue == 0):
-                since = time.monotonic()
-            if time.monotonic() > limit:
+                since = self.period()
+            if self.period() > limit:
                 raise Failure(f"no end after {patience} s: interpreter {self.status.interp_state}, in position "
                               f"{self.status.inpos}, queue {self.status.queue}, paused {self.status.paused}")
 
@@ -105,7 +103,9 @@ class SoakOperator(RowOperator):
         self.command.feedrate(1.0)
         self.command.rapidrate(1.0)
         self.command.maxvel(100.0)
-        limit = time.monotonic() + REST
+        if self.backwards:
+            self.turn(False)
+        limit = self.period() + round(REST / PERIOD)
         # a step that is under way has to end before the program can go on
         while True:
             self.poll()
@@ -114,8 +114,28 @@ class SoakOperator(RowOperator):
                 return
             self.command.auto(linuxcnc.AUTO_RESUME)
             self.sleep(0.05)
-            if time.monotonic() > limit:
+            if self.period() > limit:
                 raise Failure("a pause does not end")
+
+    def turn(self, backwards):
+        """Has a paused program run backwards, or forward again: at rest, as LinuxCNC wants it."""
+        self.pause()
+        self.stopped()
+        self.without_errors()
+        if self.status.interp_state == linuxcnc.INTERP_IDLE:
+            return
+        self.did("reverse" if backwards else "forward")
+        before = self.backwards
+        (self.reverse if backwards else self.forward)()
+        self.command.wait_complete()
+        self.sleep(0.05)
+        self.backwards = bool(self.get("motion.tp-reverse"))
+        if self.backwards == backwards:
+            self.answers["reversed" if backwards else "turned"] += before != backwards
+        elif backwards:
+            self.answers["no_way_back"] += 1
+        elif not self.status.inpos:
+            raise Failure(f"does not turn forward again, queue {self.status.queue}")
 
     def interfere(self, stepping):
         """Random actions, for some time or until the program has ended."""
@@ -125,8 +145,9 @@ class SoakOperator(RowOperator):
             self.sleep(source.choice((0.003, 0.02, 0.1, 0.3)) * source.uniform(0.3, 2))
             if self.status.interp_state == linuxcnc.INTERP_IDLE and self.status.inpos:
                 return "ended"
-            action = source.choices(("pause", "step", "feed", "rapid", "slider", "hold", "adaptive", "limits", "abort",
-                                     "off", "nothing"), (3, 2, 3, 1, 1, 1, 1, 0.5, 0.7, 0.2, 4))[0]
+            action = source.choices(("pause", "step", "feed", "rapid", "slider", "hold", "adaptive", "limits", "turn",
+                                     "turn in motion", "mode", "abort", "off", "nothing"),
+                                    (3, 2, 3, 1, 1, 1, 1, 0.5, 1.5, 0.3, 0.15, 0.7, 0.2, 4))[0]
             if action == "pause":
                 paused = not paused
                 self.did("pause" if paused else "resume")
@@ -162,6 +183,23 @@ class SoakOperator(RowOperator):
                 self.did("limits", axis)
                 self.pin(f"ini.{axis}.max_velocity", source.choice((30, 70, 90)))
                 self.pin(f"ini.{axis}.max_acceleration", source.choice((300, 700, 900)))
+            elif action == "turn":
+                self.turn(not self.backwards)
+                if not paused:
+                    self.did("resume")
+                    self.resume()
+            elif action == "turn in motion":
+                # is refused unless the machine stands
+                self.did(action)
+                (self.forward if self.backwards else self.reverse)()
+                self.command.wait_complete()
+                self.sleep(0.02)
+                self.backwards = bool(self.get("motion.tp-reverse"))
+            elif action == "mode":
+                mode = source.choice(("manual", "mdi"))
+                self.did("mode", mode)
+                self.switch_mode(mode)
+                return "aborted"
             elif action == "abort":
                 self.did("abort")
                 self.abort()
@@ -179,7 +217,12 @@ class SoakOperator(RowOperator):
         """After an abort: at rest, with an idle interpreter, whatever held the machine."""
         self.at_the_end(REST)
         self.stopped()
+        self.backwards = bool(self.get("motion.tp-reverse"))
+        if self.backwards:
+            raise Failure("an abort leaves the machine running backwards")
         self.undo()
+        if self.component["row"] == PROGRAM:
+            self.component["row"] = ALL
         if self.source.random() < 0.5:
             mode = self.source.choice(("manual", "mdi", "auto"))
             self.did("mode", mode)
