@@ -14,6 +14,11 @@ const CAP_TIME: f64 = 5e-3;
 /// The share of J by which the path's part of the jerk may jump inside of an interval.
 const NOTICEABLE_JUMP: f64 = 0.02;
 
+/// Seconds, at the limit speed, for which a jump of J may go unseen inside of an interval: a few
+/// hundredths of a servo period. Also a spike of the third derivative on a short arc, which the
+/// places that are looked at would miss, is longer than that where it matters.
+const UNSEEN_TIME: f64 = 3e-5;
+
 /// Where the curvature of most blends changes most, share of their reach.
 pub(super) const TWIST_AT: f64 = 0.45;
 
@@ -42,6 +47,8 @@ pub(super) struct Feature {
     pub cap_changes: bool,
     /// Whether the third derivative of the path jumps at the center.
     pub jumps: bool,
+    /// How near to the start of an interval the jump may be without a node of its own.
+    pub unseen: f64,
     /// Whether it stands for a single vertex.
     pub single: bool,
 }
@@ -55,6 +62,7 @@ impl Feature {
         speed: 0.0,
         cap_changes: false,
         jumps: false,
+        unseen: 0.0,
         single: true,
     };
 
@@ -81,8 +89,9 @@ impl Feature {
             let (twisted, center) = (path.at(position + TWIST_AT * reach), path.at(position));
             let beside = path.at(before(position));
             let speed = twisted.speed.min(center.speed).min(beside.speed);
-            let jump = center.third - beside.third;
-            feature.jumps = jump.amax() * speed * speed * speed > NOTICEABLE_JUMP;
+            let jump = (center.third - beside.third).amax() * speed * speed;
+            feature.jumps = jump * speed > NOTICEABLE_JUMP;
+            feature.unseen = UNSEEN_TIME / jump;
             let spacing = (SHAPE_TIME * speed).max(reach / 12.0).min(reach / 4.8);
             feature.speed = speed;
             feature.spacing = feature.spacing.min(spacing);

@@ -11,6 +11,9 @@ use super::rows::AxisRows;
 /// A power of two, so that a masked index is in range for the compiler too.
 const SLOTS: usize = 256;
 
+/// No interval is made shorter than this share of the spacing there, for the sake of a jump.
+const NEAREST_NODE: f64 = 1e-3;
+
 /// Features in the order of the path, around the place where the grid is being made.
 ///
 /// What lies within the known path never changes, so that it is kept for the drafts to come. Places
@@ -260,20 +263,24 @@ impl Features {
     /// start, center and end of a blend that stands alone, and changes of the speed cap.
     pub fn landmark(&self, s: f64, length: f64) -> Option<f64> {
         let mut best: Option<f64> = None;
-        let mut consider = |place: f64| {
-            let near = place - s > 0.3 * length && place - s < 1.3 * length;
+        let mut consider = |place: f64, nearest: f64| {
+            let near = place - s > nearest && place - s < 1.3 * length;
             if near && best.is_none_or(|other| place < other) {
                 best = Some(place);
             }
         };
-        let first = self.place_behind(s + 0.3 * length - self.behind);
+        let nearest = 0.3 * length;
+        let first = self.place_behind(s.min(s + nearest - self.behind));
         for place in first..self.next {
             let feature = self.at(place);
             if feature.center - self.before - s >= 1.3 * length {
                 break;
             }
-            if feature.wants_node() {
-                consider(feature.center);
+            if feature.jumps {
+                let unseen = feature.unseen.max(NEAREST_NODE * length);
+                consider(feature.center, unseen.min(nearest));
+            } else if feature.cap_changes {
+                consider(feature.center, nearest);
             }
             let free_before = || {
                 let other = place.checked_sub(1).and_then(|other| self.get(other));
@@ -284,9 +291,9 @@ impl Features {
                 other.is_none_or(|other| feature.end <= other.start)
             };
             if feature.speed > 0.0 && feature.single && free_before() && free_behind() {
-                consider(feature.start);
-                consider(feature.center);
-                consider(feature.end);
+                consider(feature.start, nearest);
+                consider(feature.center, nearest);
+                consider(feature.end, nearest);
             }
         }
         best

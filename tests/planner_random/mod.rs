@@ -1,0 +1,138 @@
+//! Random programs, and what an operator may do while they run.
+
+pub mod run;
+
+use framepath::axes::{Axes, AxisLimits};
+use framepath::moves::{MotionType, TerminationCondition};
+use proptest::prelude::*;
+
+#[derive(Clone, Debug)]
+pub enum Shape {
+    Line(Axes),
+    Arc {
+        radial: [f64; 3],
+        tilt: [f64; 3],
+        radius: f64,
+        angle: f64,
+        height: f64,
+        turn: i32,
+        others: [f64; 6],
+    },
+}
+
+#[derive(Clone, Debug)]
+pub struct Programmed {
+    pub shape: Shape,
+    pub feed: f64,
+    pub motion_type: MotionType,
+    pub enables: u8,
+    pub wait_for_spindle: bool,
+    /// G61, G61.1 or G64 before it.
+    pub mode: Option<TerminationCondition>,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub enum Event {
+    Pause,
+    Resume,
+    Abort,
+    FeedOverride(f64),
+    RapidOverride(f64),
+    Slider(f64),
+    Adaptive(f64),
+    Spindles(bool),
+    Step,
+}
+
+pub fn any_displacement() -> impl Strategy<Value = Axes> {
+    (
+        prop::array::uniform9(-1.0..1.0f64),
+        prop_oneof![Just(7u32), 1u32..512],
+        -7.0..4.0f64,
+    )
+        .prop_map(|(direction, mask, size)| {
+            Axes::from_fn(|i, _| {
+                if mask >> i & 1 == 0 {
+                    0.0
+                } else {
+                    direction[i] * size.exp()
+                }
+            })
+        })
+}
+
+pub fn any_shape() -> impl Strategy<Value = Shape> {
+    let direction = || prop::array::uniform3(-1.0..1.0f64);
+    prop_oneof![
+        2 => any_displacement().prop_map(Shape::Line),
+        1 => (
+            (direction(), direction(), (-3.0..3.0f64).prop_map(f64::exp), 0.05..6.2f64),
+            (prop_oneof![Just(0.0), -10.0..10.0f64], -2..1i32),
+            prop_oneof![Just([0.0; 6]), prop::array::uniform6(-10.0..10.0f64)],
+        )
+            .prop_map(|((radial, tilt, radius, angle), (height, turn), others)| Shape::Arc {
+                radial, tilt, radius, angle, height, turn, others,
+            }),
+    ]
+}
+
+pub fn any_move() -> impl Strategy<Value = Programmed> {
+    (
+        any_shape(),
+        (2.3..5.3f64).prop_map(f64::exp),
+        prop_oneof![
+            Just(MotionType::Feed),
+            Just(MotionType::Traverse),
+            Just(MotionType::Arc),
+        ],
+        prop_oneof![3 => Just(0x0fu8), 1 => Just(0x0d)],
+        prop::bool::weighted(0.05),
+        any_mode(),
+    )
+        .prop_map(
+            |(shape, feed, motion_type, enables, wait_for_spindle, mode)| Programmed {
+                shape,
+                feed,
+                motion_type,
+                enables,
+                wait_for_spindle,
+                mode,
+            },
+        )
+}
+
+pub fn any_mode() -> impl Strategy<Value = Option<TerminationCondition>> {
+    let p = (-7.0..1.0f64).prop_map(f64::exp);
+    prop_oneof![
+        16 => Just(None),
+        1 => Just(Some(TerminationCondition::Stop)),
+        1 => Just(Some(TerminationCondition::Exact)),
+        1 => Just(Some(TerminationCondition::Continuous { tolerance: 0.0 })),
+        3 => p.prop_map(|tolerance| Some(TerminationCondition::Continuous { tolerance })),
+    ]
+}
+
+pub fn any_event() -> impl Strategy<Value = Event> {
+    prop_oneof![
+        2 => Just(Event::Pause),
+        4 => Just(Event::Resume),
+        1 => Just(Event::Abort),
+        4 => prop_oneof![0.0..2.0f64, Just(0.0), Just(1.0), Just(2.0)].prop_map(Event::FeedOverride),
+        2 => prop_oneof![0.0..1.0f64, Just(1.0)].prop_map(Event::RapidOverride),
+        2 => prop_oneof![0.0..200.0f64, Just(0.0), Just(1e3)].prop_map(Event::Slider),
+        2 => prop_oneof![0.0..1.0f64, Just(0.0), Just(1.0)].prop_map(Event::Adaptive),
+        1 => prop::bool::ANY.prop_map(Event::Spindles),
+        1 => Just(Event::Step),
+    ]
+}
+
+pub fn any_limits() -> impl Strategy<Value = AxisLimits> {
+    let one = || prop::array::uniform9(0.3..1.0f64);
+    let jerk =
+        prop_oneof![4 => (3.7..5.0f64).prop_map(|j| 10f64.powf(j)), 1 => Just(f64::INFINITY)];
+    (one(), one(), one(), jerk).prop_map(|(v, a, j, jerk)| AxisLimits {
+        velocity: Axes::from(v) * 200.0,
+        acceleration: Axes::from(a) * 2000.0,
+        jerk: Axes::from(j) * jerk,
+    })
+}
