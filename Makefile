@@ -30,6 +30,7 @@ help:
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
+	@echo 'make figures    more about blendtp: a restless operator, feed holds, queues, distance from the least time'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -94,9 +95,21 @@ NCFILES ?= /usr/share/linuxcnc/ncfiles
 COMPARED = $(patsubst %,$(NCFILES)/%.ngc,3D_Chips tort arcspiral daisy cds flowsnake spiral mmount)
 COMPARED_JERK = --jerk unlimited,100A,20A
 
+RAISED = $(COMPARED) --generated all --feed-at-least 6000
+
 compare: modules tool
 	$(TOOL) compare $(COMPARED) $(COMPARED_JERK)
-	$(TOOL) compare $(COMPARED) --generated all --feed-at-least 6000 $(COMPARED_JERK)
+	$(TOOL) compare $(RAISED) $(COMPARED_JERK)
+
+# The same with a restless operator, with feed holds, with the queue kept short, and against the least time that the
+# limits allow on the path that was run, which takes long to find.
+BLENDTP = --with $(MODULES)/blendtp.so
+
+figures: modules tool
+	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --operator 1
+	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --holds 50
+	$(TOOL) compare --generated trochoidal $(BLENDTP) --jerk 20A --queue 200,2000
+	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
 header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
@@ -120,4 +133,4 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules tool demo lint test linuxcnc-test contract bench fuzz compare header install uninstall clean
+.PHONY: help prerequisites modules tool demo lint test linuxcnc-test contract soak bench fuzz compare figures header install uninstall clean
