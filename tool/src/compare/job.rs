@@ -20,6 +20,8 @@ pub(crate) struct Job {
     pub queue: usize,
     /// Greatest velocity of the machine, mm/s.
     pub velocity_limit: f64,
+    /// Greatest feed override that the machine lets the operator set.
+    pub max_feed_override: f64,
     /// Standing still that long counts as stuck, s.
     pub stuck_after: f64,
     /// The run ends after that long, s.
@@ -29,13 +31,15 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// The greatest feed override that comes, at least 1.
+    /// The greatest feed override that the machine allows or that comes, at least 1.
     pub(crate) fn greatest_override(&self) -> f64 {
         self.events
             .iter()
-            .fold(1.0, |most, event| match event.action {
-                Action::FeedOverride(scale) => f64::max(most, scale),
-                _ => most,
+            .fold(self.max_feed_override.max(1.0), |most, event| {
+                match event.action {
+                    Action::FeedOverride(scale) => f64::max(most, scale),
+                    _ => most,
+                }
             })
     }
 
@@ -46,6 +50,7 @@ impl Job {
         out.numbers(&[
             self.period,
             self.velocity_limit,
+            self.max_feed_override,
             self.stuck_after,
             self.time_limit,
         ]);
@@ -79,7 +84,13 @@ impl Job {
         let (module, rest) = input.0.split_at_checked(length)?;
         let module = String::from_utf8(module.to_vec()).ok()?;
         input.0 = rest;
-        let [period, velocity_limit, stuck_after, time_limit] = input.numbers()?;
+        let [
+            period,
+            velocity_limit,
+            max_feed_override,
+            stuck_after,
+            time_limit,
+        ] = input.numbers()?;
         let adds_per_cycle = input.count()?;
         let queue = input.count()?;
         let limits = Limits {
@@ -101,6 +112,7 @@ impl Job {
             adds_per_cycle,
             queue,
             velocity_limit,
+            max_feed_override,
             stuck_after,
             time_limit,
             events,
@@ -350,6 +362,7 @@ mod tests {
             adds_per_cycle: 1,
             queue: usize::MAX,
             velocity_limit: 1e9,
+            max_feed_override: 2.0,
             stuck_after: 10.0,
             time_limit: 7200.0,
             events: vec![Event {

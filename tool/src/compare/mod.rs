@@ -101,6 +101,10 @@ pub struct CompareArguments {
     /// Greatest velocity of the machine, mm/s
     #[arg(long, value_name = "V", default_value = "1e9", value_parser = seconds)]
     pub velocity_limit: f64,
+    /// Greatest feed override of the machine ([DISPLAY]MAX_FEED_OVERRIDE), for which LinuxCNC's own
+    /// planner leaves room when it blends
+    #[arg(long, value_name = "SCALE", default_value = "1", value_parser = at_least_one)]
+    pub max_feed_override: f64,
     /// Feed override from a time on: SECONDS:SCALE
     #[arg(long, value_name = "T:SCALE", value_parser = at_time)]
     pub feed_override: Vec<(f64, f64)>,
@@ -137,6 +141,13 @@ fn period(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if (1e-5..=0.1).contains(&number) => Ok(number),
         _ => Err(format!("`{text}`: seconds from 0.00001 to 0.1 are needed")),
+    }
+}
+
+fn at_least_one(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number >= 1.0 => Ok(number),
+        _ => Err(format!("`{text}`: a number from 1 up is needed")),
     }
 }
 

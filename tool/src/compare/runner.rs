@@ -111,6 +111,7 @@ impl<'a> Runner<'a> {
                 adds_per_cycle: usize::from(arguments.adds_per_cycle),
                 queue: module.queue,
                 velocity_limit: arguments.velocity_limit,
+                max_feed_override: arguments.max_feed_override,
                 stuck_after: 10.0,
                 time_limit: 7200.0,
                 events: self.events.to_vec(),

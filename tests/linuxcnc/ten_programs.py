@@ -1,0 +1,128 @@
+"""Ten programs, five of them LinuxCNC's own, and how they are run and recorded in one real LinuxCNC.
+
+They run one after the other; between them the machine goes back to where each begins. Along with the positions it is
+recorded in which cycle each move reached the planner (arrivals.c).
+"""
+
+import glob
+import math
+import os
+import re
+import subprocess
+import tempfile
+
+import harness
+
+NCFILES = "/usr/share/linuxcnc/ncfiles"
+AXES = "xyz"
+#: how often a program is run whose moves came late
+ATTEMPTS = 3
+#: cycles between two moves of a program, at most, where the computer has nothing else to do; such waits change the
+#: time of no program
+PROMPT = 20
+#: decimals of a recorded position, mm
+DIGITS = 12
+HEAD = "G21 G17 G90 G94 G54 G40 G49"
+
+
+def sample(name, lines, feed):
+    """The first lines of one of LinuxCNC's programs, faster: it is run in real time."""
+    with open(os.path.join(NCFILES, name + ".ngc"), encoding="latin-1") as file:
+        text = [next(file, "").rstrip() for _ in range(lines)]
+    # stops and tool changes ask the operator
+    stop = r"(?i)\bM0\b|M6\b|\bM2\b|\bM30\b|%"
+    kept = [re.sub(r"\([^)]*\)?", "", line) for line in text if not re.search(stop, line)]
+    # an F in a name is none
+    faster = [re.sub(r"(?i)(?<![a-z_<#])F\s*(\[[^]]*\]|#<\w+>|[\d.]+)", f"F{feed}", line) for line in kept]
+    return [*faster, "M5 M9"]
+
+
+def program(*lines):
+    return "\n".join(["G61.1", HEAD, *lines, "M2"]) + "\n"
+
+
+def lines(points):
+    return ["G1 " + " ".join(f"{axis.upper()}{place:.6f}" for axis, place in zip(AXES, point)) for point in points]
+
+
+def curve(count, step):
+    return [(20 * math.sin(step * n / 20), 12 * (1 - math.cos(step * n / 9)), 2 * math.sin(step * n / 5))
+            for n in range(1, count + 1)]
+
+
+PROGRAMS = {
+    "3D_Chips": program(*sample("3D_Chips", 120, 6000)),
+    "tort": program("F3000", *sample("tort", 20, 5000)),
+    "arcspiral": program(*sample("arcspiral", 60, 220)),
+    "cds": program(*sample("cds", 22, 220)),
+    "spiral": program(*(line.replace("800", "50") for line in sample("spiral", 13, 220))),
+    "stops": program("F4000", "G1 X30 Y5", "X10 Y20 Z-4", "G0 X40", "G2 X20 Y0 I-20 J0", "G1 X1 Y0 Z0"),
+    "corners": program("G64 P0.05 F5000", *lines([(8 * n, 12 * (n % 2), 0) for n in range(1, 13)])),
+    "dense": program("G64 P0.01 Q0 F4000", *lines(curve(1300, 0.2))),
+    "merged": program("G64 P0.03 Q0.02 F4000", *lines(curve(300, 0.25))),
+    "modes": program("G64 P0.1 F3000", "G1 X20 Y5", "G3 X30 Y15 J10", "G61", "G1 X40 Y15 Z3", "G18 G2 X50 Z3 I5",
+                     "G17 G64", "G1 X60 Y20", "X50 Y30", "G0 X0 Y0 Z0", "G20", "G1 F100 X0.5", "G21"),
+}
+
+
+def modules_for_recording(folder):
+    """The modules, and arrivals.so, which shows when a move reaches the planner."""
+    for file in glob.glob(os.path.join(harness.MODULES, "*.so")):
+        os.symlink(file, os.path.join(folder, os.path.basename(file)))
+    headers = os.environ.get("LINUXCNC_INCLUDE", "/usr/include/linuxcnc")
+    subprocess.run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-DRTAPI", "-DUSPACE",
+                    "-D__MODULE__", "-D_GNU_SOURCE", "-isystem", headers,
+                    "-o", os.path.join(folder, "arrivals.so"), os.path.join(harness.HERE, "arrivals.c")], check=True)
+
+
+def motion(positions):
+    """The first and the last cycle in which anything moves by what the recording shows."""
+    shown = [tuple(round(place, DIGITS) for place in position) for position in positions]
+    changes = [n for n in range(1, len(shown)) if shown[n] != shown[n - 1]]
+    return changes[0], changes[-1]
+
+
+class Recording:
+    """A program as it ran, from the servo cycle in which its first move came."""
+
+    def __init__(self, result, number):
+        rows = result.columns("program", "moves", "scale", *(f"axis.{axis}" for axis in AXES))
+        rows = [row[1:] for row in rows if row[0] == number]
+        before = rows[0][0]
+        start = [tuple(row[2:]) for row in rows if row[0] == before][-1]
+        rows = [row for row in rows if row[0] > before]
+        #: moves that have come, and what all feeds are multiplied by
+        self.supply = [(moves - before, scale / 1e6) for moves, scale, *_ in rows]
+        self.positions = [tuple(row[2:]) for row in rows]
+        # a planner may move in the very cycle in which the first move came
+        first, last = motion([start, *self.positions])
+        self.cycles = last - first + 1
+        #: the last cycle in which anything moves
+        self.end = last - 1
+
+    def arrivals(self):
+        """What --arrivals reads."""
+        changes = [n for n in range(len(self.supply)) if n == 0 or self.supply[n] != self.supply[n - 1]]
+        return "".join(f"{n} {self.supply[n][0]} {self.supply[n][1]:g}\n" for n in changes)
+
+    def longest_wait(self):
+        """The longest time between two moves, cycles."""
+        arrivals = [n for n in range(1, len(self.supply)) if self.supply[n][0] != self.supply[n - 1][0]]
+        return max((b - a for a, b in zip([0, *arrivals], arrivals)), default=0)
+
+
+def record(names, **machine):
+    """{name: Recording} from one LinuxCNC. machine: what differs from the sample (ini, configuration; harness.run)."""
+    steps = [["mdi", "G0 X1"]]
+    for number, name in enumerate(names, 1):
+        steps += [["mdi", "G61.1 G21 G90 G54 G53 G0 X0 Y0 Z0"], ["halcmd", "sets", "record-program", str(number)],
+                  ["run", f"PROGRAMS/{name}.ngc"], ["halcmd", "sets", "record-program", "0"]]
+    with tempfile.TemporaryDirectory() as modules:
+        modules_for_recording(modules)
+        result = harness.run(steps, {f"{name}.ngc": PROGRAMS[name] for name in names}, modules=modules,
+                             hal="loadrt arrivals\naddf arrivals servo-thread\n",
+                             integers={"moves": "arrivals.moves", "scale": "arrivals.scale", "program": ""},
+                             **machine)
+    if result.failure or result.errors:
+        raise AssertionError(f"{result.failure} {result.errors}\n{result.log}")
+    return {name: Recording(result, number) for number, name in enumerate(names, 1)}

@@ -1,0 +1,99 @@
+"""`framepath compare` against a real LinuxCNC with its own planner: the time of the same module on the same programs.
+
+compare drives LinuxCNC's tpmod outside of LinuxCNC, with a move in each cycle. What it says of the time of the ten
+programs (ten_programs.py) has to be what they take in LinuxCNC on a machine with the same limits. Where it is not, and
+moves did come late, the program is run again.
+"""
+
+import configparser
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import harness
+from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, record
+
+SAMPLE = "framepath-sim"
+PLANNER = "tpmod"
+MODULE = f"/usr/lib/linuxcnc/modules/{PLANNER}.so"
+PERIOD = 1e-3
+#: share of the time by which compare and LinuxCNC may differ
+ALLOWED = 0.005
+
+
+def without_jerk(folder):
+    """A copy of the sample that sets no limits of jerk: LinuxCNC's planner has none. Returns its path."""
+    copy = os.path.join(folder, "configuration")
+    shutil.copytree(os.path.join(harness.SAMPLES, "configs", SAMPLE), copy)
+    path = os.path.join(copy, f"{SAMPLE}.hal")
+    with open(path, encoding="utf-8") as file:
+        lines = file.readlines()
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines(line for line in lines if not line.startswith("setp blendtp."))
+    return copy
+
+
+def machine():
+    """The options that give compare the machine of the sample."""
+    ini = configparser.ConfigParser(strict=False, interpolation=None)
+    ini.read(os.path.join(harness.SAMPLES, "configs", SAMPLE, f"{SAMPLE}.ini"))
+    axes = [(axis, ini[f"AXIS_{axis}"]) for axis in AXES.upper()]
+    limits = ";".join(f"{axis}:V={own['MAX_VELOCITY']},A={own['MAX_ACCELERATION']}" for axis, own in axes)
+    # its planner blends more gently where the operator may raise the feed
+    return ["--limits", limits, "--velocity-limit", ini["TRAJ"]["MAX_LINEAR_VELOCITY"],
+            "--max-feed-override", ini["DISPLAY"]["MAX_FEED_OVERRIDE"]]
+
+
+def compared(folder):
+    """{name: time in cycles} by compare."""
+    files = []
+    for name, text in PROGRAMS.items():
+        files.append(os.path.join(folder, f"{name}.ngc"))
+        with open(files[-1], "w", encoding="utf-8") as file:
+            file.write(text)
+    done = subprocess.run([harness.TOOL, "compare", *files, "--with", MODULE, "--json", *machine()],
+                          capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise AssertionError(done.stderr)
+    times = {}
+    for program in json.loads(done.stdout)["programs"]:
+        figures, = program["runs"]
+        if figures["state"] != "complete":
+            raise AssertionError(f"{program['program']}: {figures['state']}")
+        times[os.path.splitext(program["program"])[0]] = round(figures["motion"]["time"] / PERIOD)
+    return times
+
+
+class AgainstLinuxCnc(unittest.TestCase):
+    def test_times(self):
+        with tempfile.TemporaryDirectory() as folder:
+            times, configuration = compared(folder), without_jerk(folder)
+            self.assertEqual(set(times), set(PROGRAMS))
+            left = list(PROGRAMS)
+            for _ in range(ATTEMPTS):
+                recordings = record(left, ini={("TRAJ", "TPMOD"): PLANNER}, configuration=configuration)
+                left = [name for name, recording in recordings.items() if self.came_late(name, recording, times[name])]
+                if not left:
+                    return
+        self.skipTest(f"the computer is too busy: the moves of {left} came late, {ATTEMPTS} times")
+
+    def came_late(self, name, recording, time):
+        """Whether a program took another time than compare says because its moves came late. If it did so for no such
+        reason, that is a failure."""
+        off = time - recording.cycles
+        print(f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, compare {off:+d} cycles; longest wait for a "
+              f"move {recording.longest_wait()} cycles", flush=True)
+        if abs(off) <= ALLOWED * recording.cycles:
+            return False
+        if recording.longest_wait() > PROMPT:
+            return True
+        with self.subTest(program=name):
+            self.fail(f"compare says {100 * off / recording.cycles:+.2f} %, although the moves came promptly")
+        return False
+
+
+if __name__ == "__main__":
+    unittest.main()
