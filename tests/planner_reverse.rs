@@ -123,6 +123,34 @@ fn goes_back_over_its_own_path_and_forward_again() {
     });
 }
 
+/// At rest before lines that are merged into one none of the later ones is reported.
+#[test]
+fn merged_lines_are_left_backwards_by_the_first() {
+    with_machine(|machine| {
+        machine
+            .planner
+            .set_termination(TerminationCondition::Continuous { tolerance: 0.3 });
+        let mut position = at(0.0, 0.0);
+        for k in 0..11 {
+            position[k % 2] += 0.0018;
+            machine.planner.set_id(k as i32 + 1);
+            machine.line(position, &feed_move(40.0)).expect("a line");
+        }
+        machine.planner.set_id(12);
+        machine
+            .line(at(20.0, -10.0), &feed_move(40.0))
+            .expect("a line");
+        while machine.planner.status().position[0] < 5.0 {
+            machine.cycle();
+        }
+        assert!(turn(machine, true));
+        let turned = machine.ids.len();
+        assert_eq!(run_to_rest(machine).position, at(0.0, 0.0));
+        let back = &machine.ids[turned..];
+        assert!(back.windows(2).all(|ids| ids[1] <= ids[0]), "{back:?}");
+    });
+}
+
 #[test]
 fn remembers_some_hundred_moves_and_rests_there() {
     with_machine(|machine| {

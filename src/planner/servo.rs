@@ -262,7 +262,7 @@ impl Planner {
     /// The end of the reference is reached: at rest, exactly where its last move ends, or in the
     /// middle of one whose continuation was not planned in time.
     fn finish(&mut self) {
-        let rest = self.reference.come_to_rest();
+        let rest = self.reference.come_to_rest(&self.queue);
         self.status.position = rest.position;
         if self.tap_overran() && !self.status.aborting {
             self.stop_overrun_tap();

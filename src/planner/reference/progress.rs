@@ -61,7 +61,7 @@ impl Reference {
     }
 
     /// The machine has come to the end of what was handed out, at rest.
-    pub fn come_to_rest(&mut self) -> Rest {
+    pub fn come_to_rest(&mut self, queue: &MoveQueue) -> Rest {
         let s = self.rest;
         let before = self.path.point_before(s);
         let rest = match self.path.leg_ending_at(s) {
@@ -75,10 +75,10 @@ impl Reference {
                 },
             },
             None => Rest {
+                // Of merged moves the one at the rest, not the last one.
                 next: self
-                    .path
-                    .leg(s)
-                    .map_or(self.supply.next(), |leg| leg.serial),
+                    .running(queue, s)
+                    .map_or(self.supply.next(), |(serial, _)| serial),
                 position: before.position,
             },
         };
