@@ -33,12 +33,18 @@ def one_round(seed, seconds, planner, keep=None):
                          recorder=session.Recorder(), files=FILES, display="soak_operator.py", timeout=seconds + 200)
     peaks, reverse = Peaks(result), Reverse(result)
     said = [line for line in result.log.splitlines() if "blendtp: " in line and EXPECTED not in line]
+    log, number = result.answers.get("log", []), result.answers.get("programs", 0)
     failure = result.failure
-    if planner == "blendtp":
-        failure = failure or peaks.failure() or reverse.failure or (said[0] if said else None)
+    if planner == "blendtp" and not failure:
+        for found in (peaks, reverse):
+            if not failure and found.failure():
+                failure, number = found.failure(), found.program
+        failure = failure or (said[0] if said else None)
     if failure:
-        failure += f"\nLinuxCNC's messages: {result.messages}\nactions: " + json.dumps(result.answers.get("log")) \
-            + "\nprogram:\n  " + "\n  ".join(result.answers.get("program", []))
+        failure += f"\nLinuxCNC's messages: {result.messages}"
+        if 0 < number <= len(log):
+            failure += f"\nactions in program {number}: {json.dumps(log[number - 1]['actions'])}\nprogram:\n  " \
+                + "\n  ".join(log[number - 1]["program"])
         if keep:
             with open(os.path.join(keep, f"soak-{seed}.log"), "w", encoding="utf-8") as file:
                 file.write(result.log)

@@ -195,3 +195,51 @@ class ReverseRun(Row):
         seen.require(reverse and back < seen.kept["paused"] - 5, f"at X {back:.1f} from {seen.kept['paused']:.1f}, reverse {reverse}")
         seen.near(seen.column("x")[-1], 40, 1e-6, "end")
         return f"{seen.kept['paused'] - back:.1f} mm back in a second"
+
+
+class AbortInReverse(Row):
+    """An abort of a reverse run comes to rest on the path; what follows goes on from there, forward"""
+
+    section = SECTION
+
+    def operate(self, op):
+        ends = []
+        for phase in ("motion", "pause", "beginning"):
+            op.begin("G64 P0.3", *SQUARE_LINES)
+            op.until("the third side", lambda: op.status.position[1] > 15)
+            op.pause()
+            op.stopped()
+            op.reverse()
+            op.sleep(0.05)
+            op.resume()
+            if phase == "beginning":
+                op.until("the beginning", lambda: op.status.position[0] + op.status.position[1] < 1e-6)
+            else:
+                op.until("the first side", lambda: op.status.position[0] < 18 and op.status.position[1] < 1)
+            if phase == "pause":
+                op.pause()
+                op.stopped()
+            reverse = bool(op.get("motion.tp-reverse"))
+            op.abort()
+            op.stopped()
+            x, y = op.place()[:2]
+            op.sleep(0.1)
+            still = op.place()[:2] == [x, y]
+            turned = not op.get("motion.tp-reverse")
+            op.say("G91 G1 F3000 Z1")
+            op.say("G90 Z0")
+            ends.append([phase, reverse, still, turned, x, y, *op.place()[:2]])
+            op.go("G64 P0.3", "G1 X0 Y0", *SQUARE_LINES)
+        op.keep("ends", ends)
+
+    def check(self, seen):
+        away = 0.0
+        for phase, reverse, still, turned, x, y, later_x, later_y in seen.kept["ends"]:
+            seen.require(reverse, f"{phase}: did not run backwards")
+            seen.require(still and turned, f"{phase}: still backwards, or in motion, after the abort")
+            seen.require(abs(x - later_x) + abs(y - later_y) < 1e-6, f"{phase}: the next move starts elsewhere")
+            away = max(away, from_route([(x, y)], SQUARE))
+        seen.require(away < 0.301, f"{away:.2f} mm from the path, P is 0.3")
+        seen.near(seen.column("x")[-1], 0, 1e-6, "end")
+        seen.near(seen.column("y")[-1], 0, 1e-6, "end")
+        return f"within {away:.2f} mm of the program, P is 0.3"

@@ -1,5 +1,7 @@
 """What an operator does in the middle of it all."""
 
+import math
+
 from row import MICROMETRE, Broken, Row, difference, from_route
 
 SECTION = "Operator"
@@ -100,6 +102,39 @@ class MachineOff(Row):
             op.go("G64 P0.2", "G1 X0 Y0", "G1 X10", "G1 Y10")
 
     def check(self, seen):
+        seen.near(seen.column("x")[-1], 10, 1e-6, "X")
+        seen.near(seen.column("y")[-1], 10, 1e-6, "Y")
+
+
+class EstopThenResume(Row):
+    """A resume after an emergency stop, in motion or in a pause, moves nothing; the next program is right"""
+
+    section = SECTION
+    interrupted = True
+
+    def operate(self, op):
+        moved = []
+        for paused in (False, True):
+            op.begin("G64 P1", *ZIGZAG_LINES)
+            op.wait_moving()
+            op.sleep(0.25)
+            if paused:
+                op.pause()
+                op.stopped()
+            op.estop()
+            op.sleep(0.1)
+            op.on()
+            op.switch_mode("auto")
+            op.stopped()
+            before = op.place()[:2]
+            op.resume()
+            op.sleep(0.3)
+            moved.append(math.dist(before, op.place()[:2]))
+            op.go("G64 P0.2", "G1 X0 Y0", "G1 X10", "G1 Y10")
+        op.keep("moved", moved)
+
+    def check(self, seen):
+        seen.require(max(seen.kept["moved"]) < 1e-6, f"moved by {max(seen.kept['moved']):.3g} mm")
         seen.near(seen.column("x")[-1], 10, 1e-6, "X")
         seen.near(seen.column("y")[-1], 10, 1e-6, "Y")
 

@@ -5,7 +5,7 @@ import math
 from row import ACCELERATION, JERK, VELOCITY, difference
 
 #: What the limits of a period allow: all of them; velocity and acceleration (LinuxCNC's own jogs); nothing (emergency
-#: stop and machine off, where LinuxCNC drops the motion). PROGRAM is ALL while a random program runs.
+#: stop and machine off, where LinuxCNC drops the motion). PROGRAM and above are ALL: a random program, each with a number.
 INTERRUPTED, ALL, JOGGING, PROGRAM = 0, 1, 2, 3
 #: What velocity, acceleration and jerk may exceed their limits by: differences of positions recorded in nanometres.
 SHARES = (1.001, 1.002, 1.06)
@@ -19,6 +19,8 @@ class Peaks:
     """Greatest velocity, acceleration and jerk over their limits, and where."""
 
     def __init__(self, result):
+        #: number of the program in which a limit was exceeded, if in one
+        self.program = None
         self.share, self.place = [0.0, 0.0, 0.0], [None, None, None]
         states = result.column("row")
         for axis in "xyzab":
@@ -32,19 +34,21 @@ class Peaks:
                 limit *= factor if degree < 2 else 1.0
                 for n, value in enumerate(order):
                     if abs(value) > self.share[degree] * limit and self.counts(states, n, degree):
-                        self.share[degree], self.place[degree] = abs(value) / limit, (axis, result.rows[n][0], n)
+                        self.share[degree] = abs(value) / limit
+                        self.place[degree] = (axis, result.rows[n][0], states[n] - PROGRAM)
 
     @staticmethod
     def counts(states, n, degree):
         # around a change of the state the difference belongs to both
         window = states[max(0, n - 40):n + 45]
         if degree == 2:
-            return all(state in (ALL, PROGRAM) for state in window)
-        return all(state in (ALL, PROGRAM, JOGGING) for state in window)
+            return all(state == ALL or state >= PROGRAM for state in window)
+        return INTERRUPTED not in window
 
     def failure(self):
         for what, share, allowed, place in zip(("velocity", "acceleration", "jerk"), self.share, SHARES, self.place):
             if share > allowed:
+                self.program = place[2]
                 return f"{what} is {share:.4f} of its limit: axis {place[0]} at {place[1]:.3f} s"
         return None
 
@@ -71,8 +75,7 @@ class WayThere:
         """How far a point is off the way: nothing where it goes on from the end of it."""
         step = math.dist(point, self.last)
         self.last = point
-        if not backwards and (self.at_end or self.lengths[-1] - self.length <= 2 * step):
-            self.at_end = True
+        if not backwards and self.at_end:
             self.append(point)
             return 0.0
         if len(self.points) < 2:
@@ -92,6 +95,11 @@ class WayThere:
             best = min(best or found, found)
             index += way
         _, off, self.index, self.length = best
+        # not sooner, or the way would go back and forth there
+        if not backwards and self.lengths[-1] - self.length <= 2 * SPACING:
+            self.at_end = True
+            self.append(point)
+            return 0.0
         return off
 
     def append(self, point):
@@ -106,17 +114,19 @@ class Reverse:
 
     def __init__(self, result):
         #: greatest distance from the way there, mm or degrees; length of all ways back; what went wrong
-        self.off, self.length, self.failure = 0.0, 0.0, None
+        self.off, self.length, self.wrong = 0.0, 0.0, None
+        #: number of the program in which it went wrong
+        self.program = None
         place = [result.header.index(name) for name in "xyzab"]
         state, line, backwards = (result.header.index(name) for name in ("row", "line", "reverse"))
-        way, last, before = None, 0, None
+        way, last, before, program = None, 0, None, None
         for n, row in enumerate(result.rows):
-            if row[state] != PROGRAM:
-                way, last = None, 0
+            if row[state] < PROGRAM:
+                program = None
                 continue
             point = [row[i] for i in place]
-            if way is None:
-                way, before = WayThere(point), point
+            if row[state] != program:
+                program, way, last, before = row[state], WayThere(point), 0, point
                 continue
             if point != before:
                 off = way.follow(point, row[backwards])
@@ -125,13 +135,18 @@ class Reverse:
                 if off > self.off:
                     self.off = off
                     if off > OFF_THE_WAY:
-                        self.fail(row, f"{off:.4f} off the way that was run, line {row[line]}, period {n}")
+                        self.fail(row, program, f"{off:.4f} off the way that was run, line {row[line]}, period {n}")
                 before = point
             # 0 is nothing to do
             if row[line]:
                 if last and (row[line] > last if row[backwards] else row[line] < last):
-                    self.fail(row, f"line {row[line]} follows on {last}, {'backwards' if row[backwards] else 'forward'}")
+                    way_of_it = "backwards" if row[backwards] else "forward"
+                    self.fail(row, program, f"line {row[line]} follows on {last}, {way_of_it}")
                 last = row[line]
 
-    def fail(self, row, text):
-        self.failure = self.failure or f"{text}, at {row[0]:.3f} s"
+    def fail(self, row, state, text):
+        if not self.wrong:
+            self.wrong, self.program = f"{text}, at {row[0]:.3f} s", int(state) - PROGRAM
+
+    def failure(self):
+        return self.wrong

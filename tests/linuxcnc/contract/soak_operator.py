@@ -13,8 +13,10 @@ from random_program import RandomProgram
 from row import PERIOD
 from soak_checks import ALL, INTERRUPTED, JOGGING, PROGRAM
 
-#: Said by LinuxCNC's interpreter at the end of a program that was stepped, also with its own planner.
-EXPECTED = ("File ended with no percent sign or program end", "Must be in MDI mode to issue MDI command")
+#: Said by LinuxCNC's interpreter at the end of a program that was stepped, also with its own planner; and by ours where
+#: a reverse run is asked for without a move behind, or behind a thread or an indexer. A running program keeps its mode.
+EXPECTED = ("Can't switch mode while mode is AUTO", "File ended with no percent sign or program end",
+            "Must be in MDI mode to issue MDI command", "blendtp: there is no way back from here")
 #: Seconds of servo periods that the machine has for coming to rest, and a program for its end once nothing interferes.
 REST, END = 4.0, 90.0
 
@@ -22,16 +24,13 @@ REST, END = 4.0, 90.0
 class SoakOperator(RowOperator):
     def soak(self, seed, seconds):
         self.source = random.Random(seed)
-        self.actions = []
-        self.answers.update(programs=0, completed=0, aborted=0, actions=0, reversed=0, turned=0, no_way_back=0,
-                            log=self.actions, program=[])
+        self.answers.update(programs=0, completed=0, aborted=0, actions=0, reversed=0, turned=0, no_way_back=0, log=[])
         self.recover()
         limit = time.monotonic() + seconds
         while time.monotonic() < limit:
-            del self.actions[:]
-            program = RandomProgram(self.source, self.place())
-            self.answers["program"] = program.lines
+            program, self.actions = RandomProgram(self.source, self.place()), []
             self.answers["programs"] += 1
+            self.answers["log"].append({"program": program.lines, "actions": self.actions})
             write_result(self, "LinuxCNC did not answer any more")
             self.one_program(program)
         self.component["row"] = INTERRUPTED
@@ -48,7 +47,7 @@ class SoakOperator(RowOperator):
         del self.messages[:]
 
     def one_program(self, program):
-        self.component["row"] = PROGRAM
+        self.component["row"] = PROGRAM + self.answers["programs"]
         self.began = time.monotonic()
         self.backwards = False
         stepping = self.source.random() < 0.1
@@ -59,7 +58,7 @@ class SoakOperator(RowOperator):
         else:
             # a short program may be over before its start is seen
             self.cycle_start()
-        self.command.wait_complete()
+        self.wait_for("the command", self.was_heard)
         ended = self.interfere(stepping)
         if ended == "aborted":
             self.answers["aborted"] += 1
@@ -125,17 +124,20 @@ class SoakOperator(RowOperator):
         if self.status.interp_state == linuxcnc.INTERP_IDLE:
             return
         self.did("reverse" if backwards else "forward")
-        before = self.backwards
-        (self.reverse if backwards else self.forward)()
-        self.command.wait_complete()
-        self.sleep(0.05)
-        self.backwards = bool(self.get("motion.tp-reverse"))
-        if self.backwards == backwards:
-            self.answers["reversed" if backwards else "turned"] += before != backwards
-        elif backwards:
+        self.ask_for(backwards)
+        if backwards and not self.backwards:
             self.answers["no_way_back"] += 1
-        elif not self.status.inpos:
+        elif self.backwards and not backwards:
             raise Failure(f"does not turn forward again, queue {self.status.queue}")
+
+    def ask_for(self, backwards):
+        """Gives the command for a direction, and keeps the direction that came of it."""
+        (self.reverse if backwards else self.forward)()
+        self.wait_for("the command", self.was_heard)
+        self.sleep(0.05)
+        before, self.backwards = self.backwards, bool(self.get("motion.tp-reverse"))
+        if self.backwards != before:
+            self.answers["reversed" if self.backwards else "turned"] += 1
 
     def interfere(self, stepping):
         """Random actions, for some time or until the program has ended."""
@@ -147,7 +149,7 @@ class SoakOperator(RowOperator):
                 return "ended"
             action = source.choices(("pause", "step", "feed", "rapid", "slider", "hold", "adaptive", "limits", "turn",
                                      "turn in motion", "mode", "abort", "off", "nothing"),
-                                    (3, 2, 3, 1, 1, 1, 1, 0.5, 1.5, 0.3, 0.15, 0.7, 0.2, 4))[0]
+                                    (3, 2, 3, 1, 1, 1, 1, 0.5, 1.5, 0.3, 0.4, 0.7, 0.2, 4))[0]
             if action == "pause":
                 paused = not paused
                 self.did("pause" if paused else "resume")
@@ -185,21 +187,28 @@ class SoakOperator(RowOperator):
                 self.pin(f"ini.{axis}.max_acceleration", source.choice((300, 700, 900)))
             elif action == "turn":
                 self.turn(not self.backwards)
+                paused = paused and source.random() < 0.3
                 if not paused:
                     self.did("resume")
                     self.resume()
+                if self.backwards:
+                    self.sleep(source.uniform(0, 0.8))
             elif action == "turn in motion":
                 # is refused unless the machine stands
                 self.did(action)
-                (self.forward if self.backwards else self.reverse)()
-                self.command.wait_complete()
-                self.sleep(0.02)
-                self.backwards = bool(self.get("motion.tp-reverse"))
+                self.ask_for(not self.backwards)
             elif action == "mode":
-                mode = source.choice(("manual", "mdi"))
-                self.did("mode", mode)
-                self.switch_mode(mode)
-                return "aborted"
+                # is refused unless the program is over
+                name, mode = source.choice((("manual", linuxcnc.MODE_MANUAL), ("mdi", linuxcnc.MODE_MDI)))
+                self.did("mode", name)
+                self.command.mode(mode)
+                self.wait_for("the command", self.was_heard)
+                self.sleep(0.02)
+                if self.status.task_mode != linuxcnc.MODE_AUTO:
+                    if self.status.interp_state != linuxcnc.INTERP_IDLE:
+                        raise Failure(f"mode {name} while a program runs")
+                    self.mode(linuxcnc.MODE_AUTO)
+                    return "ended"
             elif action == "abort":
                 self.did("abort")
                 self.abort()
@@ -221,7 +230,7 @@ class SoakOperator(RowOperator):
         if self.backwards:
             raise Failure("an abort leaves the machine running backwards")
         self.undo()
-        if self.component["row"] == PROGRAM:
+        if self.component["row"] >= PROGRAM:
             self.component["row"] = ALL
         if self.source.random() < 0.5:
             mode = self.source.choice(("manual", "mdi", "auto"))

@@ -61,6 +61,8 @@ def markdown(found):
     yield "| | with blendtp | LinuxCNC's own planner |\n|---|---|---|"
     section = None
     for row in sorted(all_rows(), key=lambda row: SECTIONS.index(row.section)):
+        if row.name() not in found[STOCK]:
+            continue
         stock, ours = found[STOCK][row.name()], found[OURS][row.name()]
         if row.section != section:
             section = row.section
