@@ -106,7 +106,7 @@ compare: modules tool
 BLENDTP = --with $(MODULES)/blendtp.so
 
 figures: modules tool
-	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --operator 1
+	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --operator 1 --velocity-limit 200
 	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --holds 50
 	$(TOOL) compare --generated trochoidal $(BLENDTP) --jerk 20A --queue 200,2000
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum

@@ -43,13 +43,16 @@ pub(crate) fn holds(recording: &Recording, limits: &Limits, jerk: &[f64; 9], per
             continue;
         }
         let start = k;
+        // Begun while the program waited, with nothing queued: a planner forgets such a hold, and the
+        // task controller of LinuxCNC hands over nothing before the operator goes on.
+        let waited = samples[start - 1].flags & HELD != 0;
         let state = State::after(samples, start - 1, limits, jerk, period);
         let mut rest = None;
         while held(k) {
             let travel = step(samples, k);
             if !moves(&travel) {
                 rest.get_or_insert(k);
-            } else if rest.is_some() {
+            } else if rest.is_some() && !waited {
                 let far = travel
                     .iter()
                     .fold(0.0, |far, part| f64::max(far, part.abs()));
@@ -205,5 +208,24 @@ mod tests {
         assert!((half.latest - 0.1).abs() < 0.002, "{half:?}");
         let never = measure(100.0);
         assert_eq!((never.count, never.not_at_rest), (0, 1));
+    }
+
+    #[test]
+    fn a_hold_that_is_left_drifts_but_not_one_of_a_waiting_program() {
+        let drift = |before: u8| {
+            let mut recording = Recording::default();
+            for k in 0..100 {
+                let mut sample = Sample {
+                    flags: if k < 50 { before } else { HELD },
+                    ..Sample::default()
+                };
+                // It moves from cycle 60 on.
+                sample.position[0] = 0.01 * f64::from((k - 59).max(0));
+                recording.samples.push(sample);
+            }
+            holds(&recording, &Limits::default(), &[0.0; 9], 0.001).drift
+        };
+        assert!((drift(0) - 0.01).abs() < 1e-9);
+        assert_eq!(drift(HELD | WAITING), 0.0);
     }
 }

@@ -11,9 +11,14 @@ const SPACING: f64 = 3e-3;
 /// The distance of the stop is found to this share.
 const ACCURACY: f64 = 0.01;
 
-/// The state is known from positions only: the limits are taken this much wider, so that a machine
-/// at its limits is within them. The stop that is found is none too long for it.
-const WIDER: f64 = 1.01;
+/// The state is known from positions only, and the machine keeps its limits in the mean of a servo
+/// period: the limits are taken this much wider, the first of them that leaves a solution. The stop that
+/// is found is none too long for the machine.
+const WIDER: [f64; 5] = [1.01, 1.02, 1.04, 1.07, 1.1];
+
+/// With limits wider by these factors there is a solution where the first guess was too far from one; it
+/// is the guess for the next narrower ones.
+const GUESSES: [f64; 4] = [1.06, 1.2, 1.7, 4.0];
 
 /// A motion to begin with: where it is, the square of ds/dt, and d2s/dt2.
 pub(crate) type Start = (f64, f64, f64);
@@ -30,16 +35,16 @@ pub(crate) fn shortest_stop(
     least: f64,
     stopped: f64,
 ) -> Option<f64> {
-    let limits = AxisLimits {
-        velocity: limits.velocity.map(|limit| limit * 2.0),
-        acceleration: limits.acceleration.map(|limit| limit * WIDER),
-        jerk: limits.jerk.map(|limit| limit * WIDER),
-    };
     let moving = Boundary::Moving {
         squared,
         acceleration,
     };
-    let stop = |distance: f64, like: Option<&Profile>| -> Option<(f64, Profile)> {
+    let solve = |distance: f64, wider: f64, like: Option<&Profile>| -> Option<(f64, Profile)> {
+        let limits = AxisLimits {
+            velocity: limits.velocity.map(|limit| limit * 2.0),
+            acceleration: limits.acceleration.map(|limit| limit * wider),
+            jerk: limits.jerk.map(|limit| limit * wider),
+        };
         let end = start + distance;
         if end > path.end() {
             return None;
@@ -63,19 +68,32 @@ pub(crate) fn shortest_stop(
         };
         Some((optimum.time, profile))
     };
-    let mut possible = stopped;
-    let mut found = stop(possible, None);
-    for longer in [1.02, 1.1, 1.3] {
-        if found.is_none() {
-            possible = stopped * longer;
-            found = stop(possible, None);
+    // Where the first guess is too far off, the solution with wider limits leads there.
+    let stop = |distance: f64, most: f64, like: Option<&Profile>| -> Option<(f64, Profile)> {
+        let direct = solve(distance, most, like);
+        if direct.is_some() {
+            return direct;
         }
-    }
-    let (mut time, mut profile) = found?;
+        let (index, mut found) = GUESSES
+            .iter()
+            .enumerate()
+            .find_map(|(index, wider)| Some((index, solve(distance, most * wider, like)?)))?;
+        for wider in GUESSES[..index].iter().rev() {
+            found = solve(distance, most * wider, Some(&found.1))?;
+        }
+        solve(distance, most, Some(&found.1))
+    };
+    // Where the machine came to rest, or a little behind: its rest is seen in whole periods.
+    let tries = WIDER
+        .into_iter()
+        .flat_map(|most| [1.0, 1.02, 1.1, 1.3].map(|longer| (most, stopped * longer)));
+    let (most, mut possible, (mut time, mut profile)) = tries
+        .into_iter()
+        .find_map(|(most, distance)| Some((most, distance, stop(distance, most, None)?)))?;
     let mut impossible = least.min(possible);
     while possible - impossible > ACCURACY * possible {
         let middle = 0.5 * (possible + impossible);
-        match stop(middle, Some(&profile)) {
+        match stop(middle, most, Some(&profile)) {
             Some((shorter, like)) => {
                 time = time.min(shorter);
                 (possible, profile) = (middle, like);
@@ -102,5 +120,146 @@ impl Profile {
         let (from, to) = (self.shares[next - 1], self.shares[next]);
         let along = ((share - from) / (to - from)).clamp(0.0, 1.0);
         self.squared[next - 1] + along * (self.squared[next] - self.squared[next - 1])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::executed_path::PathSample;
+    use super::super::limits::{AXES, SpeedCap};
+    use super::*;
+
+    const PERIOD: f64 = 1e-3;
+    const LIMITS: AxisLimits = AxisLimits {
+        velocity: [100.0; AXES],
+        acceleration: [1000.0; AXES],
+        jerk: [20_000.0; AXES],
+    };
+
+    /// Distances, mm, after each period of a stop from `speed`: jerk for the first number of periods,
+    /// none for the second, jerk back for the third.
+    fn stop_in(speed: f64, [brake, hold, release]: [usize; 3]) -> Vec<f64> {
+        let [b, h, r] = [brake, hold, release].map(|periods| periods as f64 * PERIOD);
+        let greatest = speed / (0.5 * b + h + 0.5 * r);
+        let (mut at, mut velocity, mut acceleration) = (0.0, speed, 0.0);
+        (0..brake + hold + release)
+            .map(|k| {
+                let jerk = if k < brake {
+                    -greatest / b
+                } else if k < brake + hold {
+                    0.0
+                } else {
+                    greatest / r
+                };
+                at += PERIOD * (velocity + PERIOD * (acceleration / 2.0 + PERIOD * jerk / 6.0));
+                velocity += PERIOD * (acceleration + PERIOD * jerk / 2.0);
+                acceleration += PERIOD * jerk;
+                at
+            })
+            .collect()
+    }
+
+    /// Periods of the shortest of these stops, all of which are tried, that keeps the limits on
+    /// `path`, from the distance `start` on.
+    fn brute_force(path: impl Fn(f64) -> [f64; 2], start: f64, speed: f64) -> usize {
+        let keeps = |stop: &[f64]| {
+            let before = [3.0, 2.0, 1.0, 0.0].map(|k| -k * speed * PERIOD);
+            let behind = [stop[stop.len() - 1]; 3];
+            let distances = before.iter().chain(stop).chain(&behind);
+            let points: Vec<[f64; 2]> = distances.map(|d| path(start + d)).collect();
+            points.windows(4).all(|p| {
+                (0..2).all(|axis| {
+                    let [a, b, c, d] = [0, 1, 2, 3].map(|k| p[k][axis]);
+                    (d - 2.0 * c + b).abs() <= LIMITS.acceleration[axis] * PERIOD.powi(2)
+                        && (d - 3.0 * c + 3.0 * b - a).abs() <= LIMITS.jerk[axis] * PERIOD.powi(3)
+                })
+            })
+        };
+        let all = |periods: usize| {
+            (5..periods - 5).step_by(3).flat_map(move |brake| {
+                (5..=periods - brake)
+                    .step_by(3)
+                    .map(move |release| [brake, periods - brake - release, release])
+            })
+        };
+        (20..400)
+            .find(|&periods| all(periods).any(|phases| keeps(&stop_in(speed, phases))))
+            .expect("a stop")
+    }
+
+    /// The shortest stop, s, on a path that is known from a machine that stopped softly, in `soft`
+    /// periods, and went on.
+    fn found(path: impl Fn(f64) -> [f64; 2], start: f64, speed: f64, soft: usize) -> f64 {
+        let run_in = 40;
+        let mut distances: Vec<f64> = (0..=run_in)
+            .map(|k| start - f64::from(run_in - k) * speed * PERIOD)
+            .collect();
+        let stop = stop_in(speed, [soft / 2, 0, soft / 2]);
+        let rest = stop[stop.len() - 1];
+        distances.extend(stop.iter().map(|d| start + d));
+        distances.extend([start + rest; 50]);
+        distances.extend(stop.iter().rev().map(|d| start + 2.0 * rest - d));
+        let samples: Vec<PathSample> = distances
+            .iter()
+            .map(|&d| {
+                let mut position = [0.0; AXES];
+                position[..2].copy_from_slice(&path(d));
+                PathSample {
+                    position,
+                    cap: SpeedCap::NONE,
+                }
+            })
+            .collect();
+        let path = ExecutedPath::new(&samples, PERIOD, &LIMITS.velocity).expect("a path");
+        let at = f64::from(run_in) * PERIOD;
+        let state = path.state(at).expect("in motion");
+        let stopped = path.parameter_at(at + soft as f64 * PERIOD) - state.0;
+        shortest_stop(&path, &LIMITS, state, 0.2 * stopped, stopped).expect("a stop")
+    }
+
+    /// No stop that is possible is shorter than the one that is found, and that one is not far from
+    /// the best of a simple kind.
+    fn check(path: impl Fn(f64) -> [f64; 2], start: f64, speed: f64) {
+        let simple = brute_force(&path, start, speed);
+        for soft in [(simple + 2) & !1, (2 * simple) & !1] {
+            let share = found(&path, start, speed, soft) / (simple as f64 * PERIOD);
+            assert!(
+                (0.8..=1.0).contains(&share),
+                "{share} of {simple} ms, {soft}"
+            );
+        }
+    }
+
+    #[test]
+    fn on_a_circle() {
+        for (radius, speed) in [(5.0, 30.0), (1.0, 20.0), (20.0, 90.0)] {
+            let circle = |s: f64| [radius * (s / radius).sin(), radius * (s / radius).cos()];
+            for start in [0.0, 0.4 * radius] {
+                check(circle, start, speed);
+            }
+        }
+    }
+
+    /// A corner: a hyperbola with both legs along the axes, by its arc length from the apex.
+    fn corner(width: f64, s: f64) -> [f64; 2] {
+        let slope = |x: f64| 1.0 / (1.0 + x * x / (x * x + width * width)).sqrt();
+        let h = s / 24.0;
+        let mut x = 0.0;
+        for _ in 0..24 {
+            let first = slope(x);
+            let second = slope(x + 0.5 * h * first);
+            let third = slope(x + 0.5 * h * second);
+            let fourth = slope(x + h * third);
+            x += h / 6.0 * (first + 2.0 * (second + third) + fourth);
+        }
+        let y = (x * x + width * width).sqrt();
+        [(x + y) / 2.0_f64.sqrt(), (y - x) / 2.0_f64.sqrt()]
+    }
+
+    #[test]
+    fn in_the_corner_of_a_zigzag() {
+        for start in [-1.0, -0.5, 0.2] {
+            check(|s| corner(1.0, s), start, 20.0);
+        }
     }
 }
