@@ -41,10 +41,11 @@ fn corners(k: u64) -> Axes {
     point
 }
 
-/// Not inlined: it takes its size on the stack, which is too much to have several times.
-#[inline(never)]
+/// Made where there is room for it on the stack.
 fn new_path() -> Box<BlendedPath> {
-    let mut path = Box::new(BlendedPath::new());
+    let thread = std::thread::Builder::new().stack_size(64 << 20);
+    let made = thread.spawn(|| Box::new(BlendedPath::new()));
+    let mut path = made.expect("a thread").join().expect("a path");
     let limits = AxisLimits {
         velocity: Axes::repeat(100.0),
         acceleration: Axes::repeat(1000.0),
