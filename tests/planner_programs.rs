@@ -5,6 +5,7 @@ mod planner_common;
 mod planner_random;
 
 use std::cell::RefCell;
+use std::f64::consts::TAU;
 
 use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::{MotionType, TerminationCondition};
@@ -134,6 +135,116 @@ fn a_short_narrow_arc_within_wide_corners_keeps_the_jerk() {
         };
         with_room(|| run(limits, &moves, &[], 1)).expect("within the limits");
     }
+}
+
+/// Two lines that a short arc joins, and a little more behind them.
+#[derive(Clone, Copy, Debug)]
+struct Filleted {
+    line: f64,
+    direction: f64,
+    tolerance: f64,
+    feed: f64,
+    radius: f64,
+    angle: f64,
+    behind: [f64; 3],
+    jerk: f64,
+}
+
+impl Filleted {
+    fn run(self) -> Result<(Extremes, usize), TestCaseError> {
+        let shapes = [
+            Shape::Line(Axes::from([
+                self.line * self.direction.cos(),
+                self.line * self.direction.sin(),
+                0.1,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+            ])),
+            Shape::Arc {
+                radial: [1.0, 0.5, 0.0],
+                tilt: [0.0, 0.0, 1.0],
+                radius: self.radius,
+                angle: self.angle,
+                height: 0.0,
+                turn: 0,
+                others: [0.0; 6],
+            },
+            Shape::Line(Axes::from_fn(|axis, _| {
+                self.behind.get(axis).copied().unwrap_or(0.0)
+            })),
+            Shape::Line(Axes::ith(1, 0.002)),
+        ];
+        let tolerance = self.tolerance;
+        let moves = shapes.map(|shape| Programmed {
+            shape,
+            feed: self.feed,
+            motion_type: MotionType::Feed,
+            enables: 0x0f,
+            wait_for_spindle: false,
+            mode: Some(TerminationCondition::Continuous { tolerance }),
+        });
+        let limits = planner_common::equal_limits(self.jerk);
+        with_room(|| run(limits, &moves, &[], 1))
+    }
+}
+
+/// Failing cases: the easements at both ends of an arc of some micrometres were up to a millimetre wide,
+/// and at their edges, between two places of the plan, the third derivative jumped.
+#[test]
+fn an_arc_much_shorter_than_its_easements_keeps_the_jerk() {
+    let soft = Filleted {
+        line: 3.608,
+        direction: 3.629,
+        tolerance: 0.33694,
+        feed: 165.8,
+        radius: 0.017_939,
+        angle: 0.17939,
+        behind: [1.883, 0.0, 0.0],
+        jerk: 5931.0,
+    };
+    let wide = Filleted {
+        line: 3.5543,
+        direction: 2.6553,
+        tolerance: 0.62493,
+        feed: 26.713,
+        radius: 0.044_464,
+        angle: 0.14469,
+        behind: [1.9863, 0.0, 0.0],
+        jerk: 6673.0,
+    };
+    for case in [soft, wide] {
+        case.run().expect("within the limits");
+    }
+    let strategy = (
+        (0.3..6.0, 0.0..TAU, 0.01..1.0, 10.0..200.0),
+        (0.01..0.25, 0.006..0.18),
+        (0.002..3.0, -3.0..3.0, -3.0..3.0),
+        3.7..5.2,
+    );
+    let config = ProptestConfig {
+        cases: 60,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    let filleted = strategy.prop_map(|(first, (radius, angle), (x, y, z), jerk)| {
+        let (line, direction, tolerance, feed) = first;
+        Filleted {
+            line,
+            direction,
+            tolerance,
+            feed,
+            radius,
+            angle,
+            behind: [x, y, z],
+            jerk: 10f64.powf(jerk),
+        }
+    });
+    let result = seeded_runner(config).run(&filleted, |case| case.run().map(|_| ()));
+    result.expect("within the limits");
 }
 
 #[test]

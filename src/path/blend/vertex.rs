@@ -30,6 +30,11 @@ const LEAST_ROUNDING: f64 = 0.01;
 /// coordinates.
 const TANGENT: f64 = 0.01;
 
+/// Halves of the shorter leg that an easement reaches at most. Those at both ends of an arc much
+/// shorter than they are wide nearly cancel each other, but for their edges: there the third
+/// derivative rises within the length of the arc, which is too short for the nodes of the plan.
+const WIDEST_EASEMENT: f64 = 16.0;
+
 /// A kernel this much narrower than half the shorter leg makes an isolated corner.
 const ISOLATED: f64 = 0.5;
 
@@ -283,7 +288,8 @@ impl Vertex {
             let within = EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.jump_size);
             let wanted = settings
                 .full_speed_easement(self.jump_size, speed)
-                .max(design_width);
+                .max(design_width)
+                .min(WIDEST_EASEMENT * self.half_leg);
             self.free_easement = wanted.min(self.free_limit);
             self.base.easement = within.sqrt().min(wanted).max(self.free_easement);
         }
