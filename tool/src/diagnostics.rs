@@ -171,7 +171,11 @@ impl Diagnostics {
                 term::emit_to_string(&mut text, &config, &shown, &report).is_ok()
             });
             if !shown {
-                text.push_str(&format!("error: {}\n", diagnostic.message));
+                let severity = match diagnostic.severity {
+                    Severity::Error => "error",
+                    Severity::Warning => "warning",
+                };
+                text.push_str(&format!("{severity}: {}\n", diagnostic.message));
             }
         }
         if self.list.len() > SHOWN {
@@ -225,5 +229,18 @@ impl<'a> Files<'a> for Shown<'_> {
         })?;
         let end = self.line_starts.get(line + 1);
         Ok(*start..end.copied().unwrap_or(self.excerpt.text.len()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_warning_whose_line_is_gone_is_still_a_warning() {
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.push(Diagnostic::warning(Span::start_of(0), "mind the gap"));
+        let shown = diagnostics.render(&Sources::default());
+        assert_eq!(shown, "warning: mind the gap\n");
     }
 }

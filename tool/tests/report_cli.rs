@@ -1,5 +1,10 @@
 //! `framepath report` as a user calls it.
 
+#[path = "common/browser.rs"]
+mod browser;
+#[path = "common/pages.rs"]
+mod pages;
+
 use std::fmt::Write;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -126,6 +131,32 @@ fn text_json_and_page_agree() {
     let page = std::fs::read_to_string(bench.path().join("out.html")).expect("the file");
     assert!(page.contains("<title>part</title>") && page.contains("G0 X2"));
     assert!(!page.contains("http"));
+}
+
+#[test]
+fn the_page_needs_nothing_and_shows_the_place_of_a_line() {
+    let bench = Bench::new(&constant_jerk_run(20000.0), INI);
+    std::fs::write(
+        bench.path().join("part.ngc"),
+        "G21\n(a)\n".repeat(3) + "G0 X2\n",
+    )
+    .expect("written");
+    let output = bench.report(&["--html", "out.html", "part.ngc"]);
+    assert!(output.status.success(), "{output:?}");
+    let page = std::fs::read_to_string(bench.path().join("out.html")).expect("the file");
+    // What was recorded is line 7.
+    pages::assert_needs_nothing(&page);
+    let found = pages::click_on_line(bench.path(), &page, 7);
+    assert_eq!(found["current"], "G0 X2", "{found}");
+    let cursor = found["cursor"].as_str().expect("text");
+    assert!(
+        cursor.contains("line7") && cursor.ends_with("G0 X2"),
+        "{found}"
+    );
+    assert_eq!(found["verdict"], "Within all limits", "{found}");
+    assert_eq!(found["figures"], 5, "{found}");
+    // Velocity, acceleration and jerk of a joint and of an axis.
+    assert_eq!(found["peaks"], 6, "{found}");
 }
 
 #[test]

@@ -9,6 +9,7 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 use std::thread::JoinHandle;
+use tempfile::TempDir;
 
 /// The interpreter program, compiled by the build script.
 const PROGRAM: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/interpreter"));
@@ -25,7 +26,7 @@ pub enum CanonError {
         source: io::Error,
     },
     /// The interpreter refused a line.
-    #[error("{}:{line}: {message}\n    {text}", file.display())]
+    #[error("{}{}: {message}\n    {text}", file.display(), behind_colon(*line))]
     Refused {
         /// The file.
         file: PathBuf,
@@ -44,6 +45,14 @@ pub enum CanonError {
         /// What happened.
         problem: String,
     },
+}
+
+/// Line 0 is none: code that is in no line of the program.
+fn behind_colon(line: u32) -> String {
+    match line {
+        0 => String::new(),
+        line => format!(":{line}"),
+    }
 }
 
 /// The canonical calls of a program.
@@ -77,7 +86,7 @@ pub fn stream_program(file: &Path, surroundings: &Surroundings) -> Result<CallSt
 pub fn read_text(name: &str, text: &str) -> Result<Vec<Call>, CanonError> {
     let file = Path::new(name);
     let home = home(file)?;
-    let written = home.folder.join("program.ngc");
+    let written = home.path().join("program.ngc");
     std::fs::write(&written, text).map_err(|source| CanonError::Read {
         file: file.to_owned(),
         source,
@@ -138,8 +147,8 @@ impl CallStream {
                 .current_dir(ini.parent().unwrap_or(Path::new("/")))
                 .env("INI_FILE_NAME", ini),
             None => command
-                .current_dir(&home.folder)
-                .env("HOME", &home.folder)
+                .current_dir(home.path())
+                .env("HOME", home.path())
                 .env_remove("INI_FILE_NAME"),
         };
         let mut child = command.spawn().map_err(unusable)?;
@@ -175,11 +184,10 @@ impl CallStream {
     }
 
     fn next_call(&mut self) -> Result<Option<Call>, CanonError> {
-        let file = self.file.clone();
         let line = match self.read_line() {
             Ok(Some(line)) => line,
             Ok(None) => return Err(self.broken("")),
-            Err(error) => return Err(failure(&file, error.to_string())),
+            Err(error) => return Err(failure(&self.file, error.to_string())),
         };
         if let Some(call) = Call::parse(&line) {
             return Ok(Some(call));
@@ -198,7 +206,7 @@ impl CallStream {
         };
         let text = source.strip_prefix("SOURCE ").unwrap_or_default();
         Err(CanonError::Refused {
-            file,
+            file: self.file.clone(),
             line: number.parse().unwrap_or(0),
             message: message.to_owned(),
             text: text.trim_end().to_owned(),
@@ -242,39 +250,25 @@ impl Drop for CallStream {
     }
 }
 
-/// A folder for what the interpreter reads and writes, removed at the end.
+/// A folder for what the interpreter reads and writes, removed at the end; left behind at worst.
 #[derive(Debug)]
-struct Home {
-    folder: PathBuf,
-}
+struct Home(TempDir);
 
 impl Home {
     fn new() -> io::Result<Home> {
-        let base = std::env::temp_dir();
-        let process = std::process::id();
-        for attempt in 0..1000 {
-            let folder = base.join(format!("framepath-{process}-{attempt}"));
-            match std::fs::create_dir(&folder) {
-                Ok(()) => return Ok(Home { folder }),
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(error),
-            }
-        }
-        Err(io::Error::other("no name is free for a temporary folder"))
+        let folder = tempfile::Builder::new().prefix("framepath-").tempdir()?;
+        Ok(Home(folder))
+    }
+
+    fn path(&self) -> &Path {
+        self.0.path()
     }
 
     fn parameters(&self) -> PathBuf {
-        self.folder.join("parameters.var")
+        self.path().join("parameters.var")
     }
 
     fn settings(&self) -> PathBuf {
-        self.folder.join("settings")
-    }
-}
-
-impl Drop for Home {
-    fn drop(&mut self) {
-        // Left behind at worst: a few lines in the folder for temporary files.
-        let _ = std::fs::remove_dir_all(&self.folder);
+        self.path().join("settings")
     }
 }

@@ -134,11 +134,7 @@ impl Figures {
         recording: &Recording,
     ) -> Figures {
         let state = State::of(outcome, recording, job.period);
-        let jerk_limits = if recording.takes_jerk {
-            job.jerk
-        } else {
-            [0.0; 9]
-        };
+        let jerk_limits = job.jerk_limits(recording.takes_jerk);
         let motion = motion(recording, &job.limits, &jerk_limits, job.period);
         let samples = recording.samples.as_slice();
         let aborted = samples

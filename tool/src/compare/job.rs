@@ -43,6 +43,11 @@ impl Job {
             })
     }
 
+    /// The jerk limits that a module is held to, 0 = none: those of the machine where it takes them.
+    pub(crate) fn jerk_limits(&self, takes_jerk: bool) -> [f64; 9] {
+        if takes_jerk { self.jerk } else { [0.0; 9] }
+    }
+
     pub(crate) fn encode(&self) -> Vec<u8> {
         let mut out = Encoder(Vec::new());
         out.count(self.module.len());

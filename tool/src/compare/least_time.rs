@@ -136,17 +136,11 @@ fn optimum(piece: &[PathSample], limits: &AxisLimits, period: f64) -> Result<(f6
 }
 
 fn axis_limits(recording: &Recording, job: &Job) -> AxisLimits {
-    let jerk = |limit: f64| {
-        if recording.takes_jerk && limit > 0.0 {
-            limit
-        } else {
-            f64::INFINITY
-        }
-    };
+    let limit = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
     AxisLimits {
         velocity: job.limits.velocity,
         acceleration: job.limits.acceleration,
-        jerk: job.jerk.map(jerk),
+        jerk: job.jerk_limits(recording.takes_jerk).map(limit),
     }
 }
 

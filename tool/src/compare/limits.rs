@@ -1,5 +1,6 @@
 //! What the machine is able to do: velocity and acceleration of each axis, and the jerk to compare with.
 
+use crate::arguments;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
 use serde::Serialize;
 
@@ -96,10 +97,7 @@ impl std::fmt::Display for Jerk {
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err(format!("`{text}`: a number above 0 is needed")),
-    }
+    arguments::positive(text.trim()).map_err(|problem| format!("`{text}`: {problem}"))
 }
 
 #[cfg(test)]

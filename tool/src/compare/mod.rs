@@ -2,12 +2,11 @@
 //! tabulates time, peaks over the limits, distance from the program, cost of the calls.
 //!
 //! The files in the order of the work: [`crate::canon`] reads the program through LinuxCNC's own
-//! interpreter; [`layer`] does with it what the canonical layer does, the result is a [`program`]
-//! made of [`segment`]s; [`runner`] and [`job`] tell it to a process of its own ([`supervise`]), which drives the
-//! module ([`host`]) and sends a [`recording`]; [`kinematics`], [`distance`], [`rests`], [`holds`]
-//! and [`cost`] measure it, and [`least_time`] if it is asked for;
-//! [`figures`] holds all of it; [`table`], [`ratios`],
-//! [`s_curve`] and [`summary`] show it.
+//! interpreter; [`layer`] does with it what the canonical layer does, the result is a [`program`] made
+//! of [`segment`]s; [`runner`] and [`job`] tell it to a process of its own ([`supervise`]), which drives
+//! the module ([`host`]) and sends a [`recording`]; [`kinematics`], [`distance`], [`rests`], [`holds`]
+//! and [`cost`] measure it, and [`least_time`] if it is asked for; [`figures`] holds all of it;
+//! [`table`], [`ratios`], [`s_curve`] and [`summary`] show it.
 
 mod cost;
 mod distance;
@@ -36,15 +35,17 @@ mod table;
 
 pub use error::CompareError;
 
+use crate::arguments::{file_name, not_negative, period, positive};
 use crate::canon::{read_program, read_text};
 use crate::generate;
+use crate::report::format::significant;
 use layer::{LayerSettings, lay};
 use limits::{Jerk, Limits};
-use operator::{Action, Event, at_time, random_events, seconds};
+use operator::{Action, Event, at_time, random_events};
 use program::Program;
 use progress::Progress;
 use ratios::{ProgramRuns, ratios};
-use runner::{Runner, file_name};
+use runner::Runner;
 use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
@@ -58,6 +59,9 @@ const OPERATOR: [&str; 5] = [
     "abort",
     "operator",
 ];
+
+/// More than any machine has, mm/s.
+const NO_VELOCITY_LIMIT: f64 = 1e9;
 
 /// Arguments of `framepath compare`.
 #[derive(Clone, Debug, clap::Args)]
@@ -86,7 +90,7 @@ pub struct CompareArguments {
     )]
     pub jerk: Vec<String>,
     /// Raise every F to at least this
-    #[arg(long, value_name = "MM_MIN", value_parser = seconds)]
+    #[arg(long, value_name = "MM_MIN", value_parser = positive)]
     pub feed_at_least: Option<f64>,
     /// Servo period
     #[arg(long, value_name = "SECONDS", default_value = "0.001", value_parser = period)]
@@ -99,7 +103,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(2..))]
     pub queue: Vec<u16>,
     /// Greatest velocity of the machine, mm/s
-    #[arg(long, value_name = "V", default_value = "1e9", value_parser = seconds)]
+    #[arg(long, value_name = "V", default_value_t = NO_VELOCITY_LIMIT, value_parser = positive)]
     pub velocity_limit: f64,
     /// Greatest feed override of the machine ([DISPLAY]MAX_FEED_OVERRIDE), for which LinuxCNC's own
     /// planner leaves room when it blends
@@ -115,7 +119,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "T:V", value_parser = at_time)]
     pub max_velocity: Vec<(f64, f64)>,
     /// Abort at a time
-    #[arg(long, value_name = "T", value_parser = seconds)]
+    #[arg(long, value_name = "T", value_parser = not_negative)]
     pub abort: Option<f64>,
     /// A restless operator with random overrides, pauses and slider, the same for the same number
     #[arg(long, value_name = "SEED")]
@@ -130,24 +134,17 @@ pub struct CompareArguments {
           value_parser = clap::value_parser!(u16).range(1..))]
     pub holds: Option<u16>,
     /// Seconds that a module may take for a single call before it counts as hanging
-    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     pub patience: f64,
     /// All figures as JSON in place of the tables
     #[arg(long)]
     pub json: bool,
 }
 
-fn period(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if (1e-5..=0.1).contains(&number) => Ok(number),
-        _ => Err(format!("`{text}`: seconds from 0.00001 to 0.1 are needed")),
-    }
-}
-
 fn at_least_one(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number >= 1.0 => Ok(number),
-        _ => Err(format!("`{text}`: a number from 1 up is needed")),
+    match positive(text) {
+        Ok(number) if number >= 1.0 => Ok(number),
+        _ => Err("a number from 1 up is needed".to_owned()),
     }
 }
 
@@ -162,6 +159,8 @@ struct Report<'a> {
     limits: Limits,
     feed_at_least: Option<f64>,
     adds_per_cycle: u16,
+    velocity_limit: f64,
+    max_feed_override: f64,
     events: &'a [Event],
     programs: &'a [ProgramRuns],
     ratios: &'a [ratios::Ratio],
@@ -217,6 +216,8 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error
             limits,
             feed_at_least: arguments.feed_at_least,
             adds_per_cycle: arguments.adds_per_cycle,
+            velocity_limit: arguments.velocity_limit,
+            max_feed_override: arguments.max_feed_override,
             events: &events,
             programs: &all,
             ratios: &ratios,
@@ -240,10 +241,20 @@ fn headline(arguments: &CompareArguments) -> String {
         Some(feed) => format!("every F raised to {feed} mm/min at least"),
         None => "F as programmed".to_owned(),
     };
-    let (limits, period) = (&arguments.limits, arguments.period * 1e3);
+    let limits = &arguments.limits;
+    let period = significant(arguments.period * 1e3, 6);
     let adds = arguments.adds_per_cycle;
     let moves = if adds == 1 { "move" } else { "moves" };
-    format!("{limits}; {feed}; servo period {period} ms, {adds} {moves} handed over in each")
+    let mut text =
+        format!("{limits}; {feed}; servo period {period} ms, {adds} {moves} handed over in each");
+    if arguments.velocity_limit < NO_VELOCITY_LIMIT {
+        text += &format!("; at most {} mm/s along the path", arguments.velocity_limit);
+    }
+    if arguments.max_feed_override > 1.0 {
+        let percent = significant(100.0 * arguments.max_feed_override, 6);
+        text += &format!("; feed override up to {percent} %");
+    }
+    text
 }
 
 /// How many axes the program moves.

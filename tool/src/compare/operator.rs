@@ -1,5 +1,6 @@
 //! What the operator does while a program runs: overrides, the velocity slider, pauses, an abort.
 
+use crate::arguments::not_negative;
 use serde::Serialize;
 
 /// One action.
@@ -28,15 +29,7 @@ pub(crate) fn at_time(text: &str) -> Result<(f64, f64), String> {
     let (time, value) = text
         .split_once(':')
         .ok_or_else(|| format!("`{text}`: TIME:VALUE is needed"))?;
-    Ok((seconds(time)?, seconds(value)?))
-}
-
-/// Reads a number from 0 up.
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
-        _ => Err(format!("`{text}`: a number from 0 up is needed")),
-    }
+    Ok((not_negative(time)?, not_negative(value)?))
 }
 
 /// Holds at random moments of the first `time` seconds, each for `duration` seconds, the same every

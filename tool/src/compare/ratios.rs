@@ -88,21 +88,24 @@ pub(crate) fn over_the_optimum(programs: &[ProgramRuns]) -> Vec<Ratio> {
         .collect()
 }
 
-/// Ratios of all modules but the first.
-pub(crate) fn ratios(programs: &[ProgramRuns]) -> Vec<Ratio> {
+/// The modules of these runs with their limits of jerk, in their order, each once.
+pub(crate) fn kinds<'a>(runs: impl Iterator<Item = &'a Figures>) -> Vec<(String, Jerk)> {
     let mut kinds: Vec<(String, Jerk)> = Vec::new();
-    for run in programs
-        .iter()
-        .flat_map(|program| program.runs.iter().skip(1))
-    {
-        if !kinds
-            .iter()
-            .any(|(module, jerk)| *module == run.module && *jerk == run.jerk)
-        {
+    for run in runs {
+        let known = |(module, jerk): &(String, Jerk)| *module == run.module && *jerk == run.jerk;
+        if !kinds.iter().any(known) {
             kinds.push((run.module.clone(), run.jerk));
         }
     }
     kinds
+}
+
+/// Ratios of all modules but the first.
+pub(crate) fn ratios(programs: &[ProgramRuns]) -> Vec<Ratio> {
+    let others = programs
+        .iter()
+        .flat_map(|program| program.runs.iter().skip(1));
+    kinds(others)
         .into_iter()
         .filter_map(|(module, jerk)| ratio(programs, module, jerk))
         .collect()

@@ -11,6 +11,7 @@ use super::operator::{Event, random_holds};
 use super::program::Program;
 use super::progress::Progress;
 use super::supervise;
+use crate::arguments::file_name;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -133,11 +134,7 @@ impl<'a> Runner<'a> {
             {
                 job.events = random_holds(usize::from(count), figures.motion.time, hold_time(&job));
                 let (_, recording) = supervise::run(&job, patience).map_err(CompareError::Run)?;
-                let jerk = if recording.takes_jerk {
-                    job.jerk
-                } else {
-                    [0.0; 9]
-                };
+                let jerk = job.jerk_limits(recording.takes_jerk);
                 figures.holds = holds(&recording, &job.limits, &jerk, job.period);
             }
             let takes_jerk = figures.takes_jerk;
@@ -209,11 +206,4 @@ fn our_module() -> PathBuf {
         Some(built) if built.exists() || !installed.exists() => built,
         _ => installed,
     }
-}
-
-pub(super) fn file_name(file: &Path) -> String {
-    file.file_name().map_or_else(
-        || file.display().to_string(),
-        |name| name.to_string_lossy().into_owned(),
-    )
 }

@@ -3,7 +3,7 @@
 
 use super::figures::Figures;
 use super::limits::Jerk;
-use super::ratios::ProgramRuns;
+use super::ratios::{ProgramRuns, kinds};
 use std::fmt::Write;
 
 /// Programs are taken together that move at most so many axes.
@@ -16,16 +16,8 @@ pub(crate) fn text(programs: &[ProgramRuns]) -> String {
     text
 }
 
-/// The modules with their limits of jerk, in the order of their runs.
-fn kinds(programs: &[ProgramRuns]) -> Vec<(String, Jerk)> {
-    let mut kinds: Vec<(String, Jerk)> = Vec::new();
-    for run in programs.iter().flat_map(|program| &program.runs) {
-        let known = |(module, jerk): &(String, Jerk)| *module == run.module && *jerk == run.jerk;
-        if !kinds.iter().any(known) {
-            kinds.push((run.module.clone(), run.jerk));
-        }
-    }
-    kinds
+fn all_runs(programs: &[ProgramRuns]) -> impl Iterator<Item = &Figures> {
+    programs.iter().flat_map(|program| &program.runs)
 }
 
 /// The runs of a module with a limit of jerk, with their programs.
@@ -52,7 +44,7 @@ fn label(module: &str, jerk: Jerk, run: &Figures) -> String {
 
 fn costs(programs: &[ProgramRuns]) -> String {
     let mut text = String::new();
-    let kinds = kinds(programs);
+    let kinds = kinds(all_runs(programs));
     let mut least = 0;
     for most in AXES {
         for (module, jerk) in &kinds {
@@ -96,7 +88,7 @@ fn costs(programs: &[ProgramRuns]) -> String {
 
 fn rests(programs: &[ProgramRuns]) -> String {
     let mut text = String::new();
-    for (module, jerk) in kinds(programs) {
+    for (module, jerk) in kinds(all_runs(programs)) {
         let here: Vec<(&ProgramRuns, &Figures)> = runs(programs, &module, jerk)
             .filter(|(_, run)| run.holds.count > 0)
             .collect();

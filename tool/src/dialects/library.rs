@@ -137,9 +137,7 @@ impl<R: Routine> Library<R> {
                 return None;
             }
         };
-        let text = self.decode(&bytes, &path, diagnostics)?;
-        let file = sources.add(path.display().to_string(), text);
-        self.add_file(file, &path, sources, diagnostics);
+        self.take_in(&path, &bytes, sources, diagnostics)?;
         self.known(name)
     }
 
@@ -157,19 +155,28 @@ impl<R: Routine> Library<R> {
         if known.is_some() || self.missing.iter().any(|missing| missing == name) {
             return known;
         }
-        let mut found: Option<(PathBuf, String)> = None;
+        let mut found: Option<(PathBuf, Vec<u8>)> = None;
         for path in self.folders.iter().flat_map(|folder| files(folder)) {
             let extension = path.extension().unwrap_or_default().to_string_lossy();
             let is_program = |wanted: &&str| extension.eq_ignore_ascii_case(wanted);
             if !self.extensions.iter().any(is_program) || self.read.contains(&path) {
                 continue;
             }
-            let Ok(bytes) = std::fs::read(&path) else {
-                continue;
+            let bytes = match std::fs::read(&path) {
+                Ok(bytes) => bytes,
+                Err(error) => {
+                    let path = path.display();
+                    let message =
+                        format!("{path} cannot be read, whether it defines {name}: {error}");
+                    diagnostics.push(Diagnostic::warning(Span::start_of(0), message));
+                    continue;
+                }
             };
-            let Some(text) = self.decode(&bytes, &path, diagnostics) else {
-                continue;
-            };
+            // What is wrong with the encoding of a file counts only if the file is wanted.
+            let text = decode_as(&bytes, self.encoding).map_or_else(
+                |_| String::from_utf8_lossy(&bytes).into_owned(),
+                |decoded| decoded.text,
+            );
             if !defines(&text, name) {
                 continue;
             }
@@ -188,16 +195,29 @@ impl<R: Routine> Library<R> {
                 );
                 break;
             }
-            found = Some((path, text));
+            found = Some((path, bytes));
         }
-        let Some((path, text)) = found else {
+        let Some((path, bytes)) = found else {
             self.missing.push(name.to_string());
             return None;
         };
         self.read.push(path.clone());
-        let file = sources.add(path.display().to_string(), text);
-        self.add_file(file, &path, sources, diagnostics);
+        self.take_in(&path, &bytes, sources, diagnostics)?;
         self.known(name)
+    }
+
+    /// Parses a file; `None` where it is not in its encoding, which is said.
+    fn take_in(
+        &mut self,
+        path: &Path,
+        bytes: &[u8],
+        sources: &mut Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<()> {
+        let text = self.decode(bytes, path, diagnostics)?;
+        let file = sources.add(path.display().to_string(), text);
+        self.add_file(file, path, sources, diagnostics);
+        Some(())
     }
 
     fn decode(&self, bytes: &[u8], path: &Path, diagnostics: &mut Diagnostics) -> Option<String> {
@@ -263,11 +283,12 @@ fn in_folder(folder: &Path, name: &str, extensions: &[&str]) -> Option<PathBuf> 
     found.into_iter().next()
 }
 
-/// What a folder holds, in alphabetical order.
+/// The files of a folder, in alphabetical order.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let mut found: Vec<PathBuf> = entries
         .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+        .filter(|path| !path.is_dir())
         .collect();
     found.sort();
     found

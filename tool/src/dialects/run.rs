@@ -46,6 +46,12 @@ pub trait Interpret<'a> {
     fn takes(&self, block: &PlainBlock) -> bool;
 }
 
+/// A block that is repeated jumps to one that is not.
+pub fn jump_out_of_repetition(span: Span) -> Diagnostic {
+    Diagnostic::error(span, "this jump leaves the blocks that are repeated")
+        .help("let the repetition end before the jump")
+}
+
 /// Runs the main program to its end.
 pub fn run<'a, I: Interpret<'a>>(interpreter: &mut I) {
     if interpreter.control().sources.file(0).is_windowed() {

@@ -105,7 +105,10 @@ fn leads_elsewhere(dialect: Dialect, line: &str) -> bool {
     let code = code.unwrap_or("");
     let mut words = code.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
     match dialect {
-        Dialect::Sinumerik => words.any(|word| SINUMERIK.contains(&word)),
+        // The number of the block may stand right before it: N10GOTOF END.
+        Dialect::Sinumerik => {
+            words.any(|word| SINUMERIK.iter().any(|known| ends_with(word, known)))
+        }
         // Blanks may be missing: (IFP1GT3GOTON10).
         Dialect::Fagor => code.contains('(') && FAGOR.iter().any(|word| code.contains(word)),
         Dialect::Mefi => code.contains('L'),
@@ -116,6 +119,12 @@ fn leads_elsewhere(dialect: Dialect, line: &str) -> bool {
         }
         Dialect::Auto => true,
     }
+}
+
+/// Whether a word is a name, or a number with the name behind it.
+fn ends_with(word: &str, name: &str) -> bool {
+    let before = word.strip_suffix(name);
+    before.is_some_and(|before| before.is_empty() || before.ends_with(|c: char| c.is_ascii_digit()))
 }
 
 #[cfg(test)]
@@ -156,6 +165,8 @@ mod tests {
         for (dialect, text) in [
             (Dialect::Sinumerik, "G1 X1\nIF R1>3 GOTOF A\n"),
             (Dialect::Sinumerik, "N10 REPEAT A P=2\n"),
+            (Dialect::Sinumerik, "N10GOTOF A\n"),
+            (Dialect::Sinumerik, "N5IF R1==0\n"),
             (Dialect::Sinumerik, "G1 X1\n%_N_L10_SPF\nM17\n"),
             (Dialect::Fagor, "( rpt N10,N20)\n"),
             (Dialect::Fagor, "(SUB 10)\n"),

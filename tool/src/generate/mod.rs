@@ -10,6 +10,7 @@ pub(crate) mod random;
 mod random_shapes;
 mod text;
 
+use crate::arguments::{not_negative, positive};
 use std::io::Write;
 
 /// A program that can be generated.
@@ -145,20 +146,6 @@ pub struct GenerateArguments {
     /// F
     #[arg(long, value_name = "MM_MIN", default_value = "6000", value_parser = positive)]
     pub feed: f64,
-}
-
-fn not_negative(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
-        _ => Err("a number from 0 up is needed".to_owned()),
-    }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match not_negative(text) {
-        Ok(number) if number > 0.0 => Ok(number),
-        _ => Err("a number above 0 is needed".to_owned()),
-    }
 }
 
 /// Why no program was generated.

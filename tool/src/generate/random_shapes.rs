@@ -12,13 +12,13 @@ pub(super) fn polyline(options: &Options) -> String {
     let mut at = [0.0; 3];
     for line in 0..300 {
         let length = random.between_logarithmic(0.003, 20.0);
-        // Every twentieth goes back the way it came.
         let direction = random.direction();
         let start = at;
         for (coordinate, part) in at.iter_mut().zip(direction) {
             *coordinate += length * part;
         }
         text.line(&[('X', at[0]), ('Y', at[1]), ('Z', at[2])]);
+        // Every twentieth goes back half of the way that it came.
         if line % 20 == 19 {
             for (coordinate, from) in at.iter_mut().zip(start) {
                 *coordinate = 0.5 * (*coordinate + from);

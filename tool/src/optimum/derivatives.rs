@@ -3,7 +3,7 @@
 /// Points of a stencil: the polynomial through them is of the sixth degree.
 pub(crate) const STENCIL: usize = 7;
 
-/// Highest derivative that is computed.
+/// Derivatives that are computed: those of order 0 to 3.
 pub(crate) const ORDERS: usize = 4;
 
 /// Weights of the values at `points` in the derivatives of order 0 to 3 at `at`: shape (4, 7).

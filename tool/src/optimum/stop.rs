@@ -84,12 +84,11 @@ pub(crate) fn shortest_stop(
         solve(distance, most, Some(&found.1))
     };
     // Where the machine came to rest, or a little behind: its rest is seen in whole periods.
-    let tries = WIDER
+    let mut tries = WIDER
         .into_iter()
         .flat_map(|most| [1.0, 1.02, 1.1, 1.3].map(|longer| (most, stopped * longer)));
-    let (most, mut possible, (mut time, mut profile)) = tries
-        .into_iter()
-        .find_map(|(most, distance)| Some((most, distance, stop(distance, most, None)?)))?;
+    let (most, mut possible, (mut time, mut profile)) =
+        tries.find_map(|(most, distance)| Some((most, distance, stop(distance, most, None)?)))?;
     let mut impossible = least.min(possible);
     while possible - impossible > ACCURACY * possible {
         let middle = 0.5 * (possible + impossible);

@@ -67,7 +67,7 @@ pub struct Shown {
     pub cause: Cause,
 }
 
-/// The moves that the planner has and that the collector has to know.
+/// What the collector has to know of a move that the planner has.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     index: usize,

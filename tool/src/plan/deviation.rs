@@ -31,7 +31,7 @@ impl Farthest {
         if distance > self.distance || self.line == 0 {
             *self = Farthest {
                 distance,
-                tolerance: piece.allowed(),
+                tolerance: piece.tolerance,
                 line: piece.piece.line,
             };
         }
@@ -39,7 +39,7 @@ impl Farthest {
 
     /// The same for the largest share of the tolerance.
     fn note_share(&mut self, distance: f64, piece: &Tracked) {
-        let Some(tolerance) = piece.allowed().filter(|tolerance| *tolerance > 0.0) else {
+        let Some(tolerance) = piece.tolerance.filter(|tolerance| *tolerance > 0.0) else {
             return;
         };
         let share = |distance: f64, tolerance: f64| distance / tolerance;
@@ -77,12 +77,6 @@ struct Tracked {
     end_missed: f64,
     /// P of this piece and the one before, with what merging adds; `None` without P.
     tolerance: Option<f64>,
-}
-
-impl Tracked {
-    fn allowed(&self) -> Option<f64> {
-        self.tolerance
-    }
 }
 
 /// Follows the machine along the program.

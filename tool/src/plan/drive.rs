@@ -2,7 +2,7 @@
 //! faster than real time.
 
 use super::arrivals::Arrivals;
-use super::error::PlanError;
+use super::error::{PlanError, refusal, spindle_error};
 use super::setup::Setup;
 use super::source::Source;
 use super::spindle::Spindle;
@@ -11,7 +11,7 @@ use crate::compare::program::{self, Move, Operation, Piece, Shape};
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::moves::{MotionType, STATE_TAG_SIZE, StateTag, TerminationCondition};
 use framepath::path::Circle;
-use framepath::planner::{AddError, CycleInputs, MoveRequest, Planner, Status};
+use framepath::planner::{CycleInputs, MoveRequest, Planner, Status};
 use nalgebra::Vector3;
 use std::path::Path;
 
@@ -20,6 +20,9 @@ const ALL_OVERRIDES: u8 = 0x0f;
 
 /// Cycles without any change after which the plan counts as stuck.
 const STUCK: u64 = 100_000;
+
+/// Longer dwells are not planned cycle by cycle, s.
+const LONGEST_DWELL: f64 = 1e6;
 
 /// Cycles for planning what is in the queue, while the machine is held at the start.
 const SETTLING: u64 = 1000;
@@ -72,6 +75,19 @@ pub enum Supply {
     Recorded(Arrivals),
 }
 
+impl Supply {
+    /// For the reader.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Supply::EveryCycle => "one in each cycle, overrides at 100 %",
+            Supply::BeforeStart => {
+                "one in each cycle, the machine held until the queue was full, overrides at 100 %"
+            }
+            Supply::Recorded(_) => "when they were recorded to come, with the feed scale of then",
+        }
+    }
+}
+
 /// The planner and the program that it runs.
 pub struct Drive<'a> {
     file: &'a Path,
@@ -83,7 +99,7 @@ pub struct Drive<'a> {
     dwell_until: Option<u64>,
     /// Held at the start while the queue fills: until this cycle, which every move puts off.
     hold_until: Option<u64>,
-    /// When moves come, where that was recorded; else one comes in each cycle.
+    /// When moves come, where that was recorded.
     arrivals: Option<Arrivals>,
     /// Moves that the planner was given.
     moves: usize,
@@ -229,6 +245,13 @@ impl<'a> Drive<'a> {
                 // The next move was recorded behind it.
                 Operation::Dwell(_) if self.arrivals.is_some() => {}
                 Operation::Dwell(seconds) => {
+                    if seconds > LONGEST_DWELL {
+                        return Err(PlanError::Dwell {
+                            file: self.file.to_owned(),
+                            line: self.last_line,
+                            seconds,
+                        });
+                    }
                     let cycles = (seconds / self.setup.period).round().max(0.0);
                     self.dwell_until = Some(self.cycle + cycles as u64);
                 }
@@ -309,7 +332,7 @@ impl<'a> Drive<'a> {
         added.map(|_| ()).map_err(|error| PlanError::MoveRefused {
             file: self.file.to_owned(),
             line: a_move.line,
-            reason: words(&error),
+            reason: refusal(&error),
         })
     }
 
@@ -333,7 +356,7 @@ impl<'a> Drive<'a> {
             ));
         }
         if let Some(error) = status.spindle_error {
-            return stopped(format!("spindle: {error:?}"));
+            return stopped(spindle_error(&error));
         }
         if status.active_depth > 0 || self.dwell_until.is_some() || status.done {
             self.last_change = self.cycle;
@@ -374,22 +397,5 @@ impl<'a> Drive<'a> {
                 Activity::Moves
             },
         }
-    }
-}
-
-/// Why the planner refuses a move.
-fn words(error: &AddError) -> String {
-    match error {
-        AddError::Feed { .. } => "it has no feed: F is zero".to_owned(),
-        AddError::RigidTap => "a rigid tap (G33.1) has no pitch to follow".to_owned(),
-        AddError::AxisLimits { axis } => format!(
-            "axis {} has no limits",
-            framepath::axes::AXIS_LETTERS
-                .get(*axis)
-                .copied()
-                .unwrap_or('?')
-        ),
-        AddError::Shape(shape) => format!("its shape cannot be used: {shape:?}"),
-        other => format!("{other:?}"),
     }
 }

@@ -3,6 +3,9 @@
 use crate::canon::CanonError;
 use crate::canon::tool_table::ToolTableError;
 use crate::report::ReportError;
+use framepath::axes::AXIS_LETTERS;
+use framepath::path::ShapeError;
+use framepath::planner::{AddError, SpindleError};
 use std::path::PathBuf;
 
 /// Why there is no plan. Every message says where and what to do.
@@ -59,6 +62,19 @@ pub enum PlanError {
         /// Why.
         reason: String,
     },
+    /// A dwell takes longer than anybody waits.
+    #[error(
+        "{}: behind line {line} the program dwells for {seconds:e} s, which is too long to be planned",
+        file.display()
+    )]
+    Dwell {
+        /// The program.
+        file: PathBuf,
+        /// Line of the last move before it, 0 for none.
+        line: i32,
+        /// How long, s.
+        seconds: f64,
+    },
     /// A file cannot be written.
     #[error("{}: cannot be written: {source}", file.display())]
     Write {
@@ -67,4 +83,41 @@ pub enum PlanError {
         /// Why.
         source: std::io::Error,
     },
+}
+
+/// Why the planner refuses a move.
+pub(super) fn refusal(error: &AddError) -> String {
+    match error {
+        AddError::Feed { .. } => "it has no feed: F is zero".to_owned(),
+        AddError::RigidTap => "a rigid tap (G33.1) has no pitch to follow".to_owned(),
+        AddError::PerTurn(pitch) => format!("{pitch} is no pitch: it has to be above 0"),
+        AddError::AxisLimits { axis } => format!(
+            "axis {} has no limits",
+            AXIS_LETTERS.get(*axis).copied().unwrap_or('?')
+        ),
+        AddError::Shape(shape) => match shape {
+            ShapeError::ZeroLength => "it goes nowhere",
+            ShapeError::NotFinite => "its coordinates are too large",
+            ShapeError::NoNormal => "its plane has no direction",
+            ShapeError::RadiusTooSmall => "an end of the arc lies on its axis",
+            ShapeError::TooManyTurns => "it has too many turns",
+        }
+        .to_owned(),
+        other => format!("{other:?}"),
+    }
+}
+
+/// Why the planner stopped a motion that follows the spindle. Speeds are machine units per second.
+pub(super) fn spindle_error(error: &SpindleError) -> String {
+    match error {
+        SpindleError::Stalled => "the spindle has come to a stop".to_owned(),
+        SpindleError::Reversed => "the spindle has turned back".to_owned(),
+        SpindleError::Outrun { asked, greatest } => format!(
+            "to follow the spindle takes {asked:.3} units/s, the axes allow {greatest:.3} units/s"
+        ),
+        SpindleError::NotReversed => {
+            "the spindle does not turn back at the end of a tap".to_owned()
+        }
+        SpindleError::NoIndex => "the spindle does not turn, or has no index".to_owned(),
+    }
 }

@@ -147,6 +147,8 @@ pub struct Figures {
     pub after: f64,
     /// Moves handed to the planner.
     pub moves: usize,
+    /// When they were handed over.
+    pub handed_over: &'static str,
     /// Travel in X Y Z.
     pub path_length: f64,
     /// Along the path.
@@ -164,9 +166,14 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// Shows what was collected. `moves` were handed to the planner; the text of the slowest lines
-    /// is put in by the caller.
-    pub fn new(program: &str, setup: &Setup, moves: usize, collected: &Collected) -> Figures {
+    /// Shows what was collected. So many moves were handed to the planner, when the text says; the text
+    /// of the slowest lines is put in by the caller.
+    pub fn new(
+        program: &str,
+        setup: &Setup,
+        (moves, handed_over): (usize, &'static str),
+        collected: &Collected,
+    ) -> Figures {
         let time = collected.cycles as f64 * setup.period;
         let share = |part: f64| if time > 0.0 { part / time } else { 0.0 };
         let phases = Phase::ALL.map(|phase| TimeShare {
@@ -198,6 +205,7 @@ impl Figures {
             before: collected.before as f64 * setup.period,
             after: collected.after as f64 * setup.period,
             moves,
+            handed_over,
             path_length: collected.length,
             greatest_speed: SpeedFigure {
                 value: collected.speed.value,

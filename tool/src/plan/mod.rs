@@ -2,10 +2,11 @@
 //!
 //! The files in the order of the work: [`setup`] is the machine, [`source`] the program as the task
 //! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with a
-//! [`spindle`], moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo cycle: [`rates`] and [`cause`] say what limits the
-//! machine, [`places`] where time is lost, [`deviation`] how far the plan is from the program,
-//! [`profile`] and [`polyline`] are for the drawings; [`figures`] holds all of it; [`text`], [`page`],
-//! [`svg`] and [`csv`] show it, with a [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
+//! [`spindle`], moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
+//! cycle: [`rates`] and [`cause`] say what limits the machine, [`places`] where time is lost,
+//! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
+//! drawings; [`figures`] holds all of it; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
+//! [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
 
 mod arrivals;
 mod cause;
@@ -30,6 +31,7 @@ mod text;
 
 pub use error::PlanError;
 
+use crate::arguments::{file_name, period, positive};
 use crate::compare::layer::LayerSettings;
 use crate::compare::layer::stream::LayerStream;
 use arrivals::Arrivals;
@@ -104,20 +106,6 @@ pub struct PlanArguments {
     pub csv: Option<PathBuf>,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("a number above 0 is needed".to_owned()),
-    }
-}
-
-fn period(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if (1e-5..=0.1).contains(&number) => Ok(number),
-        _ => Err("seconds from 0.00001 to 0.1 are needed".to_owned()),
-    }
-}
-
 /// Plans; text or JSON on standard output, drawings into files where asked for.
 ///
 /// # Errors
@@ -159,17 +147,14 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> 
 fn in_a_thread<T: Send>(
     work: impl FnOnce() -> Result<T, PlanError> + Send,
 ) -> Result<T, PlanError> {
-    let failed = |problem: &str| Err(PlanError::Option(format!("the plan: {problem}")));
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new()
             .stack_size(STACK)
-            .spawn_scoped(scope, work);
-        match thread {
-            Ok(thread) => thread
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
-            Err(error) => failed(&error.to_string()),
-        }
+            .spawn_scoped(scope, work)
+            .map_err(|error| PlanError::Option(format!("the plan has no room: {error}")))?;
+        thread
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     })
 }
 
@@ -192,6 +177,7 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
         None if arguments.fill_queue => Supply::BeforeStart,
         None => Supply::EveryCycle,
     };
+    let handed_over = supply.name();
     let mut drive = Drive::new(file, setup, supply)?;
     let mut collector = Collector::new(setup);
     while let Some(sample) = drive.step(&mut source, |handed| collector.add(&handed))? {
@@ -209,7 +195,7 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
     if collected.cycles == 0 {
         return Err(PlanError::NoMoves(file.to_owned()));
     }
-    let mut figures = Figures::new(&name, setup, source.moves, &collected);
+    let mut figures = Figures::new(&name, setup, (source.moves, handed_over), &collected);
     let listing = listing::read(file, &figures, &collected);
     for place in &mut figures.slowest {
         place.text = listing.text(place.line);
@@ -242,11 +228,4 @@ fn write_drawings(
         write(file, drawing)?;
     }
     Ok(())
-}
-
-fn file_name(file: &Path) -> String {
-    file.file_name().map_or_else(
-        || file.display().to_string(),
-        |name| name.to_string_lossy().into_owned(),
-    )
 }

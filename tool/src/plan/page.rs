@@ -1,18 +1,13 @@
-//! The HTML page of a plan: one file that needs nothing else. Drawings, tables and style are those of
-//! the page of `framepath report`.
+//! The HTML page of a plan: its path, where its time goes, and the curves of each axis.
 
 use super::cause::Cause;
 use super::collector::{Collected, DISTANCE, SPEED};
 use super::figures::Figures;
 use super::listing::Listing;
+use crate::page::{EnvelopeData, Page, distance_factor, floats, integers};
 use crate::report::decimation::Envelope;
 use crate::report::differences::Quantity;
-use crate::report::page::{EnvelopeData, SCRIPTS, STYLE, escape, fill, floats, integers};
 use serde::Serialize;
-
-const HTML: &str = include_str!("page/plan.html");
-const OWN_STYLE: &str = include_str!("page/plan.css");
-const SCRIPT: &str = include_str!("page/plan.js");
 
 #[derive(Serialize)]
 struct PageData<'a> {
@@ -97,18 +92,15 @@ pub fn render(
             .collect(),
         listing,
     };
-    // Inside a script element only "</script" and "<!--" would end the data.
-    let json = serde_json::to_string(&data)?.replace('<', "\\u003c");
-    Ok(fill(
-        HTML,
-        &[
-            ("{{title}}", &escape(&figures.program)),
-            ("{{style}}", &(STYLE.to_owned() + OWN_STYLE)),
-            ("{{text}}", &escape(text)),
-            ("{{data}}", &json),
-            ("{{script}}", &(SCRIPTS.concat() + SCRIPT)),
-        ],
-    ))
+    Page {
+        kind: "plan",
+        title: &figures.program,
+        sections: include_str!("page/plan.html"),
+        style: include_str!("page/plan.css"),
+        script: include_str!("page/plan.js"),
+        text,
+    }
+    .render(&data)
 }
 
 fn path_data(collected: &Collected) -> PathData {
@@ -136,11 +128,7 @@ fn profile_data(figures: &Figures, collected: &Collected) -> ProfileData {
             .unzip();
         EnvelopeData::from(Envelope { low, high })
     };
-    let distance_factor = if figures.length_unit == "mm" {
-        1000.0
-    } else {
-        1.0
-    };
+    let distance_factor = distance_factor(figures.length_unit);
     let times = (0..profiles.buckets()).map(|bucket| (bucket * profiles.cycles) as f64 * period);
     ProfileData {
         time: floats(times.map(|time| time as f32)),

@@ -15,7 +15,7 @@ const MM_PER_INCH: f64 = 25.4;
 /// The machine. Lengths are millimetres unless it says machine units.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// Where the limits come from, for the reader.
+    /// Where the limits come from and which options have changed the plan, for the reader.
     pub origin: String,
     /// Name of the machine, empty if it has none.
     pub machine: String,
@@ -60,11 +60,11 @@ impl Setup {
         if let Some(text) = &arguments.jerk {
             let jerk = Jerk::parse(text);
             let jerk = jerk.map_err(|problem| PlanError::Option(format!("--jerk: {problem}")))?;
-            setup.jerk = jerk.of_axes(&setup.limits).map(finite_or_none);
+            setup.jerk = jerk.of_axes(&setup.limits).map(infinite_for_none);
             changed.push(format!("--jerk {text}"));
         } else if setup.ini.is_none() {
             let jerk = Jerk::Accelerations(DEFAULT_JERK).of_axes(&setup.limits);
-            setup.jerk = jerk.map(finite_or_none);
+            setup.jerk = jerk.map(infinite_for_none);
         }
         if let Some(period) = arguments.period {
             setup.period = period;
@@ -74,12 +74,19 @@ impl Setup {
             setup.velocity_limit = velocity;
             changed.push(format!("--velocity-limit {velocity}"));
         }
-        if !changed.is_empty() {
-            setup.origin = format!("{}, changed by {}", setup.origin, changed.join(" "));
+        if let Some(feed) = arguments.feed_at_least {
+            changed.push(format!("--feed-at-least {feed}"));
         }
-        setup.rotary_tolerance = arguments.rotary_tolerance.unwrap_or(0.0);
+        if let Some(tolerance) = arguments.rotary_tolerance {
+            setup.rotary_tolerance = tolerance;
+            changed.push(format!("--rotary-tolerance {tolerance}"));
+        }
         if let Some(tolerance) = arguments.default_tolerance {
             setup.default_tolerance = tolerance * setup.millimetres;
+            changed.push(format!("--default-tolerance {tolerance}"));
+        }
+        if !changed.is_empty() {
+            setup.origin = format!("{}, changed by {}", setup.origin, changed.join(" "));
         }
         Ok(setup)
     }
@@ -102,7 +109,8 @@ impl Setup {
 /// Jerk limits where nothing says otherwise, accelerations per second.
 pub const DEFAULT_JERK: f64 = 20.0;
 
-fn finite_or_none(jerk: f64) -> f64 {
+/// A jerk limit of 0 is none.
+fn infinite_for_none(jerk: f64) -> f64 {
     if jerk > 0.0 { jerk } else { f64::INFINITY }
 }
 

@@ -22,8 +22,6 @@ pub struct Source<'a> {
     ended: bool,
     /// Moves read so far.
     pub moves: usize,
-    /// The last line of the program that was read, from 1.
-    pub line: i32,
 }
 
 impl<'a> Source<'a> {
@@ -42,7 +40,6 @@ impl<'a> Source<'a> {
             waiting: VecDeque::new(),
             ended: false,
             moves: 0,
-            line: 0,
         })
     }
 
@@ -74,7 +71,6 @@ impl<'a> Source<'a> {
                 continue;
             };
             self.moves = self.moves.max(a_move.index + 1);
-            self.line = self.line.max(a_move.line);
             let Some(piece) = laid.pieces.last() else {
                 continue;
             };

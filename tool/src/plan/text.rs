@@ -2,7 +2,7 @@
 
 use super::figures::{DistanceFigure, Figures};
 use crate::report::differences::Quantity;
-use crate::report::format::{duration, grouped, length, significant, unit};
+use crate::report::format::{duration, greatest_speed, grouped, length, significant, unit};
 use std::fmt::{self, Write};
 
 /// Places that the text lists; all are in the JSON.
@@ -60,19 +60,20 @@ fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
         entry("Machine", figures.machine.clone())?;
     }
     entry("Limits", figures.limits_from.clone())?;
-    entry("Moves", grouped(figures.moves))?;
+    entry(
+        "Moves",
+        format!(
+            "{}, handed over {}",
+            grouped(figures.moves),
+            figures.handed_over
+        ),
+    )?;
     let long = significant(figures.path_length, 7);
     entry("Path length", format!("{long} {u}"))?;
     let speed = figures.greatest_speed;
     entry(
         "Greatest speed",
-        format!(
-            "{} {u}/s ({} {u}/min) at {:.3} s, line {}",
-            significant(speed.value, 5),
-            significant(speed.value * 60.0, 5),
-            speed.time,
-            speed.line
-        ),
+        greatest_speed(speed.value, u, speed.time, speed.line.into()),
     )?;
     let far = |figure: &DistanceFigure| {
         let tolerance = match figure.tolerance {

@@ -17,6 +17,15 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// The greatest speed along a path, in units of length per second and per minute, and where it is.
+pub fn greatest_speed(value: f64, length_unit: &str, time: f64, line: i64) -> String {
+    format!(
+        "{} {length_unit}/s ({} {length_unit}/min) at {time:.3} s, line {line}",
+        significant(value, 5),
+        significant(value * 60.0, 5)
+    )
+}
+
 /// A length with its unit: small ones in micrometres (um) or nanometres (nm), inches as they are.
 pub fn length(value: f64, unit: &str) -> String {
     let size = value.abs();

@@ -4,7 +4,7 @@
 //! limits; [`differences`] finds the peaks of velocity, acceleration and jerk, [`frame_changes`]
 //! the changes of the frame; [`pieces`] and [`following`] compare the executed path with the
 //! programmed path; [`summary`] holds all figures and [`findings`] draws the conclusions;
-//! [`text`] and [`page`] show them, `page/` is the template of the HTML page.
+//! [`text`] and [`page`] show them.
 
 pub(crate) mod decimation;
 pub(crate) mod differences;
@@ -15,7 +15,7 @@ pub(crate) mod format;
 mod frame_changes;
 pub(crate) mod ini;
 pub(crate) mod machine;
-pub(crate) mod page;
+mod page;
 pub(crate) mod pieces;
 mod recording;
 mod summary;
@@ -26,6 +26,7 @@ use std::path::{Path, PathBuf};
 
 pub use error::ReportError;
 
+use crate::arguments::{file_name, positive};
 use crate::encoding::decode;
 use crate::program::contour::ContourMove;
 use ini::Ini;
@@ -62,13 +63,6 @@ pub struct ReportArguments {
     /// Program that was recorded
     #[arg(value_name = "PROGRAM")]
     pub program: Option<PathBuf>,
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("a number above 0 is needed".to_owned()),
-    }
 }
 
 /// Makes the report: the text on standard output, JSON and HTML into files where asked for.
@@ -152,13 +146,6 @@ pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result
     std::io::stdout()
         .write_all(text.as_bytes())
         .map_err(unwritable(standard_output))
-}
-
-fn file_name(file: &Path) -> String {
-    file.file_name().map_or_else(
-        || file.display().to_string(),
-        |name| name.to_string_lossy().into_owned(),
-    )
 }
 
 /// Recording and INI file have to describe the same machine, or limits would be compared with

@@ -1,26 +1,14 @@
-//! The HTML page: one file that needs nothing else, neither fonts nor scripts nor a network.
+//! The HTML page: the executed path beside the programmed one, and the curves of each joint.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-use super::decimation::{Envelope, bucket_starts, derivative_envelope, envelope, keep_rows};
+use super::decimation::{bucket_starts, derivative_envelope, envelope, keep_rows};
 use super::differences::Quantity;
 use super::pieces::Point;
 use super::recording::Recording;
 use super::summary::{Analysis, Report};
+use crate::page::{EnvelopeData, Page, distance_factor, floats, integers};
 use crate::program::contour::{ContourMove, Shape};
-
-const HTML: &str = include_str!("page/page.html");
-pub(crate) const STYLE: &str = include_str!("page/page.css");
-/// What all pages share: numbers, drawings, tables.
-pub(crate) const SCRIPTS: [&str; 4] = [
-    include_str!("page/data.js"),
-    include_str!("page/views.js"),
-    include_str!("page/profiles.js"),
-    include_str!("page/parts.js"),
-];
-const SCRIPT: &str = include_str!("page/page.js");
 
 /// Points of a drawn path at most. All these bounds together keep a page below 5 MB.
 const PATH_POINTS: usize = 30_000;
@@ -81,27 +69,7 @@ struct ProfileData {
     /// Shape (joints, 3).
     joints: Vec<Vec<EnvelopeData>>,
     distance: Option<EnvelopeData>,
-    /// What the distance is multiplied with: 1000 makes micrometres of millimetres.
     distance_factor: f64,
-}
-
-/// Least and greatest value in each bucket of time.
-#[derive(Serialize)]
-pub(crate) struct EnvelopeData {
-    low: String,
-    /// Left out if it is the same as `low`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    high: Option<String>,
-}
-
-impl From<Envelope> for EnvelopeData {
-    fn from(envelope: Envelope) -> EnvelopeData {
-        let high = (envelope.low != envelope.high).then(|| floats(envelope.high.into_iter()));
-        EnvelopeData {
-            low: floats(envelope.low.into_iter()),
-            high,
-        }
-    }
 }
 
 #[derive(Serialize)]
@@ -132,56 +100,15 @@ pub fn render(
         profiles: profile_data(analysis, recording),
         listing: listing.map(listing_data),
     };
-    // Inside a script element only "</script" and "<!--" would end the data.
-    let json = serde_json::to_string(&data)?.replace('<', "\\u003c");
-    Ok(fill(
-        HTML,
-        &[
-            ("{{title}}", &escape(&analysis.report.title)),
-            ("{{style}}", STYLE),
-            ("{{text}}", &escape(text)),
-            ("{{data}}", &json),
-            ("{{script}}", &(SCRIPTS.concat() + SCRIPT)),
-        ],
-    ))
-}
-
-/// Puts the values into the template, in one pass: a value is never searched for places itself.
-pub(crate) fn fill(template: &str, values: &[(&str, &str)]) -> String {
-    let mut page = String::new();
-    let mut rest = template;
-    while let Some(at) = rest.find("{{") {
-        page.push_str(&rest[..at]);
-        rest = &rest[at..];
-        match values.iter().find(|(name, _)| rest.starts_with(name)) {
-            Some((name, value)) => {
-                page.push_str(value);
-                rest = &rest[name.len()..];
-            }
-            None => {
-                page.push_str("{{");
-                rest = &rest[2..];
-            }
-        }
+    Page {
+        kind: "report",
+        title: &analysis.report.title,
+        sections: include_str!("page/report.html"),
+        style: "",
+        script: include_str!("page/report.js"),
+        text,
     }
-    page.push_str(rest);
-    page
-}
-
-/// Text as HTML.
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-}
-
-pub(crate) fn floats(values: impl Iterator<Item = f32>) -> String {
-    STANDARD.encode(values.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())
-}
-
-pub(crate) fn integers(values: impl Iterator<Item = i32>) -> String {
-    STANDARD.encode(values.flat_map(i32::to_le_bytes).collect::<Vec<u8>>())
+    .render(&data)
 }
 
 fn path_data(analysis: &Analysis, recording: &Recording, contour: &[ContourMove]) -> PathData {
@@ -295,11 +222,7 @@ fn profile_data(analysis: &Analysis, recording: &Recording) -> ProfileData {
                 .collect()
         })
         .collect();
-    let distance_factor = if analysis.report.length_unit == "mm" {
-        1000.0
-    } else {
-        1.0
-    };
+    let distance_factor = distance_factor(analysis.report.length_unit);
     let distance = analysis.following.as_ref().map(|following| {
         envelope(&starts, rows, |row| {
             Some(distance_factor * f64::from(following.distances[row]))
@@ -344,6 +267,8 @@ mod tests {
     use super::super::summary::analyse;
     use super::super::summary::tests::circle_run;
     use super::*;
+    use base64::Engine;
+    use base64::engine::general_purpose::STANDARD;
 
     fn page(title: &str, listing: Option<&Listing>) -> String {
         let mill = machine(MILL).expect("a machine");
@@ -367,25 +292,12 @@ mod tests {
     }
 
     #[test]
-    fn the_page_needs_nothing_from_anywhere() {
+    fn every_element_is_closed() {
         let page = page("Circle", None);
-        for word in [
-            "http",
-            "src=",
-            "@import",
-            "url(",
-            "fetch(",
-            "XMLHttpRequest",
-            "<link",
-            "{{",
-        ] {
-            assert!(!page.contains(word), "{word}");
-        }
-        assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
+        let html = between(&page, "<body>", "<script");
         for tag in [
             "main", "script", "style", "section", "figure", "div", "span",
         ] {
-            let html = format!("{}{}", between(&page, "<body>", "<script"), "");
             let opened = html.matches(&format!("<{tag}>")).count()
                 + html.matches(&format!("<{tag} ")).count();
             assert_eq!(opened, html.matches(&format!("</{tag}>")).count(), "{tag}");

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use super::differences::{Judgement, Peak};
-use super::format::{duration, grouped, length, significant, unit};
+use super::format::{duration, greatest_speed, grouped, length, significant, unit};
 use super::machine::PathSource;
 use super::summary::{FarthestReport, MemberReport, PathReport, Report, Verdict};
 
@@ -53,13 +53,11 @@ pub fn render(report: &Report, recording: &str) -> Result<String, fmt::Error> {
     let speed = report.greatest_speed;
     entry(
         "Greatest speed",
-        format!(
-            "{} {u}/s ({} {u}/min) at {:.3} s, line {}",
-            significant(speed.value, 5),
-            significant(speed.value * 60.0, 5),
+        greatest_speed(
+            speed.value,
+            report.length_unit,
             speed.place.time,
             speed.place.line,
-            u = report.length_unit
         ),
     )?;
     frame_entries(report, &mut entry)?;

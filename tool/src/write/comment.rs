@@ -28,7 +28,8 @@ fn harmless(text: &str) -> String {
     }
 }
 
-/// Without parentheses, control characters and `#` (which MSG would keep but DEBUG would evaluate).
+/// With brackets for parentheses, without control characters. `#` stays: only in the commands that
+/// [`comment`] takes away it would be a parameter.
 fn plain(text: &str) -> String {
     let mut plain = String::new();
     for character in text.trim().chars() {

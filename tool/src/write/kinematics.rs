@@ -11,10 +11,11 @@
 
 use super::blocks::begin;
 use super::line::{Lines, Rank};
+use super::modes::Modes;
 use super::number::{coordinate, factor, push_coordinate};
 use super::words::{
     centre_words, common_action, compensation_words, machine_move_words, path_control_words,
-    push_axis_words, push_spindle_motion, radius_row, scaled_thread,
+    push_axis_words, push_spindle_motion, scaled_thread,
 };
 use super::{WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -35,19 +36,12 @@ pub struct KinematicsWriter<'a> {
     diagnostics: Diagnostics,
     lines: Lines<'a>,
     frame: Frame,
+    modes: Modes,
     /// Whether the frame is taken off for the time being.
     suspended: bool,
     /// Which of X Y Z must be named in the next move.
     explicit: [bool; 3],
-    plane: Plane,
-    feed_mode: FeedMode,
-    feed: Option<f64>,
-    written_feed: Option<f64>,
-    path_control: PathControl,
-    tool_length: Option<bool>,
     scope: FrameScope,
-    /// Row of the tool table that G41 and G42 take the radius from, if it is not that of the tool.
-    radius_row: Option<u32>,
 }
 
 impl<'a> KinematicsWriter<'a> {
@@ -60,16 +54,10 @@ impl<'a> KinematicsWriter<'a> {
             diagnostics: Diagnostics::default(),
             lines,
             frame: Frame::default(),
+            modes: Modes::new(settings.path_mode),
             suspended: false,
             explicit: [false; 3],
-            plane: Plane::Xy,
-            feed_mode: FeedMode::PerMinute,
-            feed: None,
-            written_feed: None,
-            path_control: settings.path_mode,
-            tool_length: None,
             scope: FrameScope::default(),
-            radius_row: None,
         }
     }
 }
@@ -101,19 +89,7 @@ impl Writer for KinematicsWriter<'_> {
 
 impl KinematicsWriter<'_> {
     fn action(&mut self, action: &Action, span: Span) {
-        match action {
-            Action::Plane(plane) => self.plane = *plane,
-            Action::FeedMode(mode) => {
-                self.feed_mode = *mode;
-                self.feed = None;
-                self.written_feed = None;
-            }
-            Action::PathControl(control) => self.path_control = *control,
-            Action::ToolLength(on) => self.tool_length = Some(*on),
-            Action::ToolOffset(_) => self.tool_length = Some(true),
-            _ => {}
-        }
-        self.radius_row = radius_row(action, self.radius_row);
+        self.modes.follow(action);
         if common_action(action, &mut self.lines) {
             return;
         }
@@ -145,11 +121,11 @@ impl KinematicsWriter<'_> {
     }
 
     fn set_feed(&mut self, feed: f64) {
-        self.feed = Some(feed);
+        self.modes.feed = Some(feed);
         // Under a scale the number depends on the move: it is written there.
-        if self.feed_mode == FeedMode::InverseTime || !self.frame.has_scale() {
+        if self.modes.feed_mode == FeedMode::InverseTime || !self.frame.has_scale() {
             self.lines.add(Rank::Feed, format!("F{}", coordinate(feed)));
-            self.written_feed = Some(feed);
+            self.modes.written_feed = Some(feed);
         }
     }
 
@@ -168,7 +144,7 @@ impl KinematicsWriter<'_> {
         }
         self.lines.add(
             Rank::Compensation,
-            compensation_words(compensation, self.radius_row),
+            compensation_words(compensation, self.modes.radius_row),
         );
     }
 
@@ -194,8 +170,8 @@ impl KinematicsWriter<'_> {
         let call = match command {
             FrameCommand::Cancel => "o<frame_off> call".to_string(),
             FrameCommand::DropScales => "o<ascale_off> call".to_string(),
-            FrameCommand::Absolute(operation) => call(&operation, false, self.plane),
-            FrameCommand::Additive(operation) => call(&operation, true, self.plane),
+            FrameCommand::Absolute(operation) => call(&operation, false, self.modes.plane),
+            FrameCommand::Additive(operation) => call(&operation, true, self.modes.plane),
         };
         self.lines.line(&call);
     }
@@ -224,19 +200,20 @@ impl KinematicsWriter<'_> {
                 FrameOperation::RotateInPlane(plane, angle) => about_normal(*plane, *angle),
                 other => *other,
             };
-            self.lines.raw(&call(&operation, index > 0, self.plane));
+            self.lines
+                .raw(&call(&operation, index > 0, self.modes.plane));
         }
     }
 
     fn motion(&mut self, motion: &Move, span: Span) {
         if let MoveKind::Machine { rapid, tool_length } = motion.kind {
-            let tool_length = tool_length && self.tool_length != Some(false);
+            let tool_length = tool_length && self.modes.tool_length != Some(false);
             self.lines
                 .add(Rank::Motion, machine_move_words(motion, rapid, tool_length));
             return;
         }
         self.resume();
-        if motion.exact_stop && self.path_control != PathControl::ExactStop {
+        if motion.exact_stop && self.modes.path_control != PathControl::ExactStop {
             self.lines.add(Rank::PathControl, "G61.1");
         }
         let mut targets = motion.target;
@@ -247,7 +224,7 @@ impl KinematicsWriter<'_> {
             MoveKind::Line | MoveKind::Arc(_) => self.feed_for(motion),
             _ => None,
         };
-        let plane = self.plane;
+        let plane = self.modes.plane;
         if motion.follows_spindle() {
             if self.frame.has_scale() || self.frame.has_stretch() {
                 self.diagnostics.push(scaled_thread(span));
@@ -275,16 +252,17 @@ impl KinematicsWriter<'_> {
                 push_coordinate(line, feed);
             }
         });
-        if motion.exact_stop && self.path_control != PathControl::ExactStop {
+        if motion.exact_stop && self.modes.path_control != PathControl::ExactStop {
             self.lines.flush();
-            self.lines.line(&path_control_words(self.path_control));
+            self.lines
+                .line(&path_control_words(self.modes.path_control));
         }
     }
 
     /// The target of an axis with coordinates that the program left out and that must be explicit.
     fn written_target(&mut self, motion: &Move, axis: usize) -> Coordinate {
         let target = motion.target[axis];
-        let in_plane = self.plane.axes()[..2].contains(&axis);
+        let in_plane = self.modes.plane.axes()[..2].contains(&axis);
         let is_arc = matches!(motion.kind, MoveKind::Arc(_));
         let wanted = match self.explicit.get_mut(axis) {
             // A third coordinate would make a helix of the arc.
@@ -300,20 +278,21 @@ impl KinematicsWriter<'_> {
     /// The feed to be written with a move, if it differs from the last one. The kinematics stretches
     /// the move, so the feed in the frame is the programmed one divided by the stretch.
     fn feed_for(&mut self, motion: &Move) -> Option<f64> {
-        if self.feed_mode == FeedMode::InverseTime {
+        if self.modes.feed_mode == FeedMode::InverseTime {
             return None;
         }
         let feed = match self.frame.has_scale() {
-            true => self.feed? / stretch(self.frame.block_map(), motion, self.plane),
-            false => self.feed?,
+            true => self.modes.feed? / stretch(self.frame.block_map(), motion, self.modes.plane),
+            false => self.modes.feed?,
         };
         let same = self
+            .modes
             .written_feed
             .is_some_and(|old| (old - feed).abs() <= SAME_SIZE * feed);
         if same {
             return None;
         }
-        self.written_feed = Some(feed);
+        self.modes.written_feed = Some(feed);
         Some(feed)
     }
 }

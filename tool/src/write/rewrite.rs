@@ -7,10 +7,11 @@
 
 use super::blocks::begin;
 use super::line::{Lines, Rank};
+use super::modes::Modes;
 use super::number::push_coordinate;
 use super::words::{
     centre_words, common_action, compensation_words, machine_move_words, path_control_words,
-    push_axis_words, push_spindle_motion, radius_row, scaled_thread,
+    push_axis_words, push_spindle_motion, scaled_thread,
 };
 use super::{WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -36,16 +37,9 @@ pub struct RewriteWriter<'a> {
     diagnostics: Diagnostics,
     lines: Lines<'a>,
     frame: Frame,
-    plane: Plane,
+    modes: Modes,
     compensation: Compensation,
-    path_control: PathControl,
-    feed_mode: FeedMode,
-    tool_length: Option<bool>,
-    feed: Option<f64>,
-    written_feed: Option<f64>,
     scope: FrameScope,
-    /// Row of the tool table that G41 and G42 take the radius from, if it is not that of the tool.
-    radius_row: Option<u32>,
 }
 
 impl<'a> RewriteWriter<'a> {
@@ -56,15 +50,9 @@ impl<'a> RewriteWriter<'a> {
             diagnostics: Diagnostics::default(),
             lines: Lines::new(out),
             frame: Frame::default(),
-            plane: Plane::Xy,
+            modes: Modes::new(settings.path_mode),
             compensation: Compensation::Off,
-            path_control: settings.path_mode,
-            feed_mode: FeedMode::PerMinute,
-            tool_length: None,
-            feed: None,
-            written_feed: None,
             scope: FrameScope::default(),
-            radius_row: None,
         }
     }
 }
@@ -95,25 +83,13 @@ impl Writer for RewriteWriter<'_> {
 
 impl RewriteWriter<'_> {
     fn action(&mut self, action: &Action, span: Span) -> Result<(), Box<Diagnostic>> {
-        match action {
-            Action::Plane(plane) => self.plane = *plane,
-            Action::PathControl(control) => self.path_control = *control,
-            Action::FeedMode(mode) => {
-                self.feed_mode = *mode;
-                self.feed = None;
-                self.written_feed = None;
-            }
-            Action::ToolLength(on) => self.tool_length = Some(*on),
-            Action::ToolOffset(_) => self.tool_length = Some(true),
-            _ => {}
-        }
-        self.radius_row = radius_row(action, self.radius_row);
+        self.modes.follow(action);
         if common_action(action, &mut self.lines) {
             return Ok(());
         }
         match action {
             Action::Feed(feed) => {
-                self.feed = Some(*feed);
+                self.modes.feed = Some(*feed);
                 // Under factors for the finished path the number depends on the move.
                 if !self.frame.has_stretch() {
                     self.write_feed(*feed);
@@ -153,7 +129,10 @@ impl RewriteWriter<'_> {
     }
 
     fn mirrors_plane(&self) -> bool {
-        self.frame.map().handedness_in_plane(self.plane.into()) == Some(Handedness::Left)
+        self.frame
+            .map()
+            .handedness_in_plane(self.modes.plane.into())
+            == Some(Handedness::Left)
     }
 
     fn write_feed(&mut self, feed: f64) {
@@ -161,7 +140,7 @@ impl RewriteWriter<'_> {
             line.push('F');
             push_coordinate(line, feed);
         });
-        self.written_feed = Some(feed);
+        self.modes.written_feed = Some(feed);
     }
 
     /// Writes the feed of a move whose path the frame stretches together with its feed, or that of the
@@ -194,8 +173,9 @@ impl RewriteWriter<'_> {
     /// Writes the feed for a move along `delta` of the frame if it is another one than that in force.
     fn feed_along(&mut self, delta: &Vector3<f64>) {
         let Some(feed) = self
+            .modes
             .feed
-            .filter(|_| self.feed_mode != FeedMode::InverseTime)
+            .filter(|_| self.modes.feed_mode != FeedMode::InverseTime)
         else {
             return;
         };
@@ -205,7 +185,7 @@ impl RewriteWriter<'_> {
             false => feed,
         };
         let same = |written: f64| (written - wanted).abs() <= 1e-9 * wanted;
-        if !self.written_feed.is_some_and(same) {
+        if !self.modes.written_feed.is_some_and(same) {
             self.write_feed(wanted);
         }
     }
@@ -225,7 +205,9 @@ impl RewriteWriter<'_> {
                 .help("use --backend kinematics on a machine with the frame kinematics"),
             ));
         }
-        if compensation != Compensation::Off && !self.frame.map().keeps_plane(self.plane.into()) {
+        if compensation != Compensation::Off
+            && !self.frame.map().keeps_plane(self.modes.plane.into())
+        {
             return Err(Box::new(
                 Diagnostic::error(span, "cutter compensation in a plane that the frame tilts")
                     .help("use --backend kinematics on a machine with the frame kinematics"),
@@ -238,14 +220,14 @@ impl RewriteWriter<'_> {
         };
         self.lines.add(
             Rank::Compensation,
-            compensation_words(written, self.radius_row),
+            compensation_words(written, self.modes.radius_row),
         );
         Ok(())
     }
 
     fn motion(&mut self, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
         if let MoveKind::Machine { rapid, tool_length } = motion.kind {
-            let tool_length = tool_length && self.tool_length != Some(false);
+            let tool_length = tool_length && self.modes.tool_length != Some(false);
             self.lines
                 .add(Rank::Motion, machine_move_words(motion, rapid, tool_length));
             return Ok(());
@@ -253,7 +235,7 @@ impl RewriteWriter<'_> {
         if motion.kind == MoveKind::Line {
             self.stretched_feed(motion, span)?;
         }
-        let stops = motion.exact_stop && self.path_control != PathControl::ExactStop;
+        let stops = motion.exact_stop && self.modes.path_control != PathControl::ExactStop;
         if stops {
             self.lines.add(Rank::PathControl, "G61.1");
         }
@@ -278,7 +260,8 @@ impl RewriteWriter<'_> {
         }
         if stops {
             self.lines.flush();
-            self.lines.line(&path_control_words(self.path_control));
+            self.lines
+                .line(&path_control_words(self.modes.path_control));
         }
         Ok(())
     }
@@ -356,22 +339,22 @@ impl RewriteWriter<'_> {
 
     fn arc(&mut self, arc: &Arc, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
         let map = self.frame.map();
-        if !map.keeps_plane(self.plane.into()) {
+        if !map.keeps_plane(self.modes.plane.into()) {
             return Err(Box::new(
                 Diagnostic::error(span, "an arc in a plane that the frame tilts")
                     .help("use --backend kinematics on a machine with the frame kinematics"),
             ));
         }
-        let Some(scale) = map.is_similarity_of_plane(self.plane.into()) else {
+        let Some(scale) = map.is_similarity_of_plane(self.modes.plane.into()) else {
             return self.chords(arc, motion, span);
         };
-        let [first, second, _] = self.plane.axes();
-        let (map, plane) = (*map, self.plane);
+        let [first, second, _] = self.modes.plane.axes();
+        let (map, plane) = (*map, self.modes.plane);
         let turned = |a: f64, b: f64| {
             let image = map.apply_to_vector(&in_plane(plane, [a, b]));
             [image[first], image[second]]
         };
-        self.feed_along(&in_plane(self.plane, [1.0, 0.0]));
+        self.feed_along(&in_plane(self.modes.plane, [1.0, 0.0]));
         let centre = match arc.centre {
             Centre::Offset([a, b]) => Centre::Offset(turned(a, b)),
             Centre::Radius(radius) => Centre::Radius(radius * scale),
@@ -385,7 +368,7 @@ impl RewriteWriter<'_> {
         };
         let clockwise = arc.clockwise != self.mirrors_plane();
         let targets = self.targets(motion, span)?;
-        let centre = centre_words(centre, arc.extra_turns, self.plane);
+        let centre = centre_words(centre, arc.extra_turns, self.modes.plane);
         self.add_motion(if clockwise { "G2" } else { "G3" }, &targets, &centre);
         Ok(())
     }
@@ -400,7 +383,7 @@ impl RewriteWriter<'_> {
                     ),
             ));
         }
-        if self.feed_mode == FeedMode::InverseTime {
+        if self.modes.feed_mode == FeedMode::InverseTime {
             return Err(Box::new(
                 Diagnostic::error(
                     span,
@@ -408,6 +391,15 @@ impl RewriteWriter<'_> {
                 )
                 .help("use G94"),
             ));
+        }
+        if motion.target[3..]
+            .iter()
+            .any(|target| *target != Coordinate::Keep)
+        {
+            return Err(Box::new(Diagnostic::error(
+                span,
+                "an arc under unequal scales together with further axes",
+            )));
         }
         let known = |value: [Option<f64>; 3]| match value {
             [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
@@ -424,8 +416,14 @@ impl RewriteWriter<'_> {
                 .help("program X, Y and Z before the arc"),
             ));
         };
-        let shape = frame_arc(arc, start, end, self.plane, self.settings.arc_tolerance)
-            .map_err(|_| Box::new(Diagnostic::error(span, "this arc has no centre")))?;
+        let shape = frame_arc(
+            arc,
+            start,
+            end,
+            self.modes.plane,
+            self.settings.arc_tolerance,
+        )
+        .map_err(|_| Box::new(Diagnostic::error(span, "this arc has no centre")))?;
         let map = *self.frame.map();
         // A chord over the angle a is off the ellipse by at most (1 - cos(a / 2)) times the larger
         // half axis, which is no longer than the longer of these two conjugate radii times sqrt 2.
@@ -438,8 +436,11 @@ impl RewriteWriter<'_> {
         let count = (shape.sweep / (2.0 * (1.0 - off).acos())).ceil().max(1.0);
         if count > CHORD_LIMIT {
             return Err(Box::new(
-                Diagnostic::error(span, format!("this arc would need {count} chords"))
-                    .help("give a larger --chord-tolerance"),
+                Diagnostic::error(
+                    span,
+                    format!("this arc would need more than {CHORD_LIMIT} chords"),
+                )
+                .help("give a larger --chord-tolerance"),
             ));
         }
         for index in 1..=count as u32 {
@@ -447,16 +448,6 @@ impl RewriteWriter<'_> {
             let mut targets = motion.target;
             for axis in 0..3 {
                 targets[axis] = Coordinate::At(point[axis]);
-            }
-            // Further axes arrive with the last chord only if they are not moving.
-            if motion.target[3..]
-                .iter()
-                .any(|target| *target != Coordinate::Keep)
-            {
-                return Err(Box::new(Diagnostic::error(
-                    span,
-                    "an arc under unequal scales together with further axes",
-                )));
             }
             let before = shape.point(f64::from(index - 1) / count);
             self.feed_along(&(shape.point(f64::from(index) / count) - before));

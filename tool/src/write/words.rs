@@ -126,16 +126,6 @@ pub fn compensation_words(compensation: Compensation, row: Option<u32>) -> Strin
     }
 }
 
-/// The row of the tool table that G41 and G42 take the radius from after an action, if it is not
-/// that of the tool in the spindle.
-pub fn radius_row(action: &Action, before: Option<u32>) -> Option<u32> {
-    match action {
-        Action::ToolOffset(row) => Some(*row),
-        Action::ToolChange | Action::ToolLength(_) => None,
-        _ => before,
-    }
-}
-
 fn work_offset_word(system: u8) -> String {
     match system {
         1..=6 => format!("G{}", 53 + system),

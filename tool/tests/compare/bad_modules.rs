@@ -65,7 +65,7 @@ fn gives_a_position_that_is_no_number() {
     let bench = Bench::new();
     let figures = bench.measure(PROGRAM, &bench.module("NOT_A_NUMBER"), &[]);
     assert_eq!(figures["motion"]["not_finite"], true);
-    let file = bench.program("program.ngc", PROGRAM);
+    let file = bench.write("program.ngc", PROGRAM);
     let module = bench.module("NOT_A_NUMBER");
     let output = bench.compare(&[
         file.to_str().expect("text"),
@@ -89,7 +89,7 @@ fn is_no_planner() {
         "it is not a planner: tpMotFunctions is missing"
     );
 
-    let text = bench.program("text.so", "this is no module");
+    let text = bench.write("text.so", "this is no module");
     let figures = bench.measure(PROGRAM, &text, &[]);
     assert_eq!(figures["state"], "not-usable");
     let kinematics = "/usr/lib/linuxcnc/modules/trivkins.so";
@@ -100,7 +100,7 @@ fn is_no_planner() {
 #[test]
 fn the_others_go_on() {
     let bench = Bench::new();
-    let file = bench.program("program.ngc", PROGRAM);
+    let file = bench.write("program.ngc", PROGRAM);
     let (hangs, crashes) = (bench.module("HANGS"), bench.module("CRASHES"));
     let output = bench.compare(&[
         file.to_str().expect("text"),

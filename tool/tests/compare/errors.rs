@@ -14,16 +14,16 @@ fn a_missing_file() {
 #[test]
 fn a_program_that_the_interpreter_refuses() {
     let bench = Bench::new();
-    bench.program("bad.ngc", "G21 G90\nG1 X10\nM2\n");
+    bench.write("bad.ngc", "G21 G90\nG1 X10\nM2\n");
     let message = bench.refused(&["bad.ngc", "--with", STOCK]);
     assert_eq!(
         message.trim_end(),
         "bad.ngc:2: Cannot do g1 with zero feed rate\n    G1 X10"
     );
-    bench.program("worse.ngc", "G0 X1\nG0 X[1\n");
+    bench.write("worse.ngc", "G0 X1\nG0 X[1\n");
     let message = bench.refused(&["worse.ngc", "--with", STOCK]);
     assert!(message.starts_with("worse.ngc:2: "), "{message}");
-    bench.program("spline.ngc", "G64 F100\nG5 I0 J3 P0 Q-3 X1 Y1\nM2\n");
+    bench.write("spline.ngc", "G64 F100\nG5 I0 J3 P0 Q-3 X1 Y1\nM2\n");
     let message = bench.refused(&["spline.ngc", "--with", STOCK]);
     assert!(
         message.contains("spline.ngc:2: a spline (G5, G5.2) is not supported"),
@@ -34,7 +34,7 @@ fn a_program_that_the_interpreter_refuses() {
 #[test]
 fn a_program_without_moves() {
     let bench = Bench::new();
-    bench.program("empty.ngc", "G21\nM2\n");
+    bench.write("empty.ngc", "G21\nM2\n");
     let message = bench.refused(&["empty.ngc", "--with", STOCK]);
     assert!(
         message.contains("empty.ngc: the program has no moves"),
@@ -75,6 +75,10 @@ fn values_that_make_no_sense() {
         (["--period", "1"], "0.00001 to 0.1"),
         (["--adds-per-cycle", "0"], "0 is not in 1.."),
         (["--pause", "3"], "TIME:VALUE"),
+        (["--velocity-limit", "0"], "a number above 0"),
+        (["--feed-at-least", "0"], "a number above 0"),
+        (["--patience", "0"], "a number above 0"),
+        (["--max-feed-override", "0.5"], "a number from 1 up"),
     ] {
         let mut all = vec!["--generated=zigzag", "--with", STOCK];
         let joined = arguments.join("=");

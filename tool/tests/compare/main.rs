@@ -1,6 +1,8 @@
 //! Tests of `framepath compare` and `framepath generate` as a user runs them.
 
 mod bad_modules;
+#[path = "../common/bench.rs"]
+mod bench;
 mod canon;
 mod errors;
 mod measuring;

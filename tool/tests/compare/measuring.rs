@@ -114,7 +114,7 @@ fn calls_of_the_heap() {
 #[test]
 fn a_module_with_a_limit_of_jerk_runs_with_each() {
     let bench = Bench::new();
-    let file = bench.program("legs.ngc", LEGS);
+    let file = bench.write("legs.ngc", LEGS);
     let (plain, with_pin) = (bench.module(""), bench.module("TAKES_JERK"));
     let output = bench.compare(&[
         file.to_str().expect("text"),
@@ -144,7 +144,7 @@ fn a_module_with_a_limit_of_jerk_runs_with_each() {
 #[test]
 fn the_table_marks_what_is_exceeded() {
     let bench = Bench::new();
-    let file = bench.program("legs.ngc", LEGS);
+    let file = bench.write("legs.ngc", LEGS);
     let module = bench.module("JUMPS");
     let output = bench.compare(&[
         file.to_str().expect("text"),
@@ -160,4 +160,25 @@ fn the_table_marks_what_is_exceeded() {
         ["made-upJUMPS.so", "-", "0.600", "3.000!", "600!"]
     );
     assert_eq!(cells[6..8], ["0.3000", "3.000!"]);
+}
+
+#[test]
+fn the_headline_says_what_the_modules_were_held_to() {
+    let bench = Bench::new();
+    bench.write("legs.ngc", LEGS);
+    let module = bench.module("");
+    let headline = |more: &[&str]| {
+        let named = ["legs.ngc", "--with", module.to_str().expect("text")];
+        let output = bench.compare(&[&named, more].concat());
+        assert!(output.status.success());
+        let text = String::from_utf8(output.stdout).expect("text");
+        text.lines().next().expect("a headline").to_owned()
+    };
+    let plain = "V=100,A=1000; F as programmed; servo period 1 ms, 1 move handed over in each";
+    assert_eq!(headline(&[]), plain);
+    let limited = headline(&["--velocity-limit", "80", "--max-feed-override", "1.1"]);
+    assert_eq!(
+        limited,
+        format!("{plain}; at most 80 mm/s along the path; feed override up to 110 %")
+    );
 }

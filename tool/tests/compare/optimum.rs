@@ -66,7 +66,7 @@ fn lengths_of_the_queue() {
         program += &format!("G1 X{line} Y{}\n", line % 2);
     }
     program += "M2\n";
-    let file = bench.program("program.ngc", &program);
+    let file = bench.write("program.ngc", &program);
     let report = json(&bench.compare(&[
         file.to_str().expect("text"),
         "--with",
@@ -90,7 +90,7 @@ fn lengths_of_the_queue() {
 #[test]
 fn not_together_with_an_operator() {
     let bench = Bench::new();
-    let file = bench.program("program.ngc", "G21 F600\nG1 X1\nM2\n");
+    let file = bench.write("program.ngc", "G21 F600\nG1 X1\nM2\n");
     let file = file.to_str().expect("text");
     for option in [&["--optimum"][..], &["--holds", "3"]] {
         let mut arguments = vec![file, "--operator", "1"];

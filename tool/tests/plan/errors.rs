@@ -72,7 +72,10 @@ fn programs_that_cannot_be_planned() {
     bench.write("mill.ini", &startup);
     bench.write("part.ngc", "G1 X1 F100\nM2\n");
     let code = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
-    assert!(code.contains("[RS274NGC]RS274NGC_STARTUP_CODE: "), "{code}");
+    assert!(
+        code.starts_with("part.ngc: [RS274NGC]RS274NGC_STARTUP_CODE: "),
+        "{code}"
+    );
     assert!(code.contains("G61.1 G999"), "{code}");
     let missing = bench.refused(&["nothing.ngc"]);
     assert!(missing.contains("nothing.ngc: cannot be read"), "{missing}");
@@ -106,6 +109,33 @@ fn a_spindle_that_does_not_turn_is_told() {
     bench.write("part.ngc", "G21 F100\nG33 Z-5 K1\nM2\n");
     let error = bench.refused(&["part.ngc"]);
     assert!(error.contains("part.ngc:2: "), "{error}");
+}
+
+#[test]
+fn a_thread_that_is_too_fast_for_the_axes_is_told() {
+    let bench = Bench::new();
+    bench.write("part.ngc", "G21 S6000 M3\nG33 Z-50 K10\nM2\n");
+    let error = bench.refused(&["part.ngc"]);
+    assert!(
+        error.contains("part.ngc:2: ") && error.contains("the axes allow 100.000 units/s"),
+        "{error}"
+    );
+}
+
+/// In cycles of the servo thread it is more than can be counted.
+#[test]
+fn a_dwell_of_ages_is_refused() {
+    let bench = Bench::new();
+    let ages = format!("G4 P1{}", "0".repeat(30));
+    bench.write(
+        "part.ngc",
+        &format!("G21 F1000\nG1 X1\n{ages}\nG1 X2\nM2\n"),
+    );
+    let error = bench.refused(&["part.ngc"]);
+    assert!(
+        error.contains("part.ngc: behind line 2 the program dwells for 1e30 s"),
+        "{error}"
+    );
 }
 
 /// The plan would be that of a program without its frame.

@@ -137,6 +137,31 @@ fn what_limits_a_plain_program() {
 }
 
 #[test]
+fn a_plan_names_the_options_that_changed_it() {
+    let bench = Bench::new();
+    let program = "G21 G64 P0.05 F600\nG1 X5\nM2\n";
+    let plain = bench.figures(program, &[]);
+    let limits = |figures: &serde_json::Value| figures["limits_from"].to_string();
+    assert!(!limits(&plain).contains("changed by"), "{plain}");
+    let handed_over = plain["handed_over"].as_str().expect("text");
+    assert!(handed_over.starts_with("one in each cycle"), "{plain}");
+    let options = [
+        "--feed-at-least=3000",
+        "--rotary-tolerance=0.5",
+        "--default-tolerance=0.1",
+        "--fill-queue",
+    ];
+    let changed = bench.figures(program, &options);
+    let named = "changed by --feed-at-least 3000 --rotary-tolerance 0.5 --default-tolerance 0.1";
+    assert!(limits(&changed).contains(named), "{changed}");
+    let handed_over = changed["handed_over"].as_str().expect("text");
+    assert!(
+        handed_over.contains("until the queue was full"),
+        "{changed}"
+    );
+}
+
+#[test]
 fn corners_are_slow_places_within_p() {
     let bench = Bench::new();
     let program = "G21 G64 P0.05 F3000\nG1 X40\nX40 Y40\nX0 Y40\nM2\n";

@@ -1,9 +1,17 @@
 //! `framepath plan` as its users run it.
 
 mod arrivals;
+#[path = "../common/bench.rs"]
+mod bench;
+#[path = "../common/browser.rs"]
+mod browser;
 mod errors;
 mod figures;
 mod files;
 mod long_programs;
 mod page;
+#[path = "../common/pages.rs"]
+mod pages;
 mod support;
+#[path = "../common/surface.rs"]
+mod surface;

@@ -1,8 +1,8 @@
 //! The page: needs nothing from anywhere, and works in a browser.
 
+use crate::browser::{open, probe};
+use crate::pages::{assert_needs_nothing, click_on_line};
 use crate::support::Bench;
-use std::path::Path;
-use std::process::Command;
 
 const PROGRAM: &str =
     "G21 G64 P0.05 F3000\nG1 X20 </script>\nX20 Y10 Z3\nG2 X0 Y10 I-10\nG0 X0 Y0 Z0\nM2\n";
@@ -21,20 +21,7 @@ fn page(bench: &Bench) -> String {
 #[test]
 fn the_page_needs_nothing_from_anywhere() {
     let page = page(&Bench::new());
-    for word in [
-        "http",
-        "src=",
-        "@import",
-        "url(",
-        "fetch(",
-        "XMLHttpRequest",
-        "<link",
-        "{{",
-    ] {
-        assert!(!page.contains(word), "{word}");
-    }
-    assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
-    assert_eq!(page.matches("</script>").count(), 2);
+    assert_needs_nothing(&page);
     let (_, rest) = page.split_once("id=\"data\">").expect("data");
     let data: serde_json::Value =
         serde_json::from_str(rest.split_once("</script>").expect("an end").0).expect("valid JSON");
@@ -43,7 +30,7 @@ fn the_page_needs_nothing_from_anywhere() {
 
 /// Turns the drawing in space and looks at everything that must not overlap; what it finds becomes the
 /// title of the page.
-const PROBE: &str = r##"<script>
+const PROBE: &str = r##"
 window.addEventListener("error", (event) => (document.title = "error: " + event.message));
 window.addEventListener("load", () => setTimeout(() => {
   try {
@@ -77,50 +64,16 @@ window.addEventListener("load", () => setTimeout(() => {
     document.title = "error: " + error;
   }
 }, 200));
-</script>"##;
+"##;
 
-fn browser() -> Option<&'static str> {
-    [
-        "/usr/bin/chromium",
-        "/usr/bin/chromium-browser",
-        "/usr/bin/google-chrome",
-    ]
-    .into_iter()
-    .find(|path| Path::new(path).exists())
-}
-
-/// Opens a page; what the browser prints.
-fn open(browser: &str, folder: &Path, more: &[&str], file: &str) -> std::process::Output {
-    Command::new(browser)
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--hide-scrollbars",
-        ])
-        .arg(format!(
-            "--user-data-dir={}",
-            folder.join("browser").display()
-        ))
-        .args(["--virtual-time-budget=6000", "--window-size=1400,2400"])
-        .args(more)
-        .arg(format!("file://{}", folder.join(file).display()))
-        .output()
-        .expect("the browser runs")
-}
+/// Time of the browser that the script may take, ms.
+const TIME: &str = "--virtual-time-budget=6000";
 
 #[test]
 fn the_page_turns_and_nothing_overlaps() {
-    let browser = browser().expect("a browser: ./prerequisites browser installs chromium");
     let bench = Bench::new();
     let page = page(&bench);
-    let probed = page.replace("</body>", &format!("{PROBE}</body>"));
-    bench.write("probed.html", &probed);
-    let output = open(browser, bench.path(), &["--dump-dom"], "probed.html");
-    let dom = String::from_utf8_lossy(&output.stdout);
-    let (_, rest) = dom.split_once("<title>").expect("a title");
-    let found = rest.split_once("</title>").expect("an end").0;
-    let found: serde_json::Value = serde_json::from_str(found).expect(found);
+    let found = probe(bench.path(), &[TIME], &page, PROBE);
     assert_eq!(found["turned"], true, "{found}");
     assert_eq!(found["overlaps"], 0, "{found}");
     assert!(found["wide"].as_f64().expect("a number") <= 0.0, "{found}");
@@ -131,7 +84,20 @@ fn the_page_turns_and_nothing_overlaps() {
     // Three axes, speed and distance.
     assert_eq!(found["curves"], 11, "{found}");
     let picture = format!("--screenshot={}", bench.path().join("page.png").display());
-    open(browser, bench.path(), &[&picture], "plan.html");
+    open(bench.path(), &[TIME, &picture], "plan.html");
     let size = std::fs::metadata(bench.path().join("page.png")).map_or(0, |file| file.len());
     assert!(size > 50_000, "{size}");
+}
+
+#[test]
+fn a_click_on_a_line_shows_its_place() {
+    let bench = Bench::new();
+    let found = click_on_line(bench.path(), &page(&bench), 4);
+    assert_eq!(found["current"], "G2 X0 Y10 I-10", "{found}");
+    let cursor = found["cursor"].as_str().expect("text");
+    assert!(
+        cursor.contains("line4") && cursor.contains("limited by"),
+        "{found}"
+    );
+    assert!(cursor.ends_with("G2 X0 Y10 I-10"), "{found}");
 }

@@ -1,8 +1,9 @@
 //! What the tests of `framepath plan` share.
 
+pub use crate::bench::{Bench, number};
+use crate::bench::{json, refusal};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 /// A three-axis mill in mm: 100 mm/s, 1000 mm/s2, 20000 mm/s3; Z slower.
 pub const MILL: &str = "\
@@ -40,49 +41,20 @@ MAX_VELOCITY = 50
 MAX_ACCELERATION = 500
 ";
 
-/// A folder for the files of a test.
-pub struct Bench {
-    folder: tempfile::TempDir,
-}
-
 impl Bench {
-    pub fn new() -> Bench {
-        Bench {
-            folder: tempfile::tempdir().expect("a folder"),
-        }
-    }
-
-    pub fn path(&self) -> &Path {
-        self.folder.path()
-    }
-
-    pub fn write(&self, name: &str, text: &str) -> PathBuf {
-        let file = self.path().join(name);
-        std::fs::write(&file, text).expect("written");
-        file
-    }
-
     pub fn read(&self, name: &str) -> String {
         std::fs::read_to_string(self.path().join(name)).expect("a file")
     }
 
     /// Runs `framepath plan`.
     pub fn plan(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_framepath"))
-            .current_dir(self.path())
-            .arg("plan")
-            .args(arguments)
-            .output()
-            .expect("the program runs")
+        self.run("plan", arguments)
     }
 
     /// The figures of a program.
     pub fn figures(&self, program: &str, more: &[&str]) -> Value {
         self.write("part.ngc", program);
-        let output = self.plan(&[&["part.ngc", "--json"], more].concat());
-        let complaints = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{complaints}");
-        let mut all: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let mut all = json(&self.plan(&[&["part.ngc", "--json"], more].concat()));
         all["programs"][0].take()
     }
 
@@ -92,17 +64,12 @@ impl Bench {
         self.figures(program, &["--ini", "mill.ini"])
     }
 
-    /// What a run that is refused says; there is nothing on standard output then.
+    /// What a run that is refused says.
     pub fn refused(&self, arguments: &[&str]) -> String {
         let output = self.plan(arguments);
         assert_eq!(output.status.code(), Some(1));
-        assert!(output.stdout.is_empty());
-        String::from_utf8(output.stderr).expect("text")
+        refusal(output)
     }
-}
-
-pub fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
 }
 
 /// Seconds of a share of the time.

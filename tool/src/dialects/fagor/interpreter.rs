@@ -12,7 +12,7 @@ use crate::diagnostics::Diagnostic;
 use crate::dialects::control::plain::PlainBlock;
 use crate::dialects::control::{About, Control, Done, Place};
 use crate::dialects::library::Library;
-use crate::dialects::run::{Interpret, Next};
+use crate::dialects::run::{Interpret, Next, jump_out_of_repetition};
 use crate::dialects::settings::Settings;
 use crate::program::{Action, FrameScope};
 use crate::source::Span;
@@ -93,13 +93,7 @@ impl<'a> Interpreter<'a> {
             }
             match self.run_block(routine, at, block) {
                 Next::Block(next) if next < first || next > end => {
-                    self.control.fail(
-                        Diagnostic::error(
-                            block.span,
-                            "this jump leaves the blocks that are repeated",
-                        )
-                        .help("let the repetition end before the jump"),
-                    );
+                    self.control.fail(jump_out_of_repetition(block.span));
                     return Next::Abort;
                 }
                 Next::Block(next) => at = next,

@@ -16,7 +16,7 @@ use crate::dialects::control::plain::PlainBlock;
 use crate::dialects::control::{About, Control, Place};
 use crate::dialects::expression::{Expression, text};
 use crate::dialects::library::Library;
-use crate::dialects::run::Interpret;
+use crate::dialects::run::{Interpret, jump_out_of_repetition};
 use crate::dialects::settings::Settings;
 use crate::program::frame::FrameOperation;
 use crate::program::{Action, FrameScope};
@@ -117,13 +117,7 @@ impl<'a> Interpreter<'a> {
             }
             match self.run_block(routine, at, block) {
                 Next::Block(next) if next < range.start || next > range.end => {
-                    self.control.fail(
-                        Diagnostic::error(
-                            block.span,
-                            "this jump leaves the blocks that are repeated",
-                        )
-                        .help("let the repetition end before the jump"),
-                    );
+                    self.control.fail(jump_out_of_repetition(block.span));
                     return Next::Abort;
                 }
                 Next::Block(next) => at = next,

@@ -167,18 +167,16 @@ impl Lexer<'_> {
             }
             _ if upper == "%" => {}
             _ => {
-                return Err(self
-                    .scanner
-                    .error(
-                        start,
+                return Err(Box::new(
+                    Diagnostic::error(
+                        self.scanner.span_from(start),
                         "this line begins a kind of data that is not run here",
                     )
-                    .map(|error| {
-                        error.help(
-                            "programs begin with %_N_NAME_MPF, subprograms with %_N_NAME_SPF; \
-                             take tool, offset and other data out of the file",
-                        )
-                    }));
+                    .help(
+                        "programs begin with %_N_NAME_MPF, subprograms with %_N_NAME_SPF; \
+                         take tool, offset and other data out of the file",
+                    ),
+                ));
             }
         }
         Ok(())
@@ -188,27 +186,15 @@ impl Lexer<'_> {
         let start = self.scanner.position();
         self.scanner.advance();
         let shown = character.escape_default();
-        match character {
-            '{' | '}' | '\'' => self
-                .scanner
-                .error(start, format!("`{shown}` is not supported"))
-                .map(|error| error.help("write numbers in decimal form")),
-            _ => self.scanner.error(
-                start,
+        let span = self.scanner.span_from(start);
+        Box::new(match character {
+            '{' | '}' | '\'' => Diagnostic::error(span, format!("`{shown}` is not supported"))
+                .help("write numbers in decimal form"),
+            _ => Diagnostic::error(
+                span,
                 format!("the character `{shown}` has no meaning in a part program"),
             ),
-        }
-    }
-}
-
-/// Changing a boxed diagnostic in a chain.
-trait MapBox {
-    fn map(self, change: impl FnOnce(Diagnostic) -> Diagnostic) -> Self;
-}
-
-impl MapBox for Box<Diagnostic> {
-    fn map(self, change: impl FnOnce(Diagnostic) -> Diagnostic) -> Self {
-        Box::new(change(*self))
+        })
     }
 }
 

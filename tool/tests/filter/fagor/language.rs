@@ -168,6 +168,29 @@ fn subroutines_are_found_in_the_files_beside_the_program() {
     assert!(shown.contains("SUB 10 is defined in"), "{shown}");
 }
 
+/// Only the files that define a subroutine are of any concern.
+#[test]
+fn files_that_are_looked_through_for_subroutines() {
+    let shop = Shop::new(&[
+        ("part.pim", b"(CALL 10)\nM30\n"),
+        ("a.pim", b"; Fr\xe4ser\nM30\n"),
+        ("b.pim", b"(SUB 10)\nG0 X10\n(RET)\n"),
+    ]);
+    let output = shop.run_in("fagor", "part.pim", &["--encoding", "utf-8"]);
+    assert_eq!(commands(&accepted(&output)), ["G0 X10", "M30"]);
+    let guessed = shop.run_in("fagor", "part.pim", &[]);
+    let said = String::from_utf8_lossy(&guessed.stderr).to_string();
+    assert!(!said.contains("a.pim"), "{said}");
+    // It could define the subroutine a second time.
+    std::os::unix::fs::symlink("nowhere.pim", shop.path("c.pim")).expect("a link");
+    let output = shop.run_in("fagor", "part.pim", &[]);
+    let warned = accepted(&output) + &String::from_utf8_lossy(&output.stderr);
+    assert!(
+        warned.contains("c.pim cannot be read, whether it defines"),
+        "{warned}"
+    );
+}
+
 #[test]
 fn messages_comments_and_skipped_blocks() {
     let program = "(MSG \"load part\")\n/G0 X1 ; only if\n/2 N10 X2\nG0 X3\nM30\n";

@@ -1,0 +1,35 @@
+//! What the commands share in reading their arguments.
+
+use std::path::Path;
+
+/// A number above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("a number above 0 is needed".to_owned()),
+    }
+}
+
+/// A number from 0 up.
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
+        _ => Err("a number from 0 up is needed".to_owned()),
+    }
+}
+
+/// A servo period, s.
+pub(crate) fn period(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (1e-5..=0.1).contains(&number) => Ok(number),
+        _ => Err("seconds from 0.00001 to 0.1 are needed".to_owned()),
+    }
+}
+
+/// What the output calls a file: the last part of its path.
+pub(crate) fn file_name(file: &Path) -> String {
+    file.file_name().map_or_else(
+        || file.display().to_string(),
+        |name| name.to_string_lossy().into_owned(),
+    )
+}
