@@ -7,10 +7,10 @@ use super::run::Run;
 use crate::path::blend::BlendError;
 
 /// Work on the path in [`BUDGET_PERIOD`], kernel terms of 5 ns or so.
-const PATH_BUDGET: f64 = 800.0;
+const PATH_BUDGET: f64 = 1600.0;
 
 /// What that is multiplied by while the speed has to wait for the path.
-const WAITED_FOR: f64 = 3.0;
+const WAITED_FOR: f64 = 2.0;
 
 /// Work on the speed in [`BUDGET_PERIOD`], units of 20 to 40 ns.
 const SPEED_BUDGET: f64 = 300.0;

@@ -260,12 +260,13 @@ impl Features {
     }
 
     /// The next place that a node should be on, if it is near the end of an interval from `s` on:
-    /// start, center and end of a blend that stands alone, and changes of the speed cap.
+    /// start, center and end of a blend that stands alone or lies beside an arc, and changes of the
+    /// speed cap.
     pub fn landmark(&self, s: f64, length: f64) -> Option<f64> {
-        let mut best: Option<f64> = None;
+        let (mut best, mut rise): (Option<f64>, Option<f64>) = (None, None);
+        let is_near = |place: f64, nearest: f64| place - s > nearest && place - s < 1.3 * length;
         let mut consider = |place: f64, nearest: f64| {
-            let near = place - s > nearest && place - s < 1.3 * length;
-            if near && best.is_none_or(|other| place < other) {
+            if is_near(place, nearest) && best.is_none_or(|other| place < other) {
                 best = Some(place);
             }
         };
@@ -279,6 +280,18 @@ impl Features {
             if feature.jumps {
                 let unseen = feature.unseen.max(NEAREST_NODE * length);
                 consider(feature.center, unseen.min(nearest));
+                // The changes of shape at both ends of a short arc nearly cancel each other. Where
+                // they begin and end one after the other, the third derivative rises and falls
+                // within the length of the arc: a node belongs behind the rise, and before the fall.
+                consider(feature.end, nearest);
+                let place = feature.start;
+                if is_near(place, nearest) {
+                    rise = Some(match rise {
+                        Some(other) if (place - other).abs() < nearest => place.max(other),
+                        Some(other) => place.min(other),
+                        None => place,
+                    });
+                }
             } else if feature.cap_changes {
                 consider(feature.center, nearest);
             }
@@ -296,7 +309,7 @@ impl Features {
                 consider(feature.end, nearest);
             }
         }
-        best
+        best.into_iter().chain(rise).reduce(f64::min)
     }
 
     /// A change of the speed cap that two intervals of a `length` from `s` on would not quite come
