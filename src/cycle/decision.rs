@@ -58,12 +58,14 @@ impl Executor {
             Goal::Run | Goal::Cap(_) | Goal::Follow => 1.0,
         };
         if state.rate_change == 0.0 && state.rate == target && !is_adjusted {
+            self.goal = goal;
             self.release_mut().clear();
             return 0.0;
         }
         if std::mem::discriminant(&goal) != std::mem::discriminant(&self.goal) {
             self.fraction = 1.0;
         }
+        self.goal = goal;
 
         let start = self.table.node(state.time);
         let safe = self.safe_n(&start);

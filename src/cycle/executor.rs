@@ -183,7 +183,7 @@ impl Executor {
         // 6 ms, but no less than it takes to answer a demand, and no more than is of use.
         let mut wanted = ((6e-3 / self.servo_period.max(1e-9)) as usize).clamp(4, 6);
         if self.goal == Goal::Hold || !self.is_idle() {
-            wanted = wanted.max(self.release().end_time() as usize + 16);
+            wanted = wanted.max(self.cells_for_release());
         }
         if self.may_be_capped() {
             wanted = wanted.max(self.cells_to_brake());
@@ -193,6 +193,17 @@ impl Executor {
             wanted = wanted.max(self.table.length() + 8);
         }
         wanted.min(USABLE)
+    }
+
+    /// How many cells the executor cannot do without while its rate changes, from the one that the
+    /// reference time lies in; 0 while it does not. A release must not leave the known cells: with less
+    /// of them a hold takes longer.
+    pub fn cells_needed(&self) -> usize {
+        if self.state.rate_change != 0.0 || self.goal == Goal::Hold && self.state.rate > 0.0 {
+            self.cells_for_release()
+        } else {
+            0
+        }
     }
 
     /// Reference time since the start of the cell that it lies in, seconds.
@@ -222,7 +233,6 @@ impl Executor {
         }
         self.budget = BUDGET;
         let n = self.decide(goal);
-        self.goal = goal;
         self.commit(n)
     }
 
@@ -291,6 +301,11 @@ impl Executor {
     /// Whether there is nothing to release and nothing to gain.
     fn is_idle(&self) -> bool {
         self.state.rate_change == 0.0 && (self.state.rate == 0.0 || self.state.rate == 1.0)
+    }
+
+    /// As far as the stored release reaches, and as far again as it may reach after the next cycle.
+    fn cells_for_release(&self) -> usize {
+        self.release().end_time() as usize + 16
     }
 
     fn may_be_capped(&self) -> bool {

@@ -14,6 +14,31 @@ const LONGEST: usize = 256;
 /// How often a period is predicted before it is given up.
 const PREDICTIONS: usize = 2;
 
+/// Part of the jerk limit that is held back while the rate rises, at a rate of 1.
+const RESERVE_AT_FULL_RATE: f32 = 0.01;
+
+/// How much more is held back towards a rate of 0.
+const FURTHER_RESERVE: f32 = 0.3;
+
+/// Whether a release may need all of the jerk.
+///
+/// Where the reference turns at its jerk limit, turning takes nearly all of the jerk. A rate that rises as
+/// fast as it can just be released runs along the edge of what is possible, and a hold cannot leave that
+/// edge: the rate rises on nearly to 1, whatever is done. With a little held back a hold while the rate
+/// rises ends up to 100 ms earlier, at the price of a rise that takes 3 to 12 % longer on such curves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reserve {
+    /// All of it.
+    Used,
+    /// A part is held back for a hold that may come.
+    Kept,
+}
+
+/// Part of the jerk limit that may be used at this rate with [`Reserve::Kept`].
+fn kept_part(rate: f64) -> f32 {
+    1.0 - RESERVE_AT_FULL_RATE - FURTHER_RESERVE * (1.0 - rate as f32)
+}
+
 /// Why no release was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
@@ -118,6 +143,7 @@ impl Release {
         &mut self,
         table: &Table,
         limits: &Limits,
+        reserve: Reserve,
         mut state: State,
         previous_n: f64,
         budget: &mut usize,
@@ -135,6 +161,14 @@ impl Release {
                 self.relies_on_end = behind_end;
                 return Ok(());
             }
+            let reduced;
+            let limits = match reserve {
+                Reserve::Used => limits,
+                Reserve::Kept => {
+                    reduced = limits.with_jerk_part(kept_part(state.rate));
+                    &reduced
+                }
+            };
             let (n, next, end) = fastest_step(table, limits, state, &start, previous_n, budget)?;
             if !self.append(n) {
                 return Err(Refusal::Budget);
@@ -251,7 +285,7 @@ mod tests {
         let (table, limits) = (cruise(200), limits());
         let mut release = Release::EMPTY;
         let mut budget = 100;
-        let found = release.find(&table, &limits, BRAKING, 0.0, &mut budget);
+        let found = release.find(&table, &limits, Reserve::Used, BRAKING, 0.0, &mut budget);
         assert_eq!(found, Ok(()));
         // 0.0008 of acceleration at 2e-5 of jerk.
         assert!((58..=60).contains(&budget), "{budget}");
@@ -268,11 +302,27 @@ mod tests {
     }
 
     #[test]
+    fn what_is_held_back_makes_it_longer() {
+        let (table, limits) = (cruise(200), limits());
+        let periods = |reserve| {
+            let mut budget = 100;
+            Release::EMPTY
+                .clone()
+                .find(&table, &limits, reserve, BRAKING, 0.0, &mut budget)
+                .unwrap();
+            f64::from(100 - budget as u32)
+        };
+        // The rate goes from 0.7 to 0.5.
+        let ratio = periods(Reserve::Kept) / periods(Reserve::Used);
+        assert!((1.1..1.2).contains(&ratio), "{ratio}");
+    }
+
+    #[test]
     fn refusals_are_told_apart() {
         let limits = limits();
         let find = |table: &Table, state, mut budget: usize| {
             let mut release = Release::EMPTY;
-            release.find(table, &limits, state, 0.0, &mut budget)
+            release.find(table, &limits, Reserve::Used, state, 0.0, &mut budget)
         };
         let long = cruise(200);
         assert_eq!(find(&long, BRAKING, 20), Err(Refusal::Budget));
@@ -298,7 +348,14 @@ mod tests {
             ..BRAKING
         };
         let mut release = Release::EMPTY;
-        let found = release.find(&table, &limits(), nearly_there, 0.0, &mut 100);
+        let found = release.find(
+            &table,
+            &limits(),
+            Reserve::Used,
+            nearly_there,
+            0.0,
+            &mut 100,
+        );
         assert_eq!(found, Ok(()));
         assert!(release.relies_on_end());
     }

@@ -60,6 +60,15 @@ impl Limits {
         }
     }
 
+    /// The same with a part of the jerk limits.
+    pub fn with_jerk_part(&self, part: f32) -> Self {
+        let mut limits = self.clone();
+        for lane in &mut limits.jerk {
+            *lane *= part;
+        }
+        limits
+    }
+
     /// The least jerk limit of all axes, units per period cubed; may be infinite.
     pub fn least_jerk(&self) -> f64 {
         self.least_jerk

@@ -4,8 +4,9 @@
 //! with it keeps the limits and a release from the state behind it was found.
 
 use super::Executor;
+use super::decision::Goal;
 use super::executor::BUDGET;
-use super::release::Refusal;
+use super::release::{Refusal, Reserve};
 use super::rows::{Interval, N_LIMIT, RATE_CHANGE_LIMIT, Span};
 use super::table::Node;
 
@@ -124,8 +125,18 @@ impl Executor {
         if !span.keeps_limits(state, next, n) {
             return false;
         }
+        // A thread goes where the spindle is, at whatever price.
+        let rises = next.rate_change > 0.0 && matches!(self.goal, Goal::Run | Goal::Cap(_));
+        let reserve = if rises { Reserve::Kept } else { Reserve::Used };
         let spare = 1 - (self.stored & 1);
-        let found = self.releases[spare].find(&self.table, &self.limits, next, n, &mut self.budget);
+        let found = self.releases[spare].find(
+            &self.table,
+            &self.limits,
+            reserve,
+            next,
+            n,
+            &mut self.budget,
+        );
         match found {
             Ok(()) => self.stored = spare,
             Err(refusal) => self.wall |= refusal == Refusal::Wall,

@@ -140,12 +140,14 @@ impl Planner {
             now: self.conditions(inputs),
         };
         let mut budget = PIECES_A_CYCLE;
+        // A machine that is to stop does not wait for a better plan.
+        let needed = self.executor.cells_needed();
         let mut refused = false;
         for _ in 0..CELLS_A_CYCLE {
             if self.closed || self.executor.cells_ahead() >= self.executor.cells_wanted() {
                 break;
             }
-            let mut ahead = self.reference.next_cell(&outlook, &mut budget);
+            let mut ahead = self.reference.next_cell(&outlook, needed, &mut budget);
             // How it goes on is not known in time: the machine rests until it is.
             if matches!(ahead, Ahead::Later)
                 && self.reference.is_resting()

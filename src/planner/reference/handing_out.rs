@@ -10,9 +10,10 @@ use super::reference::{Ahead, Reference};
 const PERIODS_AHEAD: f64 = 10.0;
 
 impl Reference {
-    /// Hands out the next servo period and freezes it. After [`Ahead::Last`] and [`Ahead::End`] it
-    /// is not called before the machine has [come to rest](Self::come_to_rest).
-    pub fn next_cell(&mut self, outlook: &Outlook, budget: &mut usize) -> Ahead {
+    /// Hands out the next servo period and freezes it. The executor needs `needed` of them from where
+    /// the machine is, whatever becomes of the plan. After [`Ahead::Last`] and [`Ahead::End`] it is not
+    /// called before the machine has [come to rest](Self::come_to_rest).
+    pub fn next_cell(&mut self, outlook: &Outlook, needed: usize, budget: &mut usize) -> Ahead {
         loop {
             self.raise(outlook);
             let left = outlook.now.period - self.cell.filled();
@@ -32,7 +33,7 @@ impl Reference {
                     }
                 }
                 _ => {
-                    if self.waits_for_continuation(outlook) {
+                    if self.waits_for_continuation(outlook, needed) {
                         return Ahead::Later;
                     }
                     if *budget == 0 || self.pieces.is_full() || !self.next_piece(outlook) {
@@ -51,11 +52,12 @@ impl Reference {
 
     /// Whether nothing more is to be frozen yet: the plan is soon to brake to an end that is to be
     /// moved on, and the executor has what it needs for now.
-    fn waits_for_continuation(&self, outlook: &Outlook) -> bool {
+    fn waits_for_continuation(&self, outlook: &Outlook, needed: usize) -> bool {
+        let periods = PERIODS_AHEAD.max(needed as f64);
         !self.resting
             && self
                 .pieces
-                .lasts(self.elapsed + PERIODS_AHEAD * outlook.now.period)
+                .lasts(self.elapsed + periods * outlook.now.period)
             && self.current().brakes_for_now(&self.path)
     }
 
