@@ -10,8 +10,6 @@ from dataclasses import dataclass
 import harness
 from geometry import Arc, Frame, Line
 
-TOOL = os.environ.get("FRAMEPATH_TOOL", os.path.join(harness.ROOT, "target", "release", "framepath"))
-
 #: tool number and diameter; 3, 4 and 5 leave a compensated contour where it was programmed
 TOOLS = {1: 6.0, 2: 10.0, 3: 0.0, 4: 0.0, 5: 0.0}
 
@@ -101,7 +99,7 @@ def convert(program, dialect, backend, options=()):
         path = os.path.join(folder, "part.nc")
         with open(path, "w", encoding="utf-8") as file:
             file.write(program)
-        done = subprocess.run([TOOL, "filter", "--dialect", dialect, "--backend", backend, "--path-mode", "G61.1",
+        done = subprocess.run([harness.TOOL, "filter", "--dialect", dialect, "--backend", backend, "--path-mode", "G61.1",
                                *options, path], capture_output=True, text=True, check=False)
     return done.returncode, done.stdout, done.stderr
 

@@ -35,6 +35,8 @@ def one_round(seed, seconds, planner, keep=None):
     said = [line for line in result.log.splitlines() if "blendtp: " in line and EXPECTED not in line]
     log, number = result.answers.get("log", []), result.answers.get("programs", 0)
     failure = result.failure
+    if not failure and not (number and any(peaks.share)):
+        failure = f"nothing was shown: {number} programs, {len(result.rows)} servo periods recorded"
     if planner == "blendtp" and not failure:
         for found in (peaks, reverse):
             if not failure and found.failure():

@@ -231,7 +231,6 @@ M2
         # the other way round: X turns by the second angle about Y
         self.check(result, {1: (9.396926, 0, -3.420201)})
 
-
     def test_the_tool_length_that_does_not_turn(self):
         lines = [SAY, "G21 G61.1 G17 G90 G94 F30000", "T2 M6 G43", "o<rot> call [90] [0] [0]", "G0 X0 Y0 Z10",
                  "o<say> call [1]", "M2", ""]

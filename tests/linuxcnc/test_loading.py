@@ -1,6 +1,8 @@
-"""The modules in halrun: how they load, what they say when they cannot, and that motmod's calls arrive in them."""
+"""The modules in halrun: how they load, what they say when they cannot, and that motmod's calls arrive in them; and what
+the build looks for in them."""
 
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -72,6 +74,50 @@ class Loading(unittest.TestCase):
         output, code = halrun("loadrt framekins coordinates=xyyz\ngetp framekins.version\n")
         self.assertEqual(code, 0, output)
         self.assertIn("100", output.split())
+
+
+class CheckModule(unittest.TestCase):
+    """hal-component/check-module removes a module that must not run in a servo thread."""
+
+    CHECK = os.path.join(harness.SAMPLES, "check-module")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.module = os.path.join(folder.name, "module.so")
+
+    def check(self):
+        done = subprocess.run([self.CHECK, self.module], capture_output=True, text=True, check=False)
+        self.assertEqual(os.path.exists(self.module), done.returncode == 0)
+        return done.returncode, done.stderr
+
+    def compiled(self, text):
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", self.module, "-x", "c", "-"], input=text, text=True, check=True)
+        return self.check()
+
+    def refused(self, outcome, words):
+        code, said = outcome
+        self.assertEqual(code, 1)
+        self.assertIn(words, said)
+
+    def test_ours_are_good(self):
+        for name in ("blendtp", "framekins"):
+            shutil.copy(os.path.join(harness.MODULES, f"{name}.so"), self.module)
+            self.assertEqual(self.check(), (0, ""))
+
+    def test_what_allocates_or_has_storage_of_a_thread_is_not(self):
+        self.refused(self.compiled("#include <stdlib.h>\nvoid *rtapi_app_main(void) { return malloc(9); }\n"),
+                     "could panic or allocate")
+        self.refused(self.compiled("__thread int a = 1;\nint rtapi_app_main(void) { return 1; }\n"),
+                     "thread-local storage")
+
+    def test_what_cannot_be_seen_is_not(self):
+        shutil.copy(os.path.join(harness.MODULES, "blendtp.so"), self.module)
+        subprocess.run(["strip", "--strip-all", self.module], check=True)
+        self.refused(self.check(), "symbols cannot be seen")
+        with open(self.module, "w", encoding="utf-8") as file:
+            file.write("no module\n")
+        self.refused(self.check(), "nm cannot read it")
 
 
 if __name__ == "__main__":

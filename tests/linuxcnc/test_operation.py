@@ -264,6 +264,7 @@ net probe wall.out => motion.probe-input
         self.assertAlmostEqual(after[0] - before[0], 0, places=5)
         self.assertAlmostEqual(after[1] - before[1], 5, places=3)
         self.assertEqual(result.answers["active"], "TRUE")
+        self.at(result, "homed", (0, after[1], 0), (100 + after[1], 100, 0))
         self.at(result, "end", (98, 1, 0), (101, 2, 0))
 
 

@@ -5,9 +5,8 @@ import random
 import unittest
 
 import harness
+from contract.row import ACCELERATION, JERK, PERIOD, VELOCITY, peaks
 
-PERIOD = 1e-3
-VELOCITY, ACCELERATION, JERK = 100.0, 1000.0, 20000.0
 #: [TRAJ]MAX_LINEAR_VELOCITY of the sample
 PATH_VELOCITY = 100.0
 AXES = "xyz"
@@ -16,18 +15,6 @@ RUN = ["run", "PROGRAMS/part.ngc"]
 
 def program(*lines):
     return {"part.ngc": "\n".join(["G21 G61.1 G17 G90 G94 F60000", *lines, "M2"]) + "\n"}
-
-
-def differences(values):
-    return [(b - a) / PERIOD for a, b in zip(values, values[1:])]
-
-
-def peaks(positions):
-    """Greatest velocity, acceleration and jerk of one axis, by differences."""
-    velocity = differences(positions)
-    acceleration = differences(velocity)
-    jerk = differences(acceleration)
-    return [max(map(abs, values)) for values in (velocity, acceleration, jerk)]
 
 
 def rest_to_rest(length, velocity, acceleration, jerk):
@@ -139,9 +126,10 @@ class Events(Case):
         self.at_end(self.run_with(["wait_moving"], *steps))
 
     def test_the_slider_for_the_greatest_velocity(self):
-        result = self.run_with(["wait_moving"], ["max_velocity", 20], ["sleep", 1.0], ["note", "slow"],
-                               ["max_velocity", 100])
+        result = self.run_with(["wait_moving"], ["max_velocity", 20], ["sleep", 1.0],
+                               ["getp", "velocity", "motion.current-vel"], ["max_velocity", 100])
         self.at_end(result)
+        self.assertAlmostEqual(float(result.answers["velocity"]), 20, delta=0.02)
 
     def test_abort_and_a_new_program(self):
         result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["sleep", 0.3], ["abort"],
@@ -159,8 +147,7 @@ class Events(Case):
             self.assertAlmostEqual(value, target, delta=1e-9)
 
     def test_single_steps(self):
-        result = harness.run([["open", "PROGRAMS/part.ngc"], *[step for n in range(5) for step in
-                                                            (["step"], ["sleep", 0.15], ["note", f"step {n}"])],
+        result = harness.run([["open", "PROGRAMS/part.ngc"], *[["step"], ["sleep", 0.15]] * 5,
                               ["resume"], ["finish"], ["note", "end"]], self.PROGRAM)
         self.assertIsNone(result.failure, result.log)
         self.within_limits(result)

@@ -4,7 +4,8 @@ every servo cycle."""
 import unittest
 
 import harness
-from test_planner import PERIOD, RUN, Case
+from contract.row import MICROMETRE, PERIOD
+from test_planner import RUN, Case
 
 #: A spindle that comes to its speed with 20 turns a second squared, and its encoder with an index. Ahead of motion in the
 #: servo period, as a driver is. Its angle is recorded in millionths of a turn.
@@ -26,7 +27,6 @@ setp turns-scale.in1 1000000
 net turns-scaled turns-scale.out => turns-out.in
 """
 INTEGERS = {"turns": "turns-out.out"}
-MICROMETRE = 1e-3
 
 
 def program(*lines):
@@ -68,7 +68,6 @@ class Threads(Spindle):
             print(f"\n{speed} turns a minute, pitch {pitch} mm: {off * 1000:.3f} micrometres off", end=" ")
             self.assertLess(off, MICROMETRE)
 
-
     def test_the_speed_may_change_in_the_thread(self):
         steps = [["start", "PROGRAMS/part.ngc"], ["wait_line", 4], ["sleep", 2], ["force", "ramp.in", 12], ["sleep", 1.5],
                  ["force", "ramp.in", 4], ["pause"], ["feed_override", 0.3], ["sleep", 1], ["resume"], ["finish"]]
@@ -105,6 +104,7 @@ class Threads(Spindle):
             if passes and -25 < z < -20 and z < last:
                 phases[passes - 1].append((-z / 3 - turns) % 1)
             last = z
+        self.assertGreater(min(map(len, phases)), 100)
         # measured from 0 and from 1.5 mm above: half a turn apart
         for phase in phases[0]:
             self.assertLess(min(phase, 1 - phase), 1e-3 / 3)

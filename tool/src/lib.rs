@@ -10,6 +10,7 @@ pub mod encoding;
 pub mod filter;
 pub mod generate;
 pub(crate) mod optimum;
+pub(crate) mod output;
 pub(crate) mod page;
 pub mod plan;
 pub mod program;

@@ -256,3 +256,14 @@ fn unusable_files_are_refused_with_file_line_and_remedy() {
     std::fs::remove_file(bench.path().join("bench.ini")).expect("removed");
     assert!(bench.refused(&[]).contains("bench.ini: cannot be read"));
 }
+
+/// Also where the first of two files could be written.
+#[test]
+fn a_report_that_cannot_be_written_leaves_nothing() {
+    let bench = Bench::new(&constant_jerk_run(20000.0), INI);
+    let output = bench.report(&["--json", "out.json", "--html", "no/out.html"]);
+    assert!(!output.status.success() && output.stdout.is_empty());
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert!(said.contains("no/out.html: cannot be written"), "{said}");
+    assert!(!bench.path().join("out.json").exists());
+}

@@ -24,8 +24,6 @@ class Row:
     section = ""
     #: errors shown to the operator are what the row is about
     errors_expected = False
-    #: words of the error with which blendtp refuses what the row asks for
-    refused = None
     #: positions jump or stop at once because of what LinuxCNC itself does (emergency stop, machine off)
     interrupted = False
     #: axes that leave their limits by themselves in this row, such as by an external offset

@@ -111,7 +111,9 @@ class RotaryTolerance(Row):
         away = from_route(seen.moving("x", "b"), route)
         points = seen.moving("x", "b")
         missed = max(min(to_segment(corner, a, b) for a, b in zip(points, points[1:])) for corner in route)
-        seen.require(max(away, missed) < 0.15, f"{max(away, missed):.3f} mm or degrees from the program, P is 0.1")
+        seen.require(max(away, missed) < 0.101, f"{max(away, missed):.3f} mm or degrees from the program, P is 0.1")
+        rests = seen.rests("x", "b")
+        seen.require(rests == 0, f"{rests} rests")
         return f"{max(away, missed):.3f}, {len(points) * PERIOD:.2f} s"
 
 

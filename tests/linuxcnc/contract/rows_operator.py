@@ -195,7 +195,7 @@ class SoftLimitBetweenTheEnds(Row):
 
 
 class LimitsChangedLive(Row):
-    """Limits of axes that are changed in motion (ini.* pins) hold from then on, without a jump"""
+    """Limits of axes that are changed in motion (ini.* pins) hold from the next rest on, without a jump"""
 
     section = SECTION
 

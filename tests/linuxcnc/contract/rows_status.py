@@ -1,5 +1,7 @@
 """What the status says in every servo period."""
 
+import math
+
 from row import MICROMETRE, PERIOD, Row, from_route
 
 SECTION = "Status"
@@ -139,7 +141,7 @@ class QueueBusters(Row):
 
     def check(self, seen):
         points = seen.columns("x", "y")
-        for corner in ((5, 5), (10, 10), (15, 15)):
+        for corner in ((5, 5), (10, 10), (15, 15), (20, 20)):
             away = min(max(abs(x - corner[0]), abs(y - corner[1])) for x, y in points)
             seen.require(away < 1e-6, f"{corner} is missed by {away:.3g} mm")
         seen.near(seen.kept["m0"][0], 30, 1e-6, "X at M0")
@@ -193,7 +195,9 @@ class OffsetsInProgram(Row):
 
     def check(self, seen):
         points = seen.columns("x", "y", "z")
-        away = from_route(points, [(0, 0, 0), (5, 5, 0), (10, 5, 0), (0, 10, 0), (0, 10, 4), (0, 0, 1)])
-        seen.require(away < 4.5, f"{away:.2f} mm from the program")
+        away = from_route(points, [(0, 0, 0), (5, 5, 0), (10, 5, 0), (0, 10, 0), (0, 10, 4), (0, 0, 4)])
+        seen.require(away < 0.301, f"{away:.2f} mm from the program, P is 0.3")
+        off = math.dist(seen.kept["end"], (0, 0, 4))
+        seen.require(off < 1e-6, f"ends {off:.3g} mm off")
         seen.require(any(max(abs(x - 10), abs(y - 5)) < 0.3 for x, y, _ in points), "G92 missed")
         seen.require(any(abs(z - 4) < MICROMETRE for _, _, z in points), "G43.1 missed")

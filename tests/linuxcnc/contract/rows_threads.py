@@ -1,6 +1,7 @@
 """Motion in step with the angle of a spindle."""
 
 from row import Row
+from rows_spindle import fed_per_turn
 
 SECTION = "Threads"
 START = ("M3 S600", "G4 P0.5")
@@ -119,11 +120,13 @@ class SecondSpindle(Row):
     section = SECTION
 
     def operate(self, op):
-        op.go("M3 S500 $1", "G4 P0.6", "G33 Z-16 K2 $1", "G0 Z0")
+        # LinuxCNC 2.9's interpreter takes the $ of G95 only beside another word that has one
+        op.go("M3 S500 $1", "G4 P0.6", "G33 Z-16 K2 $1", "G0 Z0", "G95 M3 S500 $1 F1", "G1 X10", "G94")
 
     def check(self, seen):
         off = groove(seen, -5, -14, 2, "turns1")
         seen.require(off < 0.05, f"{off * 1000:.0f} micrometres off")
+        seen.near(fed_per_turn(seen, 1.5, 8.5, "turns1"), 1, 0.01, "mm a turn")
         return f"{off * 1000:.2f} micrometres off", off
 
 
@@ -199,7 +202,6 @@ class EstopInThread(Row):
         op.estop()
         op.sleep(0.2)
         op.on()
-        op.keep("number", int(op.component["row"]))
         op.go("G0 Z0 X0", "G1 F1200 X10", *START, "G0 X0", "G33 Z-16 K2")
 
     def check(self, seen):

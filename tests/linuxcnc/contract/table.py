@@ -30,9 +30,9 @@ def outcomes(names=None, verbose=False):
     return found
 
 
-def verdict(row, stock, ours):
+def verdict(stock, ours):
     if not ours.works:
-        return "refused" if row.refused and row.refused in ours.text else "FAILS"
+        return "FAILS"
     if not stock.works:
         return "works, stock fails"
     if stock.figure is not None and ours.figure < BETTER * stock.figure:
@@ -50,7 +50,7 @@ def lines(found, names=None):
         if row.section != section:
             section = row.section
             yield f"\n{section}"
-        yield f"  {verdict(row, stock, ours):19} {row.promise()} [{row.name()}]"
+        yield f"  {verdict(stock, ours):19} {row.promise()} [{row.name()}]"
         for planner, outcome in ((STOCK, stock), (OURS, ours)):
             if outcome.text:
                 yield f"{'':22}{planner}: {'' if outcome.works else 'fails: '}{outcome.text}"
@@ -67,10 +67,10 @@ def markdown(found):
         if row.section != section:
             section = row.section
             yield f"| **{section}** | | |"
-        cells = [f"{verdict(row, stock, ours)}", "works" if stock.works else "fails"]
+        cells = [verdict(stock, ours), "works" if stock.works else "fails"]
         cells[0] = cells[0].replace(", stock fails", "")
         for n, outcome in enumerate((ours, stock)):
-            if outcome.text and not (n == 0 and row.refused):
+            if outcome.text:
                 cells[n] += f": {outcome.text}"
         yield f"| {row.promise()} | {cells[0]} | {cells[1]} |"
 
@@ -78,6 +78,9 @@ def markdown(found):
 def main():
     options = {"--verbose", "--markdown"}
     names = [argument for argument in sys.argv[1:] if argument not in options]
+    unknown = set(names) - {row.name() for row in all_rows()}
+    if unknown:
+        sys.exit(f"no such row: {', '.join(sorted(unknown))}")
     found = outcomes(names, "--verbose" in sys.argv)
     print("\n".join(markdown(found) if "--markdown" in sys.argv else lines(found, names)))
 

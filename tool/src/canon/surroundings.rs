@@ -22,6 +22,8 @@ pub struct Surroundings {
     pub startup: String,
     /// All tools there are; `None`: every number is a tool without length and radius.
     pub tools: Option<Vec<Tool>>,
+    /// Number of the tool that the spindle holds at the start, 0 for none.
+    pub held: i32,
 }
 
 impl Default for Surroundings {
@@ -33,6 +35,7 @@ impl Default for Surroundings {
             start: [0.0; 9],
             startup: String::new(),
             tools: None,
+            held: 0,
         }
     }
 }
@@ -64,6 +67,9 @@ impl Surroundings {
         let mut text = format!("UNIT {:e}\nSTART{}\n", self.unit, numbers(&self.start));
         if !self.startup.trim().is_empty() {
             text += &format!("STARTUP {}\n", self.startup.trim());
+        }
+        if self.held != 0 {
+            text += &format!("HELD {}\n", self.held);
         }
         if let Some(tools) = &self.tools {
             text += "TABLE\n";

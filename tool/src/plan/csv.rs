@@ -4,15 +4,13 @@ use super::cause::Cause;
 use super::collector::Shown;
 use super::error::PlanError;
 use super::setup::Setup;
+use crate::output::OutputFile;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
 
 /// Writes rows while the program is planned.
 pub struct Table {
-    file: PathBuf,
-    output: BufWriter<File>,
+    output: OutputFile,
     axes: Vec<usize>,
 }
 
@@ -21,27 +19,11 @@ impl Table {
     /// the start, at time 0.
     ///
     /// # Errors
-    /// A file that cannot be written.
-    pub fn create(file: &Path, setup: &Setup) -> Result<Table, PlanError> {
+    /// A disk that is full, and the like.
+    pub fn new(output: OutputFile, setup: &Setup) -> Result<Table, PlanError> {
         let axes: Vec<usize> = (0..AXIS_COUNT).filter(|axis| setup.axes[*axis]).collect();
-        let created = File::create(file).and_then(|created| {
-            let mut output = BufWriter::with_capacity(1 << 18, created);
-            write!(output, "time,id,line")?;
-            for axis in &axes {
-                write!(output, ",axis.{}", AXIS_LETTERS[*axis].to_ascii_lowercase())?;
-            }
-            writeln!(output, ",speed,limited_by")?;
-            Ok(output)
-        });
-        let output = created.map_err(|source| PlanError::Write {
-            file: file.to_owned(),
-            source,
-        })?;
-        let mut table = Table {
-            file: file.to_owned(),
-            output,
-            axes,
-        };
+        let mut table = Table { output, axes };
+        table.header().map_err(|source| table.unwritable(source))?;
         let start = &setup.surroundings.start;
         table.note(&Shown {
             time: 0.0,
@@ -57,12 +39,18 @@ impl Table {
     /// The next cycle.
     ///
     /// # Errors
-    /// A disk that is full, and the like.
+    /// As for [`Self::new`].
     pub fn note(&mut self, shown: &Shown) -> Result<(), PlanError> {
-        self.row(shown).map_err(|source| PlanError::Write {
-            file: self.file.clone(),
-            source,
-        })
+        self.row(shown).map_err(|source| self.unwritable(source))
+    }
+
+    fn header(&mut self) -> io::Result<()> {
+        let output = &mut self.output;
+        write!(output, "time,id,line")?;
+        for axis in &self.axes {
+            write!(output, ",axis.{}", AXIS_LETTERS[*axis].to_ascii_lowercase())?;
+        }
+        writeln!(output, ",speed,limited_by")
     }
 
     fn row(&mut self, shown: &Shown) -> io::Result<()> {
@@ -74,14 +62,12 @@ impl Table {
         writeln!(output, ",{:.6},{}", shown.speed, shown.cause.name())
     }
 
-    /// The end of the program.
-    ///
-    /// # Errors
-    /// As for [`Self::note`].
-    pub fn finish(mut self) -> Result<(), PlanError> {
-        self.output.flush().map_err(|source| PlanError::Write {
-            file: self.file.clone(),
-            source,
-        })
+    fn unwritable(&self, source: io::Error) -> PlanError {
+        PlanError::unwritable(self.output.name(), source)
+    }
+
+    /// The file, with all rows.
+    pub fn into_file(self) -> OutputFile {
+        self.output
     }
 }

@@ -6,7 +6,8 @@ use crate::report::ReportError;
 use framepath::axes::AXIS_LETTERS;
 use framepath::path::ShapeError;
 use framepath::planner::{AddError, SpindleError};
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 /// Why there is no plan. Every message says where and what to do.
 #[derive(Debug, thiserror::Error)]
@@ -28,8 +29,8 @@ pub enum PlanError {
     NoMoves(PathBuf),
     /// An axis moves that the machine does not have.
     #[error(
-        "{}:{line}: axis {letter} moves, which the machine does not have: [TRAJ]COORDINATES of {} has \
-         no {letter}",
+        "{}:{line}: axis {letter} moves, which the machine does not have: [KINS]KINEMATICS of {} names \
+         no {letter} (coordinates=)",
         file.display(), ini.display()
     )]
     NoAxis {
@@ -81,8 +82,18 @@ pub enum PlanError {
         /// The file.
         file: PathBuf,
         /// Why.
-        source: std::io::Error,
+        source: io::Error,
     },
+}
+
+impl PlanError {
+    /// A file that cannot be written, and why.
+    pub(super) fn unwritable(file: &Path, source: io::Error) -> PlanError {
+        PlanError::Write {
+            file: file.to_owned(),
+            source,
+        }
+    }
 }
 
 /// Why the planner refuses a move.

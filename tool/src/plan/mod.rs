@@ -34,16 +34,16 @@ pub use error::PlanError;
 use crate::arguments::{file_name, period, positive};
 use crate::compare::layer::LayerSettings;
 use crate::compare::layer::stream::LayerStream;
+use crate::output::OutputFile;
 use arrivals::Arrivals;
-use collector::{Collected, Collector};
+use collector::Collector;
 use csv::Table;
 use drive::{Drive, Supply};
 use figures::Figures;
-use listing::Listing;
 use progress::Progress;
 use setup::Setup;
 use source::Source;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Stack for a planner, which is a few megabytes and made in place.
@@ -109,7 +109,7 @@ pub struct PlanArguments {
 /// Plans; text or JSON on standard output, drawings into files where asked for.
 ///
 /// # Errors
-/// See [`PlanError`]. Then nothing is on standard output.
+/// See [`PlanError`]. Then nothing is on standard output, and files are as they were before.
 pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> {
     let files = [&arguments.html, &arguments.svg, &arguments.csv];
     let single = files.iter().any(|file| file.is_some()) || arguments.arrivals.is_some();
@@ -124,10 +124,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> 
         all.push(in_a_thread(|| plan(file, &setup, arguments))?);
     }
     let mut output = std::io::stdout().lock();
-    let unwritable = |source| PlanError::Write {
-        file: PathBuf::from("standard output"),
-        source,
-    };
+    let unwritable = |source| PlanError::unwritable(Path::new("standard output"), source);
     if arguments.json {
         let programs = serde_json::json!({ "programs": all });
         serde_json::to_writer_pretty(&mut output, &programs)?;
@@ -158,7 +155,14 @@ fn in_a_thread<T: Send>(
     })
 }
 
-/// Plans a program and writes its files.
+/// Begins to write a file that was asked for.
+fn begin(file: Option<&PathBuf>) -> Result<Option<OutputFile>, PlanError> {
+    let begun = file
+        .map(|file| OutputFile::create(file).map_err(|source| PlanError::unwritable(file, source)));
+    begun.transpose()
+}
+
+/// Plans a program and writes its files, all of them when nothing can be refused any more.
 fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures, PlanError> {
     let settings = LayerSettings {
         limits: setup.limits,
@@ -168,10 +172,11 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
     let mut source = Source::open(file, setup, layer)?;
     let name = file_name(file);
     let mut progress = Progress::new(&name, listing::count_lines(file));
-    let mut table = match &arguments.csv {
-        Some(file) => Some(Table::create(file, setup)?),
-        None => None,
-    };
+    // Now: that a file cannot be written should not turn out behind a long plan.
+    let html = begin(arguments.html.as_ref())?;
+    let svg = begin(arguments.svg.as_ref())?;
+    let csv = begin(arguments.csv.as_ref())?;
+    let mut table = csv.map(|csv| Table::new(csv, setup)).transpose()?;
     let supply = match &arguments.arrivals {
         Some(recording) => Supply::Recorded(Arrivals::read(recording)?),
         None if arguments.fill_queue => Supply::BeforeStart,
@@ -188,9 +193,6 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
         progress.note(shown.line, shown.time);
     }
     progress.finish();
-    if let Some(table) = table {
-        table.finish()?;
-    }
     let collected = collector.finish();
     if collected.cycles == 0 {
         return Err(PlanError::NoMoves(file.to_owned()));
@@ -200,32 +202,29 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
     for place in &mut figures.slowest {
         place.text = listing.text(place.line);
     }
-    write_drawings(arguments, &figures, &collected, &listing)?;
+    let mut files = Vec::from_iter(table.map(Table::into_file));
+    if let Some(html) = html {
+        let text = text::render(&figures).map_err(io::Error::other);
+        let page = text.and_then(|text| Ok(page::render(&figures, &collected, &listing, &text)?));
+        files.push(filled(html, page)?);
+    }
+    if let Some(svg) = svg {
+        let drawing = svg::render(&figures, &collected).map_err(io::Error::other);
+        files.push(filled(svg, drawing)?);
+    }
+    for file in files {
+        let name = file.name().to_owned();
+        let finished = file.finish();
+        finished.map_err(|source| PlanError::unwritable(&name, source))?;
+    }
     Ok(figures)
 }
 
-/// Writes the page and the drawing where asked for.
-fn write_drawings(
-    arguments: &PlanArguments,
-    figures: &Figures,
-    collected: &Collected,
-    listing: &Listing,
-) -> Result<(), PlanError> {
-    let write = |file: &Path, content: Result<String, std::io::Error>| {
-        let written = content.and_then(|content| std::fs::write(file, content));
-        written.map_err(|source| PlanError::Write {
-            file: file.to_owned(),
-            source,
-        })
-    };
-    if let Some(file) = &arguments.html {
-        let text = text::render(figures).map_err(std::io::Error::other);
-        let page = text.and_then(|text| Ok(page::render(figures, collected, listing, &text)?));
-        write(file, page)?;
+/// The file with what belongs into it.
+fn filled(mut file: OutputFile, content: io::Result<String>) -> Result<OutputFile, PlanError> {
+    let written = content.and_then(|content| file.write_all(content.as_bytes()));
+    match written {
+        Ok(()) => Ok(file),
+        Err(source) => Err(PlanError::unwritable(file.name(), source)),
     }
-    if let Some(file) = &arguments.svg {
-        let drawing = svg::render(figures, collected).map_err(std::io::Error::other);
-        write(file, drawing)?;
-    }
-    Ok(())
 }

@@ -3,7 +3,7 @@
 use super::PlanArguments;
 use super::error::PlanError;
 use crate::canon::Surroundings;
-use crate::canon::tool_table::read_tool_table;
+use crate::canon::tool_table::{Tool, read_tool_table};
 use crate::compare::limits::{Jerk, Limits, is_rotary};
 use crate::report::ini::Ini;
 use crate::report::machine::{AXIS_LETTERS, Machine};
@@ -173,6 +173,13 @@ fn from_ini(file: &Path) -> Result<Setup, PlanError> {
     Ok(setup)
 }
 
+/// A changer that puts tools back where there is room has in pocket 0 what the spindle holds. Of several
+/// lines LinuxCNC takes the last.
+fn in_the_spindle(tools: &[Tool]) -> i32 {
+    let held = tools.iter().rfind(|tool| tool.pocket == 0);
+    held.map_or(0, |tool| tool.number)
+}
+
 /// What LinuxCNC's task hands the interpreter.
 fn surroundings(
     ini: &Ini,
@@ -195,10 +202,15 @@ fn surroundings(
             start[axis] = home.unwrap_or(0.0) * length;
         }
     }
+    if named("EMCIO", "DB_PROGRAM").is_some() {
+        let problem = "tools of a database are not read: plan with a copy of the INI file that has a TOOL_TABLE in its place";
+        return Err(ini.bad_value("EMCIO", "DB_PROGRAM", problem).into());
+    }
     let tools = match named("EMCIO", "TOOL_TABLE") {
         Some(name) => Some(read_tool_table(&folder.join(name))?),
         None => None,
     };
+    let random = ini.number("EMCIO", "RANDOM_TOOLCHANGER")?.unwrap_or(0.0) != 0.0;
     Ok(Surroundings {
         parameters: named("RS274NGC", "PARAMETER_FILE").map(|name| folder.join(name)),
         unit,
@@ -206,6 +218,10 @@ fn surroundings(
         startup: named("RS274NGC", "RS274NGC_STARTUP_CODE")
             .unwrap_or_default()
             .to_owned(),
+        held: tools
+            .as_deref()
+            .filter(|_| random)
+            .map_or(0, in_the_spindle),
         tools,
         ini: Some(absolute),
     })

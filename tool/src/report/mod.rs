@@ -21,13 +21,14 @@ mod recording;
 mod summary;
 mod text;
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 pub use error::ReportError;
 
 use crate::arguments::{file_name, positive};
 use crate::encoding::decode;
+use crate::output::OutputFile;
 use crate::program::contour::ContourMove;
 use ini::Ini;
 use machine::{AXIS_LETTERS, Machine};
@@ -48,7 +49,7 @@ pub struct ReportArguments {
     #[arg(long, value_name = "TEXT")]
     pub title: Option<String>,
     /// How far the executed path may be from the programmed path (G64 P), in machine units
-    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     /// Write all figures to this file
     #[arg(long, value_name = "FILE")]
@@ -121,11 +122,12 @@ pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result
     let standard_output = Path::new("standard output");
     let mut text = text::render(&analysis.report, &recording_name)
         .map_err(|error| unwritable(standard_output)(std::io::Error::other(error)))?;
+    let mut files = Vec::new();
     if let Some(file) = &arguments.json {
         let mut json = serde_json::to_string_pretty(&analysis.report)
             .map_err(|error| unwritable(file)(error.into()))?;
         json.push('\n');
-        std::fs::write(file, json).map_err(unwritable(file))?;
+        files.push(written(file, &json).map_err(unwritable(file))?);
     }
     if let Some(file) = &arguments.html {
         let page = page::render(
@@ -137,7 +139,11 @@ pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result
             listing.as_ref(),
         )
         .map_err(|error| unwritable(file)(error.into()))?;
-        std::fs::write(file, page).map_err(unwritable(file))?;
+        files.push(written(file, &page).map_err(unwritable(file))?);
+    }
+    for file in files {
+        let name = file.name().to_owned();
+        file.finish().map_err(unwritable(&name))?;
     }
 
     if let Some(file) = &arguments.html {
@@ -146,6 +152,13 @@ pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result
     std::io::stdout()
         .write_all(text.as_bytes())
         .map_err(unwritable(standard_output))
+}
+
+/// A file with its content, which takes its place when it is finished.
+fn written(file: &Path, content: &str) -> io::Result<OutputFile> {
+    let mut file = OutputFile::create(file)?;
+    file.write_all(content.as_bytes())?;
+    Ok(file)
 }
 
 /// Recording and INI file have to describe the same machine, or limits would be compared with

@@ -47,6 +47,17 @@ fn ini_files_that_cannot_be_used() {
     bench.write("tools.tbl", "T1 P1\nT2 length 5\n");
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(error.contains("tools.tbl:2: `length`"), "{error}");
+    let database = no_table.replace("TOOL_TABLE = tools.tbl", "DB_PROGRAM = ./tools.py");
+    bench.write("mill.ini", &database);
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(error.contains("[EMCIO]DB_PROGRAM"), "{error}");
+    bench.write("mill.ini", &no_table);
+    bench.write("tools.tbl", "T1 P1\nT2 Z20 ;no pocket\n");
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.contains("tools.tbl:2: LinuxCNC does not find this tool: the line has no P"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -68,6 +79,7 @@ fn programs_that_cannot_be_planned() {
     assert!(nothing.contains("part.ngc: nothing moves"), "{nothing}");
     let axis = refused("G21 F100\nG1 X1\nG1 A5\nM2\n");
     assert!(axis.starts_with("part.ngc:3: axis A moves"), "{axis}");
+    assert!(axis.contains("mill.ini names no A"), "{axis}");
     let startup = MILL.replace("G61.1 G21", "G61.1 G999");
     bench.write("mill.ini", &startup);
     bench.write("part.ngc", "G1 X1 F100\nM2\n");
@@ -138,6 +150,25 @@ fn a_dwell_of_ages_is_refused() {
     );
 }
 
+/// The line of the program that called it, and the text of the mistake.
+#[test]
+fn a_mistake_in_the_file_of_a_subroutine_is_told() {
+    let bench = Bench::new();
+    let ini = MILL.replace("[RS274NGC]\n", "[RS274NGC]\nSUBROUTINE_PATH = .\n");
+    bench.write("mill.ini", &ini);
+    bench.write(
+        "pocket.ngc",
+        "o<pocket> sub\nG1 X1\nG1 X2 Q?\no<pocket> endsub\nM2\n",
+    );
+    let local = "o<local> sub\nG1 Y1\no<pocket> call\no<local> endsub\n";
+    bench.write("part.ngc", &format!("{local}G21 F100\no<local> call\nM2\n"));
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.starts_with("part.ngc:6: ") && error.contains("G1 X2 Q?"),
+        "{error}"
+    );
+}
+
 /// The plan would be that of a program without its frame.
 #[test]
 fn frames_are_refused() {
@@ -156,10 +187,12 @@ fn frames_are_refused() {
             &format!("G21 F1000 G61.1\n{frame}\nG1 X5\nM2\n"),
         );
         let error = bench.refused(&["part.ngc", "--ini", ini]);
+        let (place, what) = error.split_once(": a ").expect("a place");
         assert!(
-            error.contains("a programmed frame (framekins)"),
+            place.starts_with("part.ngc:2: in frame_send.ngc, line "),
             "{frame}: {error}"
         );
+        assert!(what.starts_with("programmed frame (framekins)"), "{error}");
     }
     bench.write("part.ngc", "G21 F1000 G61.1\nG77\nG1 X5\nM2\n");
     assert!(bench.plan(&["part.ngc", "--ini", ini]).status.success());

@@ -112,6 +112,22 @@ fn tool_table_and_parameters_count() {
     );
 }
 
+/// Where tools change places, pocket 0 is the spindle.
+#[test]
+fn the_tool_that_the_spindle_holds_counts() {
+    let bench = Bench::new();
+    bench.write("tools.tbl", "T3 P2 Z20\nT5 P0 Z30\n");
+    let rise = |changer: &str| {
+        let ini = format!("{MILL}[EMCIO]\nTOOL_TABLE = tools.tbl\n{changer}");
+        let figures = bench.figures_on(&ini, "F6000\nG43\nG0 X1 Z0\nT3 M6 G43\nG0 X2 Z0\nM2\n");
+        let axes = figures["axes"].as_array().expect("axes").iter();
+        let z = axes.clone().find(|axis| axis["letter"] == "Z");
+        z.map(|z| [number(&z["from"]), number(&z["to"])])
+    };
+    assert_eq!(rise("RANDOM_TOOLCHANGER = 1\n"), Some([0.0, 30.0]));
+    assert_eq!(rise(""), Some([0.0, 20.0]));
+}
+
 #[test]
 fn what_limits_a_plain_program() {
     let bench = Bench::new();

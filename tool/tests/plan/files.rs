@@ -68,3 +68,62 @@ fn the_drawing_is_whole_and_labelled() {
         opened + 1
     );
 }
+
+/// What is refused leaves no file, and what was there as it was; also where rows were written already.
+#[test]
+fn a_refused_plan_writes_nothing() {
+    let bench = Bench::new();
+    let outputs = [
+        "--csv",
+        "plan.csv",
+        "--svg",
+        "plan.svg",
+        "--html",
+        "plan.html",
+    ];
+    let refused = |program: &str, more: &[&str]| {
+        bench.write("part.ngc", program);
+        bench.refused(&[&["part.ngc"], &outputs[..], more].concat())
+    };
+    let files = || {
+        let entries = std::fs::read_dir(bench.path()).expect("a folder");
+        let names = entries.map(|entry| entry.expect("an entry").file_name());
+        let mut names: Vec<_> = names
+            .map(|name| name.into_string().expect("text"))
+            .collect();
+        names.sort();
+        names
+    };
+    // Behind 50 s of motion, more rows than any buffer holds.
+    let late = "G21 F600\nG1 X500\nG4 P1\nG33 Z-50 K10\nM2\n";
+    let error = refused(late, &[]);
+    assert!(error.starts_with("part.ngc:4: "), "{error}");
+    assert_eq!(files(), ["part.ngc"]);
+    let nothing = refused("G21\nM2\n", &[]);
+    assert!(nothing.contains("nothing moves"), "{nothing}");
+    assert_eq!(files(), ["part.ngc"]);
+
+    bench.write("plan.csv", "of yesterday");
+    refused(late, &[]);
+    assert_eq!(files(), ["part.ngc", "plan.csv"]);
+    assert_eq!(bench.read("plan.csv"), "of yesterday");
+
+    bench.write("part.ngc", PROGRAM);
+    let output = bench.plan(&[&["part.ngc"], &outputs[..]].concat());
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(files(), ["part.ngc", "plan.csv", "plan.html", "plan.svg"]);
+    assert!(bench.read("plan.csv").starts_with("time,"));
+}
+
+/// One file that cannot be written, and there is none.
+#[test]
+fn a_file_that_cannot_be_written_is_told_before_the_plan_begins() {
+    let bench = Bench::new();
+    bench.write("part.ngc", "G21 F600\nG1 X5 Q?\nM2\n");
+    let error = bench.refused(&["part.ngc", "--csv", "plan.csv", "--svg", "no/folder.svg"]);
+    assert!(
+        error.contains("no/folder.svg: cannot be written"),
+        "{error}"
+    );
+    assert!(!bench.path().join("plan.csv").exists());
+}

@@ -7,7 +7,8 @@
  * what an INI file says of the machine, see settings.cc; what the interpreter itself takes from an INI file it reads
  * there, by the variable INI_FILE_NAME of the environment.
  * The calls themselves are in calls.cc. A refusal is printed as two lines, REFUSED with line number and message, SOURCE
- * with the text of the line, and the exit code is 1.
+ * with the text of the line, and the exit code is 1. The number is a line of FILE, also where the text is of a subroutine in
+ * another file: then it is the line that called it.
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -43,17 +44,44 @@ static std::string one_line(const char *text)
     return line;
 }
 
-/* `what` stands before the message. */
-static int refuse(InterpBase &interpreter, int status, const char *what = "")
+/* The program, and its line that was read last. */
+static const char *program;
+static int program_line;
+
+/* The name of another file that the interpreter reads a subroutine from, or nothing. */
+static std::string subroutine_file(InterpBase &interpreter)
 {
-    char message[1024] = "", line[1024] = "";
-    interpreter.error_text(status, message, sizeof message);
+    char path[4096] = "";
+    if (interpreter.call_level() == 0)
+        return "";
+    interpreter.file_name(path, sizeof path);
+    std::string name(path);
+    return name == program ? "" : name.substr(name.rfind('/') + 1);
+}
+
+static void note_line(InterpBase &interpreter)
+{
+    if (subroutine_file(interpreter).empty())
+        program_line = interpreter.sequence_number();
+}
+
+static int print_refusal(InterpBase &interpreter, int number, const std::string &message)
+{
+    char line[1024] = "";
     interpreter.line_text(line, sizeof line);
-    if (!message[0])
-        snprintf(message, sizeof message, "the interpreter gives up with code %d", status);
-    fprintf(output, "REFUSED %d %s%s\n", interpreter.sequence_number(), what, one_line(message).c_str());
+    fprintf(output, "REFUSED %d %s\n", number, one_line(message.c_str()).c_str());
     fprintf(output, "SOURCE %s\n", one_line(line).c_str());
     return 1;
+}
+
+/* `what` stands before the message. With an error the interpreter has left all subroutines already. */
+static int refuse(InterpBase &interpreter, int status, const char *what = "")
+{
+    char message[1024] = "";
+    interpreter.error_text(status, message, sizeof message);
+    if (!message[0])
+        snprintf(message, sizeof message, "the interpreter gives up with code %d", status);
+    return print_refusal(interpreter, interpreter.sequence_number(), std::string(what) + message);
 }
 
 static bool failed(int status)
@@ -66,14 +94,7 @@ static bool failed(int status)
 static bool sends_frame(InterpBase &interpreter)
 {
     static std::string caller;
-    char path[4096] = "";
-    if (interpreter.call_level() == 0) {
-        caller.clear();
-        return false;
-    }
-    interpreter.file_name(path, sizeof path);
-    std::string name(path);
-    name.erase(0, name.rfind('/') + 1);
+    std::string name = subroutine_file(interpreter);
     if (name != "frame_send.ngc") {
         caller = name;
         return false;
@@ -83,15 +104,15 @@ static bool sends_frame(InterpBase &interpreter)
 
 static int unsupported(InterpBase &interpreter, const char *what)
 {
-    char line[1024] = "";
-    interpreter.line_text(line, sizeof line);
-    fprintf(output, "REFUSED %d %s is not supported here\n", interpreter.sequence_number(), what);
-    fprintf(output, "SOURCE %s\n", one_line(line).c_str());
-    return 1;
+    std::string file = subroutine_file(interpreter), place;
+    if (!file.empty())
+        place = "in " + file + ", line " + std::to_string(interpreter.sequence_number()) + ": ";
+    return print_refusal(interpreter, program_line, place + what + " is not supported here");
 }
 
 static int interpret(InterpBase &interpreter, const char *file)
 {
+    program = file;
     int status = interpreter.init();
     if (failed(status))
         return refuse(interpreter, status);
@@ -109,6 +130,7 @@ static int interpret(InterpBase &interpreter, const char *file)
             break;
         if (failed(status))
             return refuse(interpreter, status);
+        note_line(interpreter);
         if (sends_frame(interpreter))
             return unsupported(interpreter, "a programmed frame (framekins)");
         if (status == INTERP_OK)

@@ -5,6 +5,7 @@
  *   STARTUP code                 runs before the program ([RS274NGC]RS274NGC_STARTUP_CODE)
  *   TABLE                        the tools that follow are all there are
  *   TOOL number pocket offset(9) diameter front back orientation     machine units
+ *   HELD number                  the tool that the spindle holds at the start
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -46,6 +47,8 @@ static bool read_setting(const std::string &line)
         machine.tools[0].toolno = -1;
     } else if (name == "TOOL") {
         return read_tool(words);
+    } else if (name == "HELD") {
+        words >> now.tool_number;
     } else {
         return false;
     }

@@ -1,0 +1,172 @@
+//! Files that the commands write: each is there whole, or as it was before.
+
+use std::fs::{File, Permissions};
+use std::io::{self, BufWriter, Write};
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use tempfile::TempPath;
+
+/// A file that takes its place when it is complete: until then it is written beside it, under
+/// another name. Dropped without [`Self::finish`] it leaves nothing behind.
+///
+/// What is no ordinary file (a device, a pipe) is written to as it is: it cannot be replaced.
+#[derive(Debug)]
+pub(crate) struct OutputFile {
+    /// As the user named it, for messages.
+    name: PathBuf,
+    output: BufWriter<File>,
+    /// What is written, and what it becomes; `None` if it is written in place.
+    replaces: Option<(TempPath, PathBuf)>,
+}
+
+impl OutputFile {
+    /// Begins to write a file.
+    ///
+    /// # Errors
+    /// A folder that is missing or may not be written in.
+    pub fn create(name: &Path) -> io::Result<OutputFile> {
+        // Behind a symbolic link it is the file that is replaced, not the link.
+        let place = std::fs::canonicalize(name).unwrap_or_else(|_| name.to_owned());
+        let before = std::fs::metadata(&place).ok();
+        if before.as_ref().is_some_and(|before| !before.is_file()) {
+            return Ok(OutputFile::new(name, File::create(name)?, None));
+        }
+        let folder = match place.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        let file = tempfile::Builder::new()
+            .prefix(".framepath-")
+            // As for any new file, less the umask; tempfile's own are for secrets.
+            .permissions(Permissions::from_mode(0o666))
+            .tempfile_in(folder)?;
+        if let Some(before) = before {
+            // A file that is protected against writing is not replaced either.
+            File::options().write(true).open(&place)?;
+            file.as_file().set_permissions(before.permissions())?;
+        }
+        let (file, path) = file.into_parts();
+        Ok(OutputFile::new(name, file, Some((path, place))))
+    }
+
+    fn new(name: &Path, file: File, replaces: Option<(TempPath, PathBuf)>) -> OutputFile {
+        OutputFile {
+            name: name.to_owned(),
+            output: BufWriter::with_capacity(1 << 18, file),
+            replaces,
+        }
+    }
+
+    /// As the user named it.
+    pub fn name(&self) -> &Path {
+        &self.name
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// A disk that is full, and the like; the file is then as it was before.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.output.flush()?;
+        match self.replaces {
+            Some((path, place)) => path.persist(place).map_err(|error| error.error),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Write for OutputFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.output.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.output.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::os::unix::fs::{FileTypeExt, symlink};
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).expect("a folder").map(|entry| {
+            let name = entry.expect("an entry").file_name();
+            name.to_string_lossy().into_owned()
+        });
+        let mut names: Vec<_> = entries.collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_is_there_when_it_is_finished_and_not_before() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let place = folder.path().join("plan.csv");
+        let mut dropped = OutputFile::create(&place).expect("created");
+        dropped.write_all(&[b'x'; 1 << 19]).expect("written");
+        assert!(!place.exists());
+        drop(dropped);
+        assert_eq!(names(folder.path()), Vec::<String>::new());
+
+        let mut whole = OutputFile::create(&place).expect("created");
+        whole.write_all(b"whole\n").expect("written");
+        whole.finish().expect("finished");
+        assert_eq!(names(folder.path()), ["plan.csv"]);
+        assert_eq!(fs::read_to_string(&place).expect("text"), "whole\n");
+    }
+
+    #[test]
+    fn what_was_there_stays_until_then_with_its_permissions() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let place = folder.path().join("plan.csv");
+        fs::write(&place, "before").expect("written");
+        fs::set_permissions(&place, Permissions::from_mode(0o640)).expect("set");
+        drop(OutputFile::create(&place).expect("created"));
+        assert_eq!(fs::read_to_string(&place).expect("text"), "before");
+
+        OutputFile::create(&place)
+            .and_then(OutputFile::finish)
+            .expect("finished");
+        assert_eq!(fs::read_to_string(&place).expect("text"), "");
+        let mode = fs::metadata(&place).expect("a file").permissions().mode();
+        assert_eq!(mode & 0o777, 0o640);
+    }
+
+    /// A new file may be read by whom files may be read that other programs write.
+    #[test]
+    fn a_new_file_has_the_usual_permissions() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mode = |name: &str| {
+            let file = fs::metadata(folder.path().join(name)).expect("a file");
+            file.permissions().mode()
+        };
+        fs::write(folder.path().join("usual"), "").expect("written");
+        let created = OutputFile::create(&folder.path().join("ours"));
+        created.and_then(OutputFile::finish).expect("finished");
+        assert_eq!(mode("ours"), mode("usual"));
+    }
+
+    #[test]
+    fn links_and_devices_stay_what_they_are() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (target, link) = (folder.path().join("target"), folder.path().join("link"));
+        fs::write(&target, "before").expect("written");
+        symlink(&target, &link).expect("a link");
+        OutputFile::create(&link)
+            .and_then(OutputFile::finish)
+            .expect("finished");
+        assert!(fs::symlink_metadata(&link).expect("a link").is_symlink());
+        assert_eq!(fs::read_to_string(&target).expect("text"), "");
+
+        let device = Path::new("/dev/null");
+        let mut written = OutputFile::create(device).expect("opened");
+        assert!(written.replaces.is_none());
+        written.write_all(b"nothing").expect("written");
+        written.finish().expect("finished");
+        let kind = fs::metadata(device).expect("a device").file_type();
+        assert!(kind.is_char_device());
+    }
+}
