@@ -179,24 +179,34 @@ impl AxisRows {
             let row = |sample: &Sample, b: f64, a: f64| {
                 (sample.first[axis] * a + sample.second[axis] * (b / 3.0)) * time
             };
-            let rows = [row(start, b0, a0), row(middle, b1, a1), row(end, b2, a2)];
-            if !is_within(rows, margin, ACCELERATION_BETWEEN) {
-                return false;
-            }
-            let row = |sample: &Sample, b: f64, a: f64, v: f64| {
-                (sample.first[axis] * u + sample.second[axis] * a + sample.third[axis] * b) * v
+            let accelerations = [row(start, b0, a0), row(middle, b1, a1), row(end, b2, a2)];
+            // The jerk over the velocity: by how much the acceleration changes with s.
+            let row = |sample: &Sample, b: f64, a: f64| {
+                sample.first[axis] * u + sample.second[axis] * a + sample.third[axis] * b
             };
-            let rows = [
-                row(start, b0, a0, v0),
-                row(middle, b1, a1, v1),
-                row(end, b2, a2, v2),
-            ];
-            if !is_within(rows, margin, JERK_BETWEEN) {
+            let changes = [row(start, b0, a0), row(middle, b1, a1), row(end, b2, a2)];
+            let [change0, change1, change2] = changes;
+            let jerks = [change0 * v0, change1 * v1, change2 * v2];
+            let kept = is_within(accelerations, margin, ACCELERATION_BETWEEN)
+                && is_within(jerks, margin, JERK_BETWEEN)
+                && halves(accelerations, changes.map(|change| change * time * half))
+                    <= margin + ACCELERATION_BETWEEN;
+            if !kept {
                 return false;
             }
         }
         true
     }
+}
+
+/// The greatest amount in the middle of both halves of what has these values at start, middle and end:
+/// of the cubic with its slopes there (Hermite), given as changes over a half.
+#[inline]
+fn halves([start, middle, end]: [f64; 3], slopes: [f64; 3]) -> f64 {
+    let [slope0, slope1, slope2] = slopes.map(|slope| 0.125 * slope);
+    let first = 0.5 * (start + middle) + (slope0 - slope1);
+    let second = 0.5 * (middle + end) + (slope1 - slope2);
+    first.abs().max(second.abs())
 }
 
 /// Whether the amounts of three values at start, middle and end are at most `most`, and those of the

@@ -54,7 +54,8 @@ impl Draft {
     }
 
     pub(super) fn step_forward<R: Route>(&mut self, context: &DraftContext<R>, k: usize) -> Phase {
-        if let Err(fault) = self.sweeps.forward(&self.spline, k) {
+        let kept = if self.first { 0 } else { self.cut };
+        if let Err(fault) = self.sweeps.forward(&self.spline, k, kept) {
             return self.repair(context, Fault::Sweep(fault));
         }
         if k < self.spline.last {
