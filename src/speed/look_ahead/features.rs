@@ -14,6 +14,9 @@ const SLOTS: usize = 256;
 /// No interval is made shorter than this share of the spacing there, for the sake of a jump.
 const NEAREST_NODE: f64 = 1e-3;
 
+/// How near to the ends of an interval an edge does not matter, share of the length.
+const EDGE: f64 = 0.15;
+
 /// Features in the order of the path, around the place where the grid is being made.
 ///
 /// What lies within the known path never changes, so that it is kept for the drafts to come. Places
@@ -310,6 +313,15 @@ impl Features {
             }
         }
         best.into_iter().chain(rise).reduce(f64::min)
+    }
+
+    /// Whether a change of shape begins or ends well inside of an interval.
+    pub fn has_edge(&self, s: f64, length: f64) -> bool {
+        let inside = |place: f64| place > s + EDGE * length && place < s + (1.0 - EDGE) * length;
+        self.behind(s - self.behind)
+            .take_while(|feature| feature.center - self.before < s + length)
+            .filter(|feature| feature.speed > 0.0)
+            .any(|feature| inside(feature.start) || inside(feature.end))
     }
 
     /// A change of the speed cap that two intervals of a `length` from `s` on would not quite come

@@ -129,7 +129,8 @@ impl Grid {
         let samples_here = samples.place_mut(draft, k);
         samples_here.middle = middle;
         samples_here.end = right;
-        samples_here.cover(rows, raise_squared);
+        let bent = self.features.has_edge(s, length);
+        samples_here.cover(rows, raise_squared, bent);
         let right = if self.features.is_on_vertex(end) {
             rows.sample(route, end, length)
         } else {
