@@ -15,6 +15,7 @@
 
 pub mod abi;
 pub mod axes;
+mod cube_root;
 pub mod cycle;
 pub mod frame;
 pub mod machine;

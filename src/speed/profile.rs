@@ -6,6 +6,7 @@
 
 use super::PathLimits;
 use super::ramp::Ramp;
+use crate::cube_root::cube_root;
 
 /// State at an instant of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -170,7 +171,7 @@ fn rest_to_rest_peak(length: f64, limits: &PathLimits) -> f64 {
     } = *limits;
     // Without reaching the greatest acceleration, four phases of equal duration cover the length.
     let free = if jerk.is_finite() {
-        jerk * (length / (2.0 * jerk)).cbrt().powi(2)
+        jerk * cube_root(length / (2.0 * jerk)).powi(2)
     } else {
         f64::INFINITY
     };

@@ -181,6 +181,10 @@ class Operator:
         """Waits until motion is at this line of the program or behind it."""
         self.wait_for(f"line {line}", lambda: self.status.motion_line >= line, timeout)
 
+    def wait_place(self, joint, place, timeout=None):
+        """Waits until a joint is at this place or beyond."""
+        self.wait_for(f"joint {joint} at {place}", lambda: self.status.joint_actual_position[joint] >= place, timeout)
+
     def wait_queue(self, count):
         """Waits until motion's queue has so many moves."""
         self.wait_for(f"{count} moves", lambda: self.status.queue >= count)

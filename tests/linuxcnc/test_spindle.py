@@ -205,7 +205,7 @@ class FeedPerTurn(Spindle):
         return (x[near + 25] - x[near - 25]) / (50 * PERIOD)
 
     def test_the_feed_follows_speed_and_override(self):
-        steps = [["start", "PROGRAMS/part.ngc"], ["wait_line", 5], ["sleep", 3], ["feed_override", 0.5], ["sleep", 3],
+        steps = [["start", "PROGRAMS/part.ngc"], ["wait_place", 0, 10], ["feed_override", 0.5], ["wait_place", 0, 20],
                  ["feed_override", 1], ["force", "ramp.in", 20], ["finish"]]
         result = self.run_spindle(steps, "M3 S600", "G4 P1", "G95 F0.4", "G1 X60")
         self.completed(result)

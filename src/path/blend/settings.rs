@@ -2,6 +2,7 @@
 
 use super::kernel;
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
+use crate::cube_root::cube_root;
 
 /// Dense code is smoothed for this jerk at most, although it may be unlimited; mm/s^3.
 const GREATEST_JERK: f64 = 100_000.0;
@@ -113,7 +114,7 @@ impl BlendSettings {
     /// per second. Machine units.
     pub(super) fn design_width(&self, speed: f64) -> f64 {
         let (speed, jerk) = (speed / self.millimetre, self.linear_jerk / self.millimetre);
-        let width = 1.8 * (speed / 100.0) * (20_000.0 / jerk).cbrt();
+        let width = 1.8 * (speed / 100.0) * cube_root(20_000.0 / jerk);
         self.millimetre * width.clamp(LEAST_DESIGN_WIDTH, GREATEST_DESIGN_WIDTH)
     }
 

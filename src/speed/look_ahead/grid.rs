@@ -129,8 +129,7 @@ impl Grid {
         let samples_here = samples.place_mut(draft, k);
         samples_here.middle = middle;
         samples_here.end = right;
-        let bent = self.features.has_edge(s, length);
-        samples_here.cover(rows, raise_squared, bent);
+        samples_here.cover(rows, raise_squared);
         let right = if self.features.is_on_vertex(end) {
             rows.sample(route, end, length)
         } else {

@@ -6,6 +6,7 @@
 use super::route::{Route, Vertex};
 use super::rows::{AxisRows, Sample};
 use crate::axes::AXIS_COUNT;
+use crate::cube_root::cube_root;
 
 /// The share of the limits that an arc may take: less than what the interval beside it is held
 /// to, so that the two fit together.
@@ -44,7 +45,7 @@ impl RestArc {
 
     /// Seconds.
     pub fn duration(&self) -> f64 {
-        (6.0 * self.length / self.jerk).cbrt()
+        cube_root(6.0 * self.length / self.jerk)
     }
 
     /// Speed where it meets the spline.
@@ -71,7 +72,7 @@ impl RestArc {
         let mut jerk = self.jerk;
         for share in [1.0, 0.75, 0.5, 0.25, 0.1] {
             let sample = rows.sample(route, s + direction * self.length * share, 0.0);
-            let root = f64::cbrt(share);
+            let root = cube_root(share);
             let v = self.velocity() * root * root;
             let a = self.acceleration() * root;
             jerk = jerk.min(jerk_left(&sample, v, a));

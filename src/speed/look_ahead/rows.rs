@@ -11,6 +11,7 @@ use nalgebra::ArrayStorage;
 use super::interval::Parabola;
 use super::route::{Route, SpeedCap};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
+use crate::cube_root::cube_root;
 
 const ZERO: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
 const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
@@ -23,11 +24,6 @@ const CAP_SHARE: f64 = 0.9994;
 const ACCELERATION_BETWEEN: f64 = 2e-3;
 /// .. and the jerk by this one: what is seen of it once a servo period is a mean.
 const JERK_BETWEEN: f64 = 0.03;
-
-/// Of the second difference of three places, how far what is smooth may exceed them in between ..
-const SMOOTH_SHARE: f64 = 0.125;
-/// .. and what has a kink somewhere.
-const BENT_SHARE: f64 = 0.375;
 
 /// The most that is set aside for what happens between the places that are looked at.
 const MOST_EXCESS: f64 = 0.05;
@@ -302,7 +298,7 @@ impl Sample {
     /// The speed at which curvature alone takes an axis to its acceleration or jerk.
     pub fn curve_speed(&self, rows: &AxisRows) -> f64 {
         let by_acceleration = (1.0 / rows.acceleration_row(self, 1.0, 0.0)).sqrt();
-        let by_jerk = (1.0 / self.third.amax()).cbrt();
+        let by_jerk = cube_root(1.0 / self.third.amax());
         by_acceleration.min(by_jerk)
     }
 
@@ -331,10 +327,9 @@ impl IntervalSamples {
     /// Makes room for what happens between the three places.
     ///
     /// Between three values a parabola exceeds them by an eighth of their second difference at
-    /// most, and by up to three times as much what is `bent`: has a kink, where a change of shape
-    /// begins or ends. How much that is of the limits depends on the speed, which is at most what
-    /// cap and curvature allow.
-    pub fn cover(&mut self, rows: &AxisRows, raise_squared: f64, bent: bool) {
+    /// most. How much that is of the limits depends on the speed, which is at most what cap and
+    /// curvature allow.
+    pub fn cover(&mut self, rows: &AxisRows, raise_squared: f64) {
         let [start, middle, end] = [&self.start, &self.middle, &self.end];
         let mut speed = f64::INFINITY;
         for sample in [start, middle, end] {
@@ -353,8 +348,7 @@ impl IntervalSamples {
             let jerk = third[axis] * speed * speed * speed;
             excess = f64::max(excess, acceleration.max(0.5 * jerk));
         }
-        let share = if bent { BENT_SHARE } else { SMOOTH_SHARE };
-        let factor = 1.0 + (share * excess).min(MOST_EXCESS);
+        let factor = 1.0 + (0.125 * excess).min(MOST_EXCESS);
         for sample in [&mut self.start, &mut self.middle, &mut self.end] {
             sample.first *= factor;
             sample.second *= factor;

@@ -54,8 +54,7 @@ impl Draft {
     }
 
     pub(super) fn step_forward<R: Route>(&mut self, context: &DraftContext<R>, k: usize) -> Phase {
-        let kept = if self.first { 0 } else { self.cut };
-        if let Err(fault) = self.sweeps.forward(&self.spline, k, kept) {
+        if let Err(fault) = self.sweeps.forward(&self.spline, k) {
             return self.repair(context, Fault::Sweep(fault));
         }
         if k < self.spline.last {
