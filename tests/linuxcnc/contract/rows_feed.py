@@ -96,7 +96,7 @@ class Slider(Row):
     def check(self, seen):
         seen.near(seen.during(2).top_speed("x"), 30, 0.1, "mm/s of a rapid")
         seen.near(seen.during(3).top_speed("b"), 30, 0.1, "degrees/s of a rotary move")
-        late = [speed for x, speed in zip(seen.column("x"), seen.speed("x")) if 25 < x < 38]
+        late = [speed for x, speed in zip(seen.column("x"), seen.speed("x")) if 32 < x < 38]
         seen.near(max(late), 12, 0.1, "mm/s after the slider was moved")
 
 
