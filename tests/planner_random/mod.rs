@@ -1,6 +1,8 @@
 //! Random programs, and what an operator may do while they run.
+#![allow(dead_code, reason = "each test uses its own part")]
 
 pub mod run;
+pub mod text;
 
 use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::{MotionType, TerminationCondition};
@@ -29,6 +31,20 @@ pub struct Programmed {
     pub wait_for_spindle: bool,
     /// G61, G61.1 or G64 before it.
     pub mode: Option<TerminationCondition>,
+}
+
+impl Programmed {
+    /// A move at feed with all overrides enabled.
+    pub fn feed(shape: Shape, feed: f64) -> Self {
+        Self {
+            shape,
+            feed,
+            motion_type: MotionType::Feed,
+            enables: 0x0f,
+            wait_for_spindle: false,
+            mode: None,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -99,6 +115,44 @@ pub fn any_move() -> impl Strategy<Value = Programmed> {
                 mode,
             },
         )
+}
+
+/// A curve as CAM writes it: short lines at one feed, each turned a little, and a sharp corner now and
+/// then.
+pub fn any_curve() -> impl Strategy<Value = Vec<Programmed>> {
+    (
+        (any_displacement(), any_displacement()),
+        (-5.5..0.7f64).prop_map(f64::exp),
+        prop_oneof![Just(0.0), -0.4..0.4f64],
+        prop::collection::vec(prop::bool::weighted(0.03), 3..60),
+        any_move(),
+    )
+        .prop_filter_map(
+            "a plane to lie in",
+            |((along, across), length, turn, corners, first)| {
+                let along = along.try_normalize(1e-9)?;
+                let across = (across - along * along.dot(&across)).try_normalize(1e-9)?;
+                let mut angle = 0.0f64;
+                let lines = corners.iter().enumerate().map(|(number, corner)| {
+                    angle += if *corner { 1.5 } else { turn };
+                    let direction = along * angle.cos() + across * angle.sin();
+                    Programmed {
+                        shape: Shape::Line(direction * length),
+                        motion_type: MotionType::Feed,
+                        wait_for_spindle: false,
+                        mode: first.mode.filter(|_| number == 0),
+                        ..first.clone()
+                    }
+                });
+                Some(lines.collect())
+            },
+        )
+}
+
+/// Curves of short lines among other moves.
+pub fn any_curves() -> impl Strategy<Value = Vec<Programmed>> {
+    let part = prop_oneof![any_curve(), prop::collection::vec(any_move(), 1..3)];
+    prop::collection::vec(part, 1..8).prop_map(|parts| parts.concat())
 }
 
 pub fn any_mode() -> impl Strategy<Value = Option<TerminationCondition>> {

@@ -217,8 +217,9 @@ pub fn run(
                 status.exec_id
             );
         }
+        // A step that the machine has not begun yet ends the path before the next move all the same.
+        stepped &= !(moved && standing);
         moved = !standing;
-        stepped &= !standing;
         places.push(Place {
             position: status.position,
             id: status.exec_id,

@@ -10,8 +10,9 @@ use super::leg::{Leg, ProgrammedMove};
 use super::line_merger::LineMerger;
 use super::metric::Metric;
 use super::settings::BlendSettings;
+use super::views::{LegView, Progress, VertexView};
 use crate::axes::{AXIS_COUNT, Axes};
-use crate::path::measure::{LEAST_DISTANCE, Measure};
+use crate::path::measure::LEAST_DISTANCE;
 use crate::path::{PathPoint, Shape};
 
 const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
@@ -52,60 +53,6 @@ pub struct BlendedPath {
     hurry: bool,
     /// The machine comes to rest at the end of what was added.
     finished: bool,
-}
-
-/// Where the machine is in the program.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Number of the move; of merged moves that of the last one.
-    pub serial: u64,
-    /// Number of the first of merged moves.
-    pub first: u64,
-    /// What F has counted since the start of the leg.
-    pub distance: f64,
-    /// What F will count until its end.
-    pub distance_to_go: f64,
-}
-
-/// A leg: a move, or several merged ones.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LegView {
-    /// Number of the move; of merged moves that of the last one.
-    pub serial: u64,
-    /// Number of the first of merged moves.
-    pub first: u64,
-    /// Where it starts, path distance.
-    pub start: f64,
-    /// Where it ends, path distance.
-    pub end: f64,
-    /// Its programmed speed, path distance per second: with this ds/dt the programmed path is run
-    /// through at F. Where a corner is rounded the path is shorter than the programmed one, and
-    /// ds/dt may be higher: `speed * measure_rate` over the length of dq/ds in F's measure.
-    pub speed: f64,
-    /// The same for the feed that no override may exceed.
-    pub greatest_speed: f64,
-    /// How much F counts for a unit of path distance.
-    pub measure_rate: f64,
-    /// What F counts.
-    pub measure: Measure,
-}
-
-/// A vertex: where two legs meet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VertexView {
-    /// Where it is, path distance.
-    pub s: f64,
-    /// How far the path around it is changed to both sides. Where two legs meet without a turn in
-    /// the middle of a smoothed run, as far as for its neighbours.
-    pub reach: f64,
-    /// How far a sharper change in the middle reaches: the rounded corner within an easement, or
-    /// the easement within a rounded corner; 0 if both are of about the same size, or there is only
-    /// one.
-    pub core: f64,
-    /// Whether the machine comes to rest there: the direction may jump.
-    pub stop: bool,
-    /// Whether the speeds of the legs differ that meet there.
-    pub speed_changes: bool,
 }
 
 impl BlendedPath {
@@ -194,7 +141,7 @@ impl BlendedPath {
     pub fn finish(&mut self) {
         self.flush();
         self.finished = !self.chain.is_empty();
-        self.freeze_when_finished();
+        self.freeze_at_rest();
     }
 
     /// Chooses widths, for about `budget` kernel terms of 5 ns or so; at most
@@ -208,12 +155,13 @@ impl BlendedPath {
             self.hurry,
             budget,
         );
-        self.freeze_when_finished();
+        self.freeze_at_rest();
         spent
     }
 
-    fn freeze_when_finished(&mut self) {
-        if self.finished && self.chooser.is_settled(&self.chain) {
+    /// Where the machine rests at the end nothing to come changes the path.
+    fn freeze_at_rest(&mut self) {
+        if self.rests_at_end() && self.chooser.is_settled(&self.chain) {
             self.chooser.freeze(&self.chain);
         }
     }
@@ -449,6 +397,11 @@ impl BlendedPath {
     /// What no final vertex reaches beyond, so far.
     pub fn greatest_reach(&self) -> f64 {
         self.chooser.greatest_reach()
+    }
+
+    /// The shape of the leg at `s`, the later one where two meet; `None` if there is none.
+    pub fn shape(&self, s: f64) -> Option<Shape> {
+        (!self.chain.is_empty()).then(|| self.chain.leg(self.chain.locate(s)).shape)
     }
 
     /// The leg that starts at a rest at `s`, if the machine comes to rest at its end too, and

@@ -47,10 +47,13 @@ mod line_merger;
 mod metric;
 mod settings;
 mod vertex;
+mod views;
 mod window;
 
-pub use blended_path::{BlendedPath, LegView, Progress, VertexView};
+pub use blended_path::BlendedPath;
 pub use chooser::GREATEST_EXCESS;
 pub use error::BlendError;
 pub use leg::ProgrammedMove;
 pub use settings::BlendSettings;
+pub(crate) use vertex::CORE;
+pub use views::{LegView, Progress, VertexView};

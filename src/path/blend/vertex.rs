@@ -33,13 +33,13 @@ const TANGENT: f64 = 0.01;
 /// Halves of the shorter leg that an easement reaches at most. Those at both ends of an arc much
 /// shorter than they are wide nearly cancel each other, but for their edges: there the third
 /// derivative rises within the length of the arc, which is too short for the nodes of the plan.
-const WIDEST_EASEMENT: f64 = 16.0;
+const WIDEST_EASEMENT: f64 = 64.0;
 
 /// A kernel this much narrower than half the shorter leg makes an isolated corner.
 const ISOLATED: f64 = 0.5;
 
 /// Below this share of the wider change the sharper one wants nodes of its own.
-const CORE: f64 = 0.6;
+pub(crate) const CORE: f64 = 0.9;
 
 /// How far a vertex is smoothed to both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]

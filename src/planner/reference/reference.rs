@@ -112,6 +112,7 @@ impl Reference {
         for run in &mut self.runs {
             run.clear();
         }
+        self.turn = false;
         self.backwards = false;
         self.active = true;
         self.rested(0.0);

@@ -69,6 +69,10 @@ impl Reference {
         let Some(queued) = outlook.queue.get(law.serial) else {
             return;
         };
+        // Of merged lines, what the machine runs along and no single one of them.
+        let Some(shape) = self.path.shape(law.start) else {
+            return;
+        };
         let cap = outlook.velocity_cap(queued);
         if cap <= law.cap * NOTICEABLE_RAISE || law.profile.steady_time_left(frontier).is_none() {
             return;
@@ -77,7 +81,7 @@ impl Reference {
         law.cap = cap;
         let state = law.profile.state(frontier, frontier);
         let start = law.start + law.rate * state.distance;
-        let limits = PathLimits::of(&queued.shape, outlook.map, outlook.limits, cap);
+        let limits = PathLimits::of(&shape, outlook.map, outlook.limits, cap);
         let left = (law.end - start) / law.rate;
         if let Some(profile) = JerkLimitedProfile::raised(left, state.velocity, &limits) {
             let law = MoveLaw {

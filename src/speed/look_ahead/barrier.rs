@@ -7,11 +7,8 @@
 //! barrier's second derivatives indefinite, so that one term of them is left out.
 
 use super::interval::Parabola;
-use super::rows::{AxisRows, Sample};
-use crate::axes::AXIS_COUNT;
-
-/// Samples hold three times the second derivative. A product is quicker than a quotient.
-const THIRD: f64 = 1.0 / 3.0;
+use super::quads::{LANES, QUADS, Quad};
+use super::rows::{AxisRows, Sample, THIRD};
 
 /// Derivatives by the three coefficients that an interval depends on.
 #[derive(Clone, Copy, Debug)]
@@ -63,92 +60,153 @@ impl Barrier {
         let places = [(0.0, 0.25, 1.0), (0.5, 0.5, 4.0), (1.0, 0.25, 1.0)];
         for ((share, part, simpson), sample) in places.into_iter().zip(samples) {
             let x = share * h;
-            let mut local = duration(parabola, x, h * simpson / 6.0);
-            self.add_limits(&mut local, rows, parabola, sample, x, weight * part);
+            let (b, a) = parabola.at(x);
+            let place = Place {
+                b,
+                a,
+                u: parabola.u,
+                inverse: 1.0 / b,
+                root: b.sqrt(),
+            };
+            let mut local = place.duration(h * (simpson / 6.0));
+            self.add_limits(&mut local, rows, &place, sample, weight * part);
             sum.add_at(&local, x);
         }
         sum.by_coefficients(lengths)
     }
 
-    /// Adds the barrier at `x`.
+    /// Adds the barrier at a place.
     fn add_limits(
         &self,
         sum: &mut Local,
         rows: &AxisRows,
-        parabola: &Parabola,
+        place: &Place,
         sample: &Sample,
-        x: f64,
         weight: f64,
     ) {
-        let (b, a) = parabola.at(x);
-        let u = parabola.u;
+        let Place {
+            b, a, u, inverse, ..
+        } = *place;
         let left = sample.cap(self.raise_squared) - b;
         if left > 0.0 {
-            sum.b += weight / left;
-            sum.bb += weight / (left * left);
+            let inverse = 1.0 / left;
+            sum.b += weight * inverse;
+            sum.bb += weight * inverse * inverse;
         }
         // The bound of the jerk rows and its derivative by b.
-        let bound = self.margin / b.sqrt();
-        let bound_slope = -0.5 * bound / b;
-        for axis in 0..AXIS_COUNT {
-            if !sample.axes.contains(axis) {
-                continue;
-            }
-            let row = [sample.third[axis], sample.second[axis], sample.first[axis]];
-            let [by_b, by_a, by_u] = row;
-            let time = rows.jerk_time()[axis];
-            let (acceleration_by_a, acceleration_by_b) = (by_u * time, by_a * (time * THIRD));
-            let jerk = by_u * u + by_a * a + by_b * b;
-            let acceleration = acceleration_by_a * a + acceleration_by_b * b;
-            let [(upper, lower), (highest, lowest)] =
-                reciprocals([(bound, jerk), (self.margin, acceleration)]);
-            let slope = weight * (upper - lower);
-            sum.u += slope * by_u;
-            sum.a += slope * by_a;
-            sum.b += slope * by_b - weight * (upper + lower) * bound_slope;
-            let even = weight * (upper * upper + lower * lower);
-            let odd = weight * (upper * upper - lower * lower) * bound_slope;
-            sum.uu += even * by_u * by_u;
-            sum.au += even * by_u * by_a;
-            sum.bu += even * by_u * by_b - odd * by_u;
-            sum.aa += even * by_a * by_a;
-            sum.ba += even * by_a * by_b - odd * by_a;
-            sum.bb += even * (by_b * by_b + bound_slope * bound_slope) - 2.0 * odd * by_b;
+        let bound = self.margin * place.root * inverse;
+        let bound_slope = -0.5 * bound * inverse;
+        let mut limits = Limits::default();
+        let mut lanes = 0;
+        for quad in (0..QUADS).filter(|quad| sample.axes.in_quad(*quad)) {
+            lanes += LANES;
+            limits.add(
+                sample.quads.map(|quads| quads[quad]),
+                &rows.jerk_time_quads[quad],
+                [b, a, u, bound, bound_slope, self.margin].map(|value| value as f32),
+            );
+        }
+        // Axes that stand still have no row, but the bound of one.
+        let still = f64::from(lanes as u32 - sample.axes.count());
+        let jump = 2.0 * place.root / self.margin;
+        let jumps = total(limits.jumps) - still * jump;
+        let even = total(limits.even) - still * 0.5 * jump * jump;
+        sum.u += weight * total(limits.u);
+        sum.a += weight * total(limits.a);
+        sum.b += weight * (total(limits.b) - jumps * bound_slope);
+        sum.uu += weight * total(limits.uu);
+        sum.au += weight * total(limits.au);
+        sum.bu += weight * total(limits.bu);
+        sum.aa += weight * total(limits.aa);
+        sum.ba += weight * total(limits.ba);
+        sum.bb += weight * (total(limits.bb) + even * bound_slope * bound_slope);
+    }
+}
 
-            let (by_a, by_b) = (acceleration_by_a, acceleration_by_b);
-            let slope = weight * (highest - lowest);
-            sum.a += slope * by_a;
-            sum.b += slope * by_b;
-            let even = weight * (highest * highest + lowest * lowest);
-            sum.aa += even * by_a * by_a;
-            sum.ba += even * by_a * by_b;
-            sum.bb += even * by_b * by_b;
+/// What the limits of the axes add, by lanes, for a weight of 1.
+#[derive(Default)]
+struct Limits {
+    b: Quad,
+    a: Quad,
+    u: Quad,
+    bb: Quad,
+    ba: Quad,
+    bu: Quad,
+    aa: Quad,
+    au: Quad,
+    uu: Quad,
+    /// What the slope of the bound of the jerk is to be multiplied by ..
+    jumps: Quad,
+    /// .. and its square.
+    even: Quad,
+}
+
+impl Limits {
+    /// Adds four axes: their rows by u, a and b, and the times J / A.
+    ///
+    /// `1 / (bound - y) - 1 / (bound + y)` is called slope, the sum of both jumps, that of their
+    /// squares even and the difference of the squares odd.
+    #[inline]
+    fn add(
+        &mut self,
+        [by_u, by_a, by_b]: [Quad; 3],
+        times: &Quad,
+        [b, a, u, bound, bound_slope, margin]: [f32; 6],
+    ) {
+        for lane in 0..LANES {
+            let (by_u, by_a, by_b) = (by_u[lane], by_a[lane], by_b[lane]);
+            let jerk = by_u * u + by_a * a + by_b * b;
+            let inverse = 2.0 / ((bound - jerk) * (bound + jerk));
+            let (slope, jumps) = (jerk * inverse, bound * inverse);
+            let even = 0.5 * (slope * slope + jumps * jumps);
+            let odd = slope * jumps * bound_slope;
+            let (even_u, across) = (even * by_u, even * by_b - odd);
+            self.jumps[lane] += jumps;
+            self.even[lane] += even;
+            self.u[lane] += slope * by_u;
+            self.uu[lane] += even_u * by_u;
+            self.au[lane] += even_u * by_a;
+            self.bu[lane] += across * by_u;
+
+            let (along, over) = (by_u * times[lane], by_a * (times[lane] * THIRD));
+            let acceleration = along * a + over * b;
+            let inverse = 2.0 / ((margin - acceleration) * (margin + acceleration));
+            let (rise, leaps) = (acceleration * inverse, margin * inverse);
+            let both = 0.5 * (rise * rise + leaps * leaps);
+            self.a[lane] += slope * by_a + rise * along;
+            self.b[lane] += slope * by_b + rise * over;
+            self.aa[lane] += even * by_a * by_a + both * along * along;
+            self.ba[lane] += across * by_a + both * along * over;
+            self.bb[lane] += (across - odd) * by_b + both * over * over;
         }
     }
 }
 
-/// 1 / (bound - y) and 1 / (bound + y) of two pairs of a bound and y, with one division.
-#[inline]
-fn reciprocals([(bound_1, y_1), (bound_2, y_2)]: [(f64, f64); 2]) -> [(f64, f64); 2] {
-    let (above_1, below_1) = (bound_1 - y_1, bound_1 + y_1);
-    let (above_2, below_2) = (bound_2 - y_2, bound_2 + y_2);
-    let (product_1, product_2) = (above_1 * below_1, above_2 * below_2);
-    let inverse = 1.0 / (product_1 * product_2);
-    let (inverse_1, inverse_2) = (inverse * product_2, inverse * product_1);
-    [
-        (below_1 * inverse_1, above_1 * inverse_1),
-        (below_2 * inverse_2, above_2 * inverse_2),
-    ]
+/// The sum of all lanes.
+fn total([first, second, third, fourth]: Quad) -> f64 {
+    f64::from((first + second) + (third + fourth))
 }
 
-/// `weight / sqrt(b)` at `x`.
-fn duration(parabola: &Parabola, x: f64, weight: f64) -> Local {
-    let (b, _) = parabola.at(x);
-    let cubed = weight / (b * b.sqrt());
-    Local {
-        b: -0.5 * cubed,
-        bb: 0.75 * cubed / b,
-        ..Local::default()
+/// b, a and u somewhere in an interval.
+struct Place {
+    b: f64,
+    a: f64,
+    u: f64,
+    /// 1 / b.
+    inverse: f64,
+    /// sqrt(b).
+    root: f64,
+}
+
+impl Place {
+    /// `weight / sqrt(b)`.
+    fn duration(&self, weight: f64) -> Local {
+        let cubed = weight * self.root * self.inverse * self.inverse;
+        Local {
+            b: -0.5 * cubed,
+            bb: 0.75 * cubed * self.inverse,
+            ..Local::default()
+        }
     }
 }
 

@@ -9,12 +9,19 @@ use crate::cube_root::cube_root;
 
 /// Share of the speed cap, so that the barrier of the cap has room.
 const CAP_SHARE: f64 = 0.98;
-/// Share of the acceleration for curvature.
-const CURVE_SHARE: f64 = 0.6;
-/// Share of the jerk for the change of curvature.
-const CURVE_JERK_SHARE: f64 = 0.6;
-/// Share of the jerk for accelerating in a curve.
-const ACROSS_SHARE: f64 = 0.25;
+
+/// What is handed out in advance.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shares {
+    /// Of the limits: in all.
+    pub margin: f64,
+    /// Of the acceleration: for curvature.
+    pub curve: f64,
+    /// Of the jerk: for the change of curvature.
+    pub twist: f64,
+    /// Of the jerk: for accelerating in a curve.
+    pub across: f64,
+}
 
 /// The greatest amounts of an axis' rows in an interval.
 #[derive(Clone, Copy)]
@@ -36,30 +43,46 @@ impl AxisBounds {
 }
 
 /// Limits along the path in one interval.
+///
+/// What curvature takes of an axis grows with the speed. What it leaves is the least of several
+/// falling straight lines, over b of the acceleration and over b^1.5 of the jerk, and so nowhere less
+/// than on the straight line from what it leaves at rest to what it leaves at the cap.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
-    /// Of v^2.
+    /// Of b = v^2.
     pub cap: f64,
-    /// Of the amount of acceleration.
-    pub acceleration: f64,
-    /// Of the amount of jerk.
-    pub jerk: f64,
     /// Of a^2 v^2.
     pub across: f64,
+    /// Of the amount of acceleration, at the cap.
+    acceleration: f64,
+    /// The same at rest.
+    acceleration_at_rest: f64,
+    /// By what the acceleration falls with b.
+    acceleration_fall: f64,
+    /// Of the amount of jerk, at the cap.
+    jerk: f64,
+    /// The same at rest.
+    jerk_at_rest: f64,
+    /// By what the jerk falls with b^1.5.
+    jerk_fall: f64,
 }
 
 impl Bounds {
     /// An interval that limits nothing: what is beyond the ends of a plan.
     pub const NONE: Self = Self {
         cap: 1e30,
-        acceleration: 1e30,
-        jerk: 1e30,
         across: 1e60,
+        acceleration: 1e30,
+        acceleration_at_rest: 1e30,
+        acceleration_fall: 0.0,
+        jerk: 1e30,
+        jerk_at_rest: 1e30,
+        jerk_fall: 0.0,
     };
 
-    /// Of an interval with these samples at start, middle and end; `margin` is the share of the
-    /// limits that is handed out.
-    pub fn of(rows: &AxisRows, samples: [&Sample; 3], raise_squared: f64, margin: f64) -> Self {
+    /// Of an interval with these samples at start, middle and end.
+    pub fn of(rows: &AxisRows, samples: [&Sample; 3], raise_squared: f64, shares: &Shares) -> Self {
+        let margin = shares.margin;
         let mut cap = Self::NONE.cap;
         for sample in samples {
             cap = cap.min(CAP_SHARE * sample.cap(raise_squared));
@@ -92,49 +115,82 @@ impl Bounds {
             steepest = f64::max(steepest, second);
         }
         curve /= 3.0;
-        if curve * cap > CURVE_SHARE {
-            cap = CURVE_SHARE / curve;
+        if curve * cap > shares.curve {
+            cap = shares.curve / curve;
         }
-        if twist * cap * cap.sqrt() > CURVE_JERK_SHARE {
-            let root = cube_root(CURVE_JERK_SHARE / twist);
+        if twist * cap * cap.sqrt() > shares.twist {
+            let root = cube_root(shares.twist / twist);
             cap = root * root;
         }
 
         let v = cap.sqrt();
-        let mut acceleration = Self::NONE.acceleration;
+        let (mut acceleration, mut acceleration_at_rest) =
+            (Self::NONE.acceleration, Self::NONE.acceleration);
         for bounds in axes.iter().take(count) {
             let slope = bounds.first * bounds.time;
             let left = margin - bounds.second * bounds.time / 3.0 * cap;
             if acceleration * slope > left {
                 acceleration = left / slope;
             }
+            if acceleration_at_rest * slope > margin {
+                acceleration_at_rest = margin / slope;
+            }
         }
-        let mut jerk = Self::NONE.jerk;
+        let (mut jerk, mut jerk_at_rest) = (Self::NONE.jerk, Self::NONE.jerk);
         for bounds in axes.iter().take(count) {
-            let across = (bounds.second * acceleration * v).min(ACROSS_SHARE);
+            let across = (bounds.second * acceleration * v).min(shares.across);
             let left = margin - bounds.third * cap * v - across;
             if jerk * bounds.first > left {
                 jerk = left / bounds.first;
             }
+            let across = (bounds.second * acceleration_at_rest * v).min(shares.across);
+            let left = margin - across;
+            if jerk_at_rest * bounds.first > left {
+                jerk_at_rest = left / bounds.first;
+            }
         }
         let across = if steepest > 0.0 {
-            (ACROSS_SHARE / steepest) * (ACROSS_SHARE / steepest)
+            (shares.across / steepest) * (shares.across / steepest)
         } else {
             Self::NONE.across
         };
         Self {
             cap,
-            acceleration,
-            jerk,
             across,
+            acceleration,
+            acceleration_at_rest,
+            acceleration_fall: (acceleration_at_rest - acceleration).max(0.0) / cap,
+            jerk,
+            jerk_at_rest,
+            jerk_fall: (jerk_at_rest - jerk).max(0.0) / (cap * v),
         }
+    }
+
+    /// The greatest slope of coefficients from one that is `b` to the next, `distance` farther.
+    #[inline]
+    pub fn acceleration(&self, b: f64, distance: f64) -> f64 {
+        let fall = self.acceleration_fall;
+        // Of what curvature leaves where b has grown by acceleration times distance.
+        let most = (self.acceleration_at_rest - fall * b) / (1.0 + fall * distance);
+        most.max(self.acceleration)
+    }
+
+    /// The greatest change of acceleration with s where v^2 is `b`, greater than 0.
+    #[inline]
+    pub fn bend(&self, b: f64) -> f64 {
+        let inverse = 1.0 / b.sqrt();
+        (self.jerk_at_rest * inverse - self.jerk_fall * b).max(self.jerk * inverse)
     }
 
     /// Lower ones.
     pub fn lower(&mut self) {
         self.cap *= 0.9;
         self.acceleration *= 0.9;
+        self.acceleration_at_rest *= 0.9;
         self.jerk *= 0.7;
+        self.jerk_at_rest *= 0.7;
+        // 0.7 of the jerk over 0.9^1.5 of the way.
+        self.jerk_fall *= 0.82;
         self.across *= 0.5;
     }
 }

@@ -7,12 +7,19 @@ use super::feature::{Feature, Look, Place, TWIST_AT};
 use super::grid::GROWTH;
 use super::route::{Route, Vertex};
 use super::rows::AxisRows;
+use crate::path::blend::CORE;
 
 /// A power of two, so that a masked index is in range for the compiler too.
 const SLOTS: usize = 256;
 
 /// No interval is made shorter than this share of the spacing there, for the sake of a jump.
 const NEAREST_NODE: f64 = 1e-3;
+
+/// How near to the ends of an interval an edge does not matter, share of the length.
+const EDGE: f64 = 0.15;
+
+/// The share of the reach of a change of shape within which its core is of about the same size.
+const RIM: f64 = 1.0 - CORE;
 
 /// Features in the order of the path, around the place where the grid is being made.
 ///
@@ -260,12 +267,13 @@ impl Features {
     }
 
     /// The next place that a node should be on, if it is near the end of an interval from `s` on:
-    /// start, center and end of a blend that stands alone, and changes of the speed cap.
+    /// start, center and end of a blend that stands alone or lies beside an arc, and changes of the
+    /// speed cap.
     pub fn landmark(&self, s: f64, length: f64) -> Option<f64> {
-        let mut best: Option<f64> = None;
+        let (mut best, mut rise): (Option<f64>, Option<f64>) = (None, None);
+        let is_near = |place: f64, nearest: f64| place - s > nearest && place - s < 1.3 * length;
         let mut consider = |place: f64, nearest: f64| {
-            let near = place - s > nearest && place - s < 1.3 * length;
-            if near && best.is_none_or(|other| place < other) {
+            if is_near(place, nearest) && best.is_none_or(|other| place < other) {
                 best = Some(place);
             }
         };
@@ -279,6 +287,18 @@ impl Features {
             if feature.jumps {
                 let unseen = feature.unseen.max(NEAREST_NODE * length);
                 consider(feature.center, unseen.min(nearest));
+                // The changes of shape at both ends of a short arc nearly cancel each other. Where
+                // they begin and end one after the other, the third derivative rises and falls
+                // within the length of the arc: a node belongs behind the rise, and before the fall.
+                consider(feature.end, nearest);
+                let place = feature.start;
+                if is_near(place, nearest) {
+                    rise = Some(match rise {
+                        Some(other) if (place - other).abs() < nearest => place.max(other),
+                        Some(other) => place.min(other),
+                        None => place,
+                    });
+                }
             } else if feature.cap_changes {
                 consider(feature.center, nearest);
             }
@@ -296,7 +316,23 @@ impl Features {
                 consider(feature.end, nearest);
             }
         }
-        best
+        best.into_iter().chain(rise).reduce(f64::min)
+    }
+
+    /// Whether a change of shape begins or ends well inside of an interval, or its core may, of which
+    /// nothing is said where it is of about the same size.
+    pub fn has_edge(&self, s: f64, length: f64) -> bool {
+        let (start, end) = (s + EDGE * length, s + (1.0 - EDGE) * length);
+        let inside = |edge: f64, center: f64| {
+            let core = edge + RIM * (center - edge);
+            edge.min(core) < end && edge.max(core) > start
+        };
+        self.behind(s - self.behind)
+            .take_while(|feature| feature.center - self.before < s + length)
+            .filter(|feature| feature.speed > 0.0)
+            .any(|feature| {
+                inside(feature.start, feature.center) || inside(feature.end, feature.center)
+            })
     }
 
     /// A change of the speed cap that two intervals of a `length` from `s` on would not quite come

@@ -129,7 +129,11 @@ impl Grid {
         let samples_here = samples.place_mut(draft, k);
         samples_here.middle = middle;
         samples_here.end = right;
-        samples_here.cover(rows, raise_squared);
+        let between = self
+            .features
+            .has_edge(s, length)
+            .then(|| [0.25, 0.75].map(|share| rows.sample(route, s + share * length, length)));
+        samples_here.cover(rows, raise_squared, between);
         let right = if self.features.is_on_vertex(end) {
             rows.sample(route, end, length)
         } else {

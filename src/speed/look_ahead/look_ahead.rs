@@ -54,8 +54,10 @@ const SHORTER_FIRST_PLANS: u32 = 6;
 const SLOWER_FIRST_PLANS: u32 = 4;
 const SLOWER: f64 = 0.4;
 
-/// Steps of the polish without anything new, after which nothing is left to gain.
-const MOST_STEPS: u32 = 50;
+/// Steps of the polish for what is new ..
+const FRESH_STEPS: u32 = 24;
+/// .. and then one more each time that the machine has come on by so many intervals: more gain nothing.
+const PACE: usize = 2;
 
 /// The weight that the barrier goes back to where caps were raised.
 const RAISED_BARRIER: f64 = 0.05;
@@ -167,7 +169,6 @@ impl LookAhead {
         } else {
             self.look_anew_for_braking();
         }
-        self.state.idle_steps = 0;
         Some(piece)
     }
 
@@ -243,7 +244,7 @@ impl LookAhead {
             route.known_end()
         };
         let (context, draft) = self.context(route);
-        draft.begin_first(&context, start, end, context_failures(halvings));
+        draft.begin_first(&context, start, end, halvings & 3);
         self.state.drafting = true;
         true
     }
@@ -316,24 +317,26 @@ impl LookAhead {
                 .min(self.state.braking),
         )
         .max(committed + 1);
-        let failures = context_failures(self.state.failures);
+        let failures = self.state.failures;
         let (context, draft) = self.context(route);
         draft.begin_extension(&context, base, end, most, failures);
         self.state.drafting = true;
     }
 
+    /// Whether a step of the polish is worth its time.
+    fn is_polish_due(&self, committed: usize) -> bool {
+        self.state.fresh_steps < FRESH_STEPS || committed >= self.state.paced + PACE
+    }
+
     /// Begins a step of the polish behind the committed part; up to the end if nothing follows.
     fn begin_polish(&mut self, committed: usize, to_the_end: bool) -> bool {
-        if self.state.idle_steps >= MOST_STEPS {
-            return false;
-        }
         let limit = if to_the_end {
             self.plan.last + 1
         } else {
             self.state.settled.max(self.state.braking.saturating_sub(3))
         };
         let end = limit.min(committed + MOST_INTERVALS);
-        if end < committed + 4 {
+        if end < committed + 4 || !self.is_polish_due(committed) {
             return false;
         }
         self.newton.begin(committed, end);
@@ -354,7 +357,8 @@ impl LookAhead {
         if self.newton.is_idle() {
             self.look_anew_for_braking();
             self.state.steps = self.state.steps.saturating_add(1);
-            self.state.idle_steps = self.state.idle_steps.saturating_add(1);
+            self.state.fresh_steps = self.state.fresh_steps.saturating_add(1);
+            self.state.paced = self.newton.first();
         }
     }
 
@@ -390,6 +394,7 @@ impl LookAhead {
         self.plan
             .copy_from(&self.draft.spline, self.draft.changed());
         self.state.polished = base;
+        self.state.fresh_steps = 0;
         self.state.settled = self
             .draft
             .settled()
@@ -399,7 +404,6 @@ impl LookAhead {
         self.look_anew_for_braking();
         self.state.failures = 0;
         self.state.lead = SHORTEST_LEAD;
-        self.state.idle_steps = 0;
         if self.progress == Progress::Starting {
             self.progress = Progress::Ready;
             if self.state.slower < 1.0 {
@@ -427,7 +431,7 @@ impl LookAhead {
     /// Makes room for caps that were raised.
     fn soften(&mut self) {
         self.newton.cancel();
-        self.state.idle_steps = 0;
+        self.state.fresh_steps = 0;
         for k in self.state.next..=self.plan.last {
             let interval = self.plan.at_mut(k);
             interval.barrier = interval.barrier.max(RAISED_BARRIER);
@@ -479,9 +483,4 @@ impl Default for LookAhead {
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// Which margin to sweep with after so many failures.
-fn context_failures(failures: u32) -> usize {
-    (failures & 3) as usize
 }

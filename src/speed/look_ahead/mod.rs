@@ -28,6 +28,7 @@ mod interval;
 mod look_ahead;
 mod newton;
 mod piece;
+mod quads;
 mod refusal;
 mod rest_arc;
 mod route;

@@ -9,6 +9,7 @@
 use nalgebra::ArrayStorage;
 
 use super::interval::Parabola;
+use super::quads::{LANES, QUADS, Quads, ZEROS, quads};
 use super::route::{Route, SpeedCap};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
 use crate::cube_root::cube_root;
@@ -18,15 +19,24 @@ const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; A
 
 /// The share of a cap of v^2 that is used: between the places that are looked at a little more may
 /// be taken.
-const CAP_SHARE: f64 = 0.9994;
+const CAP_SHARE: f64 = 0.999;
 /// Between these places the acceleration may exceed what is allowed there by this share of its
 /// limit ..
-const ACCELERATION_BETWEEN: f64 = 2e-3;
+const ACCELERATION_BETWEEN: f32 = 1e-3;
 /// .. and the jerk by this one: what is seen of it once a servo period is a mean.
-const JERK_BETWEEN: f64 = 0.03;
+const JERK_BETWEEN: f32 = 0.03;
+
+/// Of the second difference of three places, how far what is smooth may exceed them in between.
+const SMOOTH_SHARE: f64 = 0.125;
+
+/// Of the jerk, by how much that may be exceeded without setting anything aside.
+const JERK_EXCESS: f64 = 0.015;
 
 /// The most that is set aside for what happens between the places that are looked at.
-const MOST_EXCESS: f64 = 0.05;
+const MOST_EXCESS: f64 = 0.3;
+
+/// A product is quicker than a quotient.
+pub(super) const THIRD: f32 = 1.0 / 3.0;
 
 /// The greatest v^2 that is ever planned. Nothing real comes near it; it keeps sums finite where
 /// neither the program nor an axis limits the speed.
@@ -45,6 +55,8 @@ pub(super) struct AxisRows {
     inverse_jerk: Axes,
     /// J / A; 0 where the acceleration is unlimited.
     jerk_time: Axes,
+    /// The same in single precision.
+    pub jerk_time_quads: Quads,
 }
 
 impl AxisRows {
@@ -54,6 +66,7 @@ impl AxisRows {
         velocity: UNLIMITED,
         inverse_jerk: ZERO,
         jerk_time: ZERO,
+        jerk_time_quads: ZEROS,
     };
 
     /// `period` of the servo thread, seconds, stands in for what is infinite: an unlimited
@@ -85,6 +98,7 @@ impl AxisRows {
             velocity: limits.velocity,
             inverse_jerk,
             jerk_time,
+            jerk_time_quads: quads(&jerk_time),
         }
     }
 
@@ -113,10 +127,14 @@ impl AxisRows {
                 most = most.min(speed * speed);
             }
         }
+        let first = first.component_mul(&self.inverse_jerk);
+        let second = second.component_mul(&self.inverse_jerk) * 3.0;
+        let third = third.component_mul(&self.inverse_jerk);
         Sample {
-            first: first.component_mul(&self.inverse_jerk),
-            second: second.component_mul(&self.inverse_jerk) * 3.0,
-            third: third.component_mul(&self.inverse_jerk),
+            first,
+            second,
+            third,
+            quads: [&first, &second, &third].map(quads),
             programmed: programmed * programmed * CAP_SHARE,
             greatest: most * CAP_SHARE,
             axes,
@@ -168,42 +186,45 @@ impl AxisRows {
         if !(capped && kept) {
             return false;
         }
-        let u = parabola.u;
-        let [v0, v1, v2] = [b0.sqrt(), b1.sqrt(), b2.sqrt()];
-        let [start, middle, end] = samples;
+        let places = [(b0, a0), (b1, a1), (b2, a2)].map(|(b, a)| (b as f32, a as f32));
+        let speeds = places.map(|(b, _)| b.sqrt());
+        let (u, half, margin) = (parabola.u as f32, half as f32, margin as f32);
         let moving = MovingAxes::at_any(samples);
-        for axis in 0..AXIS_COUNT {
-            if !moving.contains(axis) {
-                continue;
-            }
-            let time = self.jerk_time[axis];
-            let row = |sample: &Sample, b: f64, a: f64| {
-                (sample.first[axis] * a + sample.second[axis] * (b / 3.0)) * time
-            };
-            let accelerations = [row(start, b0, a0), row(middle, b1, a1), row(end, b2, a2)];
-            // The jerk over the velocity: by how much the acceleration changes with s.
-            let row = |sample: &Sample, b: f64, a: f64| {
-                sample.first[axis] * u + sample.second[axis] * a + sample.third[axis] * b
-            };
-            let changes = [row(start, b0, a0), row(middle, b1, a1), row(end, b2, a2)];
-            let [change0, change1, change2] = changes;
-            let jerks = [change0 * v0, change1 * v1, change2 * v2];
-            let kept = is_within(accelerations, margin, ACCELERATION_BETWEEN)
-                && is_within(jerks, margin, JERK_BETWEEN)
-                && halves(accelerations, changes.map(|change| change * time * half))
-                    <= margin + ACCELERATION_BETWEEN;
-            if !kept {
-                return false;
+        // Without a branch, so that all lanes are looked at together: 1 where they keep their limits.
+        let mut kept = [1u32; LANES];
+        for quad in (0..QUADS).filter(|quad| moving.in_quad(*quad)) {
+            let times = &self.jerk_time_quads[quad];
+            let first = samples.map(|sample| &sample.quads[0][quad]);
+            let second = samples.map(|sample| &sample.quads[1][quad]);
+            let third = samples.map(|sample| &sample.quads[2][quad]);
+            for lane in 0..LANES {
+                let time = times[lane];
+                let [mut accelerations, mut changes, mut jerks] = [[0.0; 3]; 3];
+                for place in 0..3 {
+                    let by_u = first[place][lane];
+                    let by_a = second[place][lane];
+                    let by_b = third[place][lane];
+                    let (b, a) = places[place];
+                    accelerations[place] = (by_u * a + by_a * (THIRD * b)) * time;
+                    // The jerk over the velocity: by how much the acceleration changes with s.
+                    changes[place] = by_u * u + by_a * a + by_b * b;
+                    jerks[place] = changes[place] * speeds[place];
+                }
+                let between = halves(accelerations, changes.map(|change| change * time * half));
+                let within = is_within(accelerations, margin, ACCELERATION_BETWEEN)
+                    & is_within(jerks, margin, JERK_BETWEEN)
+                    & (between <= margin + ACCELERATION_BETWEEN);
+                kept[lane] &= u32::from(within);
             }
         }
-        true
+        kept == [1; LANES]
     }
 }
 
 /// The greatest amount in the middle of both halves of what has these values at start, middle and end:
 /// of the cubic with its slopes there (Hermite), given as changes over a half.
-#[inline]
-fn halves([start, middle, end]: [f64; 3], slopes: [f64; 3]) -> f64 {
+#[inline(always)]
+fn halves([start, middle, end]: [f32; 3], slopes: [f32; 3]) -> f32 {
     let [slope0, slope1, slope2] = slopes.map(|slope| 0.125 * slope);
     let first = 0.5 * (start + middle) + (slope0 - slope1);
     let second = 0.5 * (middle + end) + (slope1 - slope2);
@@ -211,20 +232,15 @@ fn halves([start, middle, end]: [f64; 3], slopes: [f64; 3]) -> f64 {
 }
 
 /// Whether the amounts of three values at start, middle and end are at most `most`, and those of the
-/// parabola through them exceed it by `between` at most.
-#[inline]
-fn is_within([start, middle, end]: [f64; 3], most: f64, between: f64) -> bool {
-    let at_places = start.abs().max(middle.abs()).max(end.abs());
-    if at_places.is_nan() || at_places > most {
-        return false;
-    }
+/// parabola through them exceed it by `between` at most. Not if one is no number.
+#[inline(always)]
+fn is_within([start, middle, end]: [f32; 3], most: f32, between: f32) -> bool {
+    let at_places = (start.abs() <= most) & (middle.abs() <= most) & (end.abs() <= most);
     let slope = 0.5 * (end - start);
-    // Where the parabola has its extremum in between, it is no farther from the middle than this.
-    if middle.abs() + 0.5 * slope.abs() <= most + between {
-        return true;
-    }
     let bend = start + end - 2.0 * middle;
-    slope.abs() >= bend.abs() || (middle - 0.5 * slope * slope / bend).abs() - between <= most
+    let extremum = (middle - 0.5 * slope * slope / bend).abs();
+    let outside = slope.abs() >= bend.abs();
+    at_places & (outside | (extremum <= most + between))
 }
 
 /// The axes that move at a place.
@@ -234,7 +250,7 @@ pub(super) struct MovingAxes(u16);
 impl MovingAxes {
     pub const NONE: Self = Self(0);
 
-    fn add(&mut self, axis: usize) {
+    pub fn add(&mut self, axis: usize) {
         self.0 |= 1 << (axis & 15);
     }
 
@@ -248,6 +264,12 @@ impl MovingAxes {
     #[inline]
     pub fn contains(self, axis: usize) -> bool {
         self.0 >> (axis & 15) & 1 == 1
+    }
+
+    /// Whether one of the four axes of a quad is among them.
+    #[inline]
+    pub fn in_quad(self, quad: usize) -> bool {
+        self.0 >> (LANES * quad) & 15 != 0
     }
 
     /// How many there are.
@@ -265,6 +287,8 @@ pub(super) struct Sample {
     pub second: Axes,
     /// q''' / J, shape (9).
     pub third: Axes,
+    /// The three in single precision.
+    pub quads: [Quads; 3],
     /// v^2 that the program asks for at 100 %.
     programmed: f64,
     /// v^2 that neither override nor axes exceed.
@@ -278,6 +302,7 @@ impl Sample {
         first: ZERO,
         second: ZERO,
         third: ZERO,
+        quads: [ZEROS; 3],
         programmed: 0.0,
         greatest: 0.0,
         axes: MovingAxes::NONE,
@@ -324,12 +349,28 @@ impl IntervalSamples {
         end: Sample::NONE,
     };
 
-    /// Makes room for what happens between the three places.
+    /// By how much a derivative of the path may exceed what the three places show of it, shape (9).
     ///
     /// Between three values a parabola exceeds them by an eighth of their second difference at
-    /// most. How much that is of the limits depends on the speed, which is at most what cap and
-    /// curvature allow.
-    pub fn cover(&mut self, rows: &AxisRows, raise_squared: f64) {
+    /// most. What has a kink there, where a change of shape begins or ends, leaves the parabola:
+    /// the path is looked at in the middle of both halves, `between`.
+    fn hidden(&self, between: &Option<[Sample; 2]>, of: impl Fn(&Sample) -> Axes) -> Axes {
+        let [start, middle, end] = [&self.start, &self.middle, &self.end].map(&of);
+        match between {
+            None => (start + end - middle * 2.0).abs() * SMOOTH_SHARE,
+            Some([first, last]) => {
+                let parabola = |near: Axes, far: Axes| near * 0.375 + middle * 0.75 - far * 0.125;
+                let first = (of(first) - parabola(start, end)).abs();
+                let last = (of(last) - parabola(end, start)).abs();
+                first.sup(&last)
+            }
+        }
+    }
+
+    /// Makes room for what happens between the three places, see [`hidden`](Self::hidden). How
+    /// much that is of the limits depends on the speed, which is at most what cap and curvature
+    /// allow.
+    pub fn cover(&mut self, rows: &AxisRows, raise_squared: f64, between: Option<[Sample; 2]>) {
         let [start, middle, end] = [&self.start, &self.middle, &self.end];
         let mut speed = f64::INFINITY;
         for sample in [start, middle, end] {
@@ -340,19 +381,20 @@ impl IntervalSamples {
         if !speed.is_finite() {
             return;
         }
-        let second = (start.second + end.second - middle.second * 2.0).abs();
-        let third = (start.third + end.third - middle.third * 2.0).abs();
+        let second = self.hidden(&between, |sample| sample.second);
+        let third = self.hidden(&between, |sample| sample.third);
         let mut excess = 0.0;
         for axis in 0..AXIS_COUNT {
             let acceleration = second[axis] * rows.jerk_time[axis] / 3.0 * speed * speed;
             let jerk = third[axis] * speed * speed * speed;
-            excess = f64::max(excess, acceleration.max(0.5 * jerk));
+            excess = f64::max(excess, acceleration.max(jerk - JERK_EXCESS));
         }
-        let factor = 1.0 + (0.125 * excess).min(MOST_EXCESS);
+        let factor = 1.0 + f64::min(excess, MOST_EXCESS);
         for sample in [&mut self.start, &mut self.middle, &mut self.end] {
             sample.first *= factor;
             sample.second *= factor;
             sample.third *= factor;
+            sample.quads = [&sample.first, &sample.second, &sample.third].map(quads);
         }
     }
 }

@@ -15,6 +15,10 @@ pub(super) struct RunState {
     pub frozen_time: f64,
     /// Intervals before this one have been polished.
     pub polished: usize,
+    /// The first interval that the last step of the polish might change.
+    pub paced: usize,
+    /// Steps of the polish since the plan or its caps changed.
+    pub fresh_steps: u32,
     /// What the end of the plan hardly influences any more.
     pub settled: usize,
     /// Where the braking to the final rest begins.
@@ -43,8 +47,6 @@ pub(super) struct RunState {
     pub waited: u32,
     /// Steps of the polish since the last extension.
     pub steps: u32,
-    /// Steps of the polish since anything changed.
-    pub idle_steps: u32,
 }
 
 impl RunState {
@@ -54,6 +56,8 @@ impl RunState {
         next: 0,
         frozen_time: 0.0,
         polished: 1,
+        paced: 0,
+        fresh_steps: 0,
         settled: 1,
         braking: 1,
         braking_in: 0.0,
@@ -68,6 +72,5 @@ impl RunState {
         pause: 0,
         waited: 0,
         steps: 0,
-        idle_steps: 0,
     };
 }

@@ -51,13 +51,15 @@ impl Front {
         let c = self.value;
         let free = match self.slope {
             // From the cap on the acceleration grows within half of an interval at first.
-            None => 0.5 * length * jerk_step(here.jerk, c, 0.0, length),
+            None => 0.5 * length * bend(here, c, 0.0, length),
             Some(slope) => {
                 let fastest = if slope < 0.0 { c.max(before) } else { c };
-                slope + length * jerk_step(here.jerk, fastest, slope, length)
+                slope + length * bend(here, fastest, slope, length)
             }
         };
-        let mut slope = free.min(here.acceleration).min(next.acceleration);
+        let mut slope = free
+            .min(here.acceleration(c, distance))
+            .min(next.acceleration(c, distance));
         if slope > 0.0 {
             let across = here.across.min(next.across);
             let fastest = (c + distance * slope).min(here.cap.min(next.cap)).max(c);
@@ -81,18 +83,18 @@ impl Front {
     }
 }
 
-/// The greatest change u of slope with `u sqrt(b) <= jerk` wherever an interval of this length
+/// The greatest change u of slope with `u sqrt(b)` within the jerk wherever an interval of this length
 /// takes b, from three rounds of a fixed point that stays below it.
-fn jerk_step(jerk: f64, b: f64, slope: f64, length: f64) -> f64 {
+fn bend(bounds: &Bounds, b: f64, slope: f64, length: f64) -> f64 {
     if b <= 0.0 {
         return 0.0;
     }
-    let mut u = jerk / b.sqrt();
+    let mut u = bounds.bend(b);
     if slope < 0.0 {
         return u;
     }
     for _ in 0..3 {
-        u = jerk / (b + length * (slope + length * u)).max(b).sqrt();
+        u = bounds.bend((b + length * (slope + length * u)).max(b));
     }
     u
 }

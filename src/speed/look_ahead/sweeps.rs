@@ -13,7 +13,9 @@ const ROUNDING: f64 = 1e-9;
 /// Why coefficients cannot be swept as they are.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum SweepFault {
-    /// The speed at the base cannot be kept up, or is too high to brake from.
+    /// The speed at the base cannot be kept up.
+    Stall,
+    /// The speed at the base is too high to brake from.
     Base,
     /// The speed of the arc to rest cannot be reached, or not be left.
     End,
@@ -31,6 +33,8 @@ struct Swept {
 #[derive(Debug)]
 pub(super) struct Sweeps {
     base: usize,
+    /// Up to here the forward sweep is on the plan that it leaves.
+    leaves: usize,
     swept: [Swept; CAPACITY],
     hull: Hull,
     /// The corner of the hull that was come to from the end.
@@ -42,6 +46,7 @@ pub(super) struct Sweeps {
 impl Sweeps {
     pub const NONE: Self = Self {
         base: 1,
+        leaves: 1,
         swept: [Swept {
             bounds: Bounds::NONE,
             forward: Front::NONE,
@@ -69,6 +74,7 @@ impl Sweeps {
     /// Begins at `base`, whose coefficient and the one before it the spline has.
     pub fn begin_forward(&mut self, spline: &Spline, base: usize) {
         self.base = base;
+        self.leaves = base;
         let (before, here) = (spline.at(base - 1), spline.at(base));
         let slope = (here.coefficient - before.coefficient) / (before.length + here.length);
         let (before, here) = (before.coefficient, here.coefficient);
@@ -84,16 +90,27 @@ impl Sweeps {
         };
     }
 
-    /// From coefficient k, `base` to `last`, to the next one.
-    pub fn forward(&mut self, spline: &Spline, k: usize) -> Result<(), SweepFault> {
+    /// From coefficient k, `base` to `last`, to the next one. Coefficients of the spline before
+    /// `kept` are those of a plan: it is not left while it is faster than the sweep, which has more
+    /// careful bounds.
+    pub fn forward(&mut self, spline: &Spline, k: usize, kept: usize) -> Result<(), SweepFault> {
         let before = self.at(k - 1).forward.value;
         let front = self.at(k).forward;
-        let next = front.step(before, &self.stretch(spline, k, k + 1));
+        let mut next = front.step(before, &self.stretch(spline, k, k + 1));
+        let planned = spline.at(k + 1).coefficient;
+        if k == self.leaves && k + 1 < kept && next.value < planned {
+            let distance = spline.at(k).length + spline.at(k + 1).length;
+            next = Front {
+                value: planned,
+                slope: Some((planned - front.value) / distance),
+            };
+            self.leaves = k + 1;
+        }
         self.at_mut(k + 1).forward = next;
         if next.value > 0.0 {
             Ok(())
         } else {
-            Err(SweepFault::Base)
+            Err(SweepFault::Stall)
         }
     }
 
@@ -155,7 +172,7 @@ impl Sweeps {
         let value = self.at(k).lower;
         let most = self.at(k - 2).lower.max(before.lower).max(value);
         let length = spline.at(k - 1).length;
-        let fall = length * before.bounds.jerk / most.sqrt();
+        let fall = length * before.bounds.bend(most);
         let distance = length + spline.at(k).length;
         self.hull.append(k, value, distance, fall);
     }

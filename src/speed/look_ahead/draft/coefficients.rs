@@ -17,16 +17,16 @@ impl Draft {
         k: usize,
     ) -> Phase {
         let last = self.spline.last;
-        let bounds = if k == 0 || k > last {
-            Bounds::NONE
-        } else {
+        let bounds = if self.has_samples(k) {
             let of_interval = samples.of(&self.spline, k);
             Bounds::of(
                 context.rows,
                 of_interval,
                 context.raise_squared,
-                self.margin,
+                &self.shares,
             )
+        } else {
+            Bounds::NONE
         };
         self.sweeps.bound(k, bounds);
         if k <= last {
@@ -54,7 +54,8 @@ impl Draft {
     }
 
     pub(super) fn step_forward<R: Route>(&mut self, context: &DraftContext<R>, k: usize) -> Phase {
-        if let Err(fault) = self.sweeps.forward(&self.spline, k) {
+        let kept = if self.first { 0 } else { self.cut };
+        if let Err(fault) = self.sweeps.forward(&self.spline, k, kept) {
             return self.repair(context, Fault::Sweep(fault));
         }
         if k < self.spline.last {

@@ -10,6 +10,7 @@ mod coefficients;
 mod nodes;
 mod repair;
 
+use super::bounds::Shares;
 use super::context::DraftContext;
 use super::cost;
 use super::grid::Grid;
@@ -27,6 +28,22 @@ pub(super) const MARGIN: f64 = 0.998;
 /// Shares of [`MARGIN`] that the sweeps hand out, in turn from failure to failure. Lower ones are
 /// slower without the polish, and some drafts succeed with one and not with another.
 const SWEEP_MARGINS: [f64; 4] = [0.95, 0.985, 0.97, 0.93];
+
+/// What the sweeps hand out in curves.
+const CAREFUL: Shares = Shares {
+    margin: MARGIN,
+    curve: 0.6,
+    twist: 0.6,
+    across: 0.25,
+};
+/// The same where all margins failed: a plan that takes a long curve at its limits is nowhere slow
+/// enough to be left with less.
+const DARING: Shares = Shares {
+    curve: 0.9,
+    twist: 0.5,
+    across: 0.35,
+    ..CAREFUL
+};
 
 /// Intervals that a draft adds at most; a longer one is ended behind three quarters of them.
 pub(super) const MOST_INTERVALS: usize = 128;
@@ -86,7 +103,7 @@ pub(super) struct Draft {
     attempt: usize,
     /// How often bounds were lowered since they were made.
     lowered: usize,
-    margin: f64,
+    shares: Shares,
     /// Intervals that it adds at most.
     most: usize,
     /// Cost of an evaluation of the path.
@@ -109,7 +126,7 @@ impl Draft {
         most_end: 0.0,
         attempt: 0,
         lowered: 0,
-        margin: 0.95,
+        shares: CAREFUL,
         most: MOST_INTERVALS,
         evaluation: 0,
         phase: Phase::Finished(DraftStep::Refused(Refusal::NotFound)),
@@ -117,13 +134,13 @@ impl Draft {
         sweeps: Sweeps::NONE,
     };
 
-    /// Begins a plan from the rest at `start` to a rest at `end`. `failures` chooses the margin.
+    /// Begins a plan from the rest at `start` to a rest at `end`. `failures` chooses what the sweeps hand out.
     pub fn begin_first<R: Route>(
         &mut self,
         context: &DraftContext<R>,
         start: f64,
         end: f64,
-        failures: usize,
+        failures: u32,
     ) {
         self.spline.start = start;
         self.spline.end = end;
@@ -135,21 +152,21 @@ impl Draft {
         self.cut = 1;
         self.grid_from = 1;
         self.attempt = 0;
-        self.margin = MARGIN * SWEEP_MARGINS[failures & 3];
+        self.shares = shares_after(failures);
         self.most_start = free_length(context.route, start, end - start);
         self.most_end = free_length(context.route, end, end - start);
         self.phase = self.search_start(context);
     }
 
     /// Begins the continuation of the plan to a rest at `end`; coefficients up to `base` at least
-    /// stay as they are. It adds at most `most` intervals. `failures` chooses the margin.
+    /// stay as they are. It adds at most `most` intervals. `failures` chooses what the sweeps hand out.
     pub fn begin_extension<R: Route>(
         &mut self,
         context: &DraftContext<R>,
         base: usize,
         end: f64,
         most: usize,
-        failures: usize,
+        failures: u32,
     ) {
         let plan = context.plan;
         self.base = base;
@@ -164,7 +181,7 @@ impl Draft {
         self.most = most;
         self.first_base = base;
         self.attempt = 0;
-        self.margin = MARGIN * SWEEP_MARGINS[failures & 3];
+        self.shares = shares_after(failures);
         // Intervals that are short only for the old rest are made anew.
         let mut cut = plan.last;
         for _ in 0..CAPACITY {
@@ -209,7 +226,16 @@ impl Draft {
 
     /// How many axes move in interval k.
     fn axes(&self, samples: &SampleBanks, k: usize) -> u32 {
-        MovingAxes::at_any(samples.of(&self.spline, k)).count()
+        if self.has_samples(k) {
+            MovingAxes::at_any(samples.of(&self.spline, k)).count()
+        } else {
+            0
+        }
+    }
+
+    /// Whether k is an interval of the draft: beside the ends there is what an earlier plan left.
+    fn has_samples(&self, k: usize) -> bool {
+        0 < k && k <= self.spline.last
     }
 
     fn step<R: Route>(&mut self, context: &DraftContext<R>, samples: &mut SampleBanks) -> Phase {
@@ -244,6 +270,39 @@ impl Draft {
     }
 }
 
+/// What the sweeps hand out after so many failures.
+fn shares_after(failures: u32) -> Shares {
+    let shares = if failures & 4 == 0 { CAREFUL } else { DARING };
+    Shares {
+        margin: MARGIN * SWEEP_MARGINS[(failures & 3) as usize],
+        ..shares
+    }
+}
+
 fn refused(refusal: Refusal) -> Phase {
     Phase::Finished(DraftStep::Refused(refusal))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::boxed::Box;
+
+    #[test]
+    fn what_a_plan_before_this_one_left_costs_nothing() {
+        std::thread::Builder::new()
+            .stack_size(16 << 20)
+            .spawn(|| {
+                let (mut draft, mut samples) = (Box::new(Draft::NONE), Box::new(SampleBanks::NONE));
+                draft.spline.last = 3;
+                for k in 0..6 {
+                    samples.place_mut(&draft.spline, k).middle.axes.add(k);
+                }
+                let axes: [u32; 6] = std::array::from_fn(|k| draft.axes(&samples, k));
+                assert_eq!(axes, [0, 1, 1, 1, 0, 0]);
+            })
+            .expect("a thread")
+            .join()
+            .expect("no panic");
+    }
 }

@@ -11,6 +11,9 @@ use super::{Draft, Phase, refused};
 /// How many times its length an interval is away from the rest if that has no influence on it.
 const NODES_BEFORE_REST: f64 = 6.0;
 
+/// How many times its length the start of the last interval that is kept is away from the arc at least.
+const ROOM_BEFORE_ARC: f64 = 3.0;
+
 impl Draft {
     pub(super) fn search_start<R: Route>(&self, context: &DraftContext<R>) -> Phase {
         Phase::StartArc(context.search(self.spline.start, 1.0, self.most_start, LASTING))
@@ -58,6 +61,7 @@ impl Draft {
         context: &DraftContext<R>,
         samples: &mut SampleBanks,
     ) -> Phase {
+        self.leave_room_for_arc();
         let from = self.grid_from;
         let bank = context.plan.at(from).bank ^ 1;
         if from > self.cut {
@@ -152,6 +156,18 @@ impl Draft {
             from += 1;
         }
         self.grid_from = from;
+    }
+
+    /// Drops nodes that were kept and lie on the arc to rest, or hardly before it.
+    fn leave_room_for_arc(&mut self) {
+        let end = self.spline.end - self.spline.end_arc.length;
+        for _ in self.cut..self.grid_from {
+            let before = self.spline.at(self.grid_from - 1);
+            if end - before.start >= ROOM_BEFORE_ARC * before.length {
+                break;
+            }
+            self.grid_from -= 1;
+        }
     }
 
     /// Intervals that a draft which grew too long is ended behind.

@@ -3,7 +3,7 @@
 use super::super::context::DraftContext;
 use super::super::refusal::Refusal;
 use super::super::route::Route;
-use super::super::spline::CAPACITY;
+use super::super::spline::{CAPACITY, Spline};
 use super::super::sweeps::SweepFault;
 use super::{Draft, Fault, Phase, refused};
 
@@ -21,7 +21,7 @@ impl Draft {
     pub(super) fn repair<R: Route>(&mut self, context: &DraftContext<R>, fault: Fault) -> Phase {
         let last = self.spline.last;
         let at_start = match fault {
-            Fault::Sweep(SweepFault::Base) => true,
+            Fault::Sweep(SweepFault::Base | SweepFault::Stall) => true,
             Fault::Sweep(SweepFault::End) => false,
             Fault::Interval(k) => k < self.base + (last - self.base) / 2,
         };
@@ -30,7 +30,15 @@ impl Draft {
         }
         // The arc at the start leaves its first interval no choice.
         let free = |k: usize| !self.first || k > self.base;
+        // Brakes or bends down harder than it may: lower bounds do not change that.
+        let late = match fault {
+            _ if self.first => None,
+            Fault::Interval(k) if k <= self.base + 1 => self.last_above(context.plan),
+            Fault::Sweep(SweepFault::Base) => self.last_above(context.plan),
+            _ => None,
+        };
         if let Fault::Interval(k) = fault
+            && late.is_none()
             && self.lowered < MOST_LOWERED
             && free(k)
         {
@@ -52,35 +60,65 @@ impl Draft {
                 self.grid_from = self.cut;
                 self.search_start(context)
             }
-            (true, false) => self.advance_base(context, fault),
+            (true, false) => self.advance_base(context, late),
         }
     }
 
-    /// Follows the plan a little farther before leaving it.
-    pub(super) fn advance_base<R: Route>(
-        &mut self,
-        context: &DraftContext<R>,
-        fault: Fault,
-    ) -> Phase {
-        let mut base = self.base + if self.attempt <= 3 { 3 } else { 6 };
-        if let Fault::Sweep(SweepFault::Base) = fault {
-            // Where the plan brakes harder than the sweep would, there is no leaving it.
-            base = self.base + 1;
-            for _ in 0..CAPACITY {
-                let planned = context.plan.at(base).coefficient;
-                if base + 3 >= self.cut || planned < 0.995 * self.sweeps.backward_value(base) {
-                    break;
-                }
-                base += 1;
+    /// The last coefficient behind the base at which the plan is above the backward sweep, if any.
+    ///
+    /// A plan that passes a slow place below its cap may come to it faster than any that passes it
+    /// at the cap: the sweep is not the fastest in all places. There is no leaving the plan before.
+    fn last_above(&self, plan: &Spline) -> Option<usize> {
+        let mut k = self.kept_end(plan);
+        for _ in 0..CAPACITY {
+            if k <= self.base + 1 {
+                return None;
             }
-            base = base.max(self.base + 2);
+            if plan.at(k).coefficient >= 0.995 * self.sweeps.backward_value(k) {
+                return Some(k);
+            }
+            k -= 1;
         }
-        if base + 3 > self.cut {
-            return refused(Refusal::NotFound);
+        None
+    }
+
+    /// The last coefficient that plan and draft have both.
+    fn kept_end(&self, plan: &Spline) -> usize {
+        self.cut.min(plan.last) - 1
+    }
+
+    /// Follows the plan a little farther before leaving it: behind coefficient `late`, if there is no
+    /// leaving it before.
+    fn advance_base<R: Route>(&mut self, context: &DraftContext<R>, late: Option<usize>) -> Phase {
+        let mut base = self.base + if self.attempt <= 3 { 3 } else { 6 };
+        if let Some(above) = late {
+            base = (above + 1).max(self.base + 2);
         }
         self.base = base;
         self.lowered = 0;
+        if base + 3 > self.cut {
+            return self.keep_more(context);
+        }
         Phase::Bounds(base - 1)
+    }
+
+    /// Keeps more of the intervals that the plan has for the sake of its rest only: where it is left
+    /// so late that the nodes behind cannot be made anew from there.
+    fn keep_more<R: Route>(&mut self, context: &DraftContext<R>) -> Phase {
+        let plan = context.plan;
+        let cut = self.base + 3;
+        if cut > plan.last {
+            return refused(Refusal::NotFound);
+        }
+        for k in self.cut..=cut {
+            *self.spline.at_mut(k) = *plan.at(k);
+        }
+        self.cut = cut;
+        self.grid_from = cut;
+        self.bounded = false;
+        let total = self.spline.end - plan.at(cut).start;
+        self.most_end = self.most_end.min(0.3 * total);
+        self.search_end(context)
     }
 
     /// Counts an attempt; what it ends with if there are no more.

@@ -1,0 +1,77 @@
+//! What ran before has no influence on a program, to the last digit.
+
+mod planner_common;
+
+use framepath::axes::Axes;
+use framepath::moves::TerminationCondition;
+use planner_common::{Machine, equal_limits, feed_move, with_room};
+
+const JERK: f64 = 20_000.0;
+
+/// `count` places on a curve in space from the origin on, .2 mm apart.
+fn curve(count: u32) -> Vec<Axes> {
+    (1..=count)
+        .map(|n| {
+            let way = 0.2 * f64::from(n);
+            Axes::from([
+                20.0 * (way / 20.0).sin(),
+                12.0 * (1.0 - (way / 9.0).cos()),
+                2.0 * (way / 5.0).sin(),
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+            ])
+        })
+        .collect()
+}
+
+/// `count` corners, then back to the origin. `axes` of them move, 2 to 9.
+fn corners(count: u32, axes: usize) -> Vec<Axes> {
+    let mut points: Vec<Axes> = (1..=count)
+        .map(|n| {
+            Axes::from_fn(|axis, _| match axis {
+                0 => 0.5 * f64::from(n),
+                _ if axis < axes => f64::from(n % 2),
+                _ => 0.0,
+            })
+        })
+        .collect();
+    points.push(Axes::zeros());
+    points
+}
+
+/// Runs programs one after the other, one move in each cycle: the positions of the last one.
+fn run(programs: &[&[Axes]]) -> Vec<Axes> {
+    with_room(|| {
+        let mut machine = Machine::new(equal_limits(JERK));
+        machine
+            .planner
+            .set_termination(TerminationCondition::Continuous { tolerance: 0.01 });
+        let mut from = 0;
+        for program in programs {
+            from = machine.positions.len();
+            for point in *program {
+                machine.line(*point, &feed_move(60.0)).expect("a line");
+                machine.cycle();
+            }
+            machine.run(100_000);
+        }
+        machine.positions.split_off(from)
+    })
+}
+
+#[test]
+fn what_ran_before_has_no_influence() {
+    let program = curve(400);
+    let alone = run(&[&program]);
+    // Short ones, and one that goes round the rings in which everything is kept.
+    for (count, axes) in [(1, 2), (20, 9), (300, 3)] {
+        let after = run(&[&corners(count, axes), &program]);
+        let differs = alone.iter().zip(&after).position(|(a, b)| a != b);
+        assert_eq!(differs, None, "after {count} corners of {axes} axes");
+        assert_eq!(alone.len(), after.len());
+    }
+}
