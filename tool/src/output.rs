@@ -6,6 +6,21 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use tempfile::TempPath;
 
+/// The first of these files that is named twice; devices take what comes as often as it comes.
+pub(crate) fn named_twice<'a>(files: &[&'a Option<PathBuf>]) -> Option<&'a Path> {
+    let mut named = Vec::new();
+    for file in files.iter().filter_map(|file| file.as_deref()) {
+        let is_device = file.exists() && !file.is_file();
+        // "out" and "./out" are the same.
+        let place = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+        if named.contains(&place) && !is_device {
+            return Some(file);
+        }
+        named.push(place);
+    }
+    None
+}
+
 /// A file that takes its place when it is complete: until then it is written beside it, under
 /// another name. Dropped without [`Self::finish`] it leaves nothing behind.
 ///

@@ -86,6 +86,19 @@ impl Bench {
 }
 
 #[test]
+fn two_outputs_in_one_file_are_refused() {
+    let bench = Bench::new(&constant_jerk_run(20000.0), INI);
+    let output = bench.report(&["--json", "out", "--html", "out"]);
+    let error = String::from_utf8(output.stderr).expect("text");
+    assert!(!output.status.success() && output.stdout.is_empty());
+    assert!(
+        error.contains("out: --html and --json would both"),
+        "{error}"
+    );
+    assert!(!bench.path().join("out").exists());
+}
+
+#[test]
 fn text_json_and_page_agree() {
     let bench = Bench::new(&constant_jerk_run(20000.0), INI);
     std::fs::write(bench.path().join("part.ngc"), "G21\nG0 X2\n").expect("written");

@@ -34,6 +34,13 @@ pub enum CompareError {
         /// What to do.
         hint: &'static str,
     },
+    /// --repeat, and a module does something else when it is run again.
+    #[error(
+        "{}: another run of the same program went another way, so that its calls cannot be compared: leave \
+         --repeat out",
+        .0.display()
+    )]
+    NotRepeatable(PathBuf),
     /// Something that is not the module's doing.
     #[error("a module cannot be run: {0}")]
     Run(io::Error),

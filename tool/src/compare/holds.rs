@@ -14,6 +14,8 @@ pub(crate) struct Holds {
     pub count: usize,
     /// How often it did not stand at the end of the hold.
     pub not_at_rest: usize,
+    /// How often it was held in a thread, which it follows to its end.
+    pub in_threads: usize,
     /// Longest time to rest, s.
     pub longest: f64,
     /// Mean of the time to rest over that of the shortest stop from the same speed and acceleration
@@ -26,8 +28,22 @@ pub(crate) struct Holds {
     pub drift: f64,
 }
 
-/// Measures all holds; `jerk` are the limits of the axes, 0 = none.
-pub(crate) fn holds(recording: &Recording, limits: &Limits, jerk: &[f64; 9], period: f64) -> Holds {
+impl Holds {
+    /// How often it was held in motion.
+    pub(crate) fn all(&self) -> usize {
+        self.count + self.not_at_rest + self.in_threads
+    }
+}
+
+/// Measures all holds; `jerk` are the limits of the axes, 0 = none. `in_thread`: whether each move, by its
+/// number, follows the angle of a spindle.
+pub(crate) fn holds(
+    recording: &Recording,
+    limits: &Limits,
+    jerk: &[f64; 9],
+    period: f64,
+    in_thread: &[bool],
+) -> Holds {
     let samples = &recording.samples;
     let held = |k: usize| {
         samples
@@ -63,6 +79,12 @@ pub(crate) fn holds(recording: &Recording, limits: &Limits, jerk: &[f64; 9], per
         let Some(state) = state.filter(|_| moves(&step(samples, start - 1))) else {
             continue;
         };
+        let number = usize::try_from(samples[start].id).ok();
+        let index = number.and_then(|number| number.checked_sub(1));
+        if index.is_some_and(|index| in_thread.get(index) == Some(&true)) {
+            holds.in_threads += 1;
+            continue;
+        }
         let Some(rest) = rest else {
             holds.not_at_rest += 1;
             continue;
@@ -119,8 +141,7 @@ impl Stop<'_> {
         let cycles = |time: f64| (time / self.period - 1e-6).ceil().max(1.0) * self.period;
         let axes = cycles(state.least_time);
         let time = (self.rest - self.start) as f64 * self.period;
-        let unlimited = self.jerk.iter().all(|jerk| *jerk <= 0.0);
-        if time < axes + 1.5 * self.period || unlimited {
+        if time < axes + 1.5 * self.period {
             return axes;
         }
         let along_path = self.along_path(state).map_or(axes, cycles);
@@ -198,6 +219,7 @@ mod tests {
                 &Limits::default(),
                 &[0.0; 9],
                 0.001,
+                &[],
             )
         };
         let ideal = measure(1000.0);
@@ -208,6 +230,20 @@ mod tests {
         assert!((half.latest - 0.1).abs() < 0.002, "{half:?}");
         let never = measure(100.0);
         assert_eq!((never.count, never.not_at_rest), (0, 1));
+    }
+
+    #[test]
+    fn a_thread_is_followed_to_its_end() {
+        let mut run = held_run(500.0);
+        for sample in &mut run.samples {
+            sample.id = 2;
+        }
+        let count = |in_thread: &[bool]| {
+            let holds = holds(&run, &Limits::default(), &[0.0; 9], 0.001, in_thread);
+            (holds.count, holds.in_threads)
+        };
+        assert_eq!(count(&[false, true]), (0, 1));
+        assert_eq!(count(&[true, false]), (1, 0));
     }
 
     #[test]
@@ -223,7 +259,7 @@ mod tests {
                 sample.position[0] = 0.01 * f64::from((k - 59).max(0));
                 recording.samples.push(sample);
             }
-            holds(&recording, &Limits::default(), &[0.0; 9], 0.001).drift
+            holds(&recording, &Limits::default(), &[0.0; 9], 0.001, &[]).drift
         };
         assert!((drift(0) - 0.01).abs() < 1e-9);
         assert_eq!(drift(HELD | WAITING), 0.0);

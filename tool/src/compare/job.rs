@@ -43,6 +43,33 @@ impl Job {
             })
     }
 
+    /// Whether each move follows the speed of a spindle or its angle.
+    pub(crate) fn with_spindle(&self) -> Vec<bool> {
+        self.coupled(|_| true)
+    }
+
+    /// Whether each move follows the angle of a spindle: no hold takes it out of the thread.
+    pub(crate) fn in_thread(&self) -> Vec<bool> {
+        self.coupled(|velocity_mode| !velocity_mode)
+    }
+
+    /// Whether each move is a tap, or synchronised in a mode that counts.
+    fn coupled(&self, counts: impl Fn(bool) -> bool) -> Vec<bool> {
+        let mut synchronised = false;
+        let mut found = Vec::new();
+        for operation in &self.operations {
+            match operation {
+                Operation::Synchronise {
+                    per_revolution,
+                    velocity_mode,
+                } => synchronised = *per_revolution != 0.0 && counts(*velocity_mode),
+                Operation::Move(a_move) => found.push(synchronised || a_move.shape == Shape::Tap),
+                _ => {}
+            }
+        }
+        found
+    }
+
     /// The jerk limits that a module is held to, 0 = none: those of the machine where it takes them.
     pub(crate) fn jerk_limits(&self, takes_jerk: bool) -> [f64; 9] {
         if takes_jerk { self.jerk } else { [0.0; 9] }

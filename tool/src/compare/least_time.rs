@@ -2,7 +2,7 @@
 
 use super::job::Job;
 use super::kinematics::{moves, step};
-use super::program::{Operation, Piece, Program, Shape};
+use super::program::{Operation, Piece, Program};
 use super::progress::Progress;
 use super::recording::{DONE, Recording, Sample, WAITING};
 use super::rests::{exact_stop_near, is_slow};
@@ -64,7 +64,7 @@ impl LeastTime {
             .count();
         found.executed = (range.1 - range.0 + 1 - waited) as f64 * job.period;
         let speeds = speeds(job);
-        let followers = with_spindle(job);
+        let followers = job.with_spindle();
         for stretch in stretches(samples, program, job, range) {
             let path: Vec<PathSample> = stretch
                 .clone()
@@ -232,20 +232,6 @@ fn speeds(job: &Job) -> Vec<f64> {
             _ => None,
         });
     moves.map(|speed| speed.min(job.velocity_limit)).collect()
-}
-
-/// Whether each move follows the spindle.
-fn with_spindle(job: &Job) -> Vec<bool> {
-    let mut synchronised = false;
-    let mut found = Vec::new();
-    for operation in &job.operations {
-        match operation {
-            Operation::Synchronise { per_revolution, .. } => synchronised = *per_revolution != 0.0,
-            Operation::Move(a_move) => found.push(synchronised || a_move.shape == Shape::Tap),
-            _ => {}
-        }
-    }
-    found
 }
 
 /// First of the three axes that F counts: X Y Z, else U V W, else A B C.

@@ -133,6 +133,10 @@ pub struct CompareArguments {
     #[arg(long, value_name = "N", conflicts_with_all = OPERATOR,
           value_parser = clap::value_parser!(u16).range(1..))]
     pub holds: Option<u16>,
+    /// Run everything so often: a call costs the shortest time that it took, so that what else the
+    /// computer does in between does not count
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u16).range(1..))]
+    pub repeat: u16,
     /// Seconds that a module may take for a single call before it counts as hanging
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     pub patience: f64,

@@ -128,6 +128,29 @@ impl<W: Write> Recorder<W> {
 }
 
 impl Recording {
+    /// Of each call the shorter time of two runs, so that what else the computer did in one of them
+    /// does not count. `false` if the runs differ in what they did.
+    pub(crate) fn take_shorter(&mut self, other: &Recording) -> bool {
+        let same = self.ending == other.ending
+            && self.adds.len() == other.adds.len()
+            && self.samples.len() == other.samples.len()
+            && self
+                .samples
+                .iter()
+                .zip(&other.samples)
+                .all(|(one, two)| one.position == two.position);
+        if !same {
+            return false;
+        }
+        for (sample, other) in self.samples.iter_mut().zip(&other.samples) {
+            sample.run = sample.run.min(other.run);
+        }
+        for (add, other) in self.adds.iter_mut().zip(&other.adds) {
+            *add = (*add).min(*other);
+        }
+        true
+    }
+
     /// Reads records up to the end, or to where they break off.
     pub(crate) fn parse(bytes: &[u8]) -> Recording {
         let mut recording = Recording::default();
@@ -199,6 +222,28 @@ impl Input<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_call_costs_the_shorter_time_of_two_runs() {
+        let run = |times: [u32; 2], adds: &[u32], end: f64| Recording {
+            samples: times
+                .map(|run| Sample {
+                    position: [end; 9],
+                    run,
+                    ..Sample::default()
+                })
+                .to_vec(),
+            adds: adds.to_vec(),
+            ending: Ending::Complete,
+            ..Recording::default()
+        };
+        let mut one = run([10, 40], &[7, 8], 1.0);
+        assert!(one.take_shorter(&run([20, 30], &[9, 6], 1.0)));
+        assert_eq!(one, run([10, 30], &[7, 6], 1.0));
+        assert!(!one.take_shorter(&run([1, 1], &[1, 1], 1.1)));
+        assert!(!one.take_shorter(&run([1, 1], &[1], 1.0)));
+        assert_eq!(one, run([10, 30], &[7, 6], 1.0));
+    }
 
     #[test]
     fn what_was_recorded_before_a_crash_is_there() {

@@ -34,14 +34,16 @@ const MOST_PLACES: usize = 20;
 
 /// Counts the rests between the first and the last motion (`range`).
 ///
-/// A rest is where no axis travels more in a cycle than it does from a standstill with its full
-/// acceleration. The program explains one at an exact stop, at a corner in exact path mode, where it
-/// goes back nearly the way it came, and where a corner is so sharp for its tolerance that no axis
-/// could take it faster than that.
+/// A rest is where no axis travels more in a cycle than it does from a standstill, with its full
+/// acceleration or, where `jerk` limits it (0 = none), its full jerk. The program explains one at an
+/// exact stop, before a move that waits for the spindle, at a corner into or out of exact path mode,
+/// where it goes back nearly the way it came, and where a corner is so sharp for its tolerance that no
+/// axis could take it faster than that.
 pub(crate) fn rests(
     recording: &Recording,
     program: &Program,
     limits: &Limits,
+    jerk: &[f64; 9],
     period: f64,
     range: Option<(usize, usize)>,
 ) -> Rests {
@@ -50,7 +52,13 @@ pub(crate) fn rests(
         return rests;
     };
     let samples = &recording.samples;
-    let slow = |k: usize| is_slow(&step(samples, k), limits, period);
+    let slow = |k: usize| {
+        let travel = step(samples, k);
+        let most = |jerk: f64| jerk * period.powi(3) / 6.0;
+        let mut axes = travel.iter().zip(jerk);
+        is_slow(&travel, limits, period)
+            && axes.all(|(travel, &jerk)| jerk <= 0.0 || travel.abs() <= most(jerk))
+    };
     // Where the motion begins and ends it is slow for a reason.
     let mut k = start;
     while k <= end && slow(k) {
@@ -153,7 +161,8 @@ fn junction_stops(one: &Piece, next: &Piece, limits: &Limits, period: f64) -> bo
         return true;
     }
     let turn = turn(one, next);
-    if one.mode == PathMode::ExactPath {
+    // A move that is to be followed exactly is so from its start on.
+    if one.mode == PathMode::ExactPath || next.mode == PathMode::ExactPath {
         return turn > TANGENT;
     }
     if turn > REVERSAL {
@@ -234,6 +243,7 @@ mod tests {
             &recording,
             &program,
             &Limits::default(),
+            &[0.0; 9],
             0.001,
             Some((0, 24)),
         );
@@ -260,6 +270,24 @@ mod tests {
     }
 
     #[test]
+    fn slow_is_not_at_rest_where_jerk_is_limited() {
+        let rests = |creep: f64, jerk: f64| {
+            let (mut recording, program) = stop_between("TERM 3 0.1", to(1.0, 1.0, 0.0));
+            for (k, sample) in recording.samples.iter_mut().enumerate().skip(10) {
+                sample.position[1] += creep * (k as f64 - 9.0).min(5.0);
+            }
+            let jerk = [jerk; 9];
+            let limits = Limits::default();
+            rests(&recording, &program, &limits, &jerk, 0.001, Some((0, 24))).count
+        };
+        // .4 mm/s: less than an acceleration of 1000 mm/s2 makes of a standstill in a period, more than
+        // a jerk of 20,000 mm/s3 does.
+        assert_eq!(rests(4e-4, 0.0), 1);
+        assert_eq!(rests(4e-4, 20_000.0), 0);
+        assert_eq!(rests(3e-6, 20_000.0), 1);
+    }
+
+    #[test]
     fn where_the_program_makes_it_stop() {
         assert_eq!(count("TERM 1 0", to(2.0, 0.0, 0.0)), (0, 0), "exact stop");
         assert_eq!(
@@ -272,6 +300,17 @@ mod tests {
             (0, 0),
             "back the same way"
         );
+        let text =
+            "TERM 3 0.1\nRATE 6000\nFEED 1 1 0 0 0 0 0 0 0 0\nTERM 2 0\nFEED 2 1 1 0 0 0 0 0 0 0";
+        let calls: Vec<Call> = text.lines().filter_map(Call::parse).collect();
+        let program = lay(&calls, &LayerSettings::default());
+        let (recording, _) = stop_between("TERM 3 0.1", to(1.0, 1.0, 0.0));
+        let (limits, range) = (Limits::default(), Some((0, 24)));
+        assert_eq!(
+            rests(&recording, &program, &limits, &[0.0; 9], 0.001, range).count,
+            0,
+            "into a move in exact path mode"
+        );
     }
 
     #[test]
@@ -283,6 +322,7 @@ mod tests {
                 &recording,
                 &program,
                 &Limits::default(),
+                &[0.0; 9],
                 0.001,
                 Some((0, 24)),
             );

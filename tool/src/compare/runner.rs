@@ -119,7 +119,14 @@ impl<'a> Runner<'a> {
                 operations: program.operations.clone(),
             };
             let patience = Duration::from_secs_f64(arguments.patience.min(1e6));
-            let (outcome, recording) = supervise::run(&job, patience).map_err(CompareError::Run)?;
+            let (outcome, mut recording) =
+                supervise::run(&job, patience).map_err(CompareError::Run)?;
+            for _ in 1..arguments.repeat {
+                let (_, again) = supervise::run(&job, patience).map_err(CompareError::Run)?;
+                if !recording.take_shorter(&again) {
+                    return Err(CompareError::NotRepeatable(module.file.into()));
+                }
+            }
             let mut figures =
                 Figures::measure(&module.label, jerk, &job, program, outcome, &recording);
             if let Some(range) = figures.motion.range
@@ -135,7 +142,7 @@ impl<'a> Runner<'a> {
                 job.events = random_holds(usize::from(count), figures.motion.time, hold_time(&job));
                 let (_, recording) = supervise::run(&job, patience).map_err(CompareError::Run)?;
                 let jerk = job.jerk_limits(recording.takes_jerk);
-                figures.holds = holds(&recording, &job.limits, &jerk, job.period);
+                figures.holds = holds(&recording, &job.limits, &jerk, job.period, &job.in_thread());
             }
             let takes_jerk = figures.takes_jerk;
             runs.push(figures);

@@ -166,9 +166,7 @@ fn note(figures: &Figures) -> Option<String> {
             )
         }
         State::Complete if figures.errors > 0 => figures.first_error.clone(),
-        State::Complete if figures.holds.count + figures.holds.not_at_rest > 0 => {
-            holds(&figures.holds)
-        }
+        State::Complete if figures.holds.all() > 0 => holds(&figures.holds),
         State::Complete => return None,
         State::Aborted => "aborted".to_owned(),
         State::Refused(detail) => format!("REFUSED: {detail}"),
@@ -193,6 +191,9 @@ fn holds(holds: &Holds) -> String {
     }
     if holds.not_at_rest > 0 {
         let _ = write!(text, ", {} too short for a rest", holds.not_at_rest);
+    }
+    if holds.in_threads > 0 {
+        let _ = write!(text, ", {} in threads", holds.in_threads);
     }
     if holds.drift > 0.0 {
         let _ = write!(text, ", drifts by {:.6} mm", holds.drift);

@@ -27,7 +27,8 @@ pub(crate) type Start = (f64, f64, f64);
 /// distance that no stop undercuts. `None` if nothing was found, or if the path ends too early.
 ///
 /// Each distance has its least time, the shorter it is the less, down to where no motion keeps the
-/// limits: bisection between the distance that is possible and the one that is not.
+/// limits: bisection between the distance that is possible and the one that is not. Without a limit of
+/// jerk the shortest stop brakes as hard as it can everywhere.
 pub(crate) fn shortest_stop(
     path: &ExecutedPath,
     limits: &AxisLimits,
@@ -35,6 +36,11 @@ pub(crate) fn shortest_stop(
     least: f64,
     stopped: f64,
 ) -> Option<f64> {
+    if !limits.limit_jerk() {
+        return WIDER
+            .into_iter()
+            .find_map(|wider| hardest_braking(path, limits, (start, squared), stopped, wider));
+    }
     let moving = Boundary::Moving {
         squared,
         acceleration,
@@ -101,6 +107,54 @@ pub(crate) fn shortest_stop(
         }
     }
     Some(time)
+}
+
+/// Places at which the rows are held on the way that the machine took.
+const STEPS: usize = 500;
+
+/// Time to rest, s, with the least square of ds/dt everywhere that limits of acceleration leave which
+/// are `wider` by this factor. `None` if they leave none, or it takes much longer than the machine.
+fn hardest_braking(
+    path: &ExecutedPath,
+    limits: &AxisLimits,
+    (start, squared): (f64, f64),
+    stopped: f64,
+    wider: f64,
+) -> Option<f64> {
+    let length = stopped / STEPS as f64;
+    let (mut now, mut time) = (squared, 0.0);
+    for step in 0..2 * STEPS {
+        let middle = start + (step as f64 + 0.5) * length;
+        if middle > path.end() {
+            return None;
+        }
+        let slope = path.slope(middle);
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let axes = slope.first.iter().zip(&slope.second);
+        for ((first, second), limit) in axes.zip(&limits.acceleration) {
+            // |first (next - now) / (2 length) + second (next + now) / 2| <= limit
+            let limit = limit * wider;
+            let (change, curved) = (0.5 * first / length, 0.5 * second);
+            let (of_now, of_next) = ((curved - change) * now, curved + change);
+            if of_next.abs() * squared < 1e-12 * limit {
+                continue;
+            }
+            let (one, other) = ((-limit - of_now) / of_next, (limit - of_now) / of_next);
+            low = low.max(one.min(other));
+            high = high.min(one.max(other));
+        }
+        if low > high {
+            return None;
+        }
+        if low <= 0.0 {
+            // At rest within this step: the square falls in a straight line.
+            let share = now / (now - low);
+            return Some(time + 2.0 * share * length / now.sqrt());
+        }
+        time += 2.0 * length / (now.sqrt() + low.sqrt());
+        now = low;
+    }
+    None
 }
 
 /// Squares of ds/dt over the share of the distance.
@@ -227,6 +281,63 @@ mod tests {
                 "{share} of {simple} ms, {soft}"
             );
         }
+    }
+
+    /// Time of the hardest stop that is found on the path of a machine that stopped half as hard as it
+    /// may and went on.
+    fn hardest(path: impl Fn(f64) -> [f64; 2], speed: f64) -> f64 {
+        const RUN_IN: usize = 40;
+        let periods = (2.0 * speed / LIMITS.acceleration[0] / PERIOD) as usize;
+        let mean = |k: usize| speed * (k as f64 + 0.5) / periods as f64;
+        let speeds = [speed; RUN_IN]
+            .into_iter()
+            .chain((0..periods).rev().map(mean))
+            .chain([0.0; 20])
+            .chain((0..periods).map(mean));
+        let mut at = -speed * PERIOD * RUN_IN as f64;
+        let samples: Vec<PathSample> = std::iter::once(0.0)
+            .chain(speeds)
+            .map(|speed| {
+                at += speed * PERIOD;
+                let mut position = [0.0; AXES];
+                position[..2].copy_from_slice(&path(at));
+                PathSample {
+                    position,
+                    cap: SpeedCap::NONE,
+                }
+            })
+            .collect();
+        let path = ExecutedPath::new(&samples, PERIOD, &LIMITS.velocity).expect("a path");
+        let rest = path.parameter_at((RUN_IN + periods) as f64 * PERIOD);
+        let state = path.state(RUN_IN as f64 * PERIOD).expect("in motion");
+        let limits = AxisLimits {
+            jerk: [f64::INFINITY; AXES],
+            ..LIMITS
+        };
+        shortest_stop(&path, &limits, state, 0.0, rest - state.0).expect("a stop")
+    }
+
+    #[test]
+    fn without_a_limit_of_jerk() {
+        let (speed, most) = (80.0, WIDER[0] * LIMITS.acceleration[0]);
+        let line = hardest(|s| [s, 0.0], speed);
+        assert!((line / (speed / most) - 1.0).abs() < 0.005, "{line}");
+        // On a circle, from 45 degrees on, each axis brakes with what curvature leaves of it.
+        let radius = 20.0;
+        let angle = |s: f64| s / radius + std::f64::consts::FRAC_PI_4;
+        let circle = hardest(
+            |s| [radius * angle(s).sin(), radius * angle(s).cos()],
+            speed,
+        );
+        let (mut s, mut v, mut time) = (0.0, speed, 0.0);
+        while v > 0.0 {
+            let (curved, (sine, cosine)) = (v * v / radius, angle(s).sin_cos());
+            let braking = ((most - curved * sine) / cosine).min((most + curved * cosine) / sine);
+            s += v * 1e-6;
+            v -= braking * 1e-6;
+            time += 1e-6;
+        }
+        assert!((circle / time - 1.0).abs() < 0.005, "{circle} {time}");
     }
 
     #[test]

@@ -15,8 +15,9 @@ use framepath::planner::{CycleInputs, MoveRequest, Planner, Status};
 use nalgebra::Vector3;
 use std::path::Path;
 
-/// Which overrides apply: LinuxCNC's feed, spindle and adaptive override and feed hold.
-const ALL_OVERRIDES: u8 = 0x0f;
+/// Which overrides apply, as LinuxCNC begins a program: of spindle and feed, and feed hold; the adaptive
+/// one (4) after M52 only.
+const OVERRIDES: u8 = 0x0b;
 
 /// Cycles without any change after which the plan counts as stuck.
 const STUCK: u64 = 100_000;
@@ -297,7 +298,7 @@ impl<'a> Drive<'a> {
             },
             feed: a_move.velocity * rate,
             max_velocity: a_move.greatest_velocity * rate,
-            enables: ALL_OVERRIDES,
+            enables: OVERRIDES,
             wait_for_spindle: a_move.at_speed,
             indexer_joint: None,
             tag: StateTag([0; STATE_TAG_SIZE]),

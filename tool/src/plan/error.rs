@@ -114,7 +114,10 @@ pub(super) fn refusal(error: &AddError) -> String {
             ShapeError::TooManyTurns => "it has too many turns",
         }
         .to_owned(),
-        other => format!("{other:?}"),
+        AddError::Spindle { spindle } => format!("the machine has no spindle {spindle}"),
+        AddError::Aborting | AddError::QueueFull | AddError::NotConfigured | AddError::Tripped => {
+            format!("{error:?}. This is a fault of framepath: please report it with the program")
+        }
     }
 }
 

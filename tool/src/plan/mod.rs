@@ -34,7 +34,7 @@ pub use error::PlanError;
 use crate::arguments::{file_name, period, positive};
 use crate::compare::layer::LayerSettings;
 use crate::compare::layer::stream::LayerStream;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, named_twice};
 use arrivals::Arrivals;
 use collector::Collector;
 use csv::Table;
@@ -117,6 +117,13 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> 
         let problem =
             "--html, --svg, --csv and --arrivals are for one program: plan them one by one";
         return Err(PlanError::Option(problem.to_owned()).into());
+    }
+    if let Some(file) = named_twice(&files) {
+        return Err(PlanError::Option(format!(
+            "{}: two of --html, --svg and --csv would be written there: give each a file of its own",
+            file.display()
+        ))
+        .into());
     }
     let setup = Setup::new(arguments)?;
     let mut all = Vec::new();

@@ -21,6 +21,9 @@ pub enum ReportError {
         /// What the operating system says.
         source: std::io::Error,
     },
+    /// Two outputs would be written to one file.
+    #[error("{}: --html and --json would both be written there: give each a file of its own", .0.display())]
+    SameFile(PathBuf),
     /// A line of the INI file does not have the form of LinuxCNC's INI files.
     #[error("{}:{line}: {problem}", file.display())]
     IniLine {

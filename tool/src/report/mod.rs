@@ -28,7 +28,7 @@ pub use error::ReportError;
 
 use crate::arguments::{file_name, positive};
 use crate::encoding::decode;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, named_twice};
 use crate::program::contour::ContourMove;
 use ini::Ini;
 use machine::{AXIS_LETTERS, Machine};
@@ -86,6 +86,9 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
 /// # Errors
 /// Those of [`run`].
 pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result<(), ReportError> {
+    if let Some(file) = named_twice(&[&arguments.html, &arguments.json]) {
+        return Err(ReportError::SameFile(file.to_owned()));
+    }
     let machine = Machine::from_ini(&Ini::read(&arguments.ini)?)?;
     let mut recording = Recording::read(&arguments.recording)?;
     let letter_order = |letter: char| AXIS_LETTERS.find(letter.to_ascii_uppercase());

@@ -77,6 +77,30 @@ fn gives_a_position_that_is_no_number() {
 }
 
 #[test]
+fn goes_another_way_when_it_is_run_again() {
+    let bench = Bench::new();
+    let file = bench.write("program.ngc", PROGRAM);
+    let run = |fault: &str| {
+        let module = bench.module(fault);
+        bench.compare(&[
+            file.to_str().expect("text"),
+            "--with",
+            module.to_str().expect("text"),
+            "--repeat",
+            "3",
+        ])
+    };
+    assert!(run("").status.success());
+    let refused = run("WANDERS");
+    let error = String::from_utf8(refused.stderr).expect("text");
+    assert!(!refused.status.success());
+    assert!(
+        error.contains("made-upWANDERS.so: another run of the same program went another way"),
+        "{error}"
+    );
+}
+
+#[test]
 fn is_no_planner() {
     let bench = Bench::new();
     let source = bench.path().join("other.c");

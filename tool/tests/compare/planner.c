@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 #include "rtapi.h"
 #include "rtapi_app.h"
@@ -174,6 +175,12 @@ int tpGetPos(TP_STRUCT const * const tp, EmcPose * const pos)
 #ifdef FAULT_JUMPS
     if (cycles == 50)
         pos->tran.y += 0.3;
+#endif
+#ifdef FAULT_WANDERS
+    /* another place at each time */
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    pos->tran.y += 1e-15 * now.tv_nsec;
 #endif
 #ifdef FAULT_NOT_A_NUMBER
     if (cycles == 50)

@@ -134,6 +134,19 @@ fn a_thread_that_is_too_fast_for_the_axes_is_told() {
     );
 }
 
+#[test]
+fn two_outputs_in_one_file_are_refused() {
+    let bench = Bench::new();
+    bench.write("part.ngc", "G21 F1000\nG1 X1\nM2\n");
+    for again in ["out", "./out"] {
+        let error = bench.refused(&["part.ngc", "--svg", "out", "--csv", again]);
+        assert!(
+            error.starts_with(&format!("{again}: ")) && error.contains("a file of its own"),
+            "{error}"
+        );
+    }
+}
+
 /// In cycles of the servo thread it is more than can be counted.
 #[test]
 fn a_dwell_of_ages_is_refused() {

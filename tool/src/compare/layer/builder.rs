@@ -52,6 +52,11 @@ impl Builder {
         ) {
             self.operation(Operation::WaitForMotion);
         }
+        self.stop();
+    }
+
+    /// Motion comes to its end behind the last move.
+    fn stop(&mut self) {
         if let Some(piece) = self.program.handed.last_mut() {
             piece.stops = true;
         }
@@ -81,6 +86,10 @@ impl Builder {
 
     /// A move for the planner, made of all pieces that belong to no move yet.
     pub(super) fn hand(&mut self, mut handed: Move, segment: Segment) {
+        if handed.at_speed {
+            // A planner waits for the spindle at rest.
+            self.stop();
+        }
         let program = &mut self.program;
         handed.index = program.handed.len();
         if segment.start[3..] != segment.end[3..] {

@@ -157,8 +157,10 @@ impl<'a> Layer<'a> {
             return;
         }
         let least = self.settings.feed_at_least.unwrap_or(0.0);
-        let linear = (rate * self.unit).max(least) / 60.0;
-        let angular = rate.max(least) / 60.0;
+        // In this order, as in LinuxCNC: to the last digit.
+        let a_second = rate / 60.0;
+        let linear = (a_second * self.unit).max(least / 60.0);
+        let angular = a_second.max(least / 60.0);
         if linear != self.linear_feed || angular != self.angular_feed {
             self.flush();
         }

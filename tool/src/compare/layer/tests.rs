@@ -160,6 +160,16 @@ fn what_waits_for_the_end_of_motion() {
 }
 
 #[test]
+fn a_feed_move_behind_the_start_of_a_spindle_begins_at_rest() {
+    let program = plain(
+        "RATE 60\nSPINDLE 1000 1\nTRAVERSE 1 1 0 0 0 0 0 0 0 0\nTRAVERSE 2 2 0 0 0 0 0 0 0 0\n\
+         FEED 3 3 0 0 0 0 0 0 0 0\nFEED 4 4 0 0 0 0 0 0 0 0",
+    );
+    let stops: Vec<bool> = program.handed.iter().map(|piece| piece.stops).collect();
+    assert_eq!(stops, [false, true, false, false]);
+}
+
+#[test]
 fn feed_per_revolution_does_not_hold_for_rapids() {
     let program =
         plain("FEEDMODE 1\nRATE 0.5\nTRAVERSE 1 1 0 0 0 0 0 0 0 0\nFEED 2 2 0 0 0 0 0 0 0 0");
