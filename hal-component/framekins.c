@@ -239,9 +239,9 @@ static int configure(void)
     const char *words = framepath_kinematics_configure_text(error);
     if (!error)
         return 0;
-    if (error == 5)
+    if (error == FRAMEPATH_UNKNOWN_MACHINE)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: machine=%s: %s\n", machine, words);
-    else if (error == 6)
+    else if (error == FRAMEPATH_UNKNOWN_TOOL_LENGTH)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_length=%s: %s\n", tool_length, words);
     else
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: coordinates=%s: %s (letter %d); write one letter of XYZABCUVW for each joint, "

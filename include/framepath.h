@@ -16,6 +16,36 @@
 #define FRAMEPATH_VERSION 100
 
 /*
+ Errors of `framepath_kinematics_configure`: `coordinates=` names no axis.
+ */
+#define FRAMEPATH_NO_AXIS 1
+
+/*
+ `coordinates=` has a letter that is no axis.
+ */
+#define FRAMEPATH_UNKNOWN_AXIS 2
+
+/*
+ `coordinates=` has more letters than LinuxCNC has joints.
+ */
+#define FRAMEPATH_TOO_MANY_JOINTS 3
+
+/*
+ `coordinates=` leaves out an axis that the machine needs.
+ */
+#define FRAMEPATH_MISSING_AXIS 4
+
+/*
+ There is no such `machine=`.
+ */
+#define FRAMEPATH_UNKNOWN_MACHINE 5
+
+/*
+ There is no such `tool_length=`.
+ */
+#define FRAMEPATH_UNKNOWN_TOOL_LENGTH 6
+
+/*
  The most moves that motmod may ask room for (it asks for 2000).
  */
 #define FRAMEPATH_QUEUE_CAPACITY 2000
@@ -179,9 +209,9 @@ struct framepath_frame_outputs {
 };
 
 /*
- Chooses the machine from the texts of `coordinates=`, `machine=` and `tool_length=`. Returns 0, or the number of an
- error for `framepath_kinematics_configure_text`: 1 to 4 are about the coordinates, and `letter` says at which of
- them, counted from 1, 0 if at none; 5 is about the machine, 6 about the tool length.
+ Chooses the machine from the texts of `coordinates=`, `machine=` and `tool_length=`. Returns 0, or an error for
+ `framepath_kinematics_configure_text`, one of the constants above. Where it is about the coordinates, `letter` says at
+ which of them, counted from 1, 0 if at none.
 
  # Safety
  The texts are strings or null, `letter` points to a number.

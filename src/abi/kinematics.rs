@@ -20,6 +20,19 @@ use crate::machine::{
     TableTiltingParameters, TiltAxis,
 };
 
+/// Errors of `framepath_kinematics_configure`: `coordinates=` names no axis.
+pub const FRAMEPATH_NO_AXIS: c_int = 1;
+/// `coordinates=` has a letter that is no axis.
+pub const FRAMEPATH_UNKNOWN_AXIS: c_int = 2;
+/// `coordinates=` has more letters than LinuxCNC has joints.
+pub const FRAMEPATH_TOO_MANY_JOINTS: c_int = 3;
+/// `coordinates=` leaves out an axis that the machine needs.
+pub const FRAMEPATH_MISSING_AXIS: c_int = 4;
+/// There is no such `machine=`.
+pub const FRAMEPATH_UNKNOWN_MACHINE: c_int = 5;
+/// There is no such `tool_length=`.
+pub const FRAMEPATH_UNKNOWN_TOOL_LENGTH: c_int = 6;
+
 /// What is read from the pins in each servo period. Lengths in machine units, angles in degrees.
 #[repr(C)]
 pub struct framepath_frame_inputs {
@@ -163,9 +176,9 @@ unsafe fn parameter<'a>(text: *const c_char) -> &'a [u8] {
     unsafe { CStr::from_ptr(text) }.to_bytes()
 }
 
-/// Chooses the machine from the texts of `coordinates=`, `machine=` and `tool_length=`. Returns 0, or the number of an
-/// error for `framepath_kinematics_configure_text`: 1 to 4 are about the coordinates, and `letter` says at which of
-/// them, counted from 1, 0 if at none; 5 is about the machine, 6 about the tool length.
+/// Chooses the machine from the texts of `coordinates=`, `machine=` and `tool_length=`. Returns 0, or an error for
+/// `framepath_kinematics_configure_text`, one of the constants above. Where it is about the coordinates, `letter` says at
+/// which of them, counted from 1, 0 if at none.
 ///
 /// # Safety
 /// The texts are strings or null, `letter` points to a number.
@@ -190,13 +203,17 @@ pub unsafe extern "C" fn framepath_kinematics_configure(
     }
     let machine = match Machine::configured(machine, coordinates) {
         Ok(machine) => machine,
-        Err(ConfigurationError::UnknownMachine) => return 5,
+        Err(ConfigurationError::UnknownMachine) => return FRAMEPATH_UNKNOWN_MACHINE,
         Err(ConfigurationError::Coordinates(error)) => {
             let (error, place) = match error {
-                CoordinatesError::Empty => (1, 0),
-                CoordinatesError::UnknownLetter { position, .. } => (2, position + 1),
-                CoordinatesError::TooManyJoints { position } => (3, position + 1),
-                CoordinatesError::MissingAxis { .. } => (4, 0),
+                CoordinatesError::Empty => (FRAMEPATH_NO_AXIS, 0),
+                CoordinatesError::UnknownLetter { position, .. } => {
+                    (FRAMEPATH_UNKNOWN_AXIS, position + 1)
+                }
+                CoordinatesError::TooManyJoints { position } => {
+                    (FRAMEPATH_TOO_MANY_JOINTS, position + 1)
+                }
+                CoordinatesError::MissingAxis { .. } => (FRAMEPATH_MISSING_AXIS, 0),
             };
             // SAFETY: see above.
             if let Some(letter) = unsafe { letter.as_mut() } {
@@ -209,7 +226,7 @@ pub unsafe extern "C" fn framepath_kinematics_configure(
     module.tool_length = match tool_length {
         b"" | b"frame" => ToolLength::Frame,
         b"machine" => ToolLength::Machine,
-        _ => return 6,
+        _ => return FRAMEPATH_UNKNOWN_TOOL_LENGTH,
     };
     module.control = Some(FrameControl::new(machine));
     0
@@ -219,12 +236,12 @@ pub unsafe extern "C" fn framepath_kinematics_configure(
 #[unsafe(no_mangle)]
 pub extern "C" fn framepath_kinematics_configure_text(error: c_int) -> *const c_char {
     match error {
-        1 => c"no axis is named",
-        2 => c"this is no axis letter",
-        3 => c"more letters than LinuxCNC has joints (16)",
-        4 => c"an axis that this machine needs is missing: xyzac needs X Y Z A C, xyzbc needs X Y Z B C",
-        5 => c"there is no such machine; write machine=identity, machine=xyzac or machine=xyzbc",
-        6 => c"there is no such rule; write tool_length=frame or tool_length=machine",
+        FRAMEPATH_NO_AXIS => c"no axis is named",
+        FRAMEPATH_UNKNOWN_AXIS => c"this is no axis letter",
+        FRAMEPATH_TOO_MANY_JOINTS => c"more letters than LinuxCNC has joints (16)",
+        FRAMEPATH_MISSING_AXIS => c"an axis that this machine needs is missing: xyzac needs X Y Z A C, xyzbc needs X Y Z B C",
+        FRAMEPATH_UNKNOWN_MACHINE => c"there is no such machine; write machine=identity, machine=xyzac or machine=xyzbc",
+        FRAMEPATH_UNKNOWN_TOOL_LENGTH => c"there is no such rule; write tool_length=frame or tool_length=machine",
         _ => c"no error",
     }
     .as_ptr()
