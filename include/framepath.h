@@ -441,12 +441,13 @@ int framepath_planner_abort(struct framepath_planner *handle, TP_STRUCT *tp);
 int framepath_planner_position(const struct framepath_planner *handle, EmcPose *position);
 
 /*
- Whether no more moves should be sent.
+ Whether no more moves should be sent. motmod asks when the rest of its status is complete, at the end of a servo
+ period: from here on task may know that a move has been taken.
 
  # Safety
  `handle` from `framepath_planner_create`.
  */
-int framepath_planner_queue_full(const struct framepath_planner *handle);
+int framepath_planner_queue_full(struct framepath_planner *handle);
 
 /*
  Sets the greatest jerk of each of the nine axes, 0 = not limited. Returns -1, or the number of the first axis whose

@@ -4,11 +4,9 @@ They run one after the other; between them the machine goes back to where each b
 recorded in which cycle each move reached the planner (arrivals.c).
 """
 
-import glob
 import math
 import os
 import re
-import subprocess
 import tempfile
 
 import harness
@@ -65,16 +63,6 @@ PROGRAMS = {
 }
 
 
-def modules_for_recording(folder):
-    """The modules, and arrivals.so, which shows when a move reaches the planner."""
-    for file in glob.glob(os.path.join(harness.MODULES, "*.so")):
-        os.symlink(file, os.path.join(folder, os.path.basename(file)))
-    headers = os.environ.get("LINUXCNC_INCLUDE", "/usr/include/linuxcnc")
-    subprocess.run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-DRTAPI", "-DUSPACE",
-                    "-D__MODULE__", "-D_GNU_SOURCE", "-isystem", headers,
-                    "-o", os.path.join(folder, "arrivals.so"), os.path.join(harness.HERE, "arrivals.c")], check=True)
-
-
 def motion(positions):
     """The first and the last cycle in which anything moves by what the recording shows."""
     shown = [tuple(round(place, DIGITS) for place in position) for position in positions]
@@ -118,7 +106,8 @@ def record(names, **machine):
         steps += [["mdi", "G61.1 G21 G90 G54 G53 G0 X0 Y0 Z0"], ["halcmd", "sets", "record-program", str(number)],
                   ["run", f"PROGRAMS/{name}.ngc"], ["halcmd", "sets", "record-program", "0"]]
     with tempfile.TemporaryDirectory() as modules:
-        modules_for_recording(modules)
+        # shows when a move reaches the planner
+        harness.modules_with("arrivals", modules)
         result = harness.run(steps, {f"{name}.ngc": PROGRAMS[name] for name in names}, modules=modules,
                              hal="loadrt arrivals\naddf arrivals servo-thread\n",
                              integers={"moves": "arrivals.moves", "scale": "arrivals.scale", "program": ""},

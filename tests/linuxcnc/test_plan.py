@@ -19,7 +19,7 @@ from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, motion, record
 INI = os.path.join(harness.SAMPLES, "configs", "framepath-sim", "framepath-sim.ini")
 PERIOD = 1e-3
 #: mm
-SAME = 1e-6
+SAME = 1e-9
 
 
 def plan(*arguments, check=True):

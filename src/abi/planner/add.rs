@@ -73,7 +73,12 @@ impl Handle {
     /// The result of adding a move as LinuxCNC expects it; the words for a refusal are kept.
     fn answer(&mut self, result: Result<Added, AddError>) -> c_int {
         match result {
-            Ok(Added::Queued) => tp_err_t::TP_ERR_OK,
+            Ok(Added::Queued) => {
+                if let Some(answer) = self.answer_to_task() {
+                    self.acknowledgement.hold(&answer);
+                }
+                tp_err_t::TP_ERR_OK
+            }
             Ok(Added::ZeroLength) => tp_err_t::TP_ERR_ZERO_LENGTH,
             Err(error) => {
                 self.refused = words(error);
@@ -184,6 +189,9 @@ pub unsafe extern "C" fn framepath_planner_add_line(
     else {
         return tp_err_t::TP_ERR_FAIL;
     };
+    if handle.is_repeated() {
+        return tp_err_t::TP_ERR_OK;
+    }
     let Some(request) = request_of(
         motion_type,
         feed,
@@ -245,6 +253,9 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
     }) else {
         return tp_err_t::TP_ERR_FAIL;
     };
+    if handle.is_repeated() {
+        return tp_err_t::TP_ERR_OK;
+    }
     let Some(request) = request_of(motion_type, feed, max_velocity, enables, at_speed, -1, tag)
     else {
         handle.refused = c"an arc of a kind that is not known";
@@ -292,6 +303,9 @@ pub unsafe extern "C" fn framepath_planner_add_rigid_tap(
     else {
         return tp_err_t::TP_ERR_FAIL;
     };
+    if handle.is_repeated() {
+        return tp_err_t::TP_ERR_OK;
+    }
     if let Some(objection) = handle.objection(tag) {
         handle.refused = objection;
         return tp_err_t::TP_ERR_FAIL;

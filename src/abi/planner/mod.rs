@@ -4,6 +4,7 @@
 //! allocate. LinuxCNC calls all of this either while modules are loaded or from the servo thread, never from two threads
 //! at a time.
 
+mod acknowledgement;
 mod add;
 mod run;
 mod settings;
@@ -12,8 +13,11 @@ use core::cell::UnsafeCell;
 use core::ffi::CStr;
 use core::mem::MaybeUninit;
 use core::ptr;
+use core::sync::atomic::{AtomicI32, AtomicU8};
 
 use libc::{c_char, c_double, c_int, c_ulong};
+
+use acknowledgement::{Acknowledgement, Answer};
 
 use super::linuxcnc::{EmcPose, TP_STRUCT, emcmot_config_t, emcmot_status_t, tp_err_t};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
@@ -50,6 +54,7 @@ pub struct Handle {
     jerk: Axes,
     /// Whether a programmed frame is in force.
     framed: bool,
+    acknowledgement: Acknowledgement,
     refused: &'static CStr,
     /// The joint for whose sake the last move was refused.
     out_of_range: Option<OutOfRange>,
@@ -74,6 +79,7 @@ static MEMORY: Memory = Memory(UnsafeCell::new(Handle {
     inverse_kinematics: None,
     jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[f64::INFINITY; AXIS_COUNT]])),
     framed: false,
+    acknowledgement: Acknowledgement::NONE,
     refused: c"",
     out_of_range: None,
 }));
@@ -85,6 +91,27 @@ fn module() -> &'static mut Handle {
 }
 
 impl Handle {
+    /// What motmod's status says of commands, if there is one.
+    fn answer_to_task(&self) -> Option<Answer<'static>> {
+        if self.status.is_null() {
+            return None;
+        }
+        // SAFETY: motmod's status in shared memory for as long as the module is loaded. Only the servo thread writes it,
+        // and who else has it mapped reads these at any time.
+        unsafe {
+            Some(Answer {
+                command: AtomicI32::from_ptr(&raw mut (*self.status).commandNumEcho),
+                changes: AtomicU8::from_ptr(&raw mut (*self.status).head),
+            })
+        }
+    }
+
+    /// Whether motmod hands over once more what is in the queue already; it has to take the answer of the first time.
+    fn is_repeated(&self) -> bool {
+        self.answer_to_task()
+            .is_some_and(|answer| self.acknowledgement.is_repeated(&answer))
+    }
+
     /// What each axis is able to do now; LinuxCNC's limits may be changed at any time through its ini.* pins.
     fn limits(&self) -> AxisLimits {
         let ask = |function: AxisLimit, axis: usize| match function {

@@ -302,12 +302,19 @@ pub unsafe extern "C" fn framepath_planner_position(
     tp_err_t::TP_ERR_OK
 }
 
-/// Whether no more moves should be sent.
+/// Whether no more moves should be sent. motmod asks when the rest of its status is complete, at the end of a servo
+/// period: from here on task may know that a move has been taken.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn framepath_planner_queue_full(handle: *const Handle) -> c_int {
+pub unsafe extern "C" fn framepath_planner_queue_full(handle: *mut Handle) -> c_int {
     // SAFETY: see above.
-    unsafe { handle.as_ref() }.map_or(1, |handle| handle.planner.status().queue_full.into())
+    let Some(handle) = (unsafe { handle.as_mut() }) else {
+        return 1;
+    };
+    if let Some(answer) = handle.answer_to_task() {
+        handle.acknowledgement.give(&answer);
+    }
+    handle.planner.status().queue_full.into()
 }

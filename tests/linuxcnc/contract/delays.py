@@ -5,9 +5,7 @@ import time
 
 #: Seconds between two looks.
 LOOKS = 0.01
-#: What is longer than this may spoil a row: an operator who looks too late, a command that comes too late. Or LinuxCNC
-#: itself: where the servo thread is stopped between taking a move and counting it, its task may take the move for done
-#: ("Queue is not empty after probing").
+#: What is longer than this may spoil a row: an operator who looks too late, a command that comes too late.
 DISTURBED = 0.01
 
 
