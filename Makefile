@@ -30,7 +30,7 @@ help:
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
-	@echo 'make figures    more about blendtp: a restless operator, feed holds, queues, distance from the least time'
+	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -106,6 +106,7 @@ compare: modules tool
 BLENDTP = --with $(MODULES)/blendtp.so
 
 figures: modules tool
+	$(TOOL) compare $(RAISED) $(COMPARED_JERK) --repeat 5
 	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --operator 1 --velocity-limit 200
 	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --holds 50
 	$(TOOL) compare --generated trochoidal $(BLENDTP) --jerk 20A --queue 200,2000
