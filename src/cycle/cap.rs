@@ -204,6 +204,27 @@ impl Caps {
         Some((wanted - acceleration - jerk_without_n) / path_velocity)
     }
 
+    /// The rate at which the reference, a period later, is as fast as its cap: where jerk is not limited, a cap
+    /// is reached with full acceleration.
+    pub fn rate(&self, table: &Table, state: State) -> f64 {
+        let here = table.cell(state.time as usize);
+        let time = state.time + state.rate;
+        let (from, to) = (
+            table.cell(time as usize),
+            table.cell((time as usize).saturating_add(1)),
+        );
+        let feed_ratio = f64::from(from.feed_ratio.max(to.feed_ratio)).max(1e-3);
+        // Behind the end of the reference nothing is asked for.
+        let asked = |cell: &&StoredCell| cell.programmed_feed > 0.0;
+        let cap = [here, from, to]
+            .into_iter()
+            .filter(asked)
+            .map(|cell| self.feed(cell))
+            .fold(f64::INFINITY, f64::min)
+            / feed_ratio;
+        cap / table.along(time).velocity.max(1e-12)
+    }
+
     /// Whether the guard has to look: at this rate, or the one it is about to reach, the
     /// reference exceeds a cap somewhere ahead by `ratio`.
     pub fn needs_guard(state: State, ratio: f64, period: f64) -> bool {

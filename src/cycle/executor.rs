@@ -232,15 +232,27 @@ impl Executor {
             self.state.rate = if goal == Goal::Hold { 0.0 } else { 1.0 };
         }
         self.budget = BUDGET;
-        let n = self.decide(goal);
-        self.commit(n)
+        if goal == Goal::Follow || self.limits.limit_jerk() {
+            let n = self.decide(goal);
+            let n = if n.is_finite() { n } else { 0.0 };
+            self.commit(n, self.state.step(n).settled())
+        } else {
+            self.state.rate_change = self.rate_change(goal);
+            let next = self.state.step(0.0);
+            self.commit(
+                0.0,
+                State {
+                    rate_change: 0.0,
+                    ..next
+                },
+            )
+        }
     }
 
-    /// Takes the step.
-    fn commit(&mut self, n: f64) -> Step {
+    /// Takes the step with this n, behind which the state is `next`.
+    fn commit(&mut self, n: f64, next: State) -> Step {
         let state = self.state;
-        let n = if n.is_finite() { n } else { 0.0 };
-        let mut next = state.step(n).settled().within_range();
+        let mut next = next.within_range();
         // At a rate of 1 this is exactly one period, wherever in its cell the time lies.
         let mut advance = state.advance(n).clamp(0.0, 1.0);
         next.time = state.time + advance;

@@ -15,7 +15,8 @@
 //! 0 to 1. So a state is safe if m can be brought to 0 from it within the limits: the executor
 //! always holds one such release, verified against the cells of the table, and follows it until it
 //! has found a better move that comes with a release of its own. Hence feed hold, override and
-//! abort may come at any instant, in any order.
+//! abort may come at any instant, in any order. Where no axis has a limit of jerk, m may jump to 0
+//! at once, and nothing has to be released.
 //!
 //! Inside, time is counted in servo periods: a velocity is what an axis moves in one period. The
 //! formulas then need no period, and a [cell](Cell) of the table is one unit of reference time.
@@ -33,6 +34,7 @@ mod rows;
 mod search;
 mod state;
 mod table;
+mod without_jerk_limit;
 
 pub use cell::Cell;
 pub use demand::{Demand, Step};

@@ -69,6 +69,11 @@ impl Limits {
         limits
     }
 
+    /// Whether any axis has a limit of jerk.
+    pub fn limit_jerk(&self) -> bool {
+        self.least_jerk.is_finite()
+    }
+
     /// The least jerk limit of all axes, units per period cubed; may be infinite.
     pub fn least_jerk(&self) -> f64 {
         self.least_jerk
@@ -186,7 +191,7 @@ impl Span {
     /// both ends of it, given the state at its start and the predicted state at its end.
     #[inline(always)]
     pub fn jerk_interval(&self, start: State, end: State) -> Interval {
-        let mut rows = Rows::new();
+        let mut rows = Rows::within(N_LIMIT);
         let [square, cube, coupling, change] = powers(start);
         let end_rate = greater(end.rate as f32, 0.0);
         let (end_square, end_change) = (end_rate * end_rate, end.rate_change as f32);
@@ -228,7 +233,7 @@ impl Span {
     /// The n that keep the acceleration of all axes within its limits at the end of the period.
     #[inline(always)]
     pub fn acceleration_interval(&self, start: State, end: State) -> Interval {
-        let mut rows = Rows::new();
+        let mut rows = Rows::within(N_LIMIT);
         let end_rate = greater(end.rate as f32, 0.0);
         let square = end_rate * end_rate;
         let rate_change = start.rate_change as f32;
@@ -242,6 +247,33 @@ impl Span {
                     - square * self.acceleration.half[lane]
                     - rate_change.abs() * self.slack(lane),
             );
+        }
+        rows.interval()
+    }
+
+    /// The rate changes that keep the acceleration of all axes within its limits at both ends of the period, if
+    /// they are constant over it; `rate` is the one at its start, `predicted` the rate change that is expected.
+    pub fn rate_change_interval(&self, rate: f64, predicted: f64) -> Interval {
+        let mut rows = Rows::within(1.0);
+        let (rate, predicted) = (greater(rate as f32, 0.0), predicted as f32);
+        let end_rate = greater(rate + predicted, 0.0);
+        // The square of the rate at the end, (rate + m)^2, linearised around the predicted m: how it changes with m.
+        let ends = [
+            (&self.start, rate * rate, 0.0),
+            (&self.end, end_rate * end_rate, 2.0 * end_rate),
+        ];
+        for (node, square, change) in ends {
+            for lane in 0..LANE_COUNT {
+                let centre = self.acceleration.centre[lane];
+                rows.narrow(
+                    lane,
+                    (square - change * predicted) * centre,
+                    node.velocity[lane] + change * centre,
+                    ACCELERATION_ROW_PART * self.acceleration.limit_at(lane, square)
+                        - square * self.acceleration.half[lane]
+                        - predicted.abs() * self.slack(lane),
+                );
+            }
         }
         rows.interval()
     }
@@ -324,10 +356,10 @@ struct Rows {
 
 impl Rows {
     #[inline(always)]
-    fn new() -> Self {
+    fn within(most: f64) -> Self {
         Self {
-            low: [-N_LIMIT as f32; LANE_COUNT],
-            high: [N_LIMIT as f32; LANE_COUNT],
+            low: [-most as f32; LANE_COUNT],
+            high: [most as f32; LANE_COUNT],
         }
     }
 

@@ -21,7 +21,7 @@ const SEARCH_TOLERANCE: f64 = 0.06;
 const ENOUGH_LEFT: usize = BUDGET * 7 / 8;
 
 /// Least part of the way that is tried first.
-const LEAST_FRACTION: f64 = 1.0 / 64.0;
+pub(super) const LEAST_FRACTION: f64 = 1.0 / 64.0;
 
 impl Executor {
     /// Two periods that end exactly on the target rate with no rate change, if such a pair keeps

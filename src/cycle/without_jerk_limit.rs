@@ -1,0 +1,140 @@
+//! The decision of a period where no axis has a limit of jerk: the rate change may jump between periods.
+//!
+//! So every period stands for itself. Within it the rate change is constant; none is always possible, and
+//! there is nothing to release.
+
+use super::Executor;
+use super::cap::Caps;
+use super::decision::Goal;
+use super::rows::Span;
+use super::search::LEAST_FRACTION;
+use super::state::State;
+
+/// How often the rows are linearised around what they gave.
+const PREDICTIONS: usize = 3;
+
+/// How often the way between a rate change that the check refuses and none is halved.
+const HALVINGS: usize = 8;
+
+impl Executor {
+    /// The rate change over this period, per servo period.
+    pub(super) fn rate_change(&mut self, goal: Goal) -> f64 {
+        self.goal = goal;
+        self.release_mut().clear();
+        let state = self.state;
+        let wanted = match goal {
+            Goal::Hold => -state.rate,
+            Goal::Cap(_) => self.caps.rate(&self.table, state).min(1.0) - state.rate,
+            Goal::Run | Goal::Follow => 1.0 - state.rate,
+        };
+        let found = self.within_limits(wanted);
+        match goal {
+            Goal::Cap(ratio) => self.before_caps(found, ratio),
+            _ => {
+                self.fraction = 1.0;
+                found
+            }
+        }
+    }
+
+    /// What the caps ahead leave of a rate change: braking if nothing. Then less is tried in the next period,
+    /// or a machine at rest would stay there.
+    fn before_caps(&mut self, change: f64, ratio: f64) -> f64 {
+        let part = self.fraction * change;
+        let change = if change > 0.0 && self.keeps_limits(part) {
+            part
+        } else {
+            change.min(0.0)
+        };
+        if self.goes_too_far(change, ratio) {
+            self.fraction = (0.5 * self.fraction).max(LEAST_FRACTION);
+            self.within_limits(-self.state.rate)
+        } else {
+            self.fraction = (2.0 * self.fraction).min(1.0);
+            change
+        }
+    }
+
+    /// Whether a feed cap ahead could not be kept any more.
+    fn goes_too_far(&mut self, change: f64, ratio: f64) -> bool {
+        let next = State {
+            rate_change: 0.0,
+            ..changing(self.state, change).step(0.0)
+        };
+        if !Caps::needs_guard(next, ratio, self.servo_period) {
+            return false;
+        }
+        let answer = self.caps.guard(
+            &self.table,
+            &self.limits,
+            next,
+            0.0,
+            self.servo_period,
+            &mut self.budget,
+        );
+        self.wall |= answer.is_err();
+        answer == Ok(false)
+    }
+
+    /// The rate change nearest to the wanted one that the limits of acceleration allow.
+    fn within_limits(&mut self, wanted: f64) -> f64 {
+        if wanted == 0.0 {
+            return 0.0;
+        }
+        let state = self.state;
+        let start = self.table.node(state.time);
+        let (mut kept, mut refused, mut predicted) = (0.0_f64, wanted, 0.0);
+        for _ in 0..PREDICTIONS {
+            let end = self.table.node(changing(state, predicted).step(0.0).time);
+            let interval = Span::new(&self.table, &self.limits, &start, &end)
+                .rate_change_interval(state.rate, predicted);
+            // The reference itself may be on a limit, but for rounding: no change is always possible.
+            let change = wanted
+                .max(interval.low.min(0.0))
+                .min(interval.high.max(0.0));
+            if change.abs() <= kept.abs() {
+                break;
+            }
+            if self.keeps_limits(change) {
+                kept = change;
+            } else {
+                refused = change;
+            }
+            predicted = change;
+        }
+        if kept != 0.0 {
+            return kept;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (kept + refused);
+            if self.keeps_limits(middle) {
+                kept = middle;
+            } else {
+                refused = middle;
+            }
+        }
+        kept
+    }
+
+    fn keeps_limits(&mut self, change: f64) -> bool {
+        let state = changing(self.state, change);
+        let next = state.step(0.0);
+        if !next.follows(state) {
+            return false;
+        }
+        if !self.table.knows(next.time) {
+            self.wall = true;
+            return false;
+        }
+        let (start, end) = (self.table.node(state.time), self.table.node(next.time));
+        Span::new(&self.table, &self.limits, &start, &end).keeps_limits(state, next, 0.0)
+    }
+}
+
+/// The state with a rate change that begins here.
+fn changing(state: State, rate_change: f64) -> State {
+    State {
+        rate_change,
+        ..state
+    }
+}
