@@ -43,17 +43,22 @@ fn corners(count: u32, axes: usize) -> Vec<Axes> {
     points
 }
 
-/// Runs programs one after the other, one move in each cycle: the positions of the last one.
-fn run(programs: &[&[Axes]]) -> Vec<Axes> {
+/// Runs programs one after the other, one move in each cycle: the positions of the last one. It comes to
+/// rest at these of its places, counted from 0.
+fn run(programs: &[&[Axes]], stops: &[usize]) -> Vec<Axes> {
     with_room(|| {
         let mut machine = Machine::new(equal_limits(JERK));
-        machine
-            .planner
-            .set_termination(TerminationCondition::Continuous { tolerance: 0.01 });
         let mut from = 0;
-        for program in programs {
+        for (left, program) in (0..programs.len()).rev().zip(programs) {
             from = machine.positions.len();
-            for point in *program {
+            for (number, point) in program.iter().enumerate() {
+                machine
+                    .planner
+                    .set_termination(if left == 0 && stops.contains(&number) {
+                        TerminationCondition::Stop
+                    } else {
+                        TerminationCondition::Continuous { tolerance: 0.01 }
+                    });
                 machine.line(*point, &feed_move(60.0)).expect("a line");
                 machine.cycle();
             }
@@ -63,15 +68,26 @@ fn run(programs: &[&[Axes]]) -> Vec<Axes> {
     })
 }
 
-#[test]
-fn what_ran_before_has_no_influence() {
-    let program = curve(400);
-    let alone = run(&[&program]);
-    // Short ones, and one that goes round the rings in which everything is kept.
-    for (count, axes) in [(1, 2), (20, 9), (300, 3)] {
-        let after = run(&[&corners(count, axes), &program]);
+/// Whether a program runs as it does alone, to the last digit, after others.
+fn runs_as_alone(program: &[Axes], stops: &[usize]) {
+    let alone = run(&[program], stops);
+    // Short ones, of even and odd numbers of periods, and one that goes round the rings in which
+    // everything is kept.
+    for (count, axes) in [(1, 2), (2, 2), (3, 2), (20, 9), (300, 3)] {
+        let after = run(&[&corners(count, axes), program], stops);
         let differs = alone.iter().zip(&after).position(|(a, b)| a != b);
         assert_eq!(differs, None, "after {count} corners of {axes} axes");
         assert_eq!(alone.len(), after.len());
     }
+}
+
+#[test]
+fn what_ran_before_has_no_influence() {
+    runs_as_alone(&curve(400), &[]);
+}
+
+/// Two parts of a program are planned at a time: which of them comes first must not depend on it either.
+#[test]
+fn nor_where_the_program_stops_within() {
+    runs_as_alone(&curve(200), &[100]);
 }
