@@ -132,7 +132,7 @@ impl Grid {
         let between = self
             .features
             .has_edge(s, length)
-            .then(|| [0.25, 0.75].map(|share| rows.sample(route, s + share * length, length)));
+            .then(|| [0.25, 0.75].map(|share| rows.curving(route, s + share * length)));
         samples_here.cover(rows, raise_squared, between);
         let right = if self.features.is_on_vertex(end) {
             rows.sample(route, end, length)

@@ -141,6 +141,16 @@ impl AxisRows {
         }
     }
 
+    /// How the path curves at `s`.
+    pub fn curving<R: Route>(&self, route: &R, s: f64) -> Curving {
+        let point = route.point(s);
+        let row = |derivative: &Axes| self.map.apply(derivative).component_mul(&self.inverse_jerk);
+        Curving {
+            second: row(&point.second) * 3.0,
+            third: row(&point.third),
+        }
+    }
+
     /// J / A by axis, shape (9).
     pub fn jerk_time(&self) -> &Axes {
         &self.jerk_time
@@ -333,6 +343,15 @@ impl Sample {
     }
 }
 
+/// What a [`Sample`] says of curvature alone.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Curving {
+    /// 3 q'' / J, shape (9).
+    second: Axes,
+    /// q''' / J, shape (9).
+    third: Axes,
+}
+
 /// The samples of an interval, at start and end as they are inside of it: where two legs meet the
 /// third derivative of the path may jump.
 #[derive(Clone, Copy, Debug)]
@@ -354,23 +373,34 @@ impl IntervalSamples {
     /// Between three values a parabola exceeds them by an eighth of their second difference at
     /// most. What has a kink there, where a change of shape begins or ends, leaves the parabola:
     /// the path is looked at in the middle of both halves, `between`.
-    fn hidden(&self, between: &Option<[Sample; 2]>, of: impl Fn(&Sample) -> Axes) -> Axes {
-        let [start, middle, end] = [&self.start, &self.middle, &self.end].map(&of);
-        match between {
-            None => (start + end - middle * 2.0).abs() * SMOOTH_SHARE,
-            Some([first, last]) => {
-                let parabola = |near: Axes, far: Axes| near * 0.375 + middle * 0.75 - far * 0.125;
-                let first = (of(first) - parabola(start, end)).abs();
-                let last = (of(last) - parabola(end, start)).abs();
-                first.sup(&last)
+    fn hidden(&self, between: &Option<[Curving; 2]>) -> Curving {
+        let [start, middle, end] = [&self.start, &self.middle, &self.end].map(|sample| Curving {
+            second: sample.second,
+            third: sample.third,
+        });
+        let exceeds = |of: fn(&Curving) -> Axes| {
+            let [start, middle, end] = [&start, &middle, &end].map(of);
+            match between {
+                None => (start + end - middle * 2.0).abs() * SMOOTH_SHARE,
+                Some([first, last]) => {
+                    let parabola =
+                        |near: Axes, far: Axes| near * 0.375 + middle * 0.75 - far * 0.125;
+                    let first = (of(first) - parabola(start, end)).abs();
+                    let last = (of(last) - parabola(end, start)).abs();
+                    first.sup(&last)
+                }
             }
+        };
+        Curving {
+            second: exceeds(|place| place.second),
+            third: exceeds(|place| place.third),
         }
     }
 
     /// Makes room for what happens between the three places, see [`hidden`](Self::hidden). How
     /// much that is of the limits depends on the speed, which is at most what cap and curvature
     /// allow.
-    pub fn cover(&mut self, rows: &AxisRows, raise_squared: f64, between: Option<[Sample; 2]>) {
+    pub fn cover(&mut self, rows: &AxisRows, raise_squared: f64, between: Option<[Curving; 2]>) {
         let [start, middle, end] = [&self.start, &self.middle, &self.end];
         let mut speed = f64::INFINITY;
         for sample in [start, middle, end] {
@@ -381,8 +411,7 @@ impl IntervalSamples {
         if !speed.is_finite() {
             return;
         }
-        let second = self.hidden(&between, |sample| sample.second);
-        let third = self.hidden(&between, |sample| sample.third);
+        let Curving { second, third } = self.hidden(&between);
         let mut excess = 0.0;
         for axis in 0..AXIS_COUNT {
             let acceleration = second[axis] * rows.jerk_time[axis] / 3.0 * speed * speed;
