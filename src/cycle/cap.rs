@@ -5,8 +5,9 @@
 //! that braking as hard as possible from now on would still keep all caps ahead.
 
 use super::demand::Demand;
+use super::interval::Interval;
 use super::release::Refusal;
-use super::rows::{Interval, Limits, Span};
+use super::rows::{Limits, Span};
 use super::state::State;
 use super::table::{OverrideKind, StoredCell, Table};
 

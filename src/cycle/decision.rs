@@ -3,7 +3,8 @@
 use super::Executor;
 use super::cap::Caps;
 use super::demand::Demand;
-use super::rows::{Interval, Span};
+use super::interval::Interval;
+use super::rows::Span;
 use super::table::Node;
 
 /// What the executor wants in a servo period.

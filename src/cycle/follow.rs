@@ -1,6 +1,6 @@
 //! A thread: the machine is to be at a given place along the path, moving with the spindle.
 
-use super::rows::Interval;
+use super::interval::Interval;
 use super::state::State;
 use super::table::Table;
 use crate::cube_root::cube_root;

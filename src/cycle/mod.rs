@@ -27,6 +27,7 @@ mod decision;
 mod demand;
 mod executor;
 mod follow;
+mod interval;
 mod jerk;
 mod lanes;
 mod release;

@@ -5,18 +5,12 @@
 //! from what all rows have in common. The rows look at both ends of the period, linearised around
 //! a predicted n; what was picked is then checked once more, in the middle of the period too.
 
+use super::interval::{Interval, N_LIMIT};
 use super::jerk::{INSTANT_TOLERANCE, Jerk, MEAN_TOLERANCE};
 use super::lanes::{LANE_COUNT, Lanes, greater, greatest, least, lesser, scaled_limits};
 use super::state::State;
 use super::table::{Node, Table};
 use crate::axes::AxisLimits;
-
-/// Greatest rate change m, per period: from 0 to 1 takes four periods even where no axis limits
-/// it, which keeps a period's change of rate small against what the rows linearise.
-pub const RATE_CHANGE_LIMIT: f64 = 0.25;
-
-/// Greatest n, per period squared, for the same reason.
-pub const N_LIMIT: f64 = 0.25;
 
 /// Part of the acceleration limit that is used. The reference itself may use all of it.
 const ACCELERATION_PART: f32 = 0.9985;
@@ -77,51 +71,6 @@ impl Limits {
     /// The least jerk limit of all axes, units per period cubed; may be infinite.
     pub fn least_jerk(&self) -> f64 {
         self.least_jerk
-    }
-}
-
-/// An interval of n, per period squared. Empty if `low > high`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
-    pub low: f64,
-    pub high: f64,
-}
-
-impl Interval {
-    pub fn is_empty(&self) -> bool {
-        self.low > self.high
-    }
-
-    pub fn contains(&self, n: f64) -> bool {
-        self.low <= n && n <= self.high
-    }
-
-    pub fn intersection(&self, other: &Self) -> Self {
-        Self {
-            low: self.low.max(other.low),
-            high: self.high.min(other.high),
-        }
-    }
-
-    /// `n` moved into the interval; the middle of an empty one.
-    pub fn nearest(&self, n: f64) -> f64 {
-        if self.is_empty() {
-            0.5 * (self.low + self.high)
-        } else {
-            n.max(self.low).min(self.high)
-        }
-    }
-
-    /// The n that keep the rate from 0 to 1 and |m| within [`RATE_CHANGE_LIMIT`] at the end of
-    /// the period. Never empty.
-    pub fn of_rate(state: State) -> Self {
-        let (rate, change) = (state.rate, state.rate_change);
-        let low = (-RATE_CHANGE_LIMIT - change).max(-2.0 * (rate + change));
-        let high = (RATE_CHANGE_LIMIT - change).min(2.0 * (1.0 - rate - change));
-        Self {
-            low: low.min(high),
-            high: high.max(low),
-        }
     }
 }
 
@@ -474,30 +423,6 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn intervals() {
-        let interval = Interval {
-            low: -1.0,
-            high: 2.0,
-        };
-        assert_eq!(interval.nearest(5.0), 2.0);
-        assert_eq!(interval.nearest(-5.0), -1.0);
-        assert_eq!(interval.nearest(0.5), 0.5);
-        let empty = interval.intersection(&Interval {
-            low: 3.0,
-            high: 4.0,
-        });
-        assert!(empty.is_empty() && !empty.contains(2.5));
-        assert_eq!(empty.nearest(9.0), 2.5);
-        let standing = State {
-            time: 0.0,
-            rate: 0.0,
-            rate_change: 0.0,
-        };
-        let of_rate = Interval::of_rate(standing);
-        assert_eq!((of_rate.low, of_rate.high), (0.0, RATE_CHANGE_LIMIT));
     }
 
     #[test]

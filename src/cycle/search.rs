@@ -6,8 +6,9 @@
 use super::Executor;
 use super::decision::Goal;
 use super::executor::BUDGET;
+use super::interval::{Interval, N_LIMIT, RATE_CHANGE_LIMIT};
 use super::release::{Refusal, Reserve};
-use super::rows::{Interval, N_LIMIT, RATE_CHANGE_LIMIT, Span};
+use super::rows::Span;
 use super::table::Node;
 
 /// Candidates that are tried in one cycle.
