@@ -4,6 +4,7 @@ CARGO ?= cargo
 PYTHON = /usr/bin/python3
 TARGET = $(abspath $(or $(CARGO_TARGET_DIR),target))
 MODULES = $(TARGET)/modules
+FAULT_MODULES = $(TARGET)/fault-modules
 # dev builds faster: the tests use it
 TOOL_PROFILE ?= release
 TOOL = $(TARGET)/$(if $(filter dev,$(TOOL_PROFILE)),debug,$(TOOL_PROFILE))/framepath
@@ -16,6 +17,7 @@ MAN = $(DESTDIR)$(PREFIX)/share/man
 BIN = $(DESTDIR)$(PREFIX)/bin
 
 export FRAMEPATH_MODULES = $(MODULES)
+export FRAMEPATH_FAULT_MODULES = $(FAULT_MODULES)
 export FRAMEPATH_TOOL = $(TOOL)
 
 help:
@@ -40,6 +42,12 @@ modules: prerequisites
 	$(CARGO) build --locked --profile realtime --lib
 	$(MAKE) -C hal-component LIBRARY=$(TARGET)/realtime/libframepath.a OUT=$(MODULES)
 
+# The modules with pins that make the planner fail in a servo period of one's choice: only for tests.
+fault-modules: modules
+	$(CARGO) build --locked --profile realtime --lib --features fault-injection
+	$(MAKE) -C hal-component LIBRARY=$(TARGET)/realtime/libframepath.a OUT=$(FAULT_MODULES) \
+	    DEFINES=-DFRAMEPATH_FAULT_INJECTION
+
 tool: prerequisites
 	$(CARGO) build --locked --profile $(TOOL_PROFILE) -p framepath-tool
 
@@ -54,14 +62,14 @@ lint:
 # The same random cases each time, so that what fails can be had again; make soak takes others.
 test: export PROPTEST_RNG_SEED ?= 1
 test: export TOOL_PROFILE = dev
-test: lint modules
+test: lint modules fault-modules
 	@./prerequisites browser
 	$(CARGO) test --locked --workspace --no-fail-fast
 # The tool is there: its own tests run it.
 	$(PYTHON) -B tests/linuxcnc/run_all.py
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
-linuxcnc-test: modules tool
+linuxcnc-test: modules fault-modules tool
 	$(PYTHON) -B tests/linuxcnc/run_all.py
 
 # What comes last in make test: the table of promises, two minutes of soak, plan against LinuxCNC.
@@ -134,4 +142,4 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules tool demo lint test linuxcnc-test contract soak bench fuzz compare figures header install uninstall clean
+.PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test contract soak bench fuzz compare figures header install uninstall clean

@@ -38,7 +38,9 @@ fn bind(include: &str) {
         .allowlist_type("PmCartesian")
         .allowlist_type("state_tag_t")
         .allowlist_type("emcmot_(status|config)_t")
-        .allowlist_type("(tp_err|tc_term_cond|tc_direction|KINEMATICS_TYPE|StateField).*")
+        .allowlist_type(
+            "(tp_err|cmd_code_t|tc_term_cond|tc_direction|KINEMATICS_TYPE|StateField).*",
+        )
         .allowlist_var("EMCMOT_(MAX|TERM_COND|MOTION)_.*")
         .allowlist_var("(SS|FS|AF|FH)_ENABLED")
         .allowlist_var("DEFAULT_TC_QUEUE_SIZE")

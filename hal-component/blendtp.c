@@ -35,19 +35,31 @@ static int reverse_refused;
 /* framekins says how the axes of the program lie to those of the machine; other kinematics do not have it. */
 static int (*linear_map)(double map[9]);
 
+#ifdef FRAMEPATH_FAULT_INJECTION
+#include "fault_injection.h"
+#endif
+
 /* Hands the jerk limits to the planner. Called before a move is added: a limit that makes no sense refuses the move. */
 static int take_jerk_limits(void)
 {
-    double jerk[AXES];
+    /* Axes of which it was said that they have more than can be used. */
+    static unsigned told;
+    double jerk[AXES], least;
+    unsigned unlimited;
     for (int i = 0; i < AXES; i++)
         jerk[i] = *pins->max_jerk[i];
-    int axis = framepath_planner_set_jerk(planner, jerk);
+    int axis = framepath_planner_set_jerk(planner, jerk, &least, &unlimited);
     if (axis >= 0 && axis < AXES) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.axis.%c.max-jerk is %g: it must be 0 (not limited) or a positive number of "
-                        "machine units per second cubed; set it with setp or [AXIS_%c]MAX_JERK\n",
-                        letters[axis], jerk[axis], letters[axis] - 'x' + 'X');
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.axis.%c.max-jerk is %g: it must be 0 (not limited) or, in machine units per "
+                        "second cubed, at least %g, a fifth of the acceleration; set it with setp or "
+                        "[AXIS_%c]MAX_JERK\n", letters[axis], jerk[axis], least, letters[axis] - 'a' + 'A');
         return -1;
     }
+    for (int i = 0; i < AXES; i++)
+        if (unlimited & ~told & 1u << i)
+            rtapi_print("blendtp.axis.%c.max-jerk is %g: that is more than the acceleration can change in a servo period, so "
+                        "that the jerk of this axis is not limited; 0 says the same\n", letters[i], jerk[i]);
+    told = unlimited;
     return 0;
 }
 
@@ -163,6 +175,9 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     (void)period;
     if (reverse_refused)
         reverse_refused--;
+#ifdef FRAMEPATH_FAULT_INJECTION
+    inject_fault(tp);
+#endif
     result = framepath_planner_run_cycle(planner, tp);
     spindle = framepath_planner_spindle_error_text(planner, &asked, &greatest);
     if (spindle && asked > 0)
@@ -369,6 +384,10 @@ int rtapi_app_main(void)
         error |= hal_pin_float_newf(HAL_IN, &pins->default_tolerance, component, "blendtp.default-tolerance");
     if (!error)
         error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "blendtp.version");
+#ifdef FRAMEPATH_FAULT_INJECTION
+    if (!error)
+        error |= make_fault_pins();
+#endif
     if (error) {
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: HAL has no room for the pins; raise HAL_SIZE or load fewer components\n");
         hal_exit(component);

@@ -374,7 +374,7 @@ int framepath_planner_add_rigid_tap(struct framepath_planner *handle,
 const char *framepath_planner_error_text(const struct framepath_planner *handle);
 
 /*
- What went wrong inside the planner, null if nothing did. The motion was aborted for it.
+ What went wrong inside the planner, null if nothing did. The motion was stopped for it; an abort ends that.
 
  # Safety
  `handle` from `framepath_planner_create`.
@@ -425,7 +425,8 @@ int framepath_planner_pause(struct framepath_planner *handle, TP_STRUCT *tp);
 int framepath_planner_resume(struct framepath_planner *handle, TP_STRUCT *tp);
 
 /*
- Comes to rest on the path, then drops all moves.
+ Comes to rest on the path, then drops all moves. Where an error has stopped the motion, only an abort that task
+ commands lifts that: motmod itself also calls this when it refuses a move.
 
  # Safety
  `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
@@ -451,12 +452,16 @@ int framepath_planner_queue_full(struct framepath_planner *handle);
 
 /*
  Sets the greatest jerk of each of the nine axes, 0 = not limited. Returns -1, or the number of the first axis whose
- value is negative or not a number; then nothing changes.
+ value makes no sense; then nothing changes, and `least` is the smallest one that would. In `unlimited` a bit is set for
+ each axis, 1 for the first one, whose value is more than can be used: it counts as not limited.
 
  # Safety
- `handle` from `framepath_planner_create`; `jerk` has nine numbers.
+ `handle` from `framepath_planner_create`; `jerk` has nine numbers; the others point to one each.
  */
-int framepath_planner_set_jerk(struct framepath_planner *handle, const double *jerk);
+int framepath_planner_set_jerk(struct framepath_planner *handle,
+                               const double *jerk,
+                               double *least,
+                               unsigned int *unlimited);
 
 /*
  Sets the length of a millimetre in machine units, how far rotary axes may leave the program (degrees, 0 = as many as

@@ -13,6 +13,7 @@
 mod blending;
 mod direction;
 mod inputs;
+mod jerk_limit;
 #[allow(clippy::module_inception)]
 mod planner;
 pub mod range;
@@ -25,6 +26,7 @@ mod status;
 pub use blending::{Blending, BlendingError};
 pub use direction::DirectionError;
 pub use inputs::{CycleInputs, SpindleInputs};
+pub use jerk_limit::JerkLimit;
 pub use planner::{Planner, PositionError};
 pub use request::{AddError, Added, MoveRequest};
 pub use spindle::SpindleError;

@@ -24,6 +24,12 @@ const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]))
 
 const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
 
+const UNLIMITED_AXES: AxisLimits = AxisLimits {
+    velocity: UNLIMITED,
+    acceleration: UNLIMITED,
+    jerk: UNLIMITED,
+};
+
 /// The trajectory planner. About 12 MB, without a heap: it belongs in a static.
 #[derive(Debug)]
 pub struct Planner {
@@ -39,7 +45,10 @@ pub struct Planner {
     /// Serial number of the first move that has not been entered.
     pub(super) entered: u64,
     pub(super) status: Status,
+    /// What the axes may do in the motion that runs: what they were able to do when it began.
     pub(super) limits: AxisLimits,
+    /// What they are able to do now: in force from the next rest on.
+    next_limits: AxisLimits,
     /// How the axes of the program lie to those of the machine.
     pub(super) map: MachineMap,
     /// Which axes have had usable limits the last time.
@@ -48,8 +57,6 @@ pub struct Planner {
     pub(super) period: f64,
     pub(super) velocity_limit: f64,
     pub(super) blending: Blending,
-    /// Limits have changed since the reference was begun.
-    pub(super) limits_changed: bool,
     /// The greatest finite velocity limit there has been: the range of the operator's slider.
     velocity_range: f64,
     termination: TerminationCondition,
@@ -63,8 +70,8 @@ pub struct Planner {
     /// The spindles as they were in the last cycle.
     pub(super) spindles: [SpindleInputs; SPINDLE_COUNT],
     pub(super) thread: Option<Thread>,
-    /// Whether a motion with the spindle was stopped for an error.
-    pub(super) tripped: bool,
+    /// Whether the motion was stopped for an error: no move is taken before an abort.
+    tripped: bool,
     /// Whether the indexer of the next move was told to unlock.
     pub(super) unlocking: bool,
     /// A locking indexer that is to be locked before the next move.
@@ -87,17 +94,13 @@ impl Planner {
             closed: false,
             entered: 0,
             status: Status::IDLE,
-            limits: AxisLimits {
-                velocity: UNLIMITED,
-                acceleration: UNLIMITED,
-                jerk: UNLIMITED,
-            },
+            limits: UNLIMITED_AXES,
+            next_limits: UNLIMITED_AXES,
             map: MachineMap::IDENTITY,
             limited: [false; AXIS_COUNT],
             period: 0.0,
             velocity_limit: f64::INFINITY,
             blending: Blending::DEFAULT,
-            limits_changed: false,
             velocity_range: 0.0,
             termination: TerminationCondition::Continuous { tolerance: 0.0 },
             next_id: 0,
@@ -124,38 +127,52 @@ impl Planner {
         accepted
     }
 
-    /// Sets what the axes are able to do. Moves that have been planned keep the limits they were
-    /// planned with; LinuxCNC may change limits at any time, so it is cheap to call this in each
-    /// cycle.
+    /// Duration of a cycle, seconds; 0 before it is known.
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// Sets what the axes are able to do, from the next rest on: a motion that runs, and a stop of
+    /// it, keep the limits that it began with. LinuxCNC may change limits at any time, so it is
+    /// cheap to call this in each cycle.
     ///
     /// An axis one of whose limits is zero, negative or not a number keeps the limits it had, and
     /// new moves of it are refused.
     pub fn set_limits(&mut self, limits: &AxisLimits) {
-        let mut changed = false;
+        let next = &mut self.next_limits;
         for axis in 0..AXIS_COUNT {
             let new = [
                 limits.velocity[axis],
                 limits.acceleration[axis],
                 limits.jerk[axis],
             ];
-            let old = [
-                self.limits.velocity[axis],
-                self.limits.acceleration[axis],
-                self.limits.jerk[axis],
-            ];
             let usable = new.iter().all(|limit| *limit > 0.0);
             self.limited[axis] = usable;
-            if usable && new != old {
+            if usable {
                 [
-                    self.limits.velocity[axis],
-                    self.limits.acceleration[axis],
-                    self.limits.jerk[axis],
+                    next.velocity[axis],
+                    next.acceleration[axis],
+                    next.jerk[axis],
                 ] = new;
-                changed = true;
             }
         }
-        self.limits_changed |= changed;
-        if changed && self.period > 0.0 && self.executor.set_limits(&self.limits).is_err() {
+        if !self.reference.is_active() {
+            self.take_limits();
+        }
+    }
+
+    /// Whether the axes are able to do something else than when the motion began.
+    pub(super) fn limits_changed(&self) -> bool {
+        self.next_limits != self.limits
+    }
+
+    /// At rest: what the axes are able to do now is what they may do.
+    pub(super) fn take_limits(&mut self) {
+        if !self.limits_changed() {
+            return;
+        }
+        self.limits = self.next_limits;
+        if self.period > 0.0 && self.executor.set_limits(&self.limits).is_err() {
             self.fail(Fault::LimitsRefused);
         }
     }
@@ -364,10 +381,33 @@ impl Planner {
     /// Brings the machine to rest on its path, drops all moves, and goes on from where it came to
     /// rest. Moves are refused until then.
     pub fn abort(&mut self) {
-        self.tripped = false;
+        self.forget_error();
+        self.stop();
+    }
+
+    /// The same where it is the motion controller that gives up a motion, not the operator or the
+    /// program: where an error has stopped the motion, moves are still refused.
+    pub fn stop(&mut self) {
         self.clear_outputs();
         self.status.aborting = true;
         self.status.pausing = true;
+    }
+
+    /// Stops for an error: what follows in the program must not run. No move is taken before the
+    /// operator, or task for him, has aborted.
+    pub(super) fn stop_for_error(&mut self) {
+        self.stop();
+        self.tripped = true;
+    }
+
+    /// Whether an error has stopped the motion, and nothing has been aborted since.
+    pub fn is_stopped_for_error(&self) -> bool {
+        self.tripped
+    }
+
+    fn forget_error(&mut self) {
+        self.tripped = false;
+        self.status.fault = None;
     }
 
     /// Drops everything and starts from `position`, shape (9). For changes of mode and of
@@ -380,7 +420,7 @@ impl Planner {
             return Err(PositionError);
         }
         self.status.position = *position;
-        self.tripped = false;
+        self.forget_error();
         self.drop_moves();
         Ok(())
     }
@@ -390,10 +430,9 @@ impl Planner {
     pub fn clear(&mut self) {
         self.drop_moves();
         self.synchronisation = None;
-        self.tripped = false;
+        self.forget_error();
         self.next_id = 0;
         self.status.tag = StateTag::EMPTY;
-        self.status.fault = None;
         self.clear_outputs();
     }
 
@@ -414,10 +453,18 @@ impl Planner {
         self.report_rest();
     }
 
-    /// Stops for a fault of the planner itself.
+    /// Stops for a fault of the planner itself. Of several the first is reported: the others may
+    /// follow from it.
     pub(super) fn fail(&mut self, fault: Fault) {
-        self.status.fault = Some(fault);
-        self.abort();
+        self.status.fault.get_or_insert(fault);
+        self.stop_for_error();
+    }
+
+    /// Has the planner fail, as if it had broken its own rules in the next cycle: only in builds
+    /// for tests.
+    #[cfg(feature = "fault-injection")]
+    pub fn inject(&mut self, fault: Fault) {
+        self.fail(fault);
     }
 
     /// The joint of the locking indexer that the next move waits for, or that is being locked.

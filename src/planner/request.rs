@@ -66,6 +66,6 @@ pub enum AddError {
     /// A rigid tap that does not follow the angle of a spindle, or whose factor for the way back is
     /// not positive and finite.
     RigidTap,
-    /// A motion with the spindle was stopped for an error, and nothing has been aborted since.
+    /// An error has stopped the motion, and nothing has been aborted since.
     Tripped,
 }

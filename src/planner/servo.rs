@@ -54,9 +54,10 @@ impl Planner {
         self.status.waiting_for_spindle =
             !backwards && (next.wait_for_spindle || begins_thread) && !inputs.spindles_at_speed;
         let begun = self.queue.first_serial() < self.entered;
-        let stale = self.limits_changed || inputs.stepping != self.reference.is_single();
+        let stale = self.limits_changed() || inputs.stepping != self.reference.is_single();
         // In the middle of a move there is only the path that led here.
         if !self.reference.is_active() || stale && !begun && !backwards {
+            self.take_limits();
             let first = self.queue.first_serial();
             let Some(settings) = self.blending.settings(&self.queue, &self.limits) else {
                 self.fail(Fault::SettingsRefused);
@@ -65,7 +66,6 @@ impl Planner {
             let position = self.status.position;
             self.reference
                 .restart(first, inputs.stepping, &position, &settings);
-            self.limits_changed = false;
         }
     }
 
@@ -102,13 +102,15 @@ impl Planner {
             map: &self.map,
             now: self.conditions(inputs),
         };
-        if self.reference.work(&outlook).is_err() {
-            self.fail(Fault::MoveRefused);
-            return;
-        }
-        if self.reference.is_refused() {
-            self.fail(Fault::NoPlan);
-            return;
+        let fault = match self.reference.work(&outlook) {
+            Err(_) => Some(Fault::MoveRefused),
+            Ok(()) => self.reference.is_refused().then_some(Fault::NoPlan),
+        };
+        // A machine in motion comes to rest on what is planned.
+        if let Some(fault) = fault
+            && !self.status.aborting
+        {
+            self.fail(fault);
         }
         if !self.running {
             self.start(inputs);
@@ -128,6 +130,7 @@ impl Planner {
             velocity_share: self.velocity_share(),
             greatest_tolerance: self.blending.greatest_tolerance(),
             stepping: inputs.stepping,
+            limits_changed: self.limits_changed(),
         }
     }
 
@@ -144,7 +147,8 @@ impl Planner {
         let needed = self.executor.cells_needed();
         let mut refused = false;
         for _ in 0..CELLS_A_CYCLE {
-            if self.closed || self.executor.cells_ahead() >= self.executor.cells_wanted() {
+            if self.closed || refused || self.executor.cells_ahead() >= self.executor.cells_wanted()
+            {
                 break;
             }
             let mut ahead = self.reference.next_cell(&outlook, needed, &mut budget);
@@ -170,6 +174,8 @@ impl Planner {
             }
         }
         if refused {
+            // What follows a missing period would be a jump.
+            self.closed = true;
             self.fail(Fault::CellRefused);
         }
     }

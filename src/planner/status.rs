@@ -74,7 +74,7 @@ pub struct Status {
     pub spindle_error: Option<SpindleError>,
     /// What the lock of a rotary indexer is told in this cycle: its joint, and whether to unlock.
     pub indexer: Option<(i32, bool)>,
-    /// What went wrong inside since the last clear; the motion was aborted for it.
+    /// What went wrong inside: the motion was stopped for it. Until an abort.
     pub fault: Option<Fault>,
     /// The outputs to be written in this cycle.
     pub outputs: SynchronisedOutputs,

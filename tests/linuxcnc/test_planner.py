@@ -170,11 +170,12 @@ class Refused(Case):
             self.assertEqual(max(values), min(values), axis)
 
     def test_a_jerk_that_makes_no_sense(self):
-        for value in ("-5", "nan"):
+        # 1000 mm/s2 in more than 5 s is taken for a slip
+        for value in ("-5", "nan", "199", "1e-300"):
             result = harness.run([["mdi", "G0 X10"], ["note", "end"]],
                                  hal=f"setp blendtp.axis.y.max-jerk {value}\n")
             self.assertIn("blendtp.axis.y.max-jerk", result.log)
-            self.assertIn("must be 0 (not limited) or a positive number", result.log)
+            self.assertIn("must be 0 (not limited) or, in machine units per second cubed, at least 200", result.log)
             self.assertTrue(any("can't add linear move" in error for error in result.errors), result.errors)
             self.nothing_moves(result)
 
@@ -187,6 +188,29 @@ class Refused(Case):
             self.assertIn(words, result.log)
             self.assertTrue(any("can't add linear move" in error for error in result.errors), result.errors)
             self.nothing_moves(result)
+
+    def test_a_jerk_that_changes_in_motion_holds_from_the_next_rest_on(self):
+        # moves still come when the pin changes; 400 mm/s3 would lengthen the stop from some 0.15 s to 0.8
+        lines = ["G64 P0.1 Q0.0001", *(f"G1 X{n} Y{0.01 * (n % 2)}" for n in range(1, 401))]
+        for change in ([], [["setp", "blendtp.axis.x.max-jerk", 400]]):
+            result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_place", 0, 8], ["note", "change"], *change,
+                                  ["wait_place", 0, 60], ["abort"], ["sleep", 1.0], ["note", "end"]], program(*lines))
+            self.completed(result)
+            self.assertLess(result.answers["change"]["queue"], 389, "all moves had come before the change")
+            places = result.column("axis.x")
+            speeds = [(b - a) / PERIOD for a, b in zip(places, places[1:])]
+            last = max(n for n, speed in enumerate(speeds) if speed > 1e-3)
+            first = last
+            while speeds[first - 1] >= speeds[first]:
+                first -= 1
+            self.assertGreater(speeds[first], 50)
+            self.assertLess(last - first, 250, change)
+
+    def test_more_jerk_than_a_period_can_use_is_no_limit_and_said_once(self):
+        result = harness.run([["mdi", "G0 X10"], ["mdi", "G0 X0"], ["note", "end"]],
+                             hal="setp blendtp.axis.x.max-jerk 1e9\n")
+        self.completed(result)
+        self.assertEqual(result.log.count("blendtp.axis.x.max-jerk is 1e+09"), 1, result.log)
 
     def test_jerk_not_limited(self):
         result = harness.run([RUN, ["note", "end"]], program("G1 X50 Y20", "G1 X0", "G0 Y0"),

@@ -106,7 +106,7 @@ fn words(error: AddError) -> &'static CStr {
         AddError::Spindle { .. } => c"a move is to follow a spindle that does not exist",
         AddError::PerTurn(_) => c"the feed per turn (F in G95) or the pitch (K) is negative or not a number",
         AddError::RigidTap => c"a rigid tap (G33.1) has no spindle to follow, or I is not positive",
-        AddError::Tripped => c"a move was sent after the spindle had stopped the motion; abort first",
+        AddError::Tripped => c"a move was sent after an error had stopped the motion; abort first",
     }
 }
 

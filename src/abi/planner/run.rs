@@ -7,7 +7,7 @@ use libc::{c_char, c_double, c_int};
 use super::{Handle, command};
 use crate::abi::linuxcnc::{
     EMCMOT_MAX_AIO, EMCMOT_MAX_DIO, EMCMOT_MOTION_ERROR_BIT, EMCMOT_MOTION_INPOS_BIT, EmcPose,
-    TP_STRUCT, emcmot_status_t, state_tag_t, tc_direction_t, tp_err_t,
+    TP_STRUCT, cmd_code_t, emcmot_status_t, state_tag_t, tc_direction_t, tp_err_t,
 };
 use crate::abi::pose::pose_of;
 use crate::moves::{SPINDLE_COUNT, STATE_TAG_SIZE, StateTag};
@@ -80,7 +80,7 @@ impl Handle {
         {
             spindle.speed *= factor;
         }
-        if now.spindle_error.is_some() {
+        if self.planner.is_stopped_for_error() {
             // LinuxCNC's task then aborts the program.
             status.motionFlag |= EMCMOT_MOTION_ERROR_BIT as u16;
         }
@@ -134,7 +134,7 @@ fn tag_out(tag: &StateTag) -> state_tag_t {
     unsafe { core::mem::transmute_copy::<[u8; STATE_TAG_SIZE], state_tag_t>(&tag.0) }
 }
 
-/// What went wrong inside the planner, null if nothing did. The motion was aborted for it.
+/// What went wrong inside the planner, null if nothing did. The motion was stopped for it; an abort ends that.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`.
@@ -240,6 +240,20 @@ pub unsafe extern "C" fn framepath_planner_run_cycle(
     }
 }
 
+/// cbindgen:ignore
+/// Has the planner fail, for tests of what happens then: see hal-component/fault_injection.h.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[cfg(feature = "fault-injection")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_inject_fault(handle: *mut Handle) {
+    // SAFETY: see above.
+    if let Some(handle) = unsafe { handle.as_mut() } {
+        handle.planner.inject(Fault::NoPlan);
+    }
+}
+
 /// Drops all moves.
 ///
 /// # Safety
@@ -276,13 +290,23 @@ pub unsafe extern "C" fn framepath_planner_resume(
     command(handle, tp, |handle| handle.planner.resume())
 }
 
-/// Comes to rest on the path, then drops all moves.
+/// Comes to rest on the path, then drops all moves. Where an error has stopped the motion, only an abort that task
+/// commands lifts that: motmod itself also calls this when it refuses a move.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framepath_planner_abort(handle: *mut Handle, tp: *mut TP_STRUCT) -> c_int {
-    command(handle, tp, |handle| handle.planner.abort())
+    command(handle, tp, |handle| {
+        // SAFETY: null, or motmod's status for as long as the module is loaded.
+        let commanded = unsafe { handle.status.as_ref() }
+            .is_none_or(|status| status.commandEcho == cmd_code_t::EMCMOT_ABORT);
+        if commanded {
+            handle.planner.abort();
+        } else {
+            handle.planner.stop();
+        }
+    })
 }
 
 /// Where the machine is to be.

@@ -1,6 +1,6 @@
 //! What motmod sets between moves.
 
-use libc::{c_double, c_int, c_uchar};
+use libc::{c_double, c_int, c_uchar, c_uint};
 use nalgebra::Matrix3;
 
 use super::{Handle, command, with};
@@ -8,34 +8,50 @@ use crate::abi::linuxcnc::{EmcPose, TP_STRUCT, tc_direction_t, tp_err_t};
 use crate::abi::pose::axes_of;
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::moves::TerminationCondition;
-use crate::planner::{Blending, BlendingError, DirectionError};
+use crate::planner::{Blending, BlendingError, DirectionError, JerkLimit};
 
 /// Sets the greatest jerk of each of the nine axes, 0 = not limited. Returns -1, or the number of the first axis whose
-/// value is negative or not a number; then nothing changes.
+/// value makes no sense; then nothing changes, and `least` is the smallest one that would. In `unlimited` a bit is set for
+/// each axis, 1 for the first one, whose value is more than can be used: it counts as not limited.
 ///
 /// # Safety
-/// `handle` from `framepath_planner_create`; `jerk` has nine numbers.
+/// `handle` from `framepath_planner_create`; `jerk` has nine numbers; the others point to one each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framepath_planner_set_jerk(
     handle: *mut Handle,
     jerk: *const c_double,
+    least: *mut c_double,
+    unlimited: *mut c_uint,
 ) -> c_int {
     // SAFETY: see above.
-    let (Some(handle), Some(jerk)) =
-        (unsafe { (handle.as_mut(), jerk.cast::<[f64; AXIS_COUNT]>().as_ref()) })
-    else {
+    let (Some(handle), Some(jerk), Some(least), Some(unlimited)) = (unsafe {
+        (
+            handle.as_mut(),
+            jerk.cast::<[f64; AXIS_COUNT]>().as_ref(),
+            least.as_mut(),
+            unlimited.as_mut(),
+        )
+    }) else {
         return 0;
     };
-    if let Some(axis) = jerk
-        .iter()
-        .position(|value| !(*value >= 0.0 && value.is_finite()))
-    {
-        return axis as c_int;
+    let limits = handle.limits();
+    let period = handle.planner.period();
+    *unlimited = 0;
+    let mut usable = Axes::zeros();
+    for (axis, value) in jerk.iter().enumerate() {
+        match JerkLimit::new(*value, limits.acceleration[axis], period) {
+            JerkLimit::Limited(limit) => usable[axis] = limit,
+            JerkLimit::Unlimited { asked } => {
+                usable[axis] = f64::INFINITY;
+                *unlimited |= c_uint::from(asked) << axis;
+            }
+            JerkLimit::Refused { smallest } => {
+                *least = smallest;
+                return axis as c_int;
+            }
+        }
     }
-    handle.jerk = Axes::from_iterator(
-        jerk.iter()
-            .map(|value| if *value == 0.0 { f64::INFINITY } else { *value }),
-    );
+    handle.jerk = usable;
     -1
 }
 

@@ -79,7 +79,9 @@ impl Reference {
             self.resting = true;
             self.current_mut().clear();
         }
-        if outlook.now.stepping && self.pieces.front().is_some() {
+        // The motion ends with this rest.
+        let ends = outlook.now.stepping || outlook.now.limits_changed;
+        if ends && self.pieces.front().is_some() {
             return false;
         }
         if self.next_move(outlook) {

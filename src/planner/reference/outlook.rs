@@ -12,7 +12,7 @@ const LEAST_PLANNED_SHARE: f64 = 0.01;
 pub struct Outlook<'a> {
     /// The moves there are.
     pub queue: &'a MoveQueue,
-    /// What the axes of the machine are able to do now.
+    /// What the axes of the machine may do.
     pub limits: &'a AxisLimits,
     /// How the axes of the program lie to those of the machine.
     pub map: &'a MachineMap,
@@ -37,6 +37,8 @@ pub struct Conditions {
     pub greatest_tolerance: f64,
     /// Whether the machine is to come to rest at the next place where the program asks for a rest.
     pub stepping: bool,
+    /// Whether other limits are to be taken at the next rest.
+    pub limits_changed: bool,
 }
 
 impl Outlook<'_> {

@@ -266,11 +266,9 @@ impl Planner {
         }
     }
 
-    /// Aborts for the sake of the spindle. No move is taken before the operator's side, or the
-    /// program's, has aborted too: what follows a broken thread must not run.
+    /// Stops for the sake of the spindle: what follows a broken thread must not run.
     pub(super) fn trip(&mut self, error: SpindleError) {
-        self.abort();
-        self.tripped = true;
+        self.stop_for_error();
         self.status.spindle_error = Some(error);
     }
 
