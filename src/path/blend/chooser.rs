@@ -451,7 +451,10 @@ impl Chooser {
         let last = chain.leg(next.wrapping_sub(1));
         while self.window.open < next {
             let vertex = chain.vertex(self.window.open);
-            let beyond_reach = end - vertex.s >= vertex.stored().reach() + LAG * last.design_width;
+            // Closed before its search is over it would be narrow for good.
+            let searched = vertex.scan_done || vertex.wall || vertex.turn_size <= 0.0;
+            let beyond_reach =
+                searched && end - vertex.s >= vertex.stored().reach() + LAG * last.design_width;
             let before_wall = vertex.right_wall <= end;
             let too_many = next - self.window.open >= GREATEST_OPEN;
             if !(vertex.is_bare_wall() || beyond_reach || before_wall || too_many) {

@@ -142,7 +142,8 @@ impl Leg {
         }
     }
 
-    /// How far before its end the path may still change when the next leg comes.
+    /// How far before its end the path may still change when the next leg comes: as far as a corner
+    /// with the next leg may want to reach, on a curve of such legs two of them.
     pub fn reserve(&self, settings: &BlendSettings) -> f64 {
         let widest = if self.allows_half_legs() {
             settings.greatest_free_width()
@@ -153,7 +154,8 @@ impl Leg {
         if self.is_exact() {
             reserve
         } else {
-            reserve.max(self.design_width)
+            let on_curve = (2.0 * self.length).min(settings.greatest_design_width());
+            reserve.max(self.design_width).max(on_curve)
         }
     }
 

@@ -30,6 +30,17 @@ impl Window {
     /// How far a vertex may reach: to the nearest wall, the ends of the window, and its 32nd
     /// neighbour on either side.
     pub fn clip(&self, chain: &Chain, number: u64) -> f64 {
+        self.room(chain, number, self.end)
+    }
+
+    /// The same where the legs that are yet to come are as long as can be: no width beyond this will
+    /// ever be possible.
+    pub fn lasting_clip(&self, chain: &Chain, number: u64) -> f64 {
+        self.room(chain, number, f64::INFINITY)
+    }
+
+    /// How far a vertex may reach if the window ends at `end`.
+    fn room(&self, chain: &Chain, number: u64, end: f64) -> f64 {
         let vertex = chain.vertex(number);
         let left = match number.checked_sub(NEIGHBOURS) {
             Some(far) if far >= chain.first() => chain.vertex(far).s,
@@ -39,7 +50,7 @@ impl Window {
         let right = if far < self.next {
             chain.vertex(far).s
         } else {
-            self.end
+            end
         };
         let left = vertex.s - left.max(vertex.left_wall).max(self.frozen);
         let right = right.min(vertex.right_wall) - vertex.s;
