@@ -35,24 +35,27 @@ pub(super) fn widen(
         (vertex.scanned * GROWTH).min(greatest_width(chain, number, window, settings, metric));
     let wider = width > vertex.scanned * 1.0001;
     // Whether nothing that is yet to come can make a greater width possible.
-    let mut done = if wider {
+    let mut searched = if wider {
         width > window.lasting_clip(chain, number)
     } else {
         number.saturating_add(1) < window.next
     };
     let mut cost = 1;
     let mut goes_on = false;
+    let mut too_wide = false;
     if wider && width <= window.clip(chain, number) {
         let (deviation, terms) = deviation_at_equal_widths(chain, number, width, window, metric);
         cost += terms;
-        done = deviation > KERNEL_SHARE * vertex.tolerance;
-        goes_on = !done;
+        too_wide = deviation > KERNEL_SHARE * vertex.tolerance;
+        searched = too_wide;
+        goes_on = !too_wide;
     }
     let vertex = chain.vertex_mut(number);
     if goes_on {
         vertex.scanned = width;
     }
-    vertex.scan_done = done;
+    vertex.scan_done = too_wide;
+    vertex.searched = searched;
     let alone = if vertex.free_limit > 0.0 {
         vertex.width_alone()
     } else if vertex.biweight_width <= vertex.half_leg {

@@ -31,6 +31,10 @@ const GREATEST_OPEN: u64 = 48;
 /// Distance of what is yet to come from the edge of a final kernel, in design widths.
 const LAG: f64 = 0.5;
 
+/// Legs that turn by less, length of the difference of unit vectors, may be chords of a curve: 60
+/// degrees.
+const CHORD_TURN: f64 = 1.0;
+
 /// What of the tolerance a trial may use; the rest is for hardened vertices.
 const TRIAL_SHARE: f64 = 0.98;
 
@@ -452,7 +456,7 @@ impl Chooser {
         while self.window.open < next {
             let vertex = chain.vertex(self.window.open);
             // Closed before its search is over it would be narrow for good.
-            let searched = vertex.scan_done || vertex.wall || vertex.turn_size <= 0.0;
+            let searched = vertex.searched || vertex.wall || vertex.turn_size <= 0.0;
             let beyond_reach =
                 searched && end - vertex.s >= vertex.stored().reach() + LAG * last.design_width;
             let before_wall = vertex.right_wall <= end;
@@ -485,7 +489,7 @@ impl Chooser {
         let coming = if last.stop_after || bare {
             end
         } else {
-            (end - last.reserve(settings)).max(wall)
+            (end - last.reserve(settings, vertex.turn_size < CHORD_TURN)).max(wall)
         };
         (open..next)
             .map(|number| chain.vertex(number))

@@ -143,8 +143,9 @@ impl Leg {
     }
 
     /// How far before its end the path may still change when the next leg comes: as far as a corner
-    /// with the next leg may want to reach, on a curve of such legs two of them.
-    pub fn reserve(&self, settings: &BlendSettings) -> f64 {
+    /// with the next leg may want to reach, and where it may be one of the chords of a curve, two of
+    /// them.
+    pub fn reserve(&self, settings: &BlendSettings, on_curve: bool) -> f64 {
         let widest = if self.allows_half_legs() {
             settings.greatest_free_width()
         } else {
@@ -154,8 +155,9 @@ impl Leg {
         if self.is_exact() {
             reserve
         } else {
-            let on_curve = (2.0 * self.length).min(settings.greatest_design_width());
-            reserve.max(self.design_width).max(on_curve)
+            let chords = if on_curve { 2.0 * self.length } else { 0.0 };
+            let chords = chords.min(settings.greatest_design_width());
+            reserve.max(self.design_width).max(chords)
         }
     }
 

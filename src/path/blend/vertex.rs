@@ -126,6 +126,8 @@ pub(super) struct Vertex {
     pub scanned: f64,
     /// Whether a greater width was found to leave it.
     pub scan_done: bool,
+    /// Whether nothing that is yet to come can make it wider.
+    pub searched: bool,
     /// What its widths would be but for its neighbours.
     pub base: Widths,
     /// What the check has left of the base widths, 0 to 1.
@@ -173,6 +175,7 @@ impl Vertex {
         design_width: 0.0,
         scanned: 0.0,
         scan_done: true,
+        searched: true,
         base: Widths::NONE,
         factor: 1.0,
         temporary_factor: 1.0,
@@ -276,6 +279,7 @@ impl Vertex {
                 self.biweight_width <= ISOLATED * self.half_leg
             };
             self.scan_done = self.isolated;
+            self.searched = self.isolated;
             self.scanned = self.half_leg.min(self.biweight_width);
             self.design_width = settings
                 .full_speed_width(self.turn_size, speed)
