@@ -39,6 +39,7 @@ prerequisites:
 	@./prerequisites
 
 modules: prerequisites
+	$(MAKE) -C hal-component OUT=$(MODULES) built-for
 	$(CARGO) build --locked --profile realtime --lib
 	$(MAKE) -C hal-component LIBRARY=$(TARGET)/realtime/libframepath.a OUT=$(MODULES)
 

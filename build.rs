@@ -24,8 +24,24 @@ fn main() {
         );
         exit(1);
     }
+    watch(&include);
     bind(&include);
     compile_layout(&include);
+}
+
+/// Has this run again for another LinuxCNC: its headers are newer, or `make modules` has noticed that they differ (those
+/// of another release may be older than what was built with the last one's).
+fn watch(include: &str) {
+    println!("cargo:rerun-if-changed={include}");
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    // OUT_DIR is target/PROFILE/build/PACKAGE/out
+    let noticed = out
+        .ancestors()
+        .nth(4)
+        .map(|target| target.join("modules/built-for"));
+    if let Some(noticed) = noticed.filter(|file| file.exists()) {
+        println!("cargo:rerun-if-changed={}", noticed.display());
+    }
 }
 
 /// Rust types for the structures and constants that motmod shares with its modules.
@@ -37,7 +53,7 @@ fn bind(include: &str) {
         .allowlist_type("EmcPose")
         .allowlist_type("PmCartesian")
         .allowlist_type("state_tag_t")
-        .allowlist_type("emcmot_(status|config)_t")
+        .allowlist_type("emcmot_(status|config|error|internal)_t")
         .allowlist_type(
             "(tp_err|cmd_code_t|tc_term_cond|tc_direction|KINEMATICS_TYPE|StateField).*",
         )

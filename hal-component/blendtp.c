@@ -11,6 +11,9 @@
 #include "rtapi_app.h"
 #include "hal.h"
 #include "framepath.h"
+#include "first_loaded.h"
+#include "linuxcnc_version.h"
+#include "shared_structures.h"
 
 MODULE_AUTHOR("the framepath authors");
 MODULE_DESCRIPTION("Jerk-limited trajectory planner");
@@ -31,6 +34,12 @@ static int component;
 static struct framepath_planner *planner;
 /* Servo periods for which a refusal to run in reverse is not said again. */
 static int reverse_refused;
+
+/* What motmod handed over; the library gets it when it is known to fit. */
+static struct {
+    emcmot_status_t *status;
+    emcmot_config_t *config;
+} motion;
 
 /* framekins says how the axes of the program lie to those of the machine; other kinematics do not have it. */
 static int (*linear_map)(double map[9]);
@@ -109,7 +118,13 @@ static int said(int result)
 int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
 {
     (void)id;
+    char found[128];
     int (*inverse)(const EmcPose *, double *, const unsigned long *, unsigned long *);
+    if (check_structures(motion.status, motion.config, tp, found, sizeof found)) {
+        say_built_for_another("blendtp", found);
+        return -1;
+    }
+    framepath_planner_motion_data(motion.status, motion.config);
     planner = framepath_planner_create(tp, queue_size);
     if (!planner) {
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: motmod asks for a queue of %d moves, %d is the most\n", queue_size,
@@ -133,7 +148,8 @@ void tpMotFunctions(void (*dio_write)(int, char), void (*aio_write)(int, double)
 
 void tpMotData(emcmot_status_t *status, emcmot_config_t *config)
 {
-    framepath_planner_motion_data(status, config);
+    motion.status = status;
+    motion.config = config;
 }
 
 int tpAddLine(TP_STRUCT * const tp, EmcPose end, int canon_motion_type, double vel, double ini_maxvel, double acc,
@@ -366,6 +382,9 @@ EXPORT_SYMBOL(tcqFull);
 int rtapi_app_main(void)
 {
     int error = 0;
+    if (check_version("blendtp") || check_first("blendtp", "tpCreate", &pins, "write TPMOD = blendtp under [TRAJ] in the INI, "
+                                                "and no loadrt of a planner"))
+        return -22; /* EINVAL */
     component = hal_init("blendtp");
     if (component < 0) {
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: hal_init failed (%d): is it loaded already? Load it once\n", component);

@@ -12,6 +12,8 @@
 #include <math.h>
 
 #include "framepath.h"
+#include "first_loaded.h"
+#include "linuxcnc_version.h"
 
 MODULE_AUTHOR("the framepath authors");
 MODULE_DESCRIPTION("Kinematics with programmable frames: translate, rotate, scale, mirror");
@@ -252,7 +254,11 @@ static int configure(void)
 
 int rtapi_app_main(void)
 {
-    int error = configure();
+    int error;
+    if (check_version("framekins") || check_first("framekins", "kinematicsForward", &pins, "write KINEMATICS = framekins "
+                                                  "coordinates=.. under [KINS] in the INI, and no loadrt of kinematics"))
+        return -22; /* EINVAL */
+    error = configure();
     if (error)
         return error;
     has_table = framepath_kinematics_tilt_axis() != 0;

@@ -10,13 +10,13 @@ import unittest
 import harness
 
 
-def halrun(text):
-    """Output and exit code of halrun with a file of commands."""
+def halrun(text, modules=harness.MODULES):
+    """Output and exit code of halrun with a file of commands, and with the modules of a folder."""
     with tempfile.NamedTemporaryFile("w", suffix=".hal", delete=False) as file:
         file.write(text)
     os.chmod(file.name, 0o644)
     try:
-        done = subprocess.run([os.path.join(harness.HERE, "isolated"), harness.MODULES, "halrun", "-f", file.name],
+        done = subprocess.run([os.path.join(harness.HERE, "isolated"), modules, "halrun", "-f", file.name],
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True, timeout=60, check=False)
         return done.stdout, done.returncode
@@ -32,7 +32,16 @@ loadrt motmod servo_period_nsec=1000000 num_joints=3
 """
 
 
-class Loading(unittest.TestCase):
+class Refusals(unittest.TestCase):
+    def refused(self, commands, *words):
+        """Carries out the commands, which fail with these words."""
+        output, code = halrun(commands)
+        self.assertNotEqual(code, 0, output)
+        for word in words:
+            self.assertIn(word, output)
+
+
+class Loading(Refusals):
     def test_both_load_before_motmod(self):
         output, code = halrun(MOTION + "addf motion-controller servo-thread\nstart\nshow comp\n"
                                        "getp blendtp.version\ngetp framekins.version\n")
@@ -41,12 +50,6 @@ class Loading(unittest.TestCase):
             self.assertIn(component, output)
         # version 0.1.0
         self.assertEqual([line for line in output.splitlines() if line.strip() == "100"], ["100", "100"], output)
-
-    def refused(self, commands, *words):
-        output, code = halrun(commands)
-        self.assertNotEqual(code, 0, output)
-        for word in words:
-            self.assertIn(word, output)
 
     def test_unknown_parameter(self):
         self.refused("loadrt framekins coordinates=XYZ colour=red\n", "colour")

@@ -5,8 +5,8 @@ use crate::canon::call::{Position, Tag};
 use crate::compare::job::Job;
 use framepath::abi::linuxcnc::{
     EMCMOT_MOTION_COORD_BIT, EMCMOT_MOTION_ENABLE_BIT, EMCMOT_MOTION_INPOS_BIT, EmcPose,
-    FH_ENABLED, FS_ENABLED, PmCartesian, SS_ENABLED, TP_STRUCT, emcmot_config_t, emcmot_status_t,
-    state_tag_t,
+    FH_ENABLED, FS_ENABLED, PmCartesian, SS_ENABLED, TP_STRUCT, emcmot_config_t, emcmot_error_t,
+    emcmot_internal_t, emcmot_status_t, state_tag_t,
 };
 use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 use std::ffi::{c_char, c_int};
@@ -42,6 +42,15 @@ pub(super) struct Machine {
     pub config: *mut emcmot_config_t,
 }
 
+/// The same as motmod has them in shared memory, one behind the other: blendtp looks at that.
+#[repr(C)]
+struct Shared {
+    status: emcmot_status_t,
+    config: emcmot_config_t,
+    error: emcmot_error_t,
+    internal: emcmot_internal_t,
+}
+
 /// Memory for a C structure, all zero, as static memory in motmod is.
 fn zeroed<T>() -> *mut T {
     let layout = Layout::new::<T>();
@@ -56,10 +65,14 @@ fn zeroed<T>() -> *mut T {
 impl Machine {
     pub(super) fn new(job: &Job) -> Self {
         LIMITS.get_or_init(|| job.limits);
-        let machine = Machine {
-            tp: zeroed(),
-            status: zeroed(),
-            config: zeroed(),
+        let shared = zeroed::<Shared>();
+        // SAFETY: memory of this type; addresses only.
+        let machine = unsafe {
+            Machine {
+                tp: &raw mut (*shared).internal.coord_tp,
+                status: &raw mut (*shared).status,
+                config: &raw mut (*shared).config,
+            }
         };
         machine.configure(job);
         machine.make_ready();

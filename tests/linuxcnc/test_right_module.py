@@ -1,0 +1,134 @@
+"""The right module under the right LinuxCNC: one that was built for another is refused when it is loaded, and so is one
+that would be loaded for nothing, since another has its place."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import harness
+from test_loading import MOTION, Refusals, halrun
+
+HEADERS = os.environ.get("LINUXCNC_INCLUDE", "/usr/include/linuxcnc")
+LIBRARY = os.path.join(os.path.dirname(harness.MODULES), "realtime", "libframepath.a")
+#: What every refusal of a module of another LinuxCNC says.
+BUILT_FOR, RUNNING, REMEDY = "built for LinuxCNC", "running under LinuxCNC 2.9", "make install again"
+
+
+def build(folder, *arguments):
+    """The modules, built into a folder with other settings of make."""
+    done = subprocess.run(["make", "-C", harness.SAMPLES, f"OUT={folder}", f"LIBRARY={LIBRARY}", *arguments],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    if done.returncode:
+        raise AssertionError(done.stdout)
+
+
+def changed_headers(folder, before, after):
+    """A copy of LinuxCNC's headers in which a line of motion.h or tp_types.h reads otherwise."""
+    copy = os.path.join(folder, "headers")
+    shutil.copytree(HEADERS, copy)
+    found = 0
+    for name in ("motion.h", "tp_types.h"):
+        path = os.path.join(copy, name)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        found += text.count(before)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace(before, after))
+    if found != 1:
+        raise AssertionError(f"{before} is {found} times in LinuxCNC's headers")
+    return copy
+
+
+class OtherLinuxCNC(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.modules = os.path.join(self.folder, "modules")
+
+    def assert_refused(self, commands, name, *words):
+        output, code = halrun(commands, self.modules)
+        self.assertNotEqual(code, 0, output)
+        lines = [line for line in output.splitlines() if line.startswith(f"{name}: {BUILT_FOR}")]
+        self.assertEqual(len(lines), 1, output)
+        for word in (RUNNING, REMEDY, *words):
+            self.assertIn(word, lines[0])
+        return output
+
+    def test_another_version_is_refused_at_once(self):
+        for version in ("2.10.0~pre1", "2.8.4", "3.9.0"):
+            build(self.modules, f"LINUXCNC_VERSION={version}")
+            self.assert_refused("loadrt blendtp\n", "blendtp", f"{BUILT_FOR} {version},")
+            self.assert_refused("loadrt framekins coordinates=XYZ\n", "framekins", f"{BUILT_FOR} {version},")
+
+    def test_another_release_of_the_series_and_an_unknown_one_are_not(self):
+        for version in ("2.9.0", "2.9.10", "2.9", ""):
+            build(self.modules, f"LINUXCNC_VERSION={version}")
+            output, code = halrun(MOTION, self.modules)
+            self.assertEqual(code, 0, output)
+            self.assertNotIn(BUILT_FOR, output)
+
+    def other_layout(self, before, after, *words):
+        headers = changed_headers(self.folder, before, after)
+        build(self.modules, f"LINUXCNC_INCLUDE={headers}")
+        shutil.rmtree(headers)
+        output = self.assert_refused(MOTION, "blendtp", f"{BUILT_FOR} an unknown version,", *words)
+        self.assertIn("MOTION: tpCreate failed", output)
+        self.assertNotIn("MOTION: init_threads", output)
+
+    def test_a_larger_status_is_refused(self):
+        self.other_layout("\tdouble requested_vel;", "\tdouble requested_vel, requested_acc;",
+                          "configuration is 5632 bytes behind motion's status, not 5640")
+
+    def test_a_smaller_status_is_refused(self):
+        self.other_layout("    int stepping;", "", "bytes behind motion's status, not ")
+
+    def test_a_larger_configuration_is_refused(self):
+        self.other_layout("        double maxFeedScale;", "        double maxFeedScale, leastFeedScale;", "its planner is ")
+
+    def test_fields_in_another_order_are_refused(self):
+        self.other_layout("double rapid_scale;\t/* velocity scale factor for rapids */\n\tunsigned char enables_new;",
+                          "unsigned char enables_new;\n\tdouble rapid_scale;", "the overrides are not 1")
+
+
+class Beside(Refusals):
+    """Motion takes its planner and its kinematics from the first module that has them."""
+
+    def test_a_planner_that_is_loaded_already(self):
+        self.refused("loadrt tpmod\nloadrt blendtp\n", "blendtp: ", "modules/tpmod.so is loaded already",
+                     "TPMOD = blendtp under [TRAJ]")
+
+    def test_kinematics_that_are_loaded_already(self):
+        self.refused("loadrt trivkins\nloadrt framekins coordinates=XYZ\n", "framekins: ",
+                     "modules/trivkins.so is loaded already", "KINEMATICS = framekins")
+
+
+class Built(unittest.TestCase):
+    """`make modules` builds anew for another LinuxCNC, be its headers ever so old."""
+
+    def test_other_headers_are_noticed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            modules = os.path.join(folder, "modules")
+            noticed = os.path.join(modules, "built-for")
+            build(modules, "built-for")
+            with open(noticed, encoding="utf-8") as file:
+                first = file.read()
+            stamp = os.stat(noticed).st_mtime_ns
+            build(modules, "built-for")
+            self.assertEqual(os.stat(noticed).st_mtime_ns, stamp)
+            headers = changed_headers(folder, "    int stepping;", "    int stepping, standing;")
+            os.utime(os.path.join(headers, "motion.h"), (0, 0))
+            build(modules, "built-for", f"LINUXCNC_INCLUDE={headers}")
+            with open(noticed, encoding="utf-8") as file:
+                self.assertNotEqual(file.read(), first)
+
+    def test_the_version_is_that_of_the_installed_one(self):
+        version = subprocess.run(["linuxcnc_var", "LINUXCNCVERSION"], capture_output=True, text=True, check=True).stdout
+        with open(os.path.join(harness.MODULES, "built-for"), encoding="utf-8") as file:
+            self.assertEqual(file.readline().strip(), version.strip())
+
+
+if __name__ == "__main__":
+    unittest.main()
