@@ -7,12 +7,16 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <dlfcn.h>
+#include <math.h>
 #include "rtapi.h"
 #include "rtapi_app.h"
 #include "hal.h"
 #include "framepath.h"
 #include "first_loaded.h"
+#include "ini_jerk.h"
 #include "linuxcnc_version.h"
+#include "loaded_beside.h"
+#include "motion_threads.h"
 #include "shared_structures.h"
 
 MODULE_AUTHOR("the framepath authors");
@@ -32,6 +36,8 @@ static struct {
 
 static int component;
 static struct framepath_planner *planner;
+/* [AXIS_L]MAX_JERK of the INI, 0 where it has none, or where it has been looked at. */
+static double ini_jerk[AXES];
 /* Servo periods for which a refusal to run in reverse is not said again. */
 static int reverse_refused;
 
@@ -47,6 +53,11 @@ static int (*linear_map)(double map[9]);
 #ifdef FRAMEPATH_FAULT_INJECTION
 #include "fault_injection.h"
 #endif
+
+static char capital(char letter)
+{
+    return letter - 'a' + 'A';
+}
 
 /* Hands the jerk limits to the planner. Called before a move is added: a limit that makes no sense refuses the move. */
 static int take_jerk_limits(void)
@@ -93,10 +104,25 @@ static int take_tolerances(void)
     }
 }
 
+/* Says once, at the first move, which limits of the INI no pin has. */
+static void say_forgotten_jerk_limits(void)
+{
+    for (int i = 0; i < AXES; i++) {
+        if (ini_jerk[i] > 0.0 && *pins->max_jerk[i] == 0.0 && signbit(*pins->max_jerk[i]))
+            rtapi_print_msg(RTAPI_MSG_ERR, "nothing sets blendtp.axis.%c.max-jerk (so not limited), although the INI has "
+                            "[AXIS_%c]MAX_JERK = %g: write setp blendtp.axis.%c.max-jerk [AXIS_%c]MAX_JERK in the HAL file\n",
+                            letters[i], capital(letters[i]), ini_jerk[i], letters[i], capital(letters[i]));
+        ini_jerk[i] = 0.0;
+    }
+}
+
 /* What the planner has to know before a move is added. */
 static int prepare(void)
 {
     double map[9];
+    if (check_thread())
+        return -1;
+    say_forgotten_jerk_limits();
     if (linear_map)
         framepath_planner_set_machine_map(planner, linear_map(map), map);
     return take_jerk_limits() || take_tolerances() ? -1 : 0;
@@ -131,6 +157,8 @@ int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
                         FRAMEPATH_QUEUE_CAPACITY);
         return -1;
     }
+    if (is_loaded("tpmod", &pins))
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: tpmod is loaded, too, and has nothing to do: remove its loadrt\n");
     /* motmod is loaded after the kinematics, so they can be looked up now; here, not in the servo thread. */
     *(void **)&linear_map = dlsym(RTLD_DEFAULT, "framekinsLinearMap");
     *(void **)&inverse = dlsym(RTLD_DEFAULT, "kinematicsInverse");
@@ -189,6 +217,7 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     const char *fault, *spindle;
     double asked, greatest;
     (void)period;
+    controller_plans();
     if (reverse_refused)
         reverse_refused--;
 #ifdef FRAMEPATH_FAULT_INJECTION
@@ -220,12 +249,14 @@ int tpSetVmax(TP_STRUCT *tp, double vmax, double ini_maxvel)
     (void)tp;
     (void)vmax;
     (void)ini_maxvel;
+    command_comes();
     return 0;
 }
 
 int tpSetVlimit(TP_STRUCT *tp, double limit)
 {
     (void)tp;
+    command_comes();
     return framepath_planner_set_velocity_limit(planner, limit);
 }
 
@@ -240,12 +271,14 @@ int tpSetAmax(TP_STRUCT *tp, double amax)
 int tpSetId(TP_STRUCT *tp, int id)
 {
     (void)tp;
+    move_comes();
     return framepath_planner_set_id(planner, id);
 }
 
 int tpSetTermCond(TP_STRUCT *tp, int condition, double tolerance)
 {
     (void)tp;
+    command_comes();
     return framepath_planner_set_termination(planner, condition, tolerance);
 }
 
@@ -344,8 +377,10 @@ int tpActiveDepth(TP_STRUCT * const tp)
 
 int tcqFull(TC_QUEUE_STRUCT const * const queue)
 {
+    int full = framepath_planner_queue_full(planner);
     (void)queue;
-    return framepath_planner_queue_full(planner);
+    controller_ends();
+    return full;
 }
 
 EXPORT_SYMBOL(tpCreate);
@@ -415,6 +450,10 @@ int rtapi_app_main(void)
     *pins->millimetre = 1.0;
     *pins->default_tolerance = FRAMEPATH_DEFAULT_TOLERANCE;
     *pins->version = FRAMEPATH_VERSION;
+    /* Not limited, and as long as the sign is there nobody has said so. */
+    for (int i = 0; i < AXES; i++)
+        *pins->max_jerk[i] = -0.0;
+    read_ini_jerk(letters, AXES, ini_jerk);
     hal_ready(component);
     return 0;
 }

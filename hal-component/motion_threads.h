@@ -1,0 +1,92 @@
+/* Whether motion's two functions are in one HAL thread, and in order: motion-command-handler, which hands over moves, before
+ * motion-controller, which runs them. HAL does not tell a module where functions are added; the calls do.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#ifndef FRAMEPATH_MOTION_THREADS_H
+#define FRAMEPATH_MOTION_THREADS_H
+
+#include <pthread.h>
+#include "rtapi.h"
+
+/* So many commands between two periods of the controller mean that it does not run: one comes in a period, and one comes
+ * while motmod is loaded. Task sends two such commands when it starts. */
+#define COMMANDS_WITHOUT_CONTROLLER 3
+/* By how many moves the one order has to be ahead of the other to be believed; a late period looks like the wrong one. */
+#define ORDER_IS_SURE 8
+/* How many times longer it is from a command to the controller than from the controller to the command in the wrong order. */
+#define MUCH_LONGER 4
+
+static struct {
+    int runs;                  /* the controller has been seen */
+    pthread_t controller;
+    int commands;              /* since its last period */
+    long long ended, commanded;/* processor clocks; 0: nothing since */
+    int order;                 /* how many moves came in the wrong order, less those in the right one */
+    int said;                  /* the order, or that nothing runs */
+} threads;
+
+#define SAME_THREAD "write addf motion-command-handler servo-thread and then addf motion-controller servo-thread in the HAL file"
+
+/* Whether what calls now is in another thread than the controller. */
+static int on_another_thread(void)
+{
+    return threads.runs && !pthread_equal(threads.controller, pthread_self());
+}
+
+/* -1, with the reason said, for a command on another thread than the controller's: the planner is not made for two. */
+static int check_thread(void)
+{
+    if (!on_another_thread())
+        return 0;
+    rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: motion-command-handler is in another thread than motion-controller, no move is "
+                    "taken: " SAME_THREAD "\n");
+    return -1;
+}
+
+/* A command that only the command handler gives; the first one on a wrong thread is told at once. */
+static void command_comes(void)
+{
+    static int told;
+    if (!told)
+        told = check_thread();
+    if (told || ++threads.commands != COMMANDS_WITHOUT_CONTROLLER || threads.said)
+        return;
+    threads.said = 1;
+    rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: motion-controller is in no thread that runs: " SAME_THREAD "\n");
+}
+
+/* The number of a move comes just before it. */
+static void move_comes(void)
+{
+    command_comes();
+    threads.commanded = threads.ended ? rtapi_get_clocks() : 0;
+}
+
+/* The controller begins to plan; looks at the order until that is sure. */
+static void controller_plans(void)
+{
+    long long before, after;
+    if (!threads.commanded || threads.order <= -ORDER_IS_SURE || threads.said)
+        return;
+    before = threads.commanded - threads.ended;
+    after = rtapi_get_clocks() - threads.commanded;
+    threads.order += after > MUCH_LONGER * before ? 1 : -1;
+    threads.commanded = 0;
+    if (threads.order < ORDER_IS_SURE)
+        return;
+    threads.said = 1;
+    rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: motion-controller comes before motion-command-handler, so that every command "
+                    "waits for a period: " SAME_THREAD "\n");
+}
+
+/* The end of the controller's period. */
+static void controller_ends(void)
+{
+    threads.runs = 1;
+    threads.controller = pthread_self();
+    threads.commands = 0;
+    threads.ended = threads.order > -ORDER_IS_SURE && !threads.said ? rtapi_get_clocks() : 0;
+}
+
+#endif

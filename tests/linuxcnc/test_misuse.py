@@ -1,0 +1,111 @@
+"""Mistakes in the HAL file and the INI of a machine: each is said, with the line that mends it."""
+
+import os
+import shutil
+import tempfile
+import unittest
+
+import harness
+from test_loading import MOTION, halrun
+
+SAMPLE = "framepath-sim"
+HANDLER, CONTROLLER = ("addf motion-command-handler servo-thread\n", "addf motion-controller servo-thread\n")
+MOVES = "G21 G90 G64 P0.01 G1 F6000\n" + "".join(f"X{n % 7} Y{n % 5}\n" for n in range(60)) + "M2\n"
+PROGRAM = [["run", "PROGRAMS/moves.ngc"]]
+
+
+def run_with(steps, *changes, ini=None, hal=""):
+    """The sample machine with texts of its HAL file replaced."""
+    with tempfile.TemporaryDirectory() as folder:
+        configuration = os.path.join(folder, SAMPLE)
+        shutil.copytree(os.path.join(harness.SAMPLES, "configs", SAMPLE), configuration)
+        path = os.path.join(configuration, f"{SAMPLE}.hal")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        for before, after in changes:
+            if before not in text:
+                raise AssertionError(f"no {before} in the sample")
+            text = text.replace(before, after)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return harness.run(steps, {"moves.ngc": MOVES}, configuration=configuration, ini=ini, hal=hal, record=False)
+
+
+class Case(unittest.TestCase):
+    def nothing_said(self, result):
+        self.assertEqual((result.failure, result.errors), (None, []))
+
+
+class Threads(Case):
+    def said(self, result, words):
+        return [error for error in result.errors if words in error]
+
+    def test_in_the_right_order_nothing_is_said(self):
+        result = run_with(PROGRAM)
+        self.nothing_said(result)
+
+    def test_the_wrong_order_is_said_once(self):
+        result = run_with(PROGRAM, (HANDLER + CONTROLLER, CONTROLLER + HANDLER))
+        self.assertIsNone(result.failure)
+        said = self.said(result, "motion-controller comes before motion-command-handler")
+        self.assertEqual(len(said), 1, result.errors)
+        self.assertIn("write addf motion-command-handler servo-thread and then addf motion-controller", said[0])
+
+    def test_another_thread_is_said_at_start_and_takes_no_move(self):
+        fast = "base_period_nsec=500000 base_thread_fp=1"
+        result = run_with([["note", "start"], ["mdi", "G0 X5"], ["note", "end"]],
+                          ("[EMCMOT]EMCMOT servo_period", f"[EMCMOT]EMCMOT {fast} servo_period"),
+                          (HANDLER, HANDLER.replace("servo-thread", "base-thread")))
+        said = self.said(result, "motion-command-handler is in another thread than motion-controller, no move is taken")
+        self.assertEqual(len(said), 2, result.errors)
+        self.assertIn("write addf motion-command-handler servo-thread and then addf motion-controller", said[0])
+        self.assertTrue(self.said(result, "can't add linear move"), result.errors)
+        self.assertEqual(result.answers["end"]["position"], result.answers["start"]["position"])
+
+    def test_no_controller_is_said_at_start(self):
+        result = run_with([], (CONTROLLER, ""))
+        self.assertIn("machine on", result.failure)
+        self.assertIn("blendtp: motion-controller is in no thread that runs: write addf", result.log)
+
+
+class Jerk(Case):
+    """[AXIS_L]MAX_JERK has to be taken to a pin by a line of HAL."""
+
+    def test_a_forgotten_line_is_said_at_the_first_move(self):
+        result = run_with([["mdi", "G0 X1"], ["mdi", "G0 X2"]], ("setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK\n", ""))
+        self.assertIsNone(result.failure)
+        self.assertEqual(result.errors, [
+            "nothing sets blendtp.axis.y.max-jerk (so not limited), although the INI has [AXIS_Y]MAX_JERK = 20000: "
+            "write setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK in the HAL file"])
+
+    def test_no_limit_on_purpose_is_not(self):
+        result = run_with([["mdi", "G0 X1"]], ("setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK\n",
+                                               "setp blendtp.axis.y.max-jerk 0\n"))
+        self.nothing_said(result)
+        result = run_with([["mdi", "G0 X1"]], ("setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK\n", ""),
+                          ini={("AXIS_Y", "MAX_JERK"): "0"})
+        self.nothing_said(result)
+
+    def test_a_net_sets_it_too(self):
+        result = run_with([["mdi", "G0 X1"]], ("setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK\n",
+                                               "net jerk-y blendtp.axis.y.max-jerk\nsets jerk-y [AXIS_Y]MAX_JERK\n"))
+        self.nothing_said(result)
+
+
+class Planner(unittest.TestCase):
+    def test_tpmod_missing_in_the_ini(self):
+        with self.assertRaises(RuntimeError) as raised:
+            run_with([["mdi", "G0 X1"]], ("loadrt [KINS]KINEMATICS\n", "loadrt blendtp\nloadrt [KINS]KINEMATICS\n"),
+                     ini={("TRAJ", "TPMOD"): None})
+        self.assertIn("tpmod.so is loaded already and would be taken in its place: write TPMOD = blendtp", str(raised.exception))
+
+    def test_another_planner_behind_it(self):
+        output, code = halrun(MOTION.replace("loadrt homemod\n", "loadrt homemod\nloadrt tpmod\n"))
+        self.assertEqual(code, 0, output)
+        self.assertIn("blendtp: tpmod is loaded, too, and has nothing to do: remove its loadrt", output)
+        output, code = halrun(MOTION)
+        self.assertNotIn("is loaded, too", output)
+
+
+if __name__ == "__main__":
+    unittest.main()
