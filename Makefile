@@ -28,6 +28,7 @@ help:
 	@echo 'make tool       build the framepath command'
 	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
 	@echo 'make uninstall  remove them again'
+	@echo 'make sanitize   only the tests with the address and undefined-behaviour sanitizers and valgrind'
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make bench      measure the functions that the servo thread calls'
@@ -65,6 +66,7 @@ test: export PROPTEST_RNG_SEED ?= 1
 test: export TOOL_PROFILE = dev
 test: lint modules fault-modules
 	@./prerequisites browser
+	@./prerequisites sanitize
 	$(CARGO) test --locked --workspace --no-fail-fast
 # The tool is there: its own tests run it.
 	$(PYTHON) -B tests/linuxcnc/run_all.py
@@ -72,6 +74,11 @@ test: lint modules fault-modules
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules fault-modules tool
 	$(PYTHON) -B tests/linuxcnc/run_all.py
+
+# The C of the modules with sanitizers, the modules under valgrind; a part of make test.
+sanitize: modules
+	@./prerequisites sanitize
+	$(PYTHON) -B tests/linuxcnc/test_sanitizers.py -v
 
 # What comes last in make test: the table of promises, two minutes of soak, plan against LinuxCNC.
 contract: modules tool
@@ -143,4 +150,5 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test contract soak bench fuzz compare figures header install uninstall clean
+.PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test sanitize contract soak bench fuzz compare \
+    figures header install uninstall clean

@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include "rtapi.h"
@@ -19,6 +20,14 @@
 #define EXPORTED __attribute__((visibility("default")))
 
 /* ------------------------------------------------------------------ heap */
+
+#ifdef HOST_KEEPS_HEAP
+/* Where a sanitizer or valgrind has the heap. */
+#define memory calloc
+EXPORTED void framepath_host_watch_heap(int on) { (void)on; }
+EXPORTED unsigned long framepath_host_heap_calls(void) { return 0; }
+#else
+#define memory __libc_calloc
 
 extern void *__libc_malloc(size_t);
 extern void *__libc_calloc(size_t, size_t);
@@ -87,6 +96,7 @@ EXPORTED int posix_memalign(void **block, size_t alignment, size_t size)
     *block = memalign(alignment, size);
     return *block ? 0 : ENOMEM;
 }
+#endif
 
 /* -------------------------------------------------------------- messages */
 
@@ -179,7 +189,7 @@ EXPORTED int rtapi_shmem_new(int key, int module, unsigned long size)
             return i + 1;
         if (!shared[i].block) {
             shared[i].key = key;
-            shared[i].block = __libc_calloc(1, size);
+            shared[i].block = memory(1, size);
             return shared[i].block ? i + 1 : -ENOMEM;
         }
     }
@@ -228,7 +238,7 @@ static int add(const char *name, hal_type_t type, void *value)
 
 static int add_pin(const char *name, hal_type_t type, void **pin)
 {
-    hal_data_u *value = __libc_calloc(1, sizeof *value);
+    hal_data_u *value = memory(1, sizeof *value);
     if (!value)
         return -ENOMEM;
     *pin = value;
@@ -289,7 +299,7 @@ EXPORTED int hal_signal_new(const char *name, hal_type_t type) { (void)name; (vo
 EXPORTED int hal_signal_delete(const char *name) { (void)name; return 0; }
 EXPORTED int hal_link(const char *pin, const char *signal) { (void)pin; (void)signal; return 0; }
 EXPORTED int hal_unlink(const char *pin) { (void)pin; return 0; }
-EXPORTED void *hal_malloc(long size) { return __libc_calloc(1, size); }
+EXPORTED void *hal_malloc(long size) { return memory(1, size); }
 
 EXPORTED int hal_export_funct(const char *name, void (*call)(void *, long), void *argument, int uses_fp, int reentrant, int id)
 {
@@ -371,6 +381,7 @@ EXPORTED int hal_param_u32_set(const char *name, unsigned long value) { return p
 EXPORTED int hal_param_s32_set(const char *name, signed long value) { return put_named(name, value); }
 
 /* ------------------------------------ kinematics: the joints are the axes */
+#ifndef HOST_WITHOUT_KINEMATICS
 
 EXPORTED int kinematicsForward(const double *joint, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *forward,
                                KINEMATICS_INVERSE_FLAGS *inverse)
@@ -399,3 +410,4 @@ EXPORTED int kinematicsHome(struct EmcPose *world, double *joint, KINEMATICS_FOR
 EXPORTED KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_IDENTITY; }
 EXPORTED int kinematicsSwitchable(void) { return 0; }
 EXPORTED int kinematicsSwitch(int type) { return type ? -1 : 0; }
+#endif

@@ -1,0 +1,123 @@
+"""The C of both modules with sanitizers, and the modules as users get them under valgrind: their whole interface is driven
+in a process of its own (tests/abi), without LinuxCNC."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+import unittest.mock
+
+import harness
+from test_right_module import HEADERS, LIBRARY
+
+DRIVERS = os.path.join(harness.ROOT, "tests", "abi")
+STUBS = os.path.join(harness.ROOT, "tool", "src", "compare", "host", "stubs.c")
+FLAGS = ["-g", "-O1", "-Wall", "-Wextra", "-Werror", "-DRTAPI", "-DUSPACE", "-D__MODULE__", "-D_GNU_SOURCE",
+         "-DHOST_KEEPS_HEAP", "-isystem", HEADERS, "-I", os.path.join(harness.ROOT, "include"), "-I", DRIVERS]
+SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize=object-size", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"]
+#: driver of each module, and what it is compiled with
+MODULES = {"blendtp": ("drive_planner.c", []), "framekins": ("drive_kinematics.c", ["-DHOST_WITHOUT_KINEMATICS"])}
+MACHINES = (("XYZ", "identity", "frame"), ("xyyzabcuvw", "identity", "machine"), ("XYZAC", "xyzac", "frame"),
+            ("XYZBC", "xyzbc", "machine"))
+REFUSED = (("", "identity", "frame", "coordinates="), ("XYQ", "identity", "frame", "coordinates=XYQ"),
+           ("X" * 500, "identity", "frame", "coordinates=XXX"), ("XYZ", "5", "frame", "machine=5"),
+           ("XYZ", "xyzac", "frame", "coordinates=XYZ"), ("XYZ", "identity", "long", "tool_length=long"))
+
+
+class Driven(unittest.TestCase):
+    """What is the same for both tools."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.drivers = {name: cls.compiled(name, os.path.join(cls.folder, name)) for name in MODULES}
+
+    @classmethod
+    def cc(cls, output, *arguments):
+        done = subprocess.run(["cc", *FLAGS, *arguments, "-o", output], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, check=False)
+        if done.returncode:
+            raise AssertionError(done.stdout)
+        return output
+
+    def done(self, name, *arguments):
+        return subprocess.run([*self.WRAPPER, self.drivers[name], *arguments], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False, env=self.environment())
+
+    def environment(self):
+        return None
+
+    def fine(self, name, *arguments):
+        done = self.done(name, *arguments)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout
+
+
+class Watched:
+    """The tests; a subclass says who watches, and for how many periods."""
+
+    def test_planner(self):
+        for seed in range(self.SEEDS):
+            with self.subTest(seed=seed):
+                self.fine("blendtp", str(seed), str(self.PLANNER_PERIODS))
+
+    def test_kinematics(self):
+        for machine in MACHINES:
+            with self.subTest(machine=machine):
+                self.fine("framekins", *machine, "1", str(self.KINEMATICS_PERIODS))
+
+    def test_refused_parameters(self):
+        for *parameters, words in REFUSED:
+            with self.subTest(parameters=parameters):
+                self.assertIn(f"framekins: {words}", self.fine("framekins", *parameters, "1", "0"))
+
+    def test_ini(self):
+        ini = os.path.join(self.folder, "machine.ini")
+        with open(ini, "wb") as file:
+            file.write(b"[AXIS_" + b"X" * 5000 + b"\n[AXIS_]\nMAX_JERK\n[AXIS_\xff]\nMAX_JERK = 5\n[\n[AXIS_X]\nMAX_JERK =" + b" " * 4000
+                       + b"7\n[AXIS_Y]\n MAX_JERK=1e999\nMAX_JERK = x\n[AXIS_Z]\n\x00\nMAX_JERK = nan")
+        with unittest.mock.patch.dict(os.environ, INI_FILE_NAME=ini):
+            self.fine("blendtp", "1", "20")
+
+    def test_a_fault_is_seen(self):
+        for name, arguments in (("blendtp", ("1", "1")), ("framekins", ("XYZ", "identity", "frame", "1", "1"))):
+            done = self.done(name, *arguments, "fault")
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(self.FINDING, done.stdout)
+
+
+class Sanitizers(Watched, Driven):
+    """Address and undefined behaviour in the C of the modules, linked with the library."""
+
+    WRAPPER, FINDING = [], "heap-buffer-overflow"
+    SEEDS, PLANNER_PERIODS, KINEMATICS_PERIODS = 4, 20000, 100000
+
+    @classmethod
+    def compiled(cls, name, output):
+        driver, flags = MODULES[name]
+        return cls.cc(output, *SANITIZERS, *flags, '-DFRAMEPATH_BUILT_FOR=""', os.path.join(harness.SAMPLES, f"{name}.c"),
+                      os.path.join(DRIVERS, driver), STUBS, "-lm", LIBRARY)
+
+    def environment(self):
+        # what a machine has until it is switched off is no leak
+        return dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
+
+
+class Valgrind(Watched, Driven):
+    """The modules as they are installed."""
+
+    WRAPPER, FINDING = ["valgrind", "--quiet", "--error-exitcode=9"], "Invalid read"
+    SEEDS, PLANNER_PERIODS, KINEMATICS_PERIODS = 1, 3000, 5000
+
+    @classmethod
+    def compiled(cls, name, output):
+        driver, flags = MODULES[name]
+        module = os.path.join(cls.folder, f"{name}.so")
+        shutil.copy(os.path.join(harness.MODULES, f"{name}.so"), module)
+        return cls.cc(output, *flags, os.path.join(DRIVERS, driver), STUBS, module, "-rdynamic", "-lm")
+
+
+if __name__ == "__main__":
+    unittest.main()
