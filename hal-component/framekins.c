@@ -13,6 +13,7 @@
 
 #include "framepath.h"
 #include "first_loaded.h"
+#include "impossible_pins.h"
 #include "linuxcnc_version.h"
 
 MODULE_AUTHOR("the framepath authors");
@@ -115,6 +116,8 @@ static void update(void *argument, long period)
     framepath_kinematics_update(&in, &out);
     if (out.refusal && out.refusal != *pins->refusal)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: frame refused: %s\n", framepath_kinematics_refusal_text(out.refusal));
+    if ((out.refusal && out.refusal != *pins->refusal) || (out.parameters_pending && !*pins->parameters_pending))
+        tell_impossible_pin(&in);
     write_pins(&out);
 }
 
@@ -245,6 +248,9 @@ static int configure(void)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: machine=%s: %s\n", machine, words);
     else if (error == FRAMEPATH_UNKNOWN_TOOL_LENGTH)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_length=%s: %s\n", tool_length, words);
+    else if (!letter)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: coordinates=%s: %s; write one letter of XYZABCUVW for each joint, as in: "
+                        "loadrt framekins coordinates=XYZ\n", coordinates, words);
     else
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: coordinates=%s: %s (letter %d); write one letter of XYZABCUVW for each joint, "
                         "as in: loadrt framekins coordinates=XYZ\n",

@@ -7,6 +7,7 @@
 #include "rtapi.h"
 #include "hal.h"
 #include "motion.h"
+#include "motion_types.h"
 #include "tp.h"
 #include "host.h"
 #include "random.h"
@@ -186,6 +187,51 @@ static void refuse_other_layouts(void)
     free(there);
 }
 
+/* A pin with a value that makes no sense refuses a move by its name, before any of it takes effect. */
+static void refuse_by_name(const char *pin, double value, double sensible)
+{
+    char words[64];
+    EmcPose end = {{1, 1, 1}, 0, 0, 0, 0, 0, 0};
+    snprintf(words, sizeof words, "blendtp.%s is ", pin);
+    framepath_host_forget_errors();
+    REQUIRE(framepath_host_set(pin, value) == 1);
+    REQUIRE(tpAddLine(tp, end, EMC_MOTION_TYPE_FEED, 10, 10, 100, 0, 0, -1, tag()) == -1);
+    REQUIRE(!strncmp(framepath_host_first_error(), words, strlen(words)));
+    REQUIRE(strchr(framepath_host_first_error() + strlen(words), ':'));
+    REQUIRE(framepath_host_errors() == 1);
+    framepath_host_set(pin, sensible);
+}
+
+/* The first move says what the INI has and no pin, once; where there is no INI, nothing. */
+static void first_move(void)
+{
+    EmcPose end = {{0, 0, 1}, 0, 0, 0, 0, 0, 0};
+    unsigned long expected = getenv("INI_FILE_NAME") != NULL;
+    framepath_host_forget_errors();
+    for (int i = 0; i < 2; i++) {
+        REQUIRE(tpAddLine(tp, end, EMC_MOTION_TYPE_FEED, 10, 10, 100, 0, 0, -1, tag()) >= 0);
+        REQUIRE(framepath_host_errors() == expected);
+    }
+    REQUIRE(!expected || strstr(framepath_host_first_error(), "nothing sets blendtp.axis.y.max-jerk"));
+    REQUIRE(tpClear(tp) == 0);
+}
+
+static void refuse_impossible_pins(void)
+{
+    static const double impossible[] = {NAN, -INFINITY, -1, -1e-300};
+    for (unsigned i = 0; i < sizeof impossible / sizeof impossible[0]; i++) {
+        refuse_by_name("axis.x.max-jerk", impossible[i], 20000);
+        refuse_by_name("axis.w.max-jerk", impossible[i], 0);
+        refuse_by_name("millimetre", impossible[i], 1);
+        refuse_by_name("rotary-tolerance", impossible[i], 0);
+        refuse_by_name("default-tolerance", impossible[i], .02);
+    }
+    refuse_by_name("millimetre", 0, 1);
+    refuse_by_name("millimetre", INFINITY, 1);
+    refuse_by_name("rotary-tolerance", INFINITY, 0);
+    refuse_by_name("default-tolerance", INFINITY, .02);
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 3)
@@ -200,6 +246,8 @@ int main(int argc, char **argv)
     tpMotData(&shared->status, &shared->config);
     REQUIRE(tpCreate(tp, DEFAULT_TC_QUEUE_SIZE, 1) == 0);
     REQUIRE(tpSetCycleTime(tp, .001) == 0);
+    first_move();
+    refuse_impossible_pins();
     long period = 0;
     for (; period < strtol(argv[2], NULL, 10); period++) {
         while (!pick(3))

@@ -12,6 +12,7 @@
 int framepath_host_set(const char *ending, double value);
 const char *framepath_host_first_error(void);
 unsigned long framepath_host_errors(void);
+void framepath_host_forget_errors(void);
 void framepath_host_run_functions(void);
 int rtapi_app_main(void);
 void rtapi_app_exit(void);

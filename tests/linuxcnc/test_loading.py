@@ -67,6 +67,14 @@ class Loading(Refusals):
         self.refused("loadrt framekins coordinates=" + "X" * 17 + "\n", "more letters than LinuxCNC has joints",
                      "letter 17")
 
+    def test_texts_of_parameters(self):
+        self.refused("loadrt framekins coordinates=XYZ machine=5\n", "machine=5: there is no such machine", "machine=identity")
+        self.refused("loadrt framekins coordinates=XYZ tool_length=12.5\n", "tool_length=12.5: there is no such rule")
+        self.refused("loadrt framekins coordinates\n", "Invalid parameter `coordinates'")
+        output, _ = halrun("loadrt framekins coordinates=XYZ machine=xyzac\n")
+        self.assertIn("coordinates=XYZ: an axis that this machine needs is missing: xyzac needs X Y Z A C", output)
+        self.assertNotIn("letter 0", output)
+
     def test_loaded_twice(self):
         for load, name in (("loadrt blendtp", "blendtp"), ("loadrt framekins coordinates=XYZ", "framekins")):
             output, _ = halrun(f"{load}\n{load}\n")

@@ -115,6 +115,13 @@ EXPORTED unsigned long framepath_host_errors(void)
     return errors;
 }
 
+/* As if nothing had been said yet. */
+EXPORTED void framepath_host_forget_errors(void)
+{
+    first_error[0] = 0;
+    errors = 0;
+}
+
 static void message(int level, const char *format, va_list values)
 {
     if (level != RTAPI_MSG_ERR)

@@ -1,0 +1,63 @@
+"""Pins of framekins with values that nothing can be made of: the operator is told which."""
+
+import ctypes
+import math
+import os
+import unittest
+
+import harness
+import kinematics_host
+
+FLOAT, BIT = ctypes.c_double, ctypes.c_bool
+
+
+class Framekins(unittest.TestCase):
+    def setUp(self):
+        self.module = kinematics_host.Module(os.path.join(harness.MODULES, "framekins.so"), "framekins",
+                                             coordinates="XYZAC", machine="xyzac")
+        for pin in ("command", "value.1", "value.2", "work-offset.y", "tool-offset.z", "x-rot-point", "y-offset", "tool-offset"):
+            self.module.find(pin, FLOAT)
+        for pin in ("in-position", "parameters-pending"):
+            self.module.find(pin, BIT)
+        self.module.set(in_position=True)
+        self.module.update()
+        self.said = len(self.messages())
+
+    def messages(self):
+        return self.module.host.host_messages().decode().splitlines()
+
+    def new_messages(self):
+        return self.messages()[self.said:]
+
+    def test_a_refused_frame_names_the_pin(self):
+        for number, (pin, value) in enumerate((("value.2", math.nan), ("work-offset.y", math.inf), ("tool-offset.z", -math.inf),
+                                               ("work-offset.y", 1e7))):
+            with self.subTest(pin=pin, value=value):
+                self.setUp()
+                before = self.module.pins[pin].value
+                self.module.set(**{pin: value, "command": 1001.0})
+                self.module.update()
+                said = self.new_messages()
+                self.assertEqual(len(said), 2, said)
+                self.assertIn("frame refused", said[0])
+                self.assertIn(f"framekins.{pin} is {value:g}, which is no", said[1])
+                self.assertIn("look at what sets it in the HAL file", said[1])
+                self.module.set(**{pin: before})
+
+    def test_a_frame_that_is_refused_for_another_reason_names_none(self):
+        self.module.set(command=1099.0)
+        self.module.update()
+        self.assertEqual(len(self.new_messages()), 1, self.new_messages())
+
+    def test_a_dimension_of_the_table_is_named_when_it_becomes_impossible(self):
+        self.module.set(**{"x-rot-point": math.inf})
+        for _ in range(3):
+            self.module.update()
+        self.assertTrue(self.module.pins["parameters-pending"].value)
+        said = self.new_messages()
+        self.assertEqual(len(said), 1, said)
+        self.assertIn("framekins.x-rot-point is inf, which is no length of a machine", said[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
