@@ -12,6 +12,8 @@ const DEFAULT_INCLUDE: &str = "/usr/include/linuxcnc";
 /// What LinuxCNC's headers want to know about the platform: a user-space build of a real-time part.
 const DEFINES: [&str; 2] = ["RTAPI", "USPACE"];
 
+include!("build/watch.rs");
+
 fn main() {
     println!("cargo:rerun-if-env-changed=LINUXCNC_INCLUDE");
     println!("cargo:rerun-if-changed=src/abi/linuxcnc.h");
@@ -27,21 +29,6 @@ fn main() {
     watch(&include);
     bind(&include);
     compile_layout(&include);
-}
-
-/// Has this run again for another LinuxCNC: its headers are newer, or `make modules` has noticed that they differ (those
-/// of another release may be older than what was built with the last one's).
-fn watch(include: &str) {
-    println!("cargo:rerun-if-changed={include}");
-    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    // OUT_DIR is target/PROFILE/build/PACKAGE/out
-    let noticed = out
-        .ancestors()
-        .nth(4)
-        .map(|target| target.join("modules/built-for"));
-    if let Some(noticed) = noticed.filter(|file| file.exists()) {
-        println!("cargo:rerun-if-changed={}", noticed.display());
-    }
 }
 
 /// Rust types for the structures and constants that motmod shares with its modules.

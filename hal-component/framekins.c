@@ -15,6 +15,7 @@
 #include "first_loaded.h"
 #include "impossible_pins.h"
 #include "linuxcnc_version.h"
+#include "servo_thread.h"
 
 MODULE_AUTHOR("the framepath authors");
 MODULE_DESCRIPTION("Kinematics with programmable frames: translate, rotate, scale, mirror");
@@ -106,6 +107,18 @@ static void write_pins(const struct framepath_frame_outputs *out)
     *pins->normal_rotary = out->normal_rotary;
 }
 
+/* Whether this is not the thread in which motion asks for positions; said once. Then nothing is taken and nothing shown. */
+static int is_misplaced(void)
+{
+    static int told;
+    if (!on_another_thread())
+        return 0;
+    if (!told)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: it is in another thread than motion-controller, no frame is taken: write addf "
+                        "framekins servo-thread behind addf motion-controller servo-thread in the HAL file\n");
+    return told = 1;
+}
+
 /* In the servo thread, behind motion-controller: takes commands, asks motion for a switch, shows the state. */
 static void update(void *argument, long period)
 {
@@ -113,6 +126,8 @@ static void update(void *argument, long period)
     (void)period;
     struct framepath_frame_inputs in = read_pins();
     struct framepath_frame_outputs out;
+    if (is_misplaced())
+        return;
     framepath_kinematics_update(&in, &out);
     if (out.refusal && out.refusal != *pins->refusal)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: frame refused: %s\n", framepath_kinematics_refusal_text(out.refusal));
@@ -129,6 +144,7 @@ int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMAT
 {
     (void)fflags;
     (void)iflags;
+    this_is_the_servo_thread();
     return framepath_kinematics_forward(joints, world);
 }
 

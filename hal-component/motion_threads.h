@@ -6,8 +6,8 @@
 #ifndef FRAMEPATH_MOTION_THREADS_H
 #define FRAMEPATH_MOTION_THREADS_H
 
-#include <pthread.h>
 #include "rtapi.h"
+#include "servo_thread.h"
 
 /* So many commands between two periods of the controller mean that it does not run: one comes in a period, and one comes
  * while motmod is loaded. Task sends two such commands when it starts. */
@@ -18,21 +18,13 @@
 #define MUCH_LONGER 4
 
 static struct {
-    int runs;                  /* the controller has been seen */
-    pthread_t controller;
-    int commands;              /* since its last period */
-    long long ended, commanded;/* processor clocks; 0: nothing since */
-    int order;                 /* how many moves came in the wrong order, less those in the right one */
-    int said;                  /* the order, or that nothing runs */
+    int commands;               /* since the controller's last period */
+    long long ended, commanded; /* processor clocks; 0: nothing since */
+    int order;                  /* how many moves came in the wrong order, less those in the right one */
+    int said;                   /* the order, or that nothing runs */
 } threads;
 
 #define SAME_THREAD "write addf motion-command-handler servo-thread and then addf motion-controller servo-thread in the HAL file"
-
-/* Whether what calls now is in another thread than the controller. */
-static int on_another_thread(void)
-{
-    return threads.runs && !pthread_equal(threads.controller, pthread_self());
-}
 
 /* -1, with the reason said, for a command on another thread than the controller's: the planner is not made for two. */
 static int check_thread(void)
@@ -83,8 +75,7 @@ static void controller_plans(void)
 /* The end of the controller's period. */
 static void controller_ends(void)
 {
-    threads.runs = 1;
-    threads.controller = pthread_self();
+    this_is_the_servo_thread();
     threads.commands = 0;
     threads.ended = threads.order > -ORDER_IS_SURE && !threads.said ? rtapi_get_clocks() : 0;
 }

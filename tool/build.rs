@@ -9,6 +9,8 @@ use std::process::exit;
 /// Where Debian's linuxcnc-uspace-dev puts the headers.
 const DEFAULT_INCLUDE: &str = "/usr/include/linuxcnc";
 
+include!("../build/watch.rs");
+
 fn main() {
     println!("cargo:rerun-if-env-changed=LINUXCNC_INCLUDE");
     println!("cargo:rerun-if-changed=src/canon/interpreter");
@@ -21,6 +23,7 @@ fn main() {
         );
         exit(1);
     }
+    watch(&include);
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     compile_interpreter(&include, &out.join("interpreter"));
     compile_stubs(&include, &out.join("stubs.so"));

@@ -68,6 +68,16 @@ class Threads(Case):
         self.assertIn("blendtp: motion-controller is in no thread that runs: write addf", result.log)
 
 
+    def test_framekins_in_another_thread_is_said_and_takes_no_frame(self):
+        slow = "loadrt threads name1=slow period1=10000000\naddf framekins slow\n"
+        result = run_with([["mdi", "o<trans> call [10] [0] [0]"], ["getp", "active", "framekins.active"]],
+                          ("addf framekins servo-thread\n", slow))
+        said = self.said(result, "framekins: it is in another thread than motion-controller, no frame is taken")
+        self.assertEqual(len(said), 1, result.errors)
+        self.assertIn("write addf framekins servo-thread behind addf motion-controller servo-thread", said[0])
+        self.assertEqual(result.answers["active"], "FALSE")
+
+
 class Jerk(Case):
     """[AXIS_L]MAX_JERK has to be taken to a pin by a line of HAL."""
 

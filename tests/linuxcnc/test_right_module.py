@@ -1,6 +1,7 @@
 """The right module under the right LinuxCNC: one that was built for another is refused when it is loaded, and so is one
 that would be loaded for nothing, since another has its place."""
 
+import glob
 import os
 import shutil
 import subprocess
@@ -123,6 +124,14 @@ class Built(unittest.TestCase):
             build(modules, "built-for", f"LINUXCNC_INCLUDE={headers}")
             with open(noticed, encoding="utf-8") as file:
                 self.assertNotEqual(file.read(), first)
+
+    def test_cargo_looks_at_what_make_has_noticed(self):
+        noticed = f"cargo:rerun-if-changed={os.path.join(harness.MODULES, 'built-for')}"
+        for folder in glob.glob(os.path.join(os.path.dirname(LIBRARY), "build", "framepath-*", "output")):
+            with open(folder, encoding="utf-8") as file:
+                if noticed in file.read().splitlines():
+                    return
+        self.fail(f"no build script said {noticed}")
 
     def test_the_version_is_that_of_the_installed_one(self):
         version = subprocess.run(["linuxcnc_var", "LINUXCNCVERSION"], capture_output=True, text=True, check=True).stdout
