@@ -24,6 +24,23 @@ pub struct AxisLimits {
     pub jerk: Axes,
 }
 
+impl AxisLimits {
+    /// The limits of jerk, shape (9), where positions are set once in a `period` of so many seconds:
+    /// infinite where an axis could go from its acceleration one way to that the other way within one of
+    /// them. Where the acceleration is infinite its velocity limits that.
+    pub fn jerk_of_use(&self, period: f64) -> Axes {
+        Axes::from_fn(|axis, _| {
+            let acceleration = self.acceleration[axis].min(2.0 * self.velocity[axis] / period);
+            let most = 2.0 * acceleration / period;
+            if self.jerk[axis] < most {
+                self.jerk[axis]
+            } else {
+                f64::INFINITY
+            }
+        })
+    }
+}
+
 /// How X Y Z of the program lie to those of the machine: the linear part of a programmed frame,
 /// shape (3, 3). The other axes are the same.
 ///
@@ -56,6 +73,22 @@ impl MachineMap {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn jerk_that_a_period_cannot_use_up_is_none() {
+        let limits = |acceleration: f64, jerk: f64| AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(acceleration),
+            jerk: Axes::repeat(jerk),
+        };
+        let of_use = |acceleration, jerk| limits(acceleration, jerk).jerk_of_use(1e-3)[4];
+        assert_eq!(of_use(1000.0, 1.99e6), 1.99e6);
+        for jerk in [2e6, 1e9, 1e300, f64::INFINITY] {
+            assert_eq!(of_use(1000.0, jerk), f64::INFINITY);
+        }
+        assert_eq!(of_use(f64::INFINITY, 3.99e8), 3.99e8);
+        assert_eq!(of_use(f64::INFINITY, 4e8), f64::INFINITY);
+    }
 
     #[test]
     fn a_map_acts_on_the_linear_axes_alone() {

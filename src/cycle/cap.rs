@@ -130,6 +130,16 @@ impl Caps {
         (self.scale(cell.override_kind) * f64::from(cell.programmed_feed)).min(self.max_velocity)
     }
 
+    /// The same in several cells. Behind the end of the reference nothing is asked for: a cap of 0 there
+    /// would keep the machine from ever coming to the end.
+    fn feed_in(&self, cells: &[&StoredCell]) -> f64 {
+        cells
+            .iter()
+            .filter(|cell| cell.programmed_feed > 0.0)
+            .map(|cell| self.feed(cell))
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// Greatest ratio of the reference's feed to its cap from `time` on, as far as anything ahead
     /// matters now. Above 1 the reference has to be slowed down somewhere.
     pub fn greatest_ratio(&self, table: &Table, time: f64, period: f64) -> f64 {
@@ -177,7 +187,7 @@ impl Caps {
         let path_jerk = f64::from(next.path_acceleration) - f64::from(here.path_acceleration);
 
         let feed_ratio = f64::from(here.feed_ratio.max(next.feed_ratio)).max(1e-3);
-        let cap = self.feed(here).min(self.feed(next)) / feed_ratio;
+        let cap = self.feed_in(&[here, next]) / feed_ratio;
         if path_velocity < FREE_PART * cap || path_velocity < 1e-12 {
             return None;
         }
@@ -215,14 +225,7 @@ impl Caps {
             table.cell((time as usize).saturating_add(1)),
         );
         let feed_ratio = f64::from(from.feed_ratio.max(to.feed_ratio)).max(1e-3);
-        // Behind the end of the reference nothing is asked for.
-        let asked = |cell: &&StoredCell| cell.programmed_feed > 0.0;
-        let cap = [here, from, to]
-            .into_iter()
-            .filter(asked)
-            .map(|cell| self.feed(cell))
-            .fold(f64::INFINITY, f64::min)
-            / feed_ratio;
+        let cap = self.feed_in(&[here, from, to]) / feed_ratio;
         cap / table.along(time).velocity.max(1e-12)
     }
 

@@ -40,17 +40,18 @@ impl Limits {
         least_jerk: f64::INFINITY,
     };
 
-    /// `period` in seconds.
+    /// `period` in seconds. A limit of jerk that one period cannot use up is none.
     pub fn new(limits: &AxisLimits, period: f64) -> Self {
         let mut acceleration = scaled_limits(&limits.acceleration, period * period);
         for lane in &mut acceleration {
             *lane *= ACCELERATION_PART;
         }
         let third = period * period * period;
+        let jerk = limits.jerk_of_use(period);
         Self {
             acceleration,
-            jerk: scaled_limits(&limits.jerk, third),
-            least_jerk: limits.jerk.iter().fold(f64::INFINITY, |a, b| a.min(*b)) * third,
+            jerk: scaled_limits(&jerk, third),
+            least_jerk: jerk.min() * third,
         }
     }
 

@@ -151,7 +151,15 @@ impl Planner {
             {
                 break;
             }
-            let mut ahead = self.reference.next_cell(&outlook, needed, &mut budget);
+            // What the executor cannot do without takes as many pieces as it takes: beside a rest they may
+            // be many times shorter than a period.
+            let mut whole_ring = usize::MAX;
+            let budget = if self.executor.cells_ahead() < LEAST_CELLS {
+                &mut whole_ring
+            } else {
+                &mut budget
+            };
+            let mut ahead = self.reference.next_cell(&outlook, needed, budget);
             // How it goes on is not known in time: the machine rests until it is.
             if matches!(ahead, Ahead::Later)
                 && self.reference.is_resting()

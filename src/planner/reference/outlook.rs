@@ -42,6 +42,14 @@ pub struct Conditions {
 }
 
 impl Outlook<'_> {
+    /// What the axes are able to do now, where jerk that a period cannot use up is none.
+    pub(super) fn axis_limits(&self) -> AxisLimits {
+        AxisLimits {
+            jerk: self.limits.jerk_of_use(self.now.period),
+            ..*self.limits
+        }
+    }
+
     /// What the velocity along a move from rest to rest may not exceed, with the overrides of this
     /// moment.
     ///

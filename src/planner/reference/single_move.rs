@@ -26,7 +26,7 @@ impl Reference {
             return false;
         };
         let cap = outlook.velocity_cap(queued);
-        let limits = PathLimits::of(&shape, outlook.map, outlook.limits, cap);
+        let limits = PathLimits::of(&shape, outlook.map, &outlook.axis_limits(), cap);
         let profile = JerkLimitedProfile::rest_to_rest(shape.length(), &limits);
         // A profile without duration would be a jump. Positive limits never lead to one.
         if !(profile.duration() > 0.0 && profile.duration().is_finite()) {
@@ -81,7 +81,7 @@ impl Reference {
         law.cap = cap;
         let state = law.profile.state(frontier, frontier);
         let start = law.start + law.rate * state.distance;
-        let limits = PathLimits::of(&shape, outlook.map, outlook.limits, cap);
+        let limits = PathLimits::of(&shape, outlook.map, &outlook.axis_limits(), cap);
         let left = (law.end - start) / law.rate;
         if let Some(profile) = JerkLimitedProfile::raised(left, state.velocity, &limits) {
             let law = MoveLaw {

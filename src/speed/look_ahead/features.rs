@@ -155,10 +155,22 @@ impl Features {
             longest: route.known_end(),
             end: &mut self.end,
         };
-        let feature = Feature::of(vertex, &mut path);
+        // A change of the cap asks for nodes where it is, not all over a wide change of shape there.
+        let point = Vertex {
+            reach: 0.0,
+            core: 0.0,
+            ..*vertex
+        };
+        let cap_change =
+            (vertex.cap_changes && vertex.reach > 0.0).then(|| Feature::of(&point, &mut path));
+        let shape = Vertex {
+            cap_changes: vertex.cap_changes && cap_change.is_none(),
+            ..*vertex
+        };
+        let feature = Feature::of(&shape, &mut path);
         let core = (vertex.core > 0.0).then(|| {
             let reach = vertex.core;
-            Feature::of(&Vertex { reach, ..*vertex }, &mut path)
+            Feature::of(&Vertex { reach, ..shape }, &mut path)
         });
         // What never changes is not joined with what may.
         let may_join = lasting || self.next > self.lasting;
@@ -179,8 +191,8 @@ impl Features {
         } else {
             self.push(feature);
         }
-        if let Some(core) = core {
-            self.push(core);
+        for further in [cap_change, core].into_iter().flatten() {
+            self.push(further);
         }
     }
 
@@ -204,11 +216,6 @@ impl Features {
         {
             self.first += 1;
         }
-    }
-
-    /// The feature at a place in the ring, if it matters.
-    fn get(&self, place: usize) -> Option<&Feature> {
-        (self.first <= place && place < self.next).then(|| self.at(place))
     }
 
     fn at(&self, place: usize) -> &Feature {
@@ -302,12 +309,16 @@ impl Features {
             } else if feature.cap_changes {
                 consider(feature.center, nearest);
             }
+            // A change of its own speed cap is no other change of shape.
+            let is_other = |other: &&Feature| other.speed > 0.0 || other.center != feature.center;
             let free_before = || {
-                let other = place.checked_sub(1).and_then(|other| self.get(other));
+                let mut before = (self.first..place).rev().map(|other| self.at(other));
+                let other = before.find(is_other);
                 other.is_none_or(|other| other.end <= feature.start)
             };
             let free_behind = || {
-                let other = self.get(place + 1);
+                let mut behind = (place + 1..self.next).map(|other| self.at(other));
+                let other = behind.find(is_other);
                 other.is_none_or(|other| feature.end <= other.start)
             };
             if feature.speed > 0.0 && feature.single && free_before() && free_behind() {

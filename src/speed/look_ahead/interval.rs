@@ -20,7 +20,7 @@ const SERIES_RANGE: f64 = 0.03;
 
 /// The greatest |u| h^2 over b0 + b1. Beyond it b comes so near to 0 between the ends that three
 /// points do not describe the interval, and the closed forms lose their digits.
-const GREATEST_BEND: f64 = 0.5;
+pub(super) const GREATEST_BEND: f64 = 0.5;
 
 impl Parabola {
     /// From the lengths of three intervals and their coefficients, the middle one being meant.

@@ -70,8 +70,9 @@ impl AxisRows {
     };
 
     /// `period` of the servo thread, seconds, stands in for what is infinite: an unlimited
-    /// acceleration reaches the greatest velocity, an unlimited jerk `JERK_SHARE` of the
-    /// acceleration in one period.
+    /// acceleration reaches the greatest velocity, and no jerk takes more than `JERK_SHARE` of the
+    /// acceleration in one period. With more of it the arcs at rest would shrink to nothing, and
+    /// positions once a period would not show it.
     pub fn new(limits: &AxisLimits, map: &MachineMap, period: f64) -> Self {
         let mut inverse_jerk = Axes::zeros();
         let mut jerk_time = Axes::zeros();
@@ -81,11 +82,7 @@ impl AxisRows {
             } else {
                 limits.velocity[axis] / period
             };
-            let jerk = if limits.jerk[axis].is_finite() {
-                limits.jerk[axis]
-            } else {
-                JERK_SHARE * acceleration / period
-            };
+            let jerk = limits.jerk[axis].min(JERK_SHARE * acceleration / period);
             if jerk.is_finite() {
                 inverse_jerk[axis] = 1.0 / jerk;
                 if acceleration.is_finite() {

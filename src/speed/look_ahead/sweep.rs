@@ -6,6 +6,7 @@
 //! the slope of the coefficients is an acceleration, its change over an interval a jerk.
 
 use super::bounds::Bounds;
+use super::interval::GREATEST_BEND;
 
 /// A sweep at one coefficient.
 #[derive(Clone, Copy, Debug)]
@@ -51,10 +52,11 @@ impl Front {
         let c = self.value;
         let free = match self.slope {
             // From the cap on the acceleration grows within half of an interval at first.
-            None => 0.5 * length * bend(here, c, 0.0, length),
+            None => (0.5 * length * bend(here, c, 0.0, length)).min(greatest_turn(c, length)),
             Some(slope) => {
                 let fastest = if slope < 0.0 { c.max(before) } else { c };
-                slope + length * bend(here, fastest, slope, length)
+                let turn = length * bend(here, fastest, slope, length);
+                slope + turn.min(greatest_turn(c.min(before), length))
             }
         };
         let mut slope = free
@@ -81,6 +83,18 @@ impl Front {
             }
         }
     }
+}
+
+/// The share of what an interval may bend by that a sweep takes.
+const BEND_SHARE: f64 = 0.9;
+
+/// The greatest change of slope over an interval of this length on which v^2 is at least `b`, so that
+/// three points still describe it (`Parabola::is_degenerate`): v^2 at both ends adds up to twice that.
+///
+/// Where a slow cap is left and jerk is no matter at such a speed, the sweep would grow many times over
+/// in one interval. That is a ratio: neither lower bounds nor a slower feed would cure it.
+fn greatest_turn(b: f64, length: f64) -> f64 {
+    2.0 * BEND_SHARE * GREATEST_BEND * b / length
 }
 
 /// The greatest change u of slope with `u sqrt(b)` within the jerk wherever an interval of this length
