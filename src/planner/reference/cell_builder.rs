@@ -159,7 +159,7 @@ impl Derivatives {
         let rate = leg.map_or(1.0, |leg| leg.measure_rate);
         let serial = match &piece.law {
             Law::Move(law) => Some(law.serial),
-            Law::Run(_) | Law::Return(_) => leg.map(|leg| leg.serial),
+            _ => leg.map(|leg| leg.serial),
         };
         let queued = serial.and_then(|serial| ground.queue.get(serial));
         Cell {

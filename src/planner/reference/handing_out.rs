@@ -90,6 +90,9 @@ impl Reference {
         if !self.current().starts_at(self.rest) {
             self.swapped = !self.swapped;
         }
+        if self.current().starts_at(self.rest) && self.creep(outlook) {
+            return true;
+        }
         let ready = self.current().starts_at(self.rest) && self.current().is_ready();
         if ready && self.push_frozen() {
             self.resting = false;

@@ -17,6 +17,10 @@ pub(super) enum Law {
     Run(look_ahead::Piece),
     /// The same, back along the path: its distance is the path distance with the other sign.
     Return(look_ahead::Piece),
+    /// A stretch of the path from rest to rest for which the look-ahead found no plan.
+    Creep(MoveLaw),
+    /// The same, back along the path.
+    CreepBack(MoveLaw),
 }
 
 /// A move, or its rest, run by one profile.
@@ -60,7 +64,7 @@ impl Piece {
     pub fn state(&self, t: f64, within: f64) -> ProfileState {
         match &self.law {
             Law::Run(piece) | Law::Return(piece) => piece.at(t),
-            Law::Move(law) => {
+            Law::Move(law) | Law::Creep(law) | Law::CreepBack(law) => {
                 let state = law.profile.state(t, within);
                 ProfileState {
                     distance: (law.start + law.rate * state.distance).min(law.end),
@@ -76,14 +80,14 @@ impl Piece {
     pub fn next_jump(&self, t: f64) -> f64 {
         match &self.law {
             Law::Run(_) | Law::Return(_) => f64::INFINITY,
-            Law::Move(law) => law.profile.next_jump(t),
+            Law::Move(law) | Law::Creep(law) | Law::CreepBack(law) => law.profile.next_jump(t),
         }
     }
 
     /// The path distance where the distance of this piece is `distance`.
     pub fn path_distance(&self, distance: f64) -> f64 {
         match &self.law {
-            Law::Return(_) => -distance,
+            Law::Return(_) | Law::CreepBack(_) => -distance,
             _ => distance,
         }
     }
@@ -93,8 +97,8 @@ impl Piece {
     pub fn point(&self, path: &BlendedPath, distance: f64) -> PathPoint {
         let s = self.path_distance(distance);
         match &self.law {
-            Law::Move(law) if s >= law.end => path.point_before(s),
-            Law::Return(_) => path.point_before(s).backwards(),
+            Law::Move(law) | Law::Creep(law) if s >= law.end => path.point_before(s),
+            Law::Return(_) | Law::CreepBack(_) => path.point_before(s).backwards(),
             _ => path.point(s),
         }
     }

@@ -145,13 +145,23 @@ impl Reference {
 
     /// Whether the machine may start. Only asked at rest.
     pub fn is_ready(&self) -> bool {
-        let begun = |run: &Run| run.starts_at(self.rest) && run.may_start(&self.path);
+        let begun = |run: &Run| {
+            run.starts_at(self.rest) && (run.may_start(&self.path) || run.may_creep(&self.path))
+        };
         self.active && (self.stands_alone(self.rest) || self.runs.iter().any(begun))
     }
 
-    /// Whether no plan was found for what comes next.
+    /// Whether there is no plan for what comes next, not even to creep: the path is not a number.
     pub fn is_refused(&self) -> bool {
-        self.active && self.runs.iter().any(Run::is_refused)
+        self.active && self.runs.iter().any(Run::is_unsound)
+    }
+
+    /// Refuses all plans that there are, as if none had been found.
+    #[cfg(test)]
+    pub fn refuse_all(&mut self) {
+        for run in &mut self.runs {
+            run.refuse();
+        }
     }
 
     /// Whether the reference rests at the end of what was handed out.

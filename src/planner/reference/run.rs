@@ -1,12 +1,14 @@
 //! A run: from rest to rest along the path, planned by the look-ahead.
 
 use super::backwards::{Backwards, may_go_back};
+use super::creep;
 use super::outlook::Outlook;
+use super::piece::MoveLaw;
 use crate::axes::Axes;
 use crate::moves::MoveQueue;
 use crate::path::PathPoint;
 use crate::path::blend::{BlendedPath, VertexView};
-use crate::speed::look_ahead::{LookAhead, Piece, Progress, Route, SpeedCap, Vertex};
+use crate::speed::look_ahead::{LookAhead, Piece, Progress, Refusal, Route, SpeedCap, Vertex};
 
 /// Vertices that are looked at in a cycle, in search of the end of the run.
 const VERTICES_A_CYCLE: usize = 64;
@@ -97,8 +99,52 @@ impl Run {
     }
 
     /// Whether no plan was found.
-    pub fn is_refused(&self) -> bool {
+    fn is_refused(&self) -> bool {
         self.is_begun() && matches!(self.speed.progress(), Progress::Refused(_))
+    }
+
+    /// Whether no plan was found, nor will be one to creep.
+    pub fn is_unsound(&self) -> bool {
+        self.is_begun() && self.speed.progress() == Progress::Refused(Refusal::Unsound)
+    }
+
+    /// Whether the machine, at rest, may begin to creep where no plan was found.
+    pub fn may_creep(&self, path: &BlendedPath) -> bool {
+        let known = if self.backwards {
+            self.signed(self.searched)
+        } else {
+            path.final_end()
+        };
+        self.is_refused() && self.start.is_some_and(|start| known > self.signed(start))
+    }
+
+    /// How to creep where no plan was found, see [`creep::law`].
+    pub fn creep(&self, path: &BlendedPath, outlook: &Outlook) -> Option<MoveLaw> {
+        let start = self.start.filter(|_| self.is_refused())?;
+        if self.backwards {
+            creep::law(&self.way_back(path), -start, outlook)
+        } else {
+            creep::law(&self.way_on(path), start, outlook)
+        }
+    }
+
+    /// Refuses the plan as if none had been found.
+    #[cfg(test)]
+    pub fn refuse(&mut self) {
+        self.speed.refuse();
+    }
+
+    fn way_on<'a>(&self, path: &'a BlendedPath) -> PathRoute<'a> {
+        let stop = self.stop.unwrap_or(f64::INFINITY);
+        PathRoute { path, stop }
+    }
+
+    fn way_back<'a>(&self, path: &'a BlendedPath) -> Backwards<'a> {
+        Backwards {
+            path,
+            end: self.searched,
+            complete: self.stop.is_some(),
+        }
     }
 
     /// Whether the machine is to come to rest within `seconds`, as far as the plan goes.
@@ -178,15 +224,11 @@ impl Run {
         }
         self.speed.raise(outlook.now.feed_scale);
         if self.backwards {
-            let route = Backwards {
-                path,
-                end: self.searched,
-                complete: self.stop.is_some(),
-            };
+            let route = self.way_back(path);
             self.speed.slice(&route, budget);
         } else {
-            let stop = self.stop.unwrap_or(f64::INFINITY);
-            let progress = self.speed.slice(&PathRoute { path, stop }, budget);
+            let route = self.way_on(path);
+            let progress = self.speed.slice(&route, budget);
             if progress == Progress::Ready {
                 self.ready_for += outlook.now.period;
             }

@@ -428,6 +428,14 @@ impl LookAhead {
         }
     }
 
+    /// Refuses the plan as if none had been found, unless some of it is frozen.
+    #[cfg(test)]
+    pub fn refuse(&mut self) {
+        if self.state.next == 0 {
+            self.progress = Progress::Refused(Refusal::NotFound);
+        }
+    }
+
     /// Makes room for caps that were raised.
     fn soften(&mut self) {
         self.newton.cancel();

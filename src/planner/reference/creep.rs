@@ -1,0 +1,204 @@
+//! The last resort where no plan was found: a stretch of the path from rest to rest, by one profile.
+//!
+//! It exists by construction: between two places where the shape of the path changes its derivatives are
+//! bounded, and a speed, an acceleration and a jerk along it that are small enough keep the limits of all
+//! axes together.
+
+use super::outlook::Outlook;
+use super::piece::{Law, MoveLaw, Piece};
+use super::reference::Reference;
+use crate::axes::Axes;
+use crate::speed::look_ahead::Route;
+use crate::speed::{JerkLimitedProfile, PathLimits};
+
+/// Places of a stretch that are looked at.
+const PLACES: u32 = 48;
+
+/// What derivatives of the path may be greater by between these places.
+const UNSEEN: f64 = 1.5;
+
+/// The share of a limit that each of the terms takes that add up to it, three for the jerk.
+const TERM_SHARE: f64 = 0.3;
+
+/// How many vertices on each side are looked at for the end of a stretch.
+const NEIGHBOURS: usize = 16;
+
+/// Changes of shape nearer than this are no end of a stretch, share of the path distance.
+const NEAREST: f64 = 1e-9;
+
+impl Reference {
+    /// Plans to creep where no plan was found for what comes next. `false` if one was, or is still sought.
+    pub(super) fn creep(&mut self, outlook: &Outlook) -> bool {
+        let Some(law) = self.current().creep(&self.path, outlook) else {
+            return false;
+        };
+        let duration = law.profile.duration();
+        let (end, law) = if self.backwards {
+            (-law.end, Law::CreepBack(law))
+        } else {
+            (law.end, Law::Creep(law))
+        };
+        self.pieces.push(Piece { law, duration });
+        // From there on another plan is sought.
+        self.current_mut().clear();
+        self.rest = end;
+        true
+    }
+}
+
+/// The profile of a stretch of the route from `start` on; `None` if nothing of it is known for good, or
+/// the path is not a number.
+pub(super) fn law<R: Route>(route: &R, start: f64, outlook: &Outlook) -> Option<MoveLaw> {
+    let end = stretch_end(route, start);
+    let length = end - start;
+    if !(length > 0.0) {
+        return None;
+    }
+    let limits = path_limits(route, start, end, outlook);
+    let profile = JerkLimitedProfile::rest_to_rest(length, &limits);
+    let sound = profile.duration() > 0.0 && profile.duration().is_finite();
+    sound.then_some(MoveLaw {
+        serial: 0,
+        start,
+        end,
+        rate: 1.0,
+        profile,
+        cap: limits.velocity,
+    })
+}
+
+/// The next place behind `start` where a change of shape begins or ends, or the end of what is known.
+fn stretch_end<R: Route>(route: &R, start: f64) -> f64 {
+    let nearest = start + NEAREST * (1.0 + start.abs());
+    let mut end = route.known_end();
+    let (mut before, mut behind) = (nearest, nearest);
+    for _ in 0..NEIGHBOURS {
+        let vertices = [route.vertex_before(before), route.vertex_after(behind)];
+        for vertex in vertices.into_iter().flatten() {
+            let (place, reach) = (vertex.position, vertex.reach.max(vertex.core));
+            for edge in [place - reach, place, place + reach] {
+                if edge > nearest && edge < end {
+                    end = edge;
+                }
+            }
+            before = before.min(place);
+            behind = behind.max(place);
+        }
+    }
+    end
+}
+
+/// What is possible all along a stretch, all of it at the same time.
+fn path_limits<R: Route>(route: &R, start: f64, end: f64, outlook: &Outlook) -> PathLimits {
+    let mut velocity = f64::INFINITY;
+    let [mut first, mut second, mut third] = [Axes::zeros(); 3];
+    for place in 0..=PLACES {
+        let s = start + (end - start) * f64::from(place) / f64::from(PLACES);
+        let point = route.point(s);
+        velocity = velocity.min(route.speed_cap(s, &point.first).programmed);
+        let seen = |most: &Axes, derivative: &Axes| most.sup(&outlook.map.apply(derivative).abs());
+        first = seen(&first, &point.first);
+        second = seen(&second, &point.second);
+        third = seen(&third, &point.third);
+    }
+    let (second, third) = (second * UNSEEN, third * UNSEEN);
+    let axes = outlook.axis_limits();
+    let least = |limit: &Axes, by: &Axes| {
+        let quotients = limit.iter().zip(by.iter()).filter(|(_, by)| **by != 0.0);
+        quotients.fold(f64::INFINITY, |least, (limit, by)| {
+            least.min(limit / by.abs())
+        })
+    };
+    velocity = velocity
+        .min(least(&axes.velocity, &(first * UNSEEN)))
+        .min((TERM_SHARE * least(&axes.acceleration, &second)).sqrt())
+        .min((TERM_SHARE * least(&axes.jerk, &third)).cbrt());
+    let coupling = Axes::from_fn(|axis, _| 3.0 * second[axis] * velocity);
+    PathLimits {
+        velocity,
+        acceleration: (TERM_SHARE * least(&axes.acceleration, &first))
+            .min(TERM_SHARE * least(&axes.jerk, &coupling)),
+        jerk: TERM_SHARE * least(&axes.jerk, &first),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::axes::{Axes, AxisLimits};
+    use crate::moves::{MotionType, StateTag, TerminationCondition};
+    use crate::planner::{CycleInputs, MoveRequest, Planner};
+
+    const PERIOD: f64 = 1e-3;
+
+    fn request(feed: f64) -> MoveRequest {
+        MoveRequest {
+            motion_type: MotionType::Feed,
+            feed,
+            max_velocity: 1e3,
+            enables: 0x0f,
+            wait_for_spindle: false,
+            indexer_joint: None,
+            tag: StateTag::EMPTY,
+        }
+    }
+
+    /// Runs a program of blends to its end, within all limits, while each plan of the look-ahead is
+    /// refused or not. The servo periods that it takes.
+    fn run(jerk: f64, refused: bool) -> usize {
+        let limits = AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(jerk),
+        };
+        let mut planner = Planner::new();
+        assert!(planner.set_cycle_time(PERIOD));
+        planner.set_limits(&limits);
+        planner.set_termination(TerminationCondition::Continuous { tolerance: 0.1 });
+        let corners = [
+            (3.0, 0.0, 50.0),
+            (3.0, 2.0, 20.0),
+            (0.0, 0.1, 90.0),
+            (1.0, 0.0, 1.0),
+        ];
+        for (x, y, feed) in corners {
+            let end = Axes::x() * x + Axes::y() * y;
+            planner.add_line(&end, &request(feed)).expect("a line");
+        }
+        let mut positions = vec![Axes::zeros(); 4];
+        while !planner.status().done {
+            assert!(positions.len() < 20_000, "not done: {:?}", planner.status());
+            if refused {
+                planner.reference.refuse_all();
+            }
+            let status = planner.cycle(&CycleInputs::default());
+            assert_eq!(status.fault, None);
+            positions.push(status.position);
+        }
+        let cycles = positions.len();
+        assert_eq!(planner.status().position, Axes::x());
+        positions.extend([Axes::x(); 4]);
+        for window in positions.windows(4) {
+            let velocity = (window[3] - window[2]).amax() / PERIOD;
+            let acceleration = (window[3] - window[2] * 2.0 + window[1]).amax() / PERIOD.powi(2);
+            let third = window[3] - window[2] * 3.0 + window[1] * 3.0 - window[0];
+            assert!(velocity <= 90.001 && acceleration <= 1000.0);
+            assert!(third.amax() / PERIOD.powi(3) <= 1.001 * jerk);
+        }
+        cycles
+    }
+
+    #[test]
+    fn what_is_refused_is_crept_along() {
+        for jerk in [2e4, f64::INFINITY] {
+            std::thread::Builder::new()
+                .stack_size(64 << 20)
+                .spawn(move || {
+                    let (planned, crept) = (run(jerk, false), run(jerk, true));
+                    assert!(planned < crept && crept < 10 * planned, "{planned} {crept}");
+                })
+                .expect("a thread")
+                .join()
+                .expect("no panic");
+        }
+    }
+}
