@@ -72,11 +72,12 @@ static void controller_plans(void)
                     "waits for a period: " SAME_THREAD "\n");
 }
 
-/* The end of the controller's period. */
+/* The end of the controller's period. Where it has not planned (traj_period_nsec of motmod) the order is not to be seen. */
 static void controller_ends(void)
 {
     this_is_the_servo_thread();
     threads.commands = 0;
+    threads.commanded = 0;
     threads.ended = threads.order > -ORDER_IS_SURE && !threads.said ? rtapi_get_clocks() : 0;
 }
 

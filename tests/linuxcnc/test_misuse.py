@@ -44,6 +44,11 @@ class Threads(Case):
         result = run_with(PROGRAM)
         self.nothing_said(result)
 
+    def test_a_planner_that_runs_in_every_twentieth_period_is_in_the_right_order(self):
+        single = [["mdi", f"G0 X{n % 2}"] for n in range(24)]
+        result = run_with(single, ("[EMCMOT]EMCMOT servo_period", "[EMCMOT]EMCMOT traj_period_nsec=20000000 servo_period"))
+        self.nothing_said(result)
+
     def test_the_wrong_order_is_said_once(self):
         result = run_with(PROGRAM, (HANDLER + CONTROLLER, CONTROLLER + HANDLER))
         self.assertIsNone(result.failure)
