@@ -249,14 +249,14 @@ int tpSetVmax(TP_STRUCT *tp, double vmax, double ini_maxvel)
     (void)tp;
     (void)vmax;
     (void)ini_maxvel;
-    command_comes();
+    command_comes(motion.status);
     return 0;
 }
 
 int tpSetVlimit(TP_STRUCT *tp, double limit)
 {
     (void)tp;
-    command_comes();
+    command_comes(motion.status);
     return framepath_planner_set_velocity_limit(planner, limit);
 }
 
@@ -265,20 +265,21 @@ int tpSetAmax(TP_STRUCT *tp, double amax)
     /* Acceleration is limited axis by axis. */
     (void)tp;
     (void)amax;
+    command_comes(motion.status);
     return 0;
 }
 
 int tpSetId(TP_STRUCT *tp, int id)
 {
     (void)tp;
-    move_comes();
+    move_comes(motion.status);
     return framepath_planner_set_id(planner, id);
 }
 
 int tpSetTermCond(TP_STRUCT *tp, int condition, double tolerance)
 {
     (void)tp;
-    command_comes();
+    command_comes(motion.status);
     return framepath_planner_set_termination(planner, condition, tolerance);
 }
 

@@ -7,10 +7,11 @@
 #define FRAMEPATH_MOTION_THREADS_H
 
 #include "rtapi.h"
+#include "motion.h"
 #include "servo_thread.h"
 
-/* So many commands between two periods of the controller mean that it does not run: one comes in a period, and one comes
- * while motmod is loaded. Task sends two such commands when it starts. */
+/* So many commands of task without a period of the controller mean that it does not run: there is one at most in a period.
+ * Task sends three of the kind that arrives here when it starts. */
 #define COMMANDS_WITHOUT_CONTROLLER 3
 /* By how many moves the one order has to be ahead of the other to be believed; a late period looks like the wrong one. */
 #define ORDER_IS_SURE 8
@@ -18,7 +19,7 @@
 #define MUCH_LONGER 4
 
 static struct {
-    int commands;               /* since the controller's last period */
+    int commands, number;       /* since the controller's last period; the number that task gave the last one */
     long long ended, commanded; /* processor clocks; 0: nothing since */
     int order;                  /* how many moves came in the wrong order, less those in the right one */
     int said;                   /* the order, or that nothing runs */
@@ -36,23 +37,27 @@ static int check_thread(void)
     return -1;
 }
 
-/* A command that only the command handler gives; the first one on a wrong thread is told at once. */
-static void command_comes(void)
+/* A command that only the command handler gives, with task's number for it (what calls without numbers is no LinuxCNC);
+ * the first one on a wrong thread is told at once. */
+static void command_comes(const emcmot_status_t *status)
 {
     static int told;
     if (!told)
         told = check_thread();
-    if (told || ++threads.commands != COMMANDS_WITHOUT_CONTROLLER || threads.said)
+    if (told || threads.said || !status || status->commandNumEcho == threads.number)
+        return;
+    threads.number = status->commandNumEcho;
+    if (++threads.commands < COMMANDS_WITHOUT_CONTROLLER)
         return;
     threads.said = 1;
     rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: motion-controller is in no thread that runs: " SAME_THREAD "\n");
 }
 
 /* The number of a move comes just before it. */
-static void move_comes(void)
+static void move_comes(const emcmot_status_t *status)
 {
-    command_comes();
-    threads.commanded = threads.ended ? rtapi_get_clocks() : 0;
+    command_comes(status);
+    threads.commanded = threads.ended && status && status->commandNumEcho ? rtapi_get_clocks() : 0;
 }
 
 /* The controller begins to plan; looks at the order until that is sure. */

@@ -65,6 +65,7 @@ static void add_move(void)
 {
     double feed = number(.1, 300);
     int kind = pick(12), result;
+    shared->status.commandNumEcho += pick(9) > 0;
     tpSetId(tp, whole(1000));
     if (kind < 8)
         result = tpAddLine(tp, pose(), whole(6), feed, number(10, 400), number(1, 5000), random_bits(), !pick(9), whole(16), tag());

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import subprocess
 import tempfile
 import unittest
 
@@ -120,6 +121,17 @@ class Planner(unittest.TestCase):
         self.assertIn("blendtp: tpmod is loaded, too, and has nothing to do: remove its loadrt", output)
         output, code = halrun(MOTION)
         self.assertNotIn("is loaded, too", output)
+
+
+class OutsideOfLinuxCNC(unittest.TestCase):
+    def test_what_drives_the_planner_otherwise_than_motmod_is_told_nothing(self):
+        for moves_per_cycle in ("1", "4"):
+            done = subprocess.run([harness.TOOL, "compare", "--generated", "trochoidal", "--jerk", "20A", "--adds-per-cycle",
+                                   moves_per_cycle, "--with", os.path.join(harness.MODULES, "blendtp.so")],
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertRegex(done.stdout, "blendtp.so +20A +[0-9]")
+            self.assertNotIn("blendtp:", done.stdout)
 
 
 if __name__ == "__main__":
