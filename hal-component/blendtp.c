@@ -8,9 +8,12 @@
  */
 #include <dlfcn.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 #include "rtapi.h"
 #include "rtapi_app.h"
 #include "hal.h"
+#include "kinematics.h"
 #include "framepath.h"
 #include "first_loaded.h"
 #include "ini_jerk.h"
@@ -46,6 +49,8 @@ static struct {
     emcmot_status_t *status;
     emcmot_config_t *config;
 } motion;
+/* The name of the kinematics module. */
+static char kinematics[64] = "the kinematics module";
 
 /* framekins says how the axes of the program lie to those of the machine; other kinematics do not have it. */
 static int (*linear_map)(double map[9]);
@@ -131,21 +136,61 @@ static int prepare(void)
 /* Says why a move was refused; zero-length moves are no error. */
 static int said(int result)
 {
-    double position, limit;
-    int joint;
-    if (result == TP_ERR_RANGE && (joint = framepath_planner_joint_out_of_range(planner, &position, &limit)) >= 0)
-        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the move would take joint %d to %f on its way, beyond its soft limit %f\n",
-                        joint, position, limit);
-    else if (result < 0)
+    if (result < 0)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s\n", framepath_planner_error_text(planner));
     return result;
+}
+
+/* Says what a look along the way of the queued moves has found. */
+static void say_finding(void)
+{
+    static int told;
+    int line, joint;
+    double position, limit;
+    switch (framepath_planner_range_finding(planner, &line, &joint, &position, &limit)) {
+    case FRAMEPATH_LEAVES_RANGE:
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the move would take joint %d to %f on its way, beyond its soft limit %f "
+                        "(line %d)\n", joint, position, limit, line);
+        break;
+    case FRAMEPATH_RANGE_UNKNOWN:
+        if (!told)
+            rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s finds no joints for a place on the way of the move of line %d: the soft "
+                            "limits are checked at its end only. This is said once\n", kinematics, line);
+        told = 1;
+        break;
+    default:
+        break;
+    }
+}
+
+/* Hands over the kinematics, whose joints are looked at on the way of each move. */
+static void find_kinematics(void)
+{
+    int (*inverse)(const EmcPose *, double *, const unsigned long *, unsigned long *);
+    int (*forward)(const double *, EmcPose *, const unsigned long *, unsigned long *);
+    KINEMATICS_TYPE (*type)(void);
+    Dl_info file;
+    *(void **)&inverse = dlsym(RTLD_DEFAULT, "kinematicsInverse");
+    *(void **)&forward = dlsym(RTLD_DEFAULT, "kinematicsForward");
+    *(void **)&type = dlsym(RTLD_DEFAULT, "kinematicsType");
+    if (inverse && dladdr(*(void **)&inverse, &file) && file.dli_fname) {
+        const char *slash = strrchr(file.dli_fname, '/');
+        const char *name = slash ? slash + 1 : file.dli_fname;
+        snprintf(kinematics, sizeof kinematics, "%.*s", (int)strcspn(name, "."), name);
+    }
+    /* It counts the turns of a joint from call to call, and would count those of the look along a move too. */
+    if (!strcmp(kinematics, "rosekins"))
+        inverse = NULL;
+    if (!inverse || !type)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s cannot be asked for joints on the way of a move: the soft limits are checked "
+                        "at the ends of moves only\n", kinematics);
+    framepath_planner_kinematics(type ? inverse : NULL, forward, type ? type() : KINEMATICS_IDENTITY);
 }
 
 int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
 {
     (void)id;
     char found[128];
-    int (*inverse)(const EmcPose *, double *, const unsigned long *, unsigned long *);
     if (check_structures(motion.status, motion.config, tp, found, sizeof found)) {
         say_built_for_another("blendtp", found);
         return -1;
@@ -161,8 +206,7 @@ int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: tpmod is loaded, too, and has nothing to do: remove its loadrt\n");
     /* motmod is loaded after the kinematics, so they can be looked up now; here, not in the servo thread. */
     *(void **)&linear_map = dlsym(RTLD_DEFAULT, "framekinsLinearMap");
-    *(void **)&inverse = dlsym(RTLD_DEFAULT, "kinematicsInverse");
-    framepath_planner_kinematics(inverse);
+    find_kinematics();
     return 0;
 }
 
@@ -224,6 +268,7 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     inject_fault(tp);
 #endif
     result = framepath_planner_run_cycle(planner, tp);
+    say_finding();
     spindle = framepath_planner_spindle_error_text(planner, &asked, &greatest);
     if (spindle && asked > 0)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the motion was stopped, since %s (%.4g units a second, %.4g at most)\n",

@@ -76,6 +76,21 @@
 #define FRAMEPATH_DEFAULT_TOLERANCE 0.02
 
 /*
+ What a move was found to do to the joints, in the last servo period.
+ */
+#define FRAMEPATH_STAYS_IN_RANGE 0
+
+/*
+ It would take one beyond a soft limit: the motion is stopped before it.
+ */
+#define FRAMEPATH_LEAVES_RANGE 1
+
+/*
+ The kinematics gave no joints for a place on its way, so that it could not be looked at.
+ */
+#define FRAMEPATH_RANGE_UNKNOWN 2
+
+/*
  The planner of the module, with what LinuxCNC handed over for it.
  */
 struct framepath_planner;
@@ -293,26 +308,12 @@ void framepath_planner_motion_functions(void (*write_digital)(int, char),
                                         double (*acceleration_limit)(int));
 
 /*
- The inverse kinematics, for the soft limits of the joints on the way of a move.
- */
-void framepath_planner_kinematics(int (*inverse)(const EmcPose*, double*, const unsigned long*, unsigned long*));
-
-/*
  The motion controller's status and configuration: motmod hands them over before it creates the planner.
 
  # Safety
  Both live as long as the module, or are null.
  */
 void framepath_planner_motion_data(emcmot_status_t *status, emcmot_config_t *config);
-
-/*
- The joint that the last refused move would have taken beyond a limit: its number, how far it would go, the limit.
- -1 if that was not the reason.
-
- # Safety
- `handle` from `framepath_planner_create`; the others point to numbers.
- */
-int framepath_planner_joint_out_of_range(const struct framepath_planner *handle, double *position, double *limit);
 
 /*
  Queues a line. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
@@ -563,5 +564,26 @@ int framepath_planner_set_digital_output(struct framepath_planner *handle, int i
  `handle` from `framepath_planner_create`; `tp` motmod's planner structure.
  */
 int framepath_planner_set_run_direction(struct framepath_planner *handle, TP_STRUCT *tp, int direction);
+
+/*
+ The kinematics, for the soft limits of the joints on the way of a move: moves wait until they have been looked at. With
+ null for `inverse` they do not. `kinematics_type` is what `kinematicsType` says.
+ */
+void framepath_planner_kinematics(int (*inverse)(const EmcPose*, double*, const unsigned long*, unsigned long*),
+                                  int (*forward)(const double*, EmcPose*, const unsigned long*, unsigned long*),
+                                  unsigned int kinematics_type);
+
+/*
+ What the look along the queued moves came to in the last servo period: one of the codes above, with the program line,
+ and for a move that leaves the soft limits the joint, how far it would go, and the limit.
+
+ # Safety
+ `handle` from `framepath_planner_create`; the others point to numbers.
+ */
+int framepath_planner_range_finding(const struct framepath_planner *handle,
+                                    int *line,
+                                    int *joint,
+                                    double *position,
+                                    double *limit);
 
 #endif  /* FRAMEPATH_H */

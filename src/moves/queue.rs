@@ -29,6 +29,8 @@ pub struct MoveQueue {
     next: u64,
     /// No move with a lower serial number is remembered.
     cleared: u64,
+    /// Serial number of the first move that must not run yet.
+    released: u64,
 }
 
 const VACANT: Move = Move {
@@ -58,6 +60,7 @@ impl MoveQueue {
             first: 0,
             next: 0,
             cleared: 0,
+            released: 0,
         }
     }
 
@@ -127,10 +130,31 @@ impl MoveQueue {
         }
     }
 
+    /// Serial number of the first move since the queue was last cleared, come or to come.
+    pub fn cleared(&self) -> u64 {
+        self.cleared
+    }
+
+    /// The move with this serial number as [`Self::get`] has it, if it may run.
+    pub fn released(&self, serial: u64) -> Option<&Move> {
+        self.get(serial).filter(|_| serial < self.released)
+    }
+
+    /// Allows the moves before `serial` to run.
+    pub fn release(&mut self, serial: u64) {
+        self.released = self.released.max(serial.min(self.next));
+    }
+
+    /// Allows all moves to run that have come.
+    pub fn release_all(&mut self) {
+        self.released = self.next;
+    }
+
     /// Drops all moves and remembers none. Serial numbers go on.
     pub fn clear(&mut self) {
         self.first = self.next;
         self.cleared = self.next;
+        self.released = self.next;
     }
 }
 

@@ -150,6 +150,11 @@ impl Arc9 {
         Ok(arc)
     }
 
+    /// The angle from the start to the end about the axis, radians, above 0.
+    pub fn angle(&self) -> f64 {
+        self.angular_rate * self.length
+    }
+
     /// Greatest s.
     pub fn length(&self) -> f64 {
         self.length

@@ -20,6 +20,7 @@ pub mod range;
 pub mod reference;
 mod request;
 mod servo;
+mod soft_limits;
 mod spindle;
 mod status;
 

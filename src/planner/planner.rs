@@ -4,6 +4,7 @@ use nalgebra::{ArrayStorage, Matrix3};
 
 use super::blending::{Blending, BlendingError};
 use super::inputs::SpindleInputs;
+use super::range::RangeCheck;
 use super::reference::Reference;
 use super::request::{AddError, Added, MoveRequest};
 use super::spindle::{SpindleCommand, Thread, Tracker};
@@ -78,6 +79,8 @@ pub struct Planner {
     pub(super) locking: Option<i32>,
     /// For the next move.
     outputs: SynchronisedOutputs,
+    /// Whether the joints stay within their soft limits.
+    pub(super) range_check: RangeCheck,
     /// Where the last queued move ends.
     pub(super) goal: Axes,
 }
@@ -113,6 +116,7 @@ impl Planner {
             unlocking: false,
             locking: None,
             outputs: SynchronisedOutputs::NONE,
+            range_check: RangeCheck::OFF,
             goal: ORIGIN,
         }
     }
@@ -346,6 +350,9 @@ impl Planner {
         self.queue
             .push(queued)
             .map_err(|QueueFull| AddError::QueueFull)?;
+        if !self.range_check.is_on() {
+            self.queue.release_all();
+        }
         self.sequence = match synchronisation {
             Some(Synchronisation {
                 spindle,

@@ -55,6 +55,9 @@ impl Planner {
             !backwards && (next.wait_for_spindle || begins_thread) && !inputs.spindles_at_speed;
         let begun = self.queue.first_serial() < self.entered;
         let stale = self.limits_changed() || inputs.stepping != self.reference.is_single();
+        if self.queue.released(self.queue.first_serial()).is_none() {
+            return;
+        }
         // In the middle of a move there is only the path that led here.
         if !self.reference.is_active() || stale && !begun && !backwards {
             self.take_limits();

@@ -5,8 +5,10 @@ pub mod lathe;
 pub mod path_check;
 
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
+use framepath::machine::JOINT_COUNT;
 use framepath::moves::{MotionType, StateTag, TerminationCondition};
 use framepath::path::Circle;
+use framepath::planner::range::Joints;
 use framepath::planner::{AddError, Added, CycleInputs, MoveRequest, Planner, Status};
 use proptest::test_runner::{Config as ProptestConfig, RngSeed, TestRunner};
 
@@ -66,6 +68,16 @@ pub fn seeded_runner(config: ProptestConfig) -> TestRunner {
 /// A position in the XY plane.
 pub fn at(x: f64, y: f64) -> Axes {
     Axes::from([x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+}
+
+/// The joints of a machine whose joints are its axes.
+pub fn joints_at(position: &Axes) -> Joints {
+    let mut joints = [0.0; JOINT_COUNT];
+    joints
+        .iter_mut()
+        .zip(position.iter())
+        .for_each(|(joint, axis)| *joint = *axis);
+    joints
 }
 
 /// Runs a test on a machine with 100 mm/s, 1000 mm/s2, 20000 mm/s3.

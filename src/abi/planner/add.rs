@@ -7,11 +7,9 @@ use nalgebra::Vector3;
 
 use super::Handle;
 use crate::abi::linuxcnc::{EmcPose, PmCartesian, StateField, TP_STRUCT, state_tag_t, tp_err_t};
-use crate::abi::pose::{axes_of, pose_of};
-use crate::machine::JOINT_COUNT;
+use crate::abi::pose::axes_of;
 use crate::moves::{MotionType, STATE_TAG_SIZE, StateTag};
-use crate::path::{Circle, Shape, ShapeError};
-use crate::planner::range::{JointRange, out_of_range};
+use crate::path::{Circle, ShapeError};
 use crate::planner::{AddError, Added, MoveRequest};
 
 /// LinuxCNC's numbers of the codes that mean the machine itself: G28, G30, G53.
@@ -29,45 +27,6 @@ impl Handle {
         (self.framed && means_the_machine(tag)).then_some(
             c"G28, G30 and G53 mean the machine without its frame, which is in force: use o<machine_move> call, or remove the frame first",
         )
-    }
-
-    /// Whether a move would take a joint beyond its soft limits on its way; then that is kept for
-    /// the operator. Motion itself looks at the ends.
-    fn leaves_range(&mut self, shape: &Result<Shape, ShapeError>) -> bool {
-        let (Some(inverse), Ok(shape)) = (self.inverse_kinematics, shape) else {
-            return false;
-        };
-        // SAFETY: null, or motmod's own structures for as long as the module is loaded.
-        let (Some(status), Some(config)) =
-            (unsafe { (self.status.as_ref(), self.config.as_ref()) })
-        else {
-            return false;
-        };
-        let mut range = JointRange {
-            least: [f64::NEG_INFINITY; JOINT_COUNT],
-            greatest: [f64::INFINITY; JOINT_COUNT],
-            count: usize::try_from(config.numJoints - config.numExtraJoints).unwrap_or(0),
-        };
-        let limits = range.least.iter_mut().zip(&mut range.greatest);
-        for ((least, greatest), joint) in limits.zip(&status.joint_status) {
-            *least = joint.min_pos_limit;
-            *greatest = joint.max_pos_limit;
-        }
-        self.out_of_range = out_of_range(shape, &range, |position| {
-            let mut joints = [0.0; JOINT_COUNT];
-            let (pose, inverse_flags, mut forward_flags) = (pose_of(position), 0, 0);
-            // SAFETY: the kinematics module's own function, with as many joints as it may write.
-            let result = unsafe {
-                inverse(
-                    &pose,
-                    joints.as_mut_ptr(),
-                    &inverse_flags,
-                    &mut forward_flags,
-                )
-            };
-            (result == 0).then_some(joints)
-        });
-        self.out_of_range.is_some()
     }
 
     /// The result of adding a move as LinuxCNC expects it; the words for a refusal are kept.
@@ -140,31 +99,6 @@ fn request_of(
     })
 }
 
-/// The joint that the last refused move would have taken beyond a limit: its number, how far it would go, the limit.
-/// -1 if that was not the reason.
-///
-/// # Safety
-/// `handle` from `framepath_planner_create`; the others point to numbers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framepath_planner_joint_out_of_range(
-    handle: *const Handle,
-    position: *mut c_double,
-    limit: *mut c_double,
-) -> c_int {
-    // SAFETY: see above.
-    let (Some(handle), Some(position), Some(limit)) =
-        (unsafe { (handle.as_ref(), position.as_mut(), limit.as_mut()) })
-    else {
-        return -1;
-    };
-    let Some(found) = handle.out_of_range else {
-        return -1;
-    };
-    *position = found.position;
-    *limit = found.limit;
-    found.joint as c_int
-}
-
 /// Queues a line. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
 ///
 /// # Safety
@@ -210,11 +144,7 @@ pub unsafe extern "C" fn framepath_planner_add_line(
     }
     let limits = handle.limits();
     handle.planner.set_limits(&limits);
-    let end = axes_of(end);
-    if handle.leaves_range(&handle.planner.line_to(&end)) {
-        return tp_err_t::TP_ERR_RANGE;
-    }
-    let result = handle.planner.add_line(&end, &request);
+    let result = handle.planner.add_line(&axes_of(end), &request);
     // Motion looks at the queue in the same period, before the planner runs.
     handle.report(tp);
     handle.answer(result)
@@ -272,11 +202,7 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
     }
     let limits = handle.limits();
     handle.planner.set_limits(&limits);
-    let end = axes_of(end);
-    if handle.leaves_range(&handle.planner.arc_to(&end, &circle)) {
-        return tp_err_t::TP_ERR_RANGE;
-    }
-    let result = handle.planner.add_circle(&end, &circle, &request);
+    let result = handle.planner.add_circle(&axes_of(end), &circle, &request);
     // Motion looks at the queue in the same period, before the planner runs.
     handle.report(tp);
     handle.answer(result)

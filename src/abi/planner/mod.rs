@@ -8,6 +8,7 @@ mod acknowledgement;
 mod add;
 mod run;
 mod settings;
+mod soft_limits;
 
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
@@ -15,14 +16,15 @@ use core::mem::MaybeUninit;
 use core::ptr;
 use core::sync::atomic::{AtomicI32, AtomicU8};
 
-use libc::{c_char, c_double, c_int, c_ulong};
+use libc::{c_char, c_double, c_int};
 
 use acknowledgement::{Acknowledgement, Answer};
+use soft_limits::Kinematics;
 
-use super::linuxcnc::{EmcPose, TP_STRUCT, emcmot_config_t, emcmot_status_t, tp_err_t};
+use super::linuxcnc::{TP_STRUCT, emcmot_config_t, emcmot_status_t, tp_err_t};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
 use crate::planner::Planner;
-use crate::planner::range::OutOfRange;
+use crate::planner::range::Finding;
 
 /// The most moves that motmod may ask room for (it asks for 2000).
 pub const FRAMEPATH_QUEUE_CAPACITY: c_int = 2000;
@@ -33,11 +35,6 @@ type WriteAnalog = Option<unsafe extern "C" fn(c_int, c_double)>;
 type SetUnlock = Option<unsafe extern "C" fn(c_int, c_int)>;
 type GetUnlock = Option<unsafe extern "C" fn(c_int) -> c_int>;
 type AxisLimit = Option<unsafe extern "C" fn(c_int) -> c_double>;
-
-/// LinuxCNC's `kinematicsInverse`.
-type InverseKinematics = Option<
-    unsafe extern "C" fn(*const EmcPose, *mut c_double, *const c_ulong, *mut c_ulong) -> c_int,
->;
 
 /// The planner of the module, with what LinuxCNC handed over for it.
 pub struct Handle {
@@ -50,14 +47,14 @@ pub struct Handle {
     get_unlock: GetUnlock,
     velocity_limit: AxisLimit,
     acceleration_limit: AxisLimit,
-    inverse_kinematics: InverseKinematics,
+    kinematics: Kinematics,
     jerk: Axes,
     /// Whether a programmed frame is in force.
     framed: bool,
     acknowledgement: Acknowledgement,
     refused: &'static CStr,
-    /// The joint for whose sake the last move was refused.
-    out_of_range: Option<OutOfRange>,
+    /// What was found of the soft limits in the last servo period.
+    finding: Option<Finding>,
 }
 
 /// Memory for the one planner of a module.
@@ -76,12 +73,12 @@ static MEMORY: Memory = Memory(UnsafeCell::new(Handle {
     get_unlock: None,
     velocity_limit: None,
     acceleration_limit: None,
-    inverse_kinematics: None,
+    kinematics: Kinematics::NONE,
     jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[f64::INFINITY; AXIS_COUNT]])),
     framed: false,
     acknowledgement: Acknowledgement::NONE,
     refused: c"",
-    out_of_range: None,
+    finding: None,
 }));
 
 /// The planner of the module.
@@ -185,16 +182,6 @@ pub extern "C" fn framepath_planner_motion_functions(
     handle.get_unlock = get_rotary_unlock;
     handle.velocity_limit = velocity_limit;
     handle.acceleration_limit = acceleration_limit;
-}
-
-/// The inverse kinematics, for the soft limits of the joints on the way of a move.
-#[unsafe(no_mangle)]
-pub extern "C" fn framepath_planner_kinematics(
-    inverse: Option<
-        unsafe extern "C" fn(*const EmcPose, *mut c_double, *const c_ulong, *mut c_ulong) -> c_int,
-    >,
-) {
-    module().inverse_kinematics = inverse;
 }
 
 /// The motion controller's status and configuration: motmod hands them over before it creates the planner.

@@ -229,6 +229,7 @@ pub unsafe extern "C" fn framepath_planner_run_cycle(
     };
     let limits = handle.limits();
     handle.planner.set_limits(&limits);
+    handle.check_range();
     handle.planner.cycle(&inputs);
     handle.write_outputs();
     handle.command_spindles();

@@ -156,7 +156,7 @@ impl Supply {
     pub fn feed(&mut self, path: &mut BlendedPath, outlook: &Outlook) -> Result<(), BlendError> {
         self.silence += outlook.now.period;
         for _ in 0..MOVES_A_CYCLE {
-            let Some(queued) = outlook.queue.get(self.next) else {
+            let Some(queued) = outlook.queue.released(self.next) else {
                 break;
             };
             let follows = self.next != self.first;

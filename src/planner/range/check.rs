@@ -1,0 +1,152 @@
+//! The look along the queued moves, one behind the other.
+
+use super::{Finding, JointRange, JointSolver, Joints, OutOfRange, Sweep, Verdict};
+use crate::machine::JOINT_COUNT;
+use crate::moves::MoveQueue;
+use crate::path::Shape;
+
+/// Moves that need no look inside are passed over, so many in a servo period.
+const MOVES_A_CYCLE: usize = 16;
+
+/// How far the queued moves have been looked at.
+#[derive(Debug)]
+pub struct RangeCheck {
+    /// Whether moves wait until they have been looked at.
+    on: bool,
+    /// Serial number of the move that is looked at.
+    next: u64,
+    /// The move that the machine stood still before, from which the joints were followed.
+    origin: Option<u64>,
+    /// The joints where the machine comes from to that move, and whether they are those at its start.
+    near: Joints,
+    at_start: bool,
+    sweep: Option<Sweep>,
+    range: JointRange,
+}
+
+impl RangeCheck {
+    /// Nothing waits for it.
+    pub const OFF: Self = Self {
+        on: false,
+        next: 0,
+        origin: None,
+        near: [0.0; JOINT_COUNT],
+        at_start: false,
+        sweep: None,
+        range: JointRange::NONE,
+    };
+
+    /// Chooses whether moves wait until they have been looked at.
+    pub fn set_on(&mut self, on: bool) {
+        self.on = on;
+    }
+
+    /// Whether they do.
+    pub fn is_on(&self) -> bool {
+        self.on
+    }
+
+    /// Looks at more of the moves, as much as the solver may be asked in a servo period, and releases
+    /// those that have been looked at. `machine` are the joints of the machine.
+    ///
+    /// Where the limits of the joints have changed it begins again with the move that runs.
+    pub fn go_on(
+        &mut self,
+        queue: &mut MoveQueue,
+        range: &JointRange,
+        machine: &Joints,
+        solver: &mut impl JointSolver,
+    ) -> Option<Finding> {
+        let changed = !self.range.is(range);
+        if self.origin != Some(queue.cleared()) || changed && queue.first_serial() < self.next {
+            self.next = queue.first_serial();
+            self.origin = None;
+            self.sweep = None;
+        } else if changed {
+            self.sweep = None;
+        }
+        self.range = *range;
+        let mut calls = solver.calls_a_cycle();
+        let mut finding = None;
+        for _ in 0..MOVES_A_CYCLE {
+            let Some(queued) = queue.get(self.next) else {
+                break;
+            };
+            if self.origin.is_none() {
+                (self.near, self.at_start) = (*machine, false);
+                solver.begin(&queued.shape.position(0.0), machine);
+                self.origin = Some(queue.cleared());
+            }
+            let Some(verdict) = self.look(&queued.shape, &mut calls, solver) else {
+                break;
+            };
+            match verdict {
+                Passed::Stays => {}
+                Passed::Leaves(found) => {
+                    let (found, id) = (self.with_limit(found), queued.id);
+                    return Some(Finding::Leaves { found, id });
+                }
+                Passed::Unknown => finding = Some(Finding::Unknown { id: queued.id }),
+            }
+            self.next += 1;
+            queue.release(self.next);
+        }
+        finding
+    }
+
+    /// The limit itself, where the move began beyond it.
+    fn with_limit(&self, found: OutOfRange) -> OutOfRange {
+        let limits = if found.position > found.limit {
+            &self.range.greatest
+        } else {
+            &self.range.least
+        };
+        let limit = limits.get(found.joint).copied();
+        OutOfRange {
+            limit: limit.unwrap_or(found.limit),
+            ..found
+        }
+    }
+
+    /// Looks along a move, `None` if that takes longer.
+    fn look(
+        &mut self,
+        shape: &Shape,
+        calls: &mut usize,
+        solver: &mut impl JointSolver,
+    ) -> Option<Passed> {
+        if matches!(shape, Shape::Line(_)) && solver.keeps_lines() {
+            self.at_start = false;
+            return Some(Passed::Stays);
+        }
+        let mut sweep = match self.sweep.take() {
+            Some(sweep) => sweep,
+            None if self.at_start => Sweep::behind_start(shape, &self.range, &self.near),
+            None => Sweep::new(shape, &self.range, &self.near),
+        };
+        while *calls > 0 {
+            *calls -= 1;
+            match sweep.step(shape, solver) {
+                None => {}
+                Some(Verdict::Stays(joints)) => {
+                    (self.near, self.at_start) = (joints, true);
+                    return Some(Passed::Stays);
+                }
+                Some(Verdict::Leaves(found)) => return Some(Passed::Leaves(found)),
+                Some(Verdict::Unknown) => {
+                    self.at_start = false;
+                    return Some(Passed::Unknown);
+                }
+            }
+        }
+        self.sweep = Some(sweep);
+        None
+    }
+}
+
+/// What became of a move.
+enum Passed {
+    Stays,
+    Leaves(OutOfRange),
+    Unknown,
+}

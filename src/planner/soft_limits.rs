@@ -1,0 +1,37 @@
+//! Moves wait until it is known that the joints stay within their soft limits.
+
+use super::planner::Planner;
+use super::range::{Finding, JointRange, JointSolver, Joints};
+
+impl Planner {
+    /// Chooses whether moves wait until [`Self::check_range`] has looked at them. At rest only.
+    pub fn wait_for_range_check(&mut self, wait: bool) {
+        self.range_check.set_on(wait);
+        if !wait {
+            self.queue.release_all();
+        }
+    }
+
+    /// Looks at more of the queued moves, before each [`cycle`](Self::cycle). `range` are the limits
+    /// of the joints now, `machine` the joints that the machine is commanded to be at.
+    ///
+    /// A move that leaves the range stops the motion on the path, before that move, and no move is
+    /// taken before the operator's side, or the program's, has aborted too.
+    pub fn check_range(
+        &mut self,
+        range: &JointRange,
+        machine: &Joints,
+        solver: &mut impl JointSolver,
+    ) -> Option<Finding> {
+        if !self.range_check.is_on() || self.status.aborting {
+            return None;
+        }
+        let finding = self
+            .range_check
+            .go_on(&mut self.queue, range, machine, solver);
+        if let Some(Finding::Leaves { .. }) = finding {
+            self.stop_for_error();
+        }
+        finding
+    }
+}
