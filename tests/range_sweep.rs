@@ -398,3 +398,34 @@ fn no_joint_of_a_tilting_table_leaves_its_limits_unnoticed() {
         calls[calls.len() - 1]
     );
 }
+
+/// Kinematics that iterate answer a little differently each time; a joint that stays at its limit
+/// is neither accused for that nor looked at without end.
+#[test]
+fn noise_at_a_limit_is_not_looked_into() {
+    struct Noisy(u32);
+    impl JointSolver for Noisy {
+        fn begin(&mut self, _position: &Axes, _joints: &Joints) {}
+        fn solve(&mut self, position: &Axes, _near: &Joints) -> Option<Joints> {
+            self.0 += 1;
+            let mut joints = joints_at(position);
+            joints[1] = 10.0 + 5e-6 * f64::from(self.0).sin();
+            Some(joints)
+        }
+        fn precision(&self) -> f64 {
+            1e-5
+        }
+        fn calls_a_cycle(&self) -> usize {
+            1
+        }
+        fn keeps_lines(&self) -> bool {
+            false
+        }
+    }
+    let end = [9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let shape = line([0.0; 9], end);
+    let mut solver = Noisy(0);
+    let mut sweep = Sweep::new(&shape, &range(10.0), &[0.0; JOINT_COUNT]);
+    let verdict = (0..5).find_map(|_| sweep.step(&shape, &mut solver));
+    assert!(matches!(verdict, Some(Verdict::Stays(_))), "{verdict:?}");
+}

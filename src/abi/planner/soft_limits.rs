@@ -22,8 +22,13 @@ type Forward = Option<
 
 /// Positions that are asked for in a servo period.
 const CALLS_A_CYCLE: usize = 16;
-/// The same where the kinematics iterate, which takes some microseconds for each.
-const ITERATIONS_A_CYCLE: usize = 3;
+/// The same where each takes the forward kinematics too ..
+const ARMS_A_CYCLE: usize = 8;
+/// .. and where the kinematics iterate, which takes some microseconds for each. A short move needs as many.
+const ITERATIONS_A_CYCLE: usize = 4;
+
+/// What kinematics that iterate may be wrong by, machine units or degrees: genserkins ends a circle 2e-6 off.
+const CONVERGENCE: f64 = 1e-5;
 
 /// What the joints are moved by to see whether the answer depends on them.
 const NUDGE: f64 = 1e-3;
@@ -98,9 +103,19 @@ impl JointSolver for Kinematics {
         self.joints(position, near, flags)
     }
 
+    fn precision(&self) -> f64 {
+        if self.iterates {
+            CONVERGENCE
+        } else {
+            Self::ROUNDING
+        }
+    }
+
     fn calls_a_cycle(&self) -> usize {
         if self.iterates {
             ITERATIONS_A_CYCLE
+        } else if self.chooses_arm {
+            ARMS_A_CYCLE
         } else {
             CALLS_A_CYCLE
         }

@@ -86,6 +86,15 @@ pub trait JointSolver {
     /// place not far away. `None` where there are none.
     fn solve(&mut self, position: &Axes, near: &Joints) -> Option<Joints>;
 
+    /// What an answer may be wrong by, machine units or degrees: [`Self::ROUNDING`], or more where
+    /// the kinematics iterate.
+    fn precision(&self) -> f64 {
+        Self::ROUNDING
+    }
+
+    /// What an answer in closed form may be wrong by.
+    const ROUNDING: f64 = 1e-9;
+
     /// How often [`Self::solve`] may be called in a servo period, 1 and above.
     fn calls_a_cycle(&self) -> usize;
 

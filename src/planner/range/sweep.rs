@@ -6,7 +6,8 @@
 //! passes its five places by less than 3/8 D: |q''| h^2 is at most 3 D at the ends of a span, and an
 //! eighth of that is how far a joint can pass two neighbouring places. D is what is reckoned
 //! with, so that 5/8 D is left for what a cubic leaves out. A span that might go beyond a
-//! limit is looked at again in halves, which have a quarter of D, until D is below [`TOLERANCE`].
+//! limit is looked at again in halves, which have a quarter of D, until D is below [`TOLERANCE`], or
+//! what the answers of the kinematics differ by.
 //!
 //! How near to a cubic a joint is depends on how far the machine turns: from one place to the
 //! next all rotary axes and the arc itself turn by [`TURN`] / 4 at most. Joints of robots turn
@@ -34,11 +35,11 @@ const GREATEST_WAY: f64 = 90.0;
 /// What a joint may pass its limit by without notice, machine units or degrees.
 const TOLERANCE: f64 = 1e-6;
 
-/// What a position may exceed a limit by rounding.
-const ROUNDING: f64 = 1e-9;
+/// Second differences that are as many times what an answer may be wrong by tell nothing.
+const NOISE: f64 = 30.0;
 
 /// The least part of a span: beyond it the joints jump, and there is nothing in between.
-const LEAST_WIDTH: f64 = 1.0 / (1u32 << 20) as f64;
+const LEAST_WIDTH: f64 = 1.0 / (1u32 << 16) as f64;
 
 /// Calls beyond those for spans of full width, after which a move counts as unknown.
 const FURTHER_CALLS: f64 = 4000.0;
@@ -72,6 +73,8 @@ pub struct Sweep {
     found: Option<OutOfRange>,
     /// Places that may still be asked for.
     calls: f64,
+    /// What an answer may be wrong by.
+    precision: f64,
 }
 
 impl Sweep {
@@ -89,6 +92,7 @@ impl Sweep {
             allowed: *range,
             found: None,
             calls: spans * INTERVALS + FURTHER_CALLS,
+            precision: 0.0,
         }
     }
 
@@ -103,6 +107,7 @@ impl Sweep {
     /// Asks for one more place; the verdict, if that was the last one.
     pub fn step(&mut self, shape: &Shape, solver: &mut impl JointSolver) -> Option<Verdict> {
         self.calls -= 1.0;
+        self.precision = solver.precision();
         let share = self.begin + self.width * (self.filled as f64 / INTERVALS);
         let s = shape.length() * (share / self.spans);
         let near = self.filled.saturating_sub(1);
@@ -193,7 +198,7 @@ impl Sweep {
         let below = (bend.least, *least, least - bend.least);
         for (position, limit, excess) in [above, below] {
             let further = match self.found {
-                None => excess > ROUNDING,
+                None => excess > self.precision,
                 Some(found) => {
                     found.joint == joint
                         && found.limit == limit
@@ -225,7 +230,7 @@ impl Sweep {
             least = least.min(found.position);
             greatest = greatest.max(found.position);
         }
-        bend.second > TOLERANCE
+        bend.second > TOLERANCE.max(NOISE * self.precision)
             && (bend.greatest + bend.second > greatest || bend.least - bend.second < least)
     }
 
