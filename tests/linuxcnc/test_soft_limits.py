@@ -204,6 +204,25 @@ class Hexapod(Robot):
         self.assertGreater(self.is_refused(0, 31, "G91 G2 X0 Y0 I2 J0 F6000", joint_0=(10, 31)), 31)
 
 
+class Table(Robot):
+    """A tilting rotary table turns a point 50 mm from its centre past Y 50."""
+
+    kinematics = "xyzac-trt-kins"
+    home = (50, 0, 0, 0, 0)
+    letters = "XYZAC"
+
+    def test_a_line_that_fits(self):
+        self.runs("G1 C180 F20000", joint_1=(-100, 50.001))
+
+    def test_a_line_that_leaves(self):
+        beyond = self.is_refused(1, 49.9, "G1 C180 F20000", joint_1=(-100, 49.9))
+        self.assertAlmostEqual(beyond, 50, delta=2e-6)
+
+    def test_a_line_of_all_axes_that_leaves(self):
+        # in the middle of a program, which ends there
+        self.is_refused(1, 49, "G1 X51 F6000", "G1 X50 Y1 Z2 A1 C175 F6000", joint_1=(-100, 49))
+
+
 class Rose(Robot):
     """Kinematics that count the turns of a joint from call to call."""
 
