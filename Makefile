@@ -135,7 +135,7 @@ install: modules tool
 	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(MAN)/man1 $(MAN)/man9
 	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
 	install -m 755 $(TOOL) $(BIN)
-	install -m 644 hal-component/subroutines/*.ngc hal-component/subroutines/frame_settings.py \
+	install -m 644 hal-component/subroutines/*.ngc hal-component/subroutines/frame_[!g]*.py \
 	    hal-component/subroutines/README.md $(SHARE)/subroutines
 	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
 	cp -R hal-component/configs $(SHARE)

@@ -32,7 +32,7 @@ RTAPI_MP_STRING(tool_length, "frame: the tool's length turns with a frame; machi
 
 /* The dimensions of a machine with a tilting rotary table have the names of LinuxCNC's xyzac-trt-kins. */
 static struct {
-    hal_float_t *command, *value[3];
+    hal_float_t *command, *value[3], *check;
     hal_float_t *work_offset[3], *work_rotation, *tool_offset[3];
     hal_float_t *map[12];
     hal_bit_t *mirror[6];
@@ -45,7 +45,9 @@ static struct {
     hal_float_t *frame_tool_offset[3];
     hal_s32_t *slot, *operations, *refusal, *tilt_axis, *normal_refusal;
     hal_float_t *normal_tilt, *normal_rotary;
-    hal_u32_t *version;
+    hal_bit_t *enabled, *release_on_abort, *release, *releasing, *hold, *guarded;
+    hal_s32_t *releases, *releases_seen;
+    hal_u32_t *heartbeat, *version;
 } *pins;
 
 static int component;
@@ -87,6 +89,13 @@ static struct framepath_frame_inputs read_pins(void)
     in.tool_length_machine = *pins->tool_length_machine;
     in.in_position = *pins->in_position;
     in.teleop = *pins->teleop;
+    in.check = *pins->check;
+    in.enabled = *pins->enabled;
+    in.release_on_abort = *pins->release_on_abort;
+    in.release = *pins->release;
+    in.releases_seen = *pins->releases_seen;
+    in.heartbeat = *pins->heartbeat;
+    in.period = 0.0;
     return in;
 }
 
@@ -105,6 +114,19 @@ static void write_pins(const struct framepath_frame_outputs *out)
     *pins->normal_refusal = out->normal_refusal;
     *pins->normal_tilt = out->normal_tilt;
     *pins->normal_rotary = out->normal_rotary;
+    *pins->releasing = out->releasing;
+    *pins->releases = out->releases;
+    *pins->hold = out->hold;
+    *pins->guarded = out->guarded;
+}
+
+/* Tells the operator of a guard that is missed, and of each stage once. */
+static void tell_alarm(int alarm)
+{
+    static int told;
+    if (alarm > told)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: %s\n", framepath_kinematics_alarm_text(alarm));
+    told = alarm;
 }
 
 /* Whether this is not the thread in which motion asks for positions; said once. Then nothing is taken and nothing shown. */
@@ -123,8 +145,8 @@ static int is_misplaced(void)
 static void update(void *argument, long period)
 {
     (void)argument;
-    (void)period;
     struct framepath_frame_inputs in = read_pins();
+    in.period = period * 1e-9;
     struct framepath_frame_outputs out;
     if (is_misplaced())
         return;
@@ -133,6 +155,7 @@ static void update(void *argument, long period)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: frame refused: %s\n", framepath_kinematics_refusal_text(out.refusal));
     if ((out.refusal && out.refusal != *pins->refusal) || (out.parameters_pending && !*pins->parameters_pending))
         tell_impossible_pin(&in);
+    tell_alarm(out.alarm);
     write_pins(&out);
 }
 
@@ -186,6 +209,27 @@ EXPORT_SYMBOL(kinematicsSwitchable);
 EXPORT_SYMBOL(kinematicsSwitch);
 EXPORT_SYMBOL(framekinsLinearMap);
 
+/* What passes between framekins, motion and frame_guard so that a frame does not outlive its program. */
+static int export_guard_pins(void)
+{
+    int error = 0;
+    error |= hal_pin_float_newf(HAL_IN, &pins->check, component, "framekins.check");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->enabled, component, "framekins.enabled");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->release_on_abort, component, "framekins.release-on-abort");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->release, component, "framekins.release");
+    error |= hal_pin_s32_newf(HAL_IN, &pins->releases_seen, component, "framekins.releases-seen");
+    error |= hal_pin_u32_newf(HAL_IN, &pins->heartbeat, component, "framekins.heartbeat");
+    error |= hal_pin_bit_newf(HAL_OUT, &pins->releasing, component, "framekins.releasing");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->releases, component, "framekins.releases");
+    error |= hal_pin_bit_newf(HAL_OUT, &pins->hold, component, "framekins.hold");
+    error |= hal_pin_bit_newf(HAL_OUT, &pins->guarded, component, "framekins.guarded");
+    if (error)
+        return -1;
+    /* The machine counts as on, and may be, until somebody says otherwise. */
+    *pins->enabled = *pins->guarded = 1;
+    return 0;
+}
+
 static int export_frame_pins(void)
 {
     static const char *const row_names[12] = {"xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z"};
@@ -219,6 +263,7 @@ static int export_frame_pins(void)
     error |= hal_pin_float_newf(HAL_OUT, &pins->normal_tilt, component, "framekins.normal-tilt");
     error |= hal_pin_float_newf(HAL_OUT, &pins->normal_rotary, component, "framekins.normal-rotary");
     error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "framekins.version");
+    error |= export_guard_pins();
     if (error)
         return -1;
     /* The map is the identity until somebody says otherwise. */

@@ -46,6 +46,16 @@
 #define FRAMEPATH_UNKNOWN_TOOL_LENGTH 6
 
 /*
+ Alarm: the guard is late with a frame in force, and the machine is held.
+ */
+#define FRAMEPATH_GUARD_LATE 1
+
+/*
+ Alarm: the guard is lost with a frame in force, and the machine is switched off.
+ */
+#define FRAMEPATH_GUARD_LOST 2
+
+/*
  The most moves that motmod may ask room for (it asks for 2000).
  */
 #define FRAMEPATH_QUEUE_CAPACITY 2000
@@ -167,6 +177,34 @@ struct framepath_frame_inputs {
    Motion is in teleop mode: 0 or 1.
    */
   int teleop;
+  /*
+   The sum over the command, its values and the work offset that was sent with them.
+   */
+  double check;
+  /*
+   The machine is switched on: 0 or 1.
+   */
+  int enabled;
+  /*
+   An abort and machine off remove the frame: 0 or 1.
+   */
+  int release_on_abort;
+  /*
+   The guard wants the frame removed: 0 or 1.
+   */
+  int release;
+  /*
+   How many of `releases` the guard has told the interpreter of.
+   */
+  int releases_seen;
+  /*
+   Changes while the guard lives; 0: it has never lived.
+   */
+  unsigned int heartbeat;
+  /*
+   The servo period, s.
+   */
+  double period;
 };
 
 /*
@@ -221,6 +259,26 @@ struct framepath_frame_outputs {
    Where the rotary axis C has to go for that.
    */
   double normal_rotary;
+  /*
+   The frame has to go and cannot yet: 0 or 1.
+   */
+  int releasing;
+  /*
+   How often a frame was removed without a command while a guard lived.
+   */
+  int releases;
+  /*
+   Nothing may be moved: 0 or 1.
+   */
+  int hold;
+  /*
+   The machine may be on: 0 or 1.
+   */
+  int guarded;
+  /*
+   How far a guard that is missed has brought it: 0, or one of the alarms above.
+   */
+  int alarm;
 };
 
 /*
@@ -283,6 +341,11 @@ int framepath_kinematics_switch(int slot, const struct framepath_frame_inputs *p
  Both point to structures of this header.
  */
 void framepath_kinematics_update(const struct framepath_frame_inputs *pins, struct framepath_frame_outputs *out);
+
+/*
+ What the operator is told of an alarm.
+ */
+const char *framepath_kinematics_alarm_text(int alarm);
 
 /*
  The words for a refusal, with the remedy.

@@ -3,6 +3,7 @@
 mod frames_common;
 
 use framepath::frame::Refusal;
+use framepath::frame::check::check_sum;
 use framepath::frame::control::FrameInputs;
 use frames_common::Motion;
 
@@ -143,6 +144,7 @@ fn nonsense_on_the_command_pin_is_no_command() {
     // A number with a code that is none.
     for command in [77_000.5, 77_001.25, f64::MAX] {
         motion.inputs.command = command;
+        motion.inputs.check = check_sum(&motion.inputs);
         motion.period();
         assert_eq!(
             motion.out.refusal,
@@ -187,8 +189,7 @@ fn moving_and_teleop_refuse_at_both_ends() {
         change(&mut motion.inputs, false);
         // Between the request and the switch.
         for code in [1, 9] {
-            motion.number += 1.0;
-            motion.inputs.command = motion.number * 1000.0 + f64::from(code);
+            motion.put(code, [0.0; 3]);
             motion.out = motion.control.update(&motion.inputs);
             change(&mut motion.inputs, true);
             motion.period();

@@ -6,8 +6,9 @@
 Reads the settings (frame_settings.py) and does not come up if one is wrong, so that LinuxCNC does not start. Then it
 
 - shows the settings as pins, for the subroutines;
-- removes the frame at the start and end of programs, on aborts and resets, as the settings say, and makes the
-  interpreter read its position anew afterwards;
+- has framekins remove the frame at the start and end of programs, as the settings say, leaves teleop mode where that
+  keeps a frame, and makes the interpreter read its position anew afterwards;
+- lives visibly (frame_heart.py): without it framekins stops the machine and takes no frame;
 - stops moves that LinuxCNC would run through the frame although they are not meant so.
 
 The README beside this file tells what an operator sees of it.
@@ -22,6 +23,8 @@ import time
 import hal
 import linuxcnc
 
+from frame_heart import Heart
+from frame_offsets import SAME, Offsets, differ
 from frame_settings import Settings, SettingsError
 
 NAME = "frame-guard"
@@ -30,18 +33,33 @@ NAME = "frame-guard"
 PERIOD = 0.005
 
 #: codes of framekins.command; what changes lengths makes the tool's length matter
-CLEAR = 9
 LENGTH_CODES = {7, 8, 107, 108, 12}
 FRESH_CODES = {1, 2, 3, 4, 5, 6, 9}
 NUMBER_STEP = 1000
-LAST_NUMBER = 99999
 
 #: non-modal codes whose moves are meant in machine coordinates, ten times the G number
 MACHINE_MOVES = {530: "G53", 280: "G28", 300: "G30"}
 TOOL_CHANGE_MOTION = 4
 
-#: offsets that differ by less are equal, machine units or degrees
-SAME = 1e-6
+#: s that a frame may stay where it has to go and nothing moves, before the operator is told
+PATIENCE = 1.0
+
+#: s that LinuxCNC's task may take beyond three of its cycles until its status is up to date
+SETTLING = 0.2
+
+#: framekins' inputs that motion has to be linked to, and motion's that framekins has to be: (pin, net, what is lost)
+NETS = (
+    ("framekins.in-position", "net motion-in-position motion.in-position => framekins.in-position",
+     "no frame is taken"),
+    ("framekins.teleop", "net motion-teleop motion.teleop-mode => framekins.teleop",
+     "a frame that changes in teleop mode moves the joints"),
+    ("framekins.enabled", "net motion-on motion.motion-enabled => framekins.enabled",
+     "a frame does not go when the machine is switched off"),
+    ("motion.feed-inhibit", "net frame-hold framekins.hold => motion.feed-inhibit",
+     "a program may start before a frame is gone, and nothing holds the machine if frame_guard ends"),
+    ("motion.enable", "net frame-guarded framekins.guarded => motion.enable",
+     "nothing stops the machine if frame_guard ends"),
+)
 
 
 class Look:
@@ -54,6 +72,8 @@ class Look:
         self.auto = status.task_mode == linuxcnc.MODE_AUTO
         self.interpreter = status.interp_state
         self.idle = status.interp_state == linuxcnc.INTERP_IDLE
+        #: changes with each command to LinuxCNC
+        self.serial = status.echo_serial_number
         self.moving = not status.inpos or status.queue > 0
         self.teleop = status.motion_mode == linuxcnc.TRAJ_MODE_TELEOP
         self.coordinated = status.motion_mode == linuxcnc.TRAJ_MODE_COORD
@@ -66,6 +86,9 @@ class Look:
         self.active = bool(hal.get_value("framekins.active"))
         self.command = hal.get_value("framekins.command")
         self.acknowledged = hal.get_value("framekins.acknowledged")
+        #: how often framekins has removed a frame by itself
+        self.releases = hal.get_value("framekins.releases")
+        self.offsets = Offsets(status)
 
 
 def turn(degrees, offset):
@@ -74,15 +97,14 @@ def turn(degrees, offset):
     return c * offset[0] - s * offset[1], s * offset[0] + c * offset[1], offset[2]
 
 
-def differ(one, other):
-    return any(abs(a - b) > SAME for a, b in zip(one, other))
-
-
 class Guard:
     """Looks at LinuxCNC again and again, and acts."""
 
-    def __init__(self, settings):
+    def __init__(self, settings, pins, heart):
+        """pins: release and releases-seen."""
         self.settings = settings
+        self.pins = pins
+        self.heart = heart
         self.status = linuxcnc.stat()
         self.command = linuxcnc.command()
         self.last = None
@@ -96,10 +118,30 @@ class Guard:
         self.changes_lengths = False
         #: the run that is being stopped, so that it is told only once
         self.stopped = False
+        #: the offsets when the frame had to go, None while it may stay
+        self.offsets = None
+        #: since when the frame should have gone, None if it need not; and whether that was told
+        self.stays_since = None
+        self.told = False
+        self.status.poll()
+        # what the one before has not done is done by whoever switches the machine on again
+        pins["releases-seen"] = hal.get_value("framekins.releases")
+        #: the HAL file has been looked at
+        self.checked = False
+
+    def check_nets(self):
+        """Tells of what the HAL file has forgotten."""
+        for pin, net, loss in NETS:
+            if not hal.pin_has_writer(pin):
+                self.tell(f"{pin} is not linked, and so {loss}: write into the HAL file: {net}")
 
     def step(self):
         """One look."""
         now, last = Look(self.status), self.last or Look(self.status)
+        if now.on and not self.checked:
+            # now somebody is there to read it
+            self.check_nets()
+            self.checked = True
         self.follow_commands(now, last)
         self.find_due(now, last)
         if self.due and not now.active:
@@ -108,10 +150,19 @@ class Guard:
             self.stopped = False
         if now.active and not now.idle and not self.stopped:
             self.check_run(now, last)
-        if self.due and self.can_clear(now):
-            self.clear(now)
-            now = Look(self.status)
-        self.last = now
+        going = bool(self.due) and now.idle
+        unread = now.releases != self.pins["releases-seen"]
+        self.pins["release"] = going
+        if not going and not unread:
+            self.offsets = self.stays_since = None
+            self.told = False
+        else:
+            self.offsets = self.offsets or now.offsets
+        if going:
+            self.remove(now)
+        if hal.get_value("framekins.releases") != self.pins["releases-seen"]:
+            self.read_anew()
+        self.last = Look(self.status) if going or unread else now
 
     def follow_commands(self, now, last):
         """Keeps what the frame was made with."""
@@ -135,12 +186,12 @@ class Guard:
         aborted = now.command == 0 and self.commanded
         if setting.clear_on_abort and (aborted or not now.on):
             self.due = "abort"
-        if now.auto and now.idle and not (last.auto and last.idle):
-            # either a program has come to its end, or the operator has chosen this mode
-            if last.auto:
-                self.ended = time.monotonic()
-            elif setting.clear_at_start:
-                self.due = "start"
+        if now.idle and last.auto and (not last.idle or not last.active):
+            # a program has come to its end; a user interface may have chosen another mode already
+            self.ended = time.monotonic()
+        elif now.auto and now.idle and not last.auto and setting.clear_at_start:
+            # the operator has chosen this mode
+            self.due = "start"
         if self.ended is not None and setting.clear_at_end:
             # an abort looks like an end until o<on_abort> has run
             patience = 0.0 if setting.clear_on_abort else 10 * setting.task_cycle + 0.1
@@ -151,8 +202,10 @@ class Guard:
 
     def check_run(self, now, last):
         """Stops a run that must not go on with this frame."""
+        # a program waits and goes on by itself as well; a start is a command
         begun = now.auto and (last.idle or (last.interpreter == linuxcnc.INTERP_WAITING
-                                            and now.interpreter == linuxcnc.INTERP_READING))
+                                            and now.interpreter == linuxcnc.INTERP_READING
+                                            and now.serial != last.serial))
         if begun and last.active and last.acknowledged == now.acknowledged and \
                 (self.settings.clear_at_start or self.due):
             self.due = self.due or "start"
@@ -186,50 +239,99 @@ class Guard:
     def tell(self, text):
         self.command.error_msg(f"framepath: {text}")
 
-    def can_clear(self, now):
-        # framekins refuses in motion and in teleop: there the frame stays until the operator leaves that mode
-        return now.idle and not now.moving and not now.teleop
-
     def wait(self, condition, seconds):
         """Whether the condition came true in time."""
         limit = time.monotonic() + seconds
         while not condition():
             if time.monotonic() > limit:
                 return False
+            self.heart.get_on()
             time.sleep(0.001)
         return True
 
     def mode(self, mode):
-        """Whether LinuxCNC is in this mode now."""
+        """Whether LinuxCNC is in this mode now. Somebody else may choose another one at any moment."""
         self.command.mode(mode)
-        return self.wait(lambda: Look(self.status).mode == mode, 1.0)
+        return self.wait(lambda: Look(self.status).mode == mode, 0.2)
 
-    def clear(self, before):
-        """Removes the frame, with the interpreter idle, and has the position read anew.
+    def settle(self):
+        """Waits until the position without the frame is in task's own status, where the interpreter reads it."""
+        self.wait(self.is_up_to_date, SETTLING + 3 * self.settings.task_cycle)
 
-        In AUTO with the machine on, LinuxCNC accepts nothing but a start; in MDI no program can start meanwhile.
-        """
-        through_mdi = before.on and before.auto
-        if through_mdi and not self.mode(linuxcnc.MODE_MDI):
-            return  # a program was faster; check_run finds it
-        number = before.acknowledged + 1 if before.acknowledged < LAST_NUMBER else 1
-        self.command.set_analog_output(self.settings.analog_output, number * NUMBER_STEP + CLEAR)
-        answered = self.wait(lambda: hal.get_value("framekins.acknowledged") == number, 0.5)
-        removed = answered and not hal.get_value("framekins.active")
-        # the position without the frame has to arrive in task's own status before the interpreter reads it there
-        time.sleep(3 * self.settings.task_cycle + 0.005)
-        if not Look(self.status).idle:
-            self.stop("a command was given while the frame was being removed: give it again")
-            self.wait(lambda: Look(self.status).idle, 1.0)
-        if through_mdi:
-            self.mode(linuxcnc.MODE_AUTO)
-        else:
-            self.command.task_plan_synch()
-            self.command.wait_complete(1.0)
-        if removed:
+    def is_up_to_date(self):
+        """Whether task's status has motion's position of now."""
+        self.status.poll()
+        return all(abs(self.status.position[axis] - hal.get_value(f"axis.{letter}.pos-cmd")) < SAME
+                   for axis, letter in enumerate("xyzabcuvw") if self.status.axis_mask >> axis & 1)
+
+    def remove(self, before):
+        """The frame has to go and no program runs: framekins removes it as soon as motion stands outside of teleop."""
+        gone = self.wait(lambda: not hal.get_value("framekins.active"), 0.02)
+        if not gone and before.on and before.teleop and not before.moving:
+            # a change in teleop would make the joints jump: leave it for a moment
+            self.mode(linuxcnc.MODE_MDI)
+            gone = self.wait(lambda: not hal.get_value("framekins.active"), 0.2)
+            if gone:
+                self.read_anew()
+            if Look(self.status).mode == linuxcnc.MODE_MDI:
+                self.mode(linuxcnc.MODE_MANUAL)
+        if gone:
+            self.pins["release"] = False
             if self.due == "start":
                 self.command.text_msg("framepath: the frame is removed, programs start without one")
             self.due = None
+        elif not before.moving:
+            self.complain()
+
+    def complain(self):
+        """Tells once of a frame that does not go although nothing is in its way."""
+        self.stays_since = self.stays_since or time.monotonic()
+        if not self.told and time.monotonic() - self.stays_since > PATIENCE:
+            self.told = True
+            self.tell("the frame has to go, and framekins does not remove it: neither touch off nor start a program; "
+                      "are framekins.in-position, framekins.teleop and motion.switchkins-type linked as in the HAL "
+                      "file of the sample?")
+
+    def read_anew(self):
+        """Makes the interpreter read its position without the frame. Until then framekins holds the machine."""
+        releases = hal.get_value("framekins.releases")
+        self.settle()
+        # held as the machine is, what has begun can wait; an abort may still be on its way to the status
+        if not self.wait(lambda: Look(self.status).idle, SETTLING + 3 * self.settings.task_cycle):
+            self.stop("a command was given while the frame was being removed: give it again, start the program again")
+            self.wait(lambda: Look(self.status).idle, 1.0)
+        now = Look(self.status)
+        if now.on and now.auto:
+            # in AUTO LinuxCNC accepts nothing but a start; in MDI no program can start meanwhile
+            if self.mode(linuxcnc.MODE_MDI):
+                self.put_offsets_back()
+                self.mode(linuxcnc.MODE_AUTO)
+        else:
+            self.command.task_plan_synch()
+            self.wait(lambda: self.command.wait_complete(0.02) != -1, 1.0)
+            self.put_offsets_back()
+        self.pins["releases-seen"] = releases
+
+    def put_offsets_back(self):
+        """Offsets that were set while the frame had to go belong to positions in it."""
+        now, before = Look(self.status), self.offsets
+        if before is None:
+            return
+        if now.offsets.was_shifted_since(before):
+            self.tell("G92 or G52 was set while a frame had to go, from a position in the frame: set it again")
+        if now.offsets.was_set_since(before):
+            words = before.command(self.status, self.settings.units_per_mm)
+            if now.on and now.mode != linuxcnc.MODE_AUTO:
+                back = now.mode
+                if back == linuxcnc.MODE_MDI or self.mode(linuxcnc.MODE_MDI):
+                    self.command.mdi(words)
+                    self.wait(lambda: not Look(self.status).offsets.was_set_since(before), 1.0)
+                    if back != linuxcnc.MODE_MDI:
+                        self.mode(back)
+            done = not Look(self.status).offsets.was_set_since(before)
+            self.tell("a work offset was set while a frame had to go, from a position in the frame: "
+                      + ("it is put back, touch off again" if done else f"give {words} in MDI, then touch off again"))
+        self.offsets = Look(self.status).offsets
 
 
 def make_component(settings):
@@ -241,7 +343,18 @@ def make_component(settings):
             ("rots-convention", hal.HAL_S32, int(settings.rots_convention == "k2"))):
         component.newpin(pin, kind, hal.HAL_OUT)
         component[pin] = value
+    component.newpin("release", hal.HAL_BIT, hal.HAL_OUT)
+    component.newpin("releases-seen", hal.HAL_S32, hal.HAL_OUT)
     return component
+
+
+def link_to_framekins():
+    """Links the pins that the guard and framekins have for each other: no HAL file can forget these."""
+    for pin, kind in (("heartbeat", hal.HAL_U32), ("release", hal.HAL_BIT), ("releases-seen", hal.HAL_S32)):
+        signal_name = f"{NAME}-{pin}"
+        hal.new_sig(signal_name, kind)
+        hal.connect(f"{NAME}.{pin}", signal_name)
+        hal.connect(f"framekins.{pin}", signal_name)
 
 
 def set_up_framekins(settings):
@@ -250,6 +363,9 @@ def set_up_framekins(settings):
     if "framekins.active" not in pins:
         return ("framekins is not loaded: write [KINS]KINEMATICS = framekins coordinates=..., and load frame_guard "
                 "behind it")
+    if "framekins.releases" not in pins:
+        return "the framekins that is installed is older than frame_guard: install both from one version of framepath"
+    hal.set_p("framekins.release-on-abort", str(int(settings.clear_on_abort)))
     machine = settings.tool_length == "machine"
     if "framekins.tool-length-machine" in pins:
         hal.set_p("framekins.tool-length-machine", str(int(machine)))
@@ -268,17 +384,20 @@ def main():
     except (SettingsError, OSError) as error:
         print(f"frame_guard: {error}", file=sys.stderr)
         return 1
+    heart = Heart(NAME)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     component = make_component(settings)
     problem = set_up_framekins(settings)
     if problem:
         print(f"frame_guard: {problem}", file=sys.stderr)
         return 1
+    link_to_framekins()
     component.ready()
     guard = None
     while True:
+        heart.get_on()
         try:
-            guard = guard or Guard(settings)
+            guard = guard or Guard(settings, component, heart)
             guard.step()
         except linuxcnc.error:
             pass  # LinuxCNC's task is not up yet, or has ended

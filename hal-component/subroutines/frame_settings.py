@@ -10,8 +10,8 @@ SECTION = "FRAMEPATH"
 #: [TRAJ]LINEAR_UNITS as LinuxCNC understands it: machine units in a millimetre
 LINEAR_UNITS = {"mm": 1.0, "metric": 1.0, "in": 1 / 25.4, "inch": 1 / 25.4, "imperial": 1 / 25.4}
 
-#: a frame command takes eight analog outputs in a row
-OUTPUTS = 8
+#: a frame command takes nine analog outputs in a row
+OUTPUTS = 9
 
 #: LinuxCNC has at most this many analog outputs (num_aio of motmod)
 MOST_OUTPUTS = 64

@@ -6,15 +6,16 @@
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
 
-use libc::{c_char, c_double, c_int};
+use libc::{c_char, c_double, c_int, c_uint};
 
 use nalgebra::Vector3;
 
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::{AXIS_COUNT, Axes};
-use crate::frame::control::{FrameControl, FrameInputs};
-use crate::frame::{AffineMap, AngleRange, Refusal, RotaryLimits, ToolLength, tool_normal};
+use crate::frame::control::{FrameControl, FrameInputs, FrameOutputs};
+use crate::frame::heartbeat::Guard;
+use crate::frame::{AffineMap, AngleRange, RotaryLimits, ToolLength, tool_normal};
 use crate::machine::{
     ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, RotaryDirection,
     TableTiltingParameters, TiltAxis,
@@ -32,6 +33,10 @@ pub const FRAMEPATH_MISSING_AXIS: c_int = 4;
 pub const FRAMEPATH_UNKNOWN_MACHINE: c_int = 5;
 /// There is no such `tool_length=`.
 pub const FRAMEPATH_UNKNOWN_TOOL_LENGTH: c_int = 6;
+/// Alarm: the guard is late with a frame in force, and the machine is held.
+pub const FRAMEPATH_GUARD_LATE: c_int = 1;
+/// Alarm: the guard is lost with a frame in force, and the machine is switched off.
+pub const FRAMEPATH_GUARD_LOST: c_int = 2;
 
 /// What is read from the pins in each servo period. Lengths in machine units, angles in degrees.
 #[repr(C)]
@@ -70,6 +75,20 @@ pub struct framepath_frame_inputs {
     pub in_position: c_int,
     /// Motion is in teleop mode: 0 or 1.
     pub teleop: c_int,
+    /// The sum over the command, its values and the work offset that was sent with them.
+    pub check: c_double,
+    /// The machine is switched on: 0 or 1.
+    pub enabled: c_int,
+    /// An abort and machine off remove the frame: 0 or 1.
+    pub release_on_abort: c_int,
+    /// The guard wants the frame removed: 0 or 1.
+    pub release: c_int,
+    /// How many of `releases` the guard has told the interpreter of.
+    pub releases_seen: c_int,
+    /// Changes while the guard lives; 0: it has never lived.
+    pub heartbeat: c_uint,
+    /// The servo period, s.
+    pub period: c_double,
 }
 
 /// What is written to the pins after each servo period.
@@ -99,6 +118,16 @@ pub struct framepath_frame_outputs {
     pub normal_tilt: c_double,
     /// Where the rotary axis C has to go for that.
     pub normal_rotary: c_double,
+    /// The frame has to go and cannot yet: 0 or 1.
+    pub releasing: c_int,
+    /// How often a frame was removed without a command while a guard lived.
+    pub releases: c_int,
+    /// Nothing may be moved: 0 or 1.
+    pub hold: c_int,
+    /// The machine may be on: 0 or 1.
+    pub guarded: c_int,
+    /// How far a guard that is missed has brought it: 0, or one of the alarms above.
+    pub alarm: c_int,
 }
 
 /// The machine of the module.
@@ -155,6 +184,22 @@ fn inputs_of(pins: &framepath_frame_inputs, tool_length: ToolLength) -> FrameInp
         },
         in_position: pins.in_position != 0,
         teleop: pins.teleop != 0,
+        check: pins.check,
+        enabled: pins.enabled != 0,
+        release_on_abort: pins.release_on_abort != 0,
+        release: pins.release != 0,
+        releases_seen: pins.releases_seen,
+        heartbeat: pins.heartbeat,
+        period: pins.period,
+    }
+}
+
+/// The alarm of a guard that is missed while a frame is in force.
+fn alarm_of(outputs: &FrameOutputs) -> c_int {
+    match outputs.guard {
+        Guard::Late if outputs.active => FRAMEPATH_GUARD_LATE,
+        Guard::Lost if outputs.active => FRAMEPATH_GUARD_LOST,
+        _ => 0,
     }
 }
 
@@ -422,31 +467,10 @@ pub unsafe extern "C" fn framepath_kinematics_update(
         normal_refusal: normal.map_or_else(|error| error as c_int, |_| 0),
         normal_tilt,
         normal_rotary,
+        releasing: outputs.releasing.into(),
+        releases: outputs.releases,
+        hold: outputs.hold.into(),
+        guarded: outputs.guarded.into(),
+        alarm: alarm_of(&outputs),
     };
-}
-
-/// The words for a refusal, with the remedy.
-#[unsafe(no_mangle)]
-pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_char {
-    const WORDS: [(Refusal, &CStr); 15] = [
-        (Refusal::UnknownCommand, c"there is no such command; use the subroutines of framepath"),
-        (Refusal::NotFinite, c"a value is infinite or not a number"),
-        (Refusal::ZeroScale, c"a scale factor is 0; use 1 for an axis that keeps its size"),
-        (Refusal::TranslationTooLarge, c"a shift is larger than a machine"),
-        (Refusal::TooManyOperations, c"more operations are added than there is room for; begin anew with TRANS, ROT, SCALE or MIRROR"),
-        (Refusal::ImpossibleAngles, c"no plane meets these two angles"),
-        (Refusal::Singular, c"the frame is singular: it flattens space, so that no position could be found back"),
-        (Refusal::IllConditioned, c"the scales of the frame are too unequal"),
-        (Refusal::ScaleOutOfRange, c"the frame enlarges or shrinks more than a thousandfold"),
-        (Refusal::Moving, c"the machine moves; wait for the end of the motion"),
-        (Refusal::Teleop, c"motion is in teleop mode, where a switch would make the joints jump; leave it first"),
-        (Refusal::NotSwitched, c"motion did not switch; link framekins.switchkins-type to motion.switchkins-type"),
-        (Refusal::UnknownType, c"motion.switchkins-type has to be 0, 1 or 2"),
-        (Refusal::MissingAxis, c"the frame moves an axis that the machine does not have; see coordinates= of framekins"),
-        (Refusal::MachineParameters, c"a dimension of the machine is not a number or larger than a machine; see the pins framekins.x-rot-point and those beside it"),
-    ];
-    WORDS
-        .iter()
-        .find(|(known, _)| *known as c_int == refusal)
-        .map_or(c"refused".as_ptr(), |(_, words)| words.as_ptr())
 }

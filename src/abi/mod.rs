@@ -2,6 +2,7 @@
 #![allow(unsafe_code)]
 
 pub mod kinematics;
+pub mod kinematics_words;
 pub mod linuxcnc;
 pub mod planner;
 mod pose;

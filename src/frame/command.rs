@@ -11,6 +11,9 @@ const NUMBER_STEP: f64 = 1000.0;
 /// Added to the code of a command that adds to the frame instead of replacing it.
 const ADDITIVE: i32 = 100;
 
+/// The code of the command that removes the frame.
+const REMOVE: f64 = 9.0;
+
 /// The code of the command that suspends the frame.
 const SUSPEND: f64 = 13.0;
 
@@ -32,6 +35,11 @@ impl Command {
             number,
             code: value - number * NUMBER_STEP,
         })
+    }
+
+    /// Whether the frame is removed, which needs no values and is never wrong.
+    pub fn removes(&self) -> bool {
+        self.code == REMOVE
     }
 
     /// Whether the machine is to run without the frame for a while: what the frame is made of stays,
@@ -91,9 +99,11 @@ impl Source {
         if f64::from(code) != command.code {
             return Err(Refusal::UnknownCommand);
         }
+        if command.removes() {
+            return Ok(Self::nothing());
+        }
         let mut next = if self.map { Self::nothing() } else { *self };
         match code {
-            9 => return Ok(Self::nothing()),
             10 => next.list.drop_scales()?,
             11 => return Ok(*self),
             12 => return Ok(Self::map_pins()),

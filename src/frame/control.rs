@@ -8,13 +8,22 @@
 //! where the active frame and the machine's dimensions change. Whatever is refused leaves both as
 //! they are.
 //!
+//! A frame does not outlive its program: [`FrameControl::update`] removes it by itself, in the first
+//! period in which motion allows it, when the command falls to 0 (an abort), the machine is switched
+//! off, or the guard says so. User space is too slow for that: a user interface may be in teleop
+//! mode before it has looked.
+//!
 //! Motion notices a request only when the number of the kinematics changes, so two slots are used
 //! in turn.
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::check;
 use super::command::{Command, Source};
+use super::heartbeat::{Guard, Heartbeat};
+pub use super::pins::{FrameInputs, FrameOutputs};
 use super::refusal::Refusal;
+use super::release::Release;
 use super::{ActiveFrame, AffineMap, ProgrammableFrame, ToolLength, WorkOffset};
 use crate::axes::Axes;
 use crate::machine::{Coordinates, Machine, TableTiltingParameters};
@@ -25,57 +34,6 @@ const PATIENCE: u32 = 100;
 /// How far, in machine units, an axis without a joint may be taken along, and how much of another
 /// axis may reach it: rounding.
 const STILL: f64 = 1e-9;
-
-/// What is read from the pins in each servo period. Lengths in machine units, angles in degrees.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameInputs {
-    /// Number of the command times 1000, plus its code; acted on when the number changes.
-    pub command: f64,
-    /// Values of the command.
-    pub value: [f64; 3],
-    /// Work offset (G5x and G92 together) in X Y Z.
-    pub work_offset: [f64; 3],
-    /// Rotation of the work offset about Z.
-    pub work_rotation: f64,
-    /// Tool offset in X Y Z.
-    pub tool_offset: [f64; 3],
-    /// What becomes of the tool's length in a frame while the tool centre point is off.
-    pub tool_length: ToolLength,
-    /// A ready frame: three rows of a 3x4 map.
-    pub map: [f64; 12],
-    /// Which of A B C U V W are mirrored.
-    pub mirror: [bool; 6],
-    /// Dimensions of a machine with a tilting table, and whether the tool centre point is wanted.
-    pub table: TableTiltingParameters,
-    /// Motion stands still.
-    pub in_position: bool,
-    /// Motion is in teleop (world jogging) mode.
-    pub teleop: bool,
-}
-
-/// What is written to the pins after each servo period.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameOutputs {
-    /// The kinematics type that motion is asked for.
-    pub switchkins_type: i32,
-    /// Number of the last command that was carried out or refused.
-    pub acknowledged: f64,
-    /// A frame is active.
-    pub active: bool,
-    /// Kinematics type in effect: 0, 1 or 2.
-    pub slot: i32,
-    /// How many operations make up the frame.
-    pub operations: i32,
-    /// The tool centre point is on.
-    pub tool_centre_point: bool,
-    /// The machine's dimensions on the pins, or the tool centre point asked for, are not those in
-    /// effect: they take effect at the next switch.
-    pub parameters_pending: bool,
-    /// The tool offset in X Y Z that the frame was made with.
-    pub tool_offset: [f64; 3],
-    /// Why the last command was refused.
-    pub refusal: Option<Refusal>,
-}
 
 /// Kinematics that are ready to be switched to.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +53,8 @@ struct Request {
     slot: i32,
     /// The slot that was asked for before.
     previous: i32,
-    number: f64,
+    /// Number of the command; `None`: nobody asked, the frame has to go.
+    number: Option<f64>,
     waited: u32,
 }
 
@@ -110,6 +69,8 @@ pub struct FrameControl {
     asked: i32,
     /// The machine's dimensions have been read once.
     started: bool,
+    heartbeat: Heartbeat,
+    release: Release,
 }
 
 impl FrameControl {
@@ -134,9 +95,16 @@ impl FrameControl {
                 parameters_pending: false,
                 tool_offset: [0.0; 3],
                 refusal: None,
+                releasing: false,
+                releases: 0,
+                hold: false,
+                guarded: true,
+                guard: Guard::Never,
             },
             asked: 0,
             started: false,
+            heartbeat: Heartbeat::new(),
+            release: Release::default(),
         }
     }
 
@@ -163,6 +131,7 @@ impl FrameControl {
                 Err(refusal) => self.outputs.refusal = Some(refusal),
             }
         }
+        self.heartbeat.listen(inputs.heartbeat, inputs.period);
         match &mut self.request {
             Some(request) => {
                 request.waited += 1;
@@ -177,6 +146,13 @@ impl FrameControl {
             }
             None => self.take_command(inputs),
         }
+        self.remove_what_has_to_go(inputs);
+        self.show(inputs);
+        self.outputs
+    }
+
+    /// What the pins show.
+    fn show(&mut self, inputs: &FrameInputs) {
         self.outputs.slot = self.slot;
         self.outputs.active = self.active.frame.is_some();
         self.outputs.operations = self.active.source.count();
@@ -184,7 +160,47 @@ impl FrameControl {
         self.outputs.tool_centre_point = self.machine().tool_centre_point();
         self.outputs.parameters_pending = wanted != Ok(self.active.machine);
         self.outputs.tool_offset = self.active.tool_offset;
-        self.outputs
+        let guard = self.heartbeat.guard();
+        let framed = self.outputs.active;
+        self.outputs.guard = guard;
+        self.outputs.releasing = self.release.is_due();
+        self.outputs.guarded = !(framed && guard == Guard::Lost);
+        let late = framed && matches!(guard, Guard::Late | Guard::Lost);
+        self.outputs.hold = self.outputs.parameters_pending || late || self.is_unread(inputs);
+    }
+
+    /// The interpreter has positions with a frame that is gone or about to go, and somebody is there to
+    /// tell it.
+    fn is_unread(&self, inputs: &FrameInputs) -> bool {
+        let going = self.request.is_some_and(|request| request.number.is_none());
+        let told = self.outputs.releases == inputs.releases_seen;
+        matches!(self.heartbeat.guard(), Guard::Lives | Guard::Late) && (going || !told)
+    }
+
+    /// Asks for the end of a frame that nobody answers for any more, once motion allows it.
+    fn remove_what_has_to_go(&mut self, inputs: &FrameInputs) {
+        let guard = self.heartbeat.guard();
+        let framed = self.active.frame.is_some();
+        let coming = self.request.is_some_and(|it| it.staged.frame.is_some());
+        let standing = may_remove(inputs).is_ok();
+        self.release
+            .watch(inputs, guard, framed || coming, standing);
+        if self
+            .release
+            .drops_the_rest(framed || self.request.is_some())
+        {
+            self.active.source = Source::nothing();
+        }
+        if self.release.is_ripe() && framed && self.request.is_none() {
+            let machine = self.machine_with(&inputs.table);
+            let staged = Staged {
+                source: Source::nothing(),
+                frame: None,
+                machine: machine.unwrap_or(self.active.machine),
+                tool_offset: inputs.tool_offset,
+            };
+            self.ask(staged, None);
+        }
     }
 
     /// Motion switches to kinematics `slot`: 0 without a frame, 1 or 2 with one.
@@ -197,15 +213,22 @@ impl FrameControl {
     /// Why nothing changes.
     pub fn switch(&mut self, slot: i32, inputs: &FrameInputs) -> Result<(), Refusal> {
         let request = self.request.take();
-        let number = request.map_or(self.outputs.acknowledged, |request| request.number);
+        let by_itself = request.is_some_and(|it| it.number.is_none() && it.slot == slot);
+        let number = match request {
+            Some(request) => request.number,
+            None => Some(self.outputs.acknowledged),
+        };
         // Motion remembers the number, whatever comes of it.
         self.asked = slot;
         match self.checked(slot, request, inputs) {
             Ok(staged) => {
                 self.active = staged;
                 self.slot = slot;
-                self.outputs.acknowledged = number;
-                self.outputs.refusal = None;
+                // The refusal that ended the program stays to be read.
+                self.answer(number, None);
+                if by_itself && self.heartbeat.guard() != Guard::Lost {
+                    self.outputs.releases = self.outputs.releases.wrapping_add(1);
+                }
                 Ok(())
             }
             Err(refusal) => {
@@ -222,7 +245,10 @@ impl FrameControl {
         request: Option<Request>,
         inputs: &FrameInputs,
     ) -> Result<Staged, Refusal> {
-        standing(inputs)?;
+        match request {
+            Some(Request { number: None, .. }) => may_remove(inputs)?,
+            _ => standing(inputs)?,
+        }
         match request {
             Some(request) if request.slot == slot => Ok(request.staged),
             _ if slot == 0 => self.staged(Source::nothing(), inputs),
@@ -231,9 +257,30 @@ impl FrameControl {
         }
     }
 
-    fn refuse(&mut self, number: f64, refusal: Refusal) {
-        self.outputs.acknowledged = number;
-        self.outputs.refusal = Some(refusal);
+    /// The answer to a command; nobody waits for one where the frame went by itself.
+    fn answer(&mut self, number: Option<f64>, refusal: Option<Refusal>) {
+        if let Some(number) = number {
+            self.outputs.acknowledged = number;
+            self.outputs.refusal = refusal;
+        }
+    }
+
+    fn refuse(&mut self, number: Option<f64>, refusal: Refusal) {
+        self.answer(number, Some(refusal));
+    }
+
+    /// Whether a command can be believed, and somebody is there to remove its frame.
+    fn trusted(&self, command: &Command, inputs: &FrameInputs) -> Result<(), Refusal> {
+        let guard = self.heartbeat.guard();
+        if command.removes() {
+            Ok(())
+        } else if !check::is_whole(inputs) {
+            Err(Refusal::WrongCheck)
+        } else if matches!(guard, Guard::Never | Guard::Lost) {
+            Err(Refusal::Unguarded)
+        } else {
+            Ok(())
+        }
     }
 
     fn take_command(&mut self, inputs: &FrameInputs) {
@@ -244,21 +291,26 @@ impl FrameControl {
         if number == self.outputs.acknowledged {
             return;
         }
-        let staged = if command.suspends() {
-            standing(inputs).and_then(|()| self.suspended(inputs))
-        } else {
-            let source = self.active.source.after(&command, &inputs.value);
-            source.and_then(|source| standing(inputs).and_then(|()| self.staged(source, inputs)))
-        };
-        match staged {
-            Err(refusal) => self.refuse(number, refusal),
+        match self.commanded(&command, inputs) {
+            Err(refusal) => self.refuse(Some(number), refusal),
             Ok(staged) if self.changes_nothing(&staged) => {
                 self.active.source = staged.source;
-                self.outputs.acknowledged = number;
-                self.outputs.refusal = None;
+                self.answer(Some(number), None);
             }
-            Ok(staged) => self.ask(staged, number),
+            Ok(staged) => self.ask(staged, Some(number)),
         }
+    }
+
+    /// What a command makes of the frame.
+    fn commanded(&self, command: &Command, inputs: &FrameInputs) -> Result<Staged, Refusal> {
+        self.trusted(command, inputs)?;
+        if command.suspends() {
+            standing(inputs)?;
+            return self.suspended(inputs);
+        }
+        let source = self.active.source.after(command, &inputs.value)?;
+        standing(inputs)?;
+        self.staged(source, inputs)
     }
 
     /// There was no frame, there will be none, and the machine is the same.
@@ -268,7 +320,7 @@ impl FrameControl {
     }
 
     /// Asks motion for a switch, under a number that differs from the last.
-    fn ask(&mut self, staged: Staged, number: f64) {
+    fn ask(&mut self, staged: Staged, number: Option<f64>) {
         let slot = match (staged.frame, self.asked) {
             (None, asked) if asked != 0 => 0,
             (_, 1) => 2,
@@ -373,6 +425,15 @@ fn standing(inputs: &FrameInputs) -> Result<(), Refusal> {
     } else {
         Ok(())
     }
+}
+
+/// Whether the frame may be removed now. With the machine off teleop mode is no obstacle: motion takes its position
+/// from the kinematics when it is switched on again.
+fn may_remove(inputs: &FrameInputs) -> Result<(), Refusal> {
+    standing(&FrameInputs {
+        teleop: inputs.teleop && inputs.enabled,
+        ..*inputs
+    })
 }
 
 /// X Y Z of nine axes, the others 0.

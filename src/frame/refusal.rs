@@ -36,6 +36,10 @@ pub enum Refusal {
     MissingAxis = 14,
     /// A dimension of the machine is infinite, not a number, or too large to be meant.
     MachineParameters = 15,
+    /// The values on the pins are not those that the command was sent with.
+    WrongCheck = 16,
+    /// Nobody would remove the frame again.
+    Unguarded = 17,
 }
 
 impl From<FrameError> for Refusal {

@@ -1,6 +1,7 @@
 //! Motion, played for the kinematics: what motmod and the subroutines do.
 
 use framepath::axes::Axes;
+use framepath::frame::check::check_sum;
 use framepath::frame::control::{FrameControl, FrameInputs, FrameOutputs};
 use framepath::frame::{Refusal, ToolLength};
 use framepath::machine::{Machine, TableTiltingParameters};
@@ -21,6 +22,8 @@ pub struct Motion {
     pub out: FrameOutputs,
     /// Number of the last command.
     pub number: f64,
+    /// The guard lives.
+    pub beating: bool,
 }
 
 impl Motion {
@@ -38,6 +41,13 @@ impl Motion {
             table: TableTiltingParameters::default(),
             in_position: true,
             teleop: false,
+            check: 0.0,
+            enabled: true,
+            release_on_abort: true,
+            release: false,
+            releases_seen: 0,
+            heartbeat: 1,
+            period: 0.001,
         };
         let mut control = FrameControl::new(machine);
         let out = control.update(&inputs);
@@ -48,6 +58,7 @@ impl Motion {
             type_seen: 0,
             out,
             number: 0.0,
+            beating: true,
         }
     }
 
@@ -57,14 +68,21 @@ impl Motion {
             self.type_seen = self.out.switchkins_type;
             let _ = self.control.switch(self.type_seen, &self.inputs);
         }
+        self.inputs.heartbeat += u32::from(self.beating);
         self.out = self.control.update(&self.inputs);
+    }
+
+    /// Puts a command on the pins as a program sends it.
+    pub fn put(&mut self, code: i32, value: [f64; 3]) {
+        self.number += 1.0;
+        self.inputs.command = self.number * 1000.0 + f64::from(code);
+        self.inputs.value = value;
+        self.inputs.check = check_sum(&self.inputs);
     }
 
     /// Hands over a command and waits for the answer.
     pub fn send(&mut self, code: i32, value: [f64; 3]) -> Option<Refusal> {
-        self.number += 1.0;
-        self.inputs.command = self.number * 1000.0 + f64::from(code);
-        self.inputs.value = value;
+        self.put(code, value);
         for _ in 0..200 {
             self.period();
             if self.out.acknowledged == self.number {

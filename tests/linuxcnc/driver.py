@@ -7,6 +7,7 @@ A scenario is a list of steps, each a list of a name and its arguments; the name
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -255,6 +256,29 @@ class Operator:
         self.jog(axis, velocity, distance)
         self.wait_for("the jog", lambda: abs(self.status.position[axis] - before - distance) < 1e-4, 20)
         self.sleep(0.1)
+
+    def run_as_a_screen(self, program):
+        """Runs a program as AXIS does: the moment it has ended, manual mode is asked for."""
+        self.start(program)
+        limit = time.monotonic() + TIMEOUT
+        while self.status.interp_state != linuxcnc.INTERP_IDLE:
+            if time.monotonic() > limit:
+                raise Failure("timed out waiting for the end of the program")
+            time.sleep(0.0005)
+            self.poll()
+        self.command.mode(linuxcnc.MODE_MANUAL)
+
+    def touch_off(self, words):
+        """Touch Off as a screen does it: G10 L20 for the work offset in force, and manual mode again."""
+        self.mdi(f"G10 L20 P0 {words}")
+        self.mode(linuxcnc.MODE_MANUAL)
+
+    def guard(self, name):
+        """Sends frame_guard a signal: KILL, STOP, CONT."""
+        shown = subprocess.run(["halcmd", "-s", "show", "comp"], check=True, capture_output=True, text=True).stdout
+        words = next(line.split() for line in shown.splitlines() if "frame-guard" in line.split())
+        process = next(int(word) for word in words[words.index("frame-guard") + 1:] if word.isdigit())
+        os.kill(process, getattr(signal, f"SIG{name}"))
 
     def expect(self, pin, value, timeout=5):
         """Waits until a pin reads as this text."""

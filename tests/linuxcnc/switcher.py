@@ -4,6 +4,7 @@ Ends without a frame. Prints how many commands took effect and how many were ref
 was not answered, or a joint's command is not what it was.
 """
 
+import math
 import random
 import sys
 import time
@@ -14,6 +15,11 @@ import hal
 ANSWER_TIME = 2.0
 
 TABLE = ["x-rot-point", "y-rot-point", "z-rot-point", "y-offset", "z-offset", "tool-offset"]
+
+
+#: what a command's check is summed over, each times the root of a prime
+CHECKED = {"command": 2, "value.1": 3, "value.2": 5, "value.3": 7, "work-offset.x": 11, "work-offset.y": 13,
+           "work-offset.z": 17, "work-offset.rotation": 19}
 
 
 class Switcher:
@@ -35,7 +41,10 @@ class Switcher:
         self.number = self.number % 99999 + 1
         for n, value in enumerate(values):
             self.set(f"value.{n + 1}", value)
-        self.set("command", self.number * 1000 + code)
+        command = self.number * 1000 + code
+        sent = {pin: command if pin == "command" else hal.get_value(f"framekins.{pin}") for pin in CHECKED}
+        self.set("check", repr(math.fsum(math.sqrt(CHECKED[pin]) * value for pin, value in sent.items())))
+        self.set("command", command)
         limit = time.monotonic() + ANSWER_TIME
         while hal.get_value("framekins.acknowledged") != self.number:
             if time.monotonic() > limit:

@@ -1,5 +1,6 @@
 """Frames on a running machine: what is refused, and that nothing moves then."""
 
+import math
 import unittest
 
 import harness
@@ -8,6 +9,9 @@ import harness
 def program(*lines):
     return {"part.ngc": "\n".join(["G21 G61.1 G17 G90 G94 F3000", *lines, "M2"]) + "\n"}
 
+
+#: what goes along with command 77001 and value 5
+CHECK = [["force", "framekins.check", math.sqrt(2) * 77001 + math.sqrt(3) * 5]]
 
 RUN = ["run", "PROGRAMS/part.ngc"]
 
@@ -51,7 +55,7 @@ class Refused(unittest.TestCase):
     def test_a_switch_in_mid_motion(self):
         # by hand, past the subroutines: the command pin gets a new number while the machine moves
         result = harness.run([
-            ["force", "framekins.command", 0], ["force", "framekins.value.1", 5],
+            ["force", "framekins.command", 0], ["force", "framekins.value.1", 5], *CHECK,
             ["mdi_start", "G1 X100 F3000"], ["wait_moving"], ["setp", "framekins.command", 77001], ["sleep", 0.2],
             ["getp", "refusal", "framekins.refusal"], ["getp", "active", "framekins.active"], ["finish"],
             ["note", "end"]])
@@ -62,7 +66,7 @@ class Refused(unittest.TestCase):
 
     def test_a_switch_in_teleop(self):
         result = harness.run([
-            ["force", "framekins.command", 0], ["force", "framekins.value.1", 5], ["teleop", True],
+            ["force", "framekins.command", 0], ["force", "framekins.value.1", 5], *CHECK, ["teleop", True],
             ["setp", "framekins.command", 77001], ["sleep", 0.2], ["getp", "refusal", "framekins.refusal"],
             ["getp", "active", "framekins.active"]])
         self.assertIsNone(result.failure, result.log)
@@ -82,7 +86,7 @@ class Refused(unittest.TestCase):
     def test_a_map_that_is_not_finite(self):
         result = harness.run([
             ["mdi", "G0 X0"], ["force", "framekins.command", 0], ["setp", "framekins.map.x", "nan"],
-            ["setp", "framekins.command", 77012], ["sleep", 0.2], ["getp", "refusal", "framekins.refusal"],
+            ["force", "framekins.check", math.sqrt(2) * 77012], ["setp", "framekins.command", 77012], ["sleep", 0.2], ["getp", "refusal", "framekins.refusal"],
             ["getp", "active", "framekins.active"]])
         self.check(result, 2, "not a number")
         self.assertEqual(result.answers["active"], "FALSE")

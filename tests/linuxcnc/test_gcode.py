@@ -219,7 +219,7 @@ M2
 
     def test_settings_reach_the_frames(self):
         # outputs from 3 on, and the angles of ROTS the other way round
-        pins = ["command", "value.1", "value.2", "value.3", *(f"work-offset.{n}" for n in ("x", "y", "z", "rotation"))]
+        pins = ["command", "value.1", "value.2", "value.3", *(f"work-offset.{n}" for n in ("x", "y", "z", "rotation")), "check"]
         outputs = range(3, 3 + len(pins))
         hal = "".join(f"unlinkp framekins.{pin}\n" for pin in pins)
         hal += "".join(f"unlinkp motion.analog-out-{n:02}\n" for n in range(max(outputs) + 1))

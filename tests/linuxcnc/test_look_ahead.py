@@ -69,8 +69,8 @@ LOADED = 250
 class Modes(LookAhead):
     def run_mode(self, mode, points):
         # begins with enough moves that a computer which is busy for a moment plays no part
-        result = harness.run([["setp", "motion.feed-inhibit", 1], ["start", RUN[1]],
-                              ["wait_queue", min(len(points), LOADED)], ["setp", "motion.feed-inhibit", 0], ["finish"],
+        result = harness.run([["setp", "motion.feed-hold", 1], ["start", RUN[1]],
+                              ["wait_queue", min(len(points), LOADED)], ["setp", "motion.feed-hold", 0], ["finish"],
                               ["note", "end"]], program(mode, *moves(points)))
         self.completed(result)
         self.within_limits(result)

@@ -289,10 +289,10 @@ class SettingsOfTheIni(unittest.TestCase):
                           settings.tool_length, settings.rots_convention, settings.analog_output),
                          (True, True, True, "frame", "seed", 0))
         settings = self.read("[FRAMEPATH]\nCLEAR_AT_START=0\nCLEAR_AT_END = 0\nTOOL_LENGTH = Machine\n"
-                             "ROTS_CONVENTION = k2\nANALOG_OUTPUT = 56\n")
+                             "ROTS_CONVENTION = k2\nANALOG_OUTPUT = 55\n")
         self.assertEqual((settings.clear_at_start, settings.clear_at_end, settings.clear_on_abort,
                           settings.tool_length, settings.rots_convention, settings.analog_output),
-                         (False, False, True, "machine", "k2", 56))
+                         (False, False, True, "machine", "k2", 55))
         self.assertAlmostEqual(self.read("", self.BASE.replace("mm", "inch")).units_per_mm, 1 / 25.4)
 
     def test_every_mistake_is_named(self):
@@ -302,8 +302,8 @@ class SettingsOfTheIni(unittest.TestCase):
         self.refused("[FRAMEPATH]\nTOOL_LENGTH = head\n", "frame or machine")
         self.refused("[FRAMEPATH]\nROTS_CONVENTION =\n", "seed or k2")
         self.refused("[FRAMEPATH]\nCLEAR_AT_END = 1 # always\n", "comments on a line of their own")
-        for value in ("57", "-1", "1.5", "x"):
-            self.refused(f"[FRAMEPATH]\nANALOG_OUTPUT = {value}\n", "from 0 to 56")
+        for value in ("56", "-1", "1.5", "x"):
+            self.refused(f"[FRAMEPATH]\nANALOG_OUTPUT = {value}\n", "from 0 to 55")
         self.refused("[FRAMEPATH]\nCLEAR_AT_END = 1\nCLEAR_AT_END = 0\n", "twice")
         self.refused("[framepath]\nCLEAR_AT_END = 1\n", "[framepath]", "capitals")
         self.refused("", "[RS274NGC]OWORD_NARGS = 1", base=self.BASE.replace("OWORD_NARGS = 1\n", ""))

@@ -12,7 +12,7 @@ SWITCHES, PLACES, STILL = 1000, 5, 1e-9
 
 #: inputs that the switcher sets itself
 LINKED = ["command", "value.1", "value.2", "value.3", "work-offset.x", "work-offset.y", "work-offset.z",
-          "work-offset.rotation", "tool-offset.x", "tool-offset.y", "tool-offset.z"]
+          "work-offset.rotation", "check", "tool-offset.x", "tool-offset.y", "tool-offset.z"]
 
 
 class Switching(unittest.TestCase):
