@@ -31,6 +31,7 @@ help:
 	@echo 'make sanitize   only the tests with the address and undefined-behaviour sanitizers and valgrind'
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
+	@echo 'make fuzz       any calls of the C interface of both modules, ten minutes each (FUZZ_SECONDS); make fuzz-filter: of the filter'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
@@ -93,17 +94,31 @@ bench: prerequisites
 	FRAMEPATH_PAGE_MOVES=1000000 $(CARGO) test --locked --release -p framepath-tool --test page_speed -- --nocapture
 	$(PYTHON) -B benches/table.py $(TARGET)/criterion
 
-# Random bytes through the filter; wants a nightly Rust.
-DIALECT ?= sinumerik
-FUZZED = tool/fuzz/target/x86_64-unknown-linux-gnu/debug/$(DIALECT)
+# libFuzzer (the crate brings it) without cargo-fuzz: these flags are all that it needs of the compiler, and a stable one
+# takes them. What it finds lies in artifacts; the program with that file as its argument runs it again, with
+# -minimize_crash=1 makes it smaller.
+FUZZ_SECONDS ?= 600
+FUZZ_HOST = $(shell rustc -vV | sed -n 's/^host: //p')
 FUZZ_FLAGS = -Cpasses=sancov-module --cfg fuzzing \
     $(addprefix -Cllvm-args=-sanitizer-coverage-,level=4 inline-8bit-counters pc-table trace-compares)
+FUZZ_BUILD = CARGO_TARGET_DIR=target RUSTFLAGS="$(FUZZ_FLAGS)" $(CARGO) build --locked --target $(FUZZ_HOST)
 
-fuzz:
-	cd tool/fuzz && CARGO_TARGET_DIR=target CARGO_PROFILE_DEV_OPT_LEVEL=1 RUSTFLAGS="$(FUZZ_FLAGS)" \
-	    $(CARGO) +nightly build --locked --target x86_64-unknown-linux-gnu
+# The C interface of both modules, any calls with any values: ten minutes each.
+fuzz: prerequisites
+	cd fuzz && $(FUZZ_BUILD) --release
+	for target in frames planner; do \
+	    mkdir -p fuzz/corpus/$$target fuzz/artifacts/$$target && \
+	    fuzz/target/$(FUZZ_HOST)/release/$$target -max_total_time=$(FUZZ_SECONDS) -timeout=60 -max_len=2000 \
+	        -artifact_prefix=fuzz/artifacts/$$target/ fuzz/corpus/$$target || exit 1; \
+	done
+
+# The same for the filter: any bytes as a program.
+DIALECT ?= sinumerik
+
+fuzz-filter:
+	cd tool/fuzz && CARGO_PROFILE_DEV_OPT_LEVEL=1 $(FUZZ_BUILD)
 	mkdir -p tool/fuzz/corpus/$(DIALECT)
-	$(FUZZED) -max_total_time=120 -timeout=20 tool/fuzz/corpus/$(DIALECT)
+	tool/fuzz/target/$(FUZZ_HOST)/debug/$(DIALECT) -max_total_time=$(FUZZ_SECONDS) -timeout=20 tool/fuzz/corpus/$(DIALECT)
 
 # LinuxCNC's sample programs as they are, where the feed limits most of them, then with every F raised, and the
 # generated programs.
@@ -150,5 +165,5 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test sanitize contract soak bench fuzz compare \
-    figures header install uninstall clean
+.PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test sanitize contract soak bench fuzz \
+    fuzz-filter compare figures header install uninstall clean

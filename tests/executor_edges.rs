@@ -355,3 +355,17 @@ fn long_runs_keep_their_precision() {
     assert_eq!(executor.time_in_cell(), 0.0);
     assert_eq!(cells, 100_000 + executor.cells_ahead() as u64);
 }
+
+#[test]
+fn no_more_cells_are_wanted_than_there_is_room_for() {
+    let mut executor = Box::new(Executor::new());
+    let limits = uniform_limits(100.0, 1000.0, f64::MIN_POSITIVE);
+    executor.configure(&limits, PERIOD).unwrap();
+    executor.push(&cruising()).unwrap();
+    let slowed = Demand {
+        feed_override: 0.5,
+        ..Demand::RUN
+    };
+    executor.cycle(&slowed);
+    assert!(executor.cells_wanted() < CAPACITY);
+}

@@ -263,3 +263,16 @@ fn a_lathe_has_no_y_to_turn_into() {
         assert_eq!(lathe.machine([0.0; 3]), [1.0, 0.0, 0.0]);
     }
 }
+
+#[test]
+fn a_frame_is_removed_whatever_the_tool_offset_is() {
+    let mut motion = xyz();
+    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), None);
+    motion.inputs.tool_offset = [1.0, f64::NAN, f64::INFINITY];
+    for code in [13, 9] {
+        assert_eq!(motion.send(code, [0.0; 3]), None);
+        assert!(!motion.out.active);
+        assert_eq!(motion.out.tool_offset, [1.0, 0.0, 0.0]);
+    }
+    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), Some(Refusal::NotFinite));
+}

@@ -367,11 +367,15 @@ pub unsafe extern "C" fn framepath_kinematics_inverse(
         .map_or(axes, |frame| frame.to_machine(&axes));
     *position = axes.into();
     control.machine().inverse(&axes, joints);
-    if axes.iter().all(|value| value.is_finite()) {
-        0
-    } else {
-        -1
-    }
+    // The table may turn what is finite beyond all numbers. Joints of no axis are motion's.
+    let coordinates = control.machine().coordinates();
+    let finite = axes.iter().enumerate().all(|(axis, value)| {
+        let joint = coordinates
+            .joint_of_axis(axis)
+            .and_then(|joint| joints.get(joint));
+        value.is_finite() && joint.is_none_or(|joint| joint.is_finite())
+    });
+    if finite { 0 } else { -1 }
 }
 
 /// The linear part of the frame in force, from the program's X Y Z to the machine's: three rows of three, the identity

@@ -188,7 +188,7 @@ impl Executor {
         if self.may_be_capped() {
             wanted = wanted.max(self.cells_to_brake());
         }
-        wanted += BOTH_ENDS;
+        wanted = wanted.saturating_add(BOTH_ENDS);
         if self.wall {
             wanted = wanted.max(self.table.length() + 8);
         }

@@ -352,7 +352,7 @@ impl FrameControl {
             source: self.active.source,
             frame: None,
             machine: self.machine_with(&inputs.table)?,
-            tool_offset: inputs.tool_offset,
+            tool_offset: shown(&inputs.tool_offset),
         })
     }
 
@@ -377,7 +377,7 @@ impl FrameControl {
             source,
             frame,
             machine,
-            tool_offset: inputs.tool_offset,
+            tool_offset: shown(&inputs.tool_offset),
         })
     }
 }
@@ -434,6 +434,11 @@ fn may_remove(inputs: &FrameInputs) -> Result<(), Refusal> {
         teleop: inputs.teleop && inputs.enabled,
         ..*inputs
     })
+}
+
+/// A tool offset as operators see it: without a frame it may be anything, and removing a frame must not depend on it.
+fn shown(tool_offset: &[f64; 3]) -> [f64; 3] {
+    tool_offset.map(|offset| if offset.is_finite() { offset } else { 0.0 })
 }
 
 /// X Y Z of nine axes, the others 0.

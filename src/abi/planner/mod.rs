@@ -5,10 +5,10 @@
 //! at a time.
 
 mod acknowledgement;
-mod add;
-mod run;
-mod settings;
-mod soft_limits;
+pub mod add;
+pub mod run;
+pub mod settings;
+pub mod soft_limits;
 
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
