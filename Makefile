@@ -32,6 +32,7 @@ help:
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make fuzz       any calls of the C interface of both modules, ten minutes each (FUZZ_SECONDS); make fuzz-filter: of the filter'
+	@echo 'make mutants    faults drawn at random, put into the core: how many the Rust tests catch (MUTANTS=120, SEED=); some hours'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
@@ -120,6 +121,14 @@ fuzz-filter:
 	mkdir -p tool/fuzz/corpus/$(DIALECT)
 	tool/fuzz/target/$(FUZZ_HOST)/debug/$(DIALECT) -max_total_time=$(FUZZ_SECONDS) -timeout=20 tool/fuzz/corpus/$(DIALECT)
 
+# Mutation testing, see tests/mutants: which tests belong to which folder, and what is known to change nothing. Wants
+# cargo-mutants, which knows the mutants: cargo install cargo-mutants --locked.
+MUTANTS ?= 120
+SEED ?=
+
+mutants: prerequisites
+	$(PYTHON) -B tests/mutants/mutants.py --count $(MUTANTS) $(if $(SEED),--seed $(SEED))
+
 # LinuxCNC's sample programs as they are, where the feed limits most of them, then with every F raised, and the
 # generated programs.
 NCFILES ?= /usr/share/linuxcnc/ncfiles
@@ -166,4 +175,4 @@ clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test sanitize contract soak bench fuzz \
-    fuzz-filter compare figures header install uninstall clean
+    fuzz-filter mutants compare figures header install uninstall clean

@@ -42,6 +42,8 @@ pub struct Judge {
     /// The ids of the moves since the machine last had nothing to do.
     ids: Vec<i32>,
     pub next_id: i32,
+    /// The greatest number in positions and moves since the position was set: what is computed with it is rounded.
+    size: f64,
     /// Whether the planner itself has gone wrong in this case.
     pub faulted: bool,
 }
@@ -69,6 +71,7 @@ impl Judge {
             map: Matrix3::identity(),
             ids: Vec::new(),
             next_id: 0,
+            size: 1.0,
             faulted: false,
         }
     }
@@ -90,6 +93,13 @@ impl Judge {
         }
     }
 
+    /// The planner computes with these numbers.
+    pub fn reaches(&mut self, numbers: &[f64]) {
+        for number in numbers.iter().filter(|number| number.is_finite()) {
+            self.size = self.size.max(number.abs());
+        }
+    }
+
     /// A move was taken, which makes the queue one longer, or it was not.
     pub fn added(&mut self, shared: &Shared, queued: bool, before: i32) {
         let depth = shared.tp().depth;
@@ -108,8 +118,9 @@ impl Judge {
         match kind {
             Kind::Cycle => self.check_way(&position),
             Kind::Command => assert_eq!(position, self.position, "moved by a command"),
-            Kind::Placed => {}
+            Kind::Placed => self.size = 1.0,
         }
+        self.reaches(&position);
         self.position = position;
         let done = shared.tp().done != 0;
         if kind == Kind::Cycle && done && self.was_done {
@@ -176,13 +187,10 @@ impl Judge {
         let mut way: [f64; AXIS_COUNT] = std::array::from_fn(|i| position[i] - self.position[i]);
         let linear = self.map * nalgebra::Vector3::new(way[0], way[1], way[2]);
         way[..3].copy_from_slice(linear.as_slice());
-        let size = position
-            .iter()
-            .fold(1.0, |size: f64, at| size.max(at.abs()));
         let scale = self.map.abs().max().max(1.0);
         for (axis, way) in way.iter().enumerate() {
             let most = self.greatest[axis] * self.period * (1.0 + VELOCITY_EXCESS);
-            let rounding = 1e-9 + 1e-13 * size * scale;
+            let rounding = 1e-9 + 1e-13 * self.size * scale;
             assert!(
                 way.abs() <= most + rounding,
                 "axis {axis} goes {way} in a period of {}, {most} at most",

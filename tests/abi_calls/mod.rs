@@ -7,8 +7,8 @@
 pub mod choices;
 pub mod frames;
 mod judge;
-mod motion;
-mod moves;
+pub mod motion;
+pub mod moves;
 pub mod planner;
 mod settings;
 mod standing;

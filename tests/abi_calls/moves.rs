@@ -29,7 +29,7 @@ pub fn pose_of(position: &Position) -> EmcPose {
 }
 
 /// A tag without a code.
-fn tag() -> state_tag_t {
+pub fn tag() -> state_tag_t {
     // SAFETY: plain numbers.
     unsafe { std::mem::zeroed() }
 }
@@ -64,6 +64,7 @@ impl Calls {
 
     fn line(&mut self, end: &Position, request: &Request) -> c_int {
         self.tell(format_args!("line to {end:?} {request}"));
+        self.judge.reaches(end);
         self.take();
         let before = self.shared.tp().depth;
         // SAFETY: a handle of the planner, and structures.
@@ -142,6 +143,8 @@ impl Calls {
         self.tell(format_args!(
             "arc to {end:?} about {center:?} normal {normal:?} turn {turn} {request}"
         ));
+        self.judge.reaches(&end);
+        self.judge.reaches(&center);
         let cartesian = |[x, y, z]: [f64; 3]| PmCartesian { x, y, z };
         self.take();
         let before = self.shared.tp().depth;

@@ -1,0 +1,481 @@
+//! What the C interface answers to single calls: each code, each word, each value handed on.
+#![allow(unsafe_code)]
+
+mod abi_calls;
+
+use std::ffi::{CStr, c_char, c_int};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use abi_calls::motion::{Inverse, Shared};
+use abi_calls::moves::{pose_of, tag};
+use framepath::abi::kinematics::{
+    framepath_kinematics_configure, framepath_kinematics_configure_text,
+    framepath_kinematics_refusal_text, framepath_kinematics_tilt_axis,
+};
+use framepath::abi::linuxcnc::{
+    EMCMOT_MOTION_ERROR_BIT, EMCMOT_MOTION_INPOS_BIT, PmCartesian, state_tag_t, tp_err_t,
+};
+use framepath::abi::planner::add::{
+    framepath_planner_add_circle, framepath_planner_add_line, framepath_planner_add_rigid_tap,
+    framepath_planner_error_text, framepath_planner_joint_out_of_range,
+};
+use framepath::abi::planner::run::{
+    framepath_planner_abort, framepath_planner_clear, framepath_planner_queue_full,
+    framepath_planner_run_cycle, framepath_planner_spindle_error_text,
+};
+use framepath::abi::planner::settings::{
+    framepath_planner_set_analog_output, framepath_planner_set_cycle_time,
+    framepath_planner_set_digital_output, framepath_planner_set_machine_map,
+    framepath_planner_set_spindle_sync,
+};
+
+const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+/// There is one planner in a process.
+static ONE: Mutex<()> = Mutex::new(());
+
+/// A planner that is ready for moves, at the origin.
+struct Machine {
+    shared: Shared,
+    _one: MutexGuard<'static, ()>,
+}
+
+fn words<'a>(text: *const c_char) -> &'a str {
+    assert!(!text.is_null());
+    // SAFETY: the library answers with static strings.
+    unsafe { CStr::from_ptr(text) }
+        .to_str()
+        .expect("plain words")
+}
+
+fn machine() -> Machine {
+    let one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut shared = Shared::new();
+    shared.set_limits([[100.0; 9], [1000.0; 9]]);
+    let status = shared.status();
+    (status.feed_scale, status.rapid_scale, status.net_feed_scale) = (1.0, 1.0, 1.0);
+    // SAFETY: a handle and motmod's structure.
+    assert_eq!(0, unsafe {
+        framepath_planner_set_cycle_time(shared.handle, shared.tp, 1e-3)
+    });
+    assert_eq!(shared.tp().cycleTime, 1e-3);
+    Machine { shared, _one: one }
+}
+
+impl Machine {
+    fn line(&mut self, x: f64, kind: c_int, tag: &state_tag_t) -> c_int {
+        let end = pose_of(&[x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        // SAFETY: a handle, and structures.
+        unsafe {
+            framepath_planner_add_line(
+                self.shared.handle,
+                self.shared.tp,
+                &end,
+                kind,
+                50.0,
+                100.0,
+                0,
+                0,
+                -1,
+                tag,
+            )
+        }
+    }
+
+    fn half_circle(&mut self, x: f64, kind: c_int, tag: &state_tag_t) -> c_int {
+        let end = pose_of(&[x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let center = PmCartesian {
+            x: (self.shared.tp().goalPos.tran.x + x) / 2.0,
+            y: 0.0,
+            z: 0.0,
+        };
+        let normal = PmCartesian {
+            x: 0.0,
+            y: 0.0,
+            z: 1.0,
+        };
+        // SAFETY: a handle, and structures.
+        unsafe {
+            framepath_planner_add_circle(
+                self.shared.handle,
+                self.shared.tp,
+                &end,
+                &center,
+                &normal,
+                0,
+                kind,
+                50.0,
+                100.0,
+                0,
+                0,
+                tag,
+            )
+        }
+    }
+
+    fn tap(&mut self, z: f64, scale: f64, tag: &state_tag_t) -> c_int {
+        let end = pose_of(&[0.0, 0.0, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        // SAFETY: a handle, and structures.
+        unsafe {
+            framepath_planner_add_rigid_tap(
+                self.shared.handle,
+                self.shared.tp,
+                &end,
+                100.0,
+                0,
+                scale,
+                tag,
+            )
+        }
+    }
+
+    fn follow_spindle(&mut self, spindle: c_int, per_turn: f64, velocity_mode: c_int) {
+        // SAFETY: a handle.
+        assert_eq!(0, unsafe {
+            framepath_planner_set_spindle_sync(self.shared.handle, spindle, per_turn, velocity_mode)
+        });
+    }
+
+    fn reason(&self) -> &str {
+        // SAFETY: a handle.
+        words(unsafe { framepath_planner_error_text(self.shared.handle) })
+    }
+
+    fn cycle(&mut self) -> c_int {
+        // SAFETY: a handle and motmod's structure.
+        unsafe { framepath_planner_run_cycle(self.shared.handle, self.shared.tp) }
+    }
+
+    /// Periods until there is nothing to do, with what is written in them.
+    fn run(&mut self) -> Vec<(c_int, f64)> {
+        let mut written = Vec::new();
+        for _ in 0..5000 {
+            self.cycle();
+            let now = self.shared.take_written();
+            written.extend(now.iter().map(|written| (written.index, written.value)));
+            if self.shared.tp().done != 0 {
+                return written;
+            }
+        }
+        panic!("not done");
+    }
+
+    fn set_map(&mut self, framed: bool) {
+        // SAFETY: a handle and nine numbers.
+        unsafe {
+            framepath_planner_set_machine_map(self.shared.handle, framed.into(), IDENTITY.as_ptr());
+        }
+    }
+}
+
+fn coded(code: c_int) -> state_tag_t {
+    let mut tag = tag();
+    tag.fields[1] = code;
+    tag
+}
+
+#[test]
+fn what_means_the_machine_is_refused_in_a_frame_only() {
+    let mut machine = machine();
+    for code in [280, 300, 530] {
+        machine.set_map(true);
+        assert_eq!(machine.line(1.0, 1, &coded(code)), tp_err_t::TP_ERR_FAIL);
+        assert!(machine.reason().contains("G28, G30 and G53"));
+        assert_eq!(
+            machine.half_circle(1.0, 3, &coded(code)),
+            tp_err_t::TP_ERR_FAIL
+        );
+        machine.follow_spindle(0, 1.0, 0);
+        assert_eq!(machine.tap(-5.0, 1.0, &coded(code)), tp_err_t::TP_ERR_FAIL);
+        assert!(machine.reason().contains("G28, G30 and G53"));
+        machine.follow_spindle(0, 0.0, 0);
+        assert_eq!(machine.shared.tp().depth, 0);
+        machine.set_map(false);
+        assert_eq!(machine.line(1.0, 1, &coded(code)), 0);
+        machine.run();
+        assert_eq!(machine.line(0.0, 1, &tag()), 0);
+        machine.run();
+    }
+    machine.set_map(true);
+    for code in [0, 10, 281, 531, -1] {
+        assert_eq!(machine.line(1.0, 1, &coded(code)), 0);
+        machine.run();
+        assert_eq!(machine.line(0.0, 1, &tag()), 0);
+        machine.run();
+    }
+}
+
+#[test]
+fn each_refusal_has_its_words() {
+    let mut machine = machine();
+    for kind in [0, 7, -1] {
+        assert_eq!(machine.line(1.0, kind, &tag()), tp_err_t::TP_ERR_FAIL);
+        assert!(machine.reason().contains("a line of a kind"));
+        assert_eq!(machine.half_circle(1.0, kind, &tag()), -1);
+        assert!(machine.reason().contains("an arc of a kind"));
+    }
+    assert_eq!(machine.line(0.0, 2, &tag()), tp_err_t::TP_ERR_ZERO_LENGTH);
+    assert_eq!(machine.line(f64::NAN, 2, &tag()), -1);
+    assert!(machine.reason().contains("not a number"));
+    assert_eq!(machine.tap(-5.0, 1.0, &tag()), -1);
+    assert!(machine.reason().contains("G33.1"));
+    machine.follow_spindle(0, 1.0, 0);
+    assert_eq!(machine.tap(-5.0, 0.0, &tag()), -1);
+    assert!(machine.reason().contains("G33.1"));
+    machine.follow_spindle(8, 1.0, 1);
+    assert_eq!(machine.line(1.0, 2, &tag()), -1);
+    assert!(machine.reason().contains("spindle that does not exist"));
+    machine.follow_spindle(0, -1.0, 1);
+    assert_eq!(machine.line(1.0, 2, &tag()), -1);
+    assert!(machine.reason().contains("feed per turn"));
+    machine.follow_spindle(0, 0.0, 0);
+    machine.shared.set_limits([[0.0; 9], [1000.0; 9]]);
+    assert_eq!(machine.line(1.0, 2, &tag()), -1);
+    assert!(machine.reason().contains("MAX_VELOCITY"));
+    machine.shared.set_limits([[100.0; 9], [1000.0; 9]]);
+    assert_eq!(machine.line(10.0, 2, &tag()), 0);
+    for _ in 0..50 {
+        machine.cycle();
+    }
+    // SAFETY: a handle and motmod's structure.
+    unsafe { framepath_planner_abort(machine.shared.handle, machine.shared.tp) };
+    assert_eq!(machine.line(1.0, 2, &tag()), -1);
+    assert!(machine.reason().contains("after an abort"));
+}
+
+#[test]
+fn a_joint_beyond_its_soft_limit_is_named() {
+    let mut machine = machine();
+    machine.shared.hand_over_inverse(Some(Inverse::Identity));
+    machine.shared.config().numJoints = 3;
+    for joint in &mut machine.shared.status().joint_status {
+        (joint.min_pos_limit, joint.max_pos_limit) = (-100.0, 100.0);
+    }
+    let named = |machine: &Machine| {
+        let (mut position, mut limit) = (0.0, 0.0);
+        // SAFETY: a handle, and numbers.
+        let joint = unsafe {
+            framepath_planner_joint_out_of_range(machine.shared.handle, &mut position, &mut limit)
+        };
+        (joint, position, limit)
+    };
+    assert_eq!(machine.half_circle(20.0, 3, &tag()), 0);
+    assert_eq!(named(&machine).0, -1);
+    machine.run();
+    machine.shared.status().joint_status[1].max_pos_limit = 9.0;
+    // Back over the other side.
+    assert_eq!(machine.half_circle(0.0, 3, &tag()), tp_err_t::TP_ERR_RANGE);
+    let (joint, position, limit) = named(&machine);
+    assert_eq!((joint, limit), (1, 9.0));
+    assert!((position - 10.0).abs() < 1e-6, "{position}");
+    // An extra joint is none of the kinematics.
+    machine.shared.config().numExtraJoints = 2;
+    assert_eq!(machine.half_circle(0.0, 3, &tag()), 0);
+    assert_eq!(named(&machine).0, -1);
+}
+
+#[test]
+fn outputs_are_written_when_their_move_starts() {
+    let mut machine = machine();
+    // SAFETY: a handle.
+    unsafe {
+        let handle = machine.shared.handle;
+        assert_eq!(framepath_planner_set_digital_output(handle, 63, 1), 0);
+        assert_eq!(framepath_planner_set_digital_output(handle, 5, 0), 0);
+        assert_eq!(framepath_planner_set_digital_output(handle, 64, 1), -1);
+        assert_eq!(framepath_planner_set_digital_output(handle, -1, 1), -1);
+        assert_eq!(framepath_planner_set_analog_output(handle, 63, 2.5), 0);
+        assert_eq!(framepath_planner_set_analog_output(handle, 64, 2.5), -1);
+        assert_eq!(framepath_planner_set_analog_output(handle, 0, f64::NAN), -1);
+    }
+    assert_eq!(machine.line(1.0, 2, &tag()), 0);
+    assert_eq!(machine.run(), [(5, 0.0), (63, 1.0), (63, 2.5)]);
+}
+
+#[test]
+fn the_status_says_what_is_done() {
+    let mut machine = machine();
+    machine.shared.status().enables_new = 0x05;
+    assert_eq!(machine.cycle(), tp_err_t::TP_ERR_WAITING);
+    assert_eq!(machine.shared.status().enables_queued, 0x05);
+    let mut marked = tag();
+    marked.fields[3] = 77;
+    assert_eq!(machine.line(10.0, 2, &marked), 0);
+    assert_eq!(machine.shared.tp().goalPos.tran.x, 10.0);
+    assert_eq!(machine.cycle(), tp_err_t::TP_ERR_OK);
+    for _ in 0..100 {
+        machine.cycle();
+    }
+    let tp = *machine.shared.tp();
+    assert_eq!((tp.depth, tp.activeDepth, tp.motionType), (1, 1, 2));
+    assert_eq!((tp.queue._len, tp.done, tp.reverse_run), (1, 0, 0));
+    assert_eq!(tp.execTag.fields[3], 77);
+    assert_eq!(tp.spindle.waiting_for_index, c_int::MIN);
+    assert_eq!(tp.spindle.waiting_for_atspeed, c_int::MIN);
+    let status = *machine.shared.status();
+    assert!(status.current_vel > 10.0 && status.requested_vel == 50.0);
+    assert!((status.distance_to_go - (10.0 - tp.currentPos.tran.x)).abs() < 1e-9);
+    assert!((status.dtg.tran.x - status.distance_to_go).abs() < 1e-9);
+    assert_eq!((status.enables_queued, status.tcqlen), (0, 1));
+    assert_eq!(status.spindleSync, 0);
+    machine.shared.status().motionFlag = 0;
+    // SAFETY: a handle and motmod's structure.
+    unsafe { framepath_planner_clear(machine.shared.handle, machine.shared.tp) };
+    let flag = u32::from(machine.shared.status().motionFlag);
+    assert_eq!(flag, EMCMOT_MOTION_INPOS_BIT);
+    assert_eq!(machine.cycle(), tp_err_t::TP_ERR_WAITING);
+}
+
+#[test]
+fn a_full_queue_is_said() {
+    let mut machine = machine();
+    let full = |machine: &Machine| {
+        // SAFETY: a handle.
+        unsafe { framepath_planner_queue_full(machine.shared.handle) }
+    };
+    for count in 0..2000 {
+        assert_eq!(full(&machine), 0);
+        assert_eq!(machine.line(f64::from(count + 1), 2, &tag()), 0);
+        machine.shared.status().commandNumEcho = count;
+    }
+    assert_eq!(full(&machine), 1);
+}
+
+/// A thread, with what the spindle does in each period.
+fn thread(machine: &mut Machine, mut spindle: impl FnMut(&mut Shared, usize)) -> Option<String> {
+    machine.shared.config().numSpindles = 1;
+    machine.shared.status().spindle_status[0].at_speed = 1;
+    machine.follow_spindle(0, 1.0, 0);
+    assert_eq!(machine.line(20.0, 2, &tag()), 0);
+    for cycle in 0..22_000 {
+        spindle(&mut machine.shared, cycle);
+        machine.cycle();
+        let (mut asked, mut greatest) = (-1.0, -1.0);
+        // SAFETY: a handle, and numbers.
+        let text = unsafe {
+            framepath_planner_spindle_error_text(machine.shared.handle, &mut asked, &mut greatest)
+        };
+        if !text.is_null() {
+            let flag = u32::from(machine.shared.status().motionFlag);
+            assert_ne!(flag & EMCMOT_MOTION_ERROR_BIT, 0);
+            return Some(format!("{} {asked:.0} {greatest:.0}", words(text)));
+        }
+        assert_eq!((asked, greatest), (0.0, 0.0));
+        if machine.shared.tp().done != 0 {
+            return None;
+        }
+    }
+    panic!("a thread does not end");
+}
+
+/// A spindle that turns `direction` times so many turns a second, with an index.
+fn turning(shared: &mut Shared, turns_a_second: f64, cycle: usize) {
+    let shown = &mut shared.status().spindle_status[0];
+    shown.speed = turns_a_second * 60.0;
+    shown.direction = if turns_a_second < 0.0 { -1 } else { 1 };
+    shown.spindleSpeedIn = turns_a_second;
+    shown.spindleRevs += turns_a_second * 1e-3;
+    if shown.spindle_index_enable != 0 && cycle.is_multiple_of(100) {
+        (shown.spindle_index_enable, shown.spindleRevs) = (0, 0.0);
+    }
+}
+
+#[test]
+fn a_thread_follows_the_spindle_either_way() {
+    for turns_a_second in [10.0, -10.0] {
+        let mut machine = machine();
+        let mut synchronised = false;
+        let error = thread(&mut machine, |shared, cycle| {
+            synchronised |= shared.status().spindleSync != 0;
+            turning(shared, turns_a_second, cycle);
+        });
+        assert_eq!(error, None);
+        assert!(synchronised);
+        assert_eq!(machine.shared.tp().currentPos.tran.x, 20.0);
+    }
+}
+
+#[test]
+fn a_thread_that_outruns_the_axes_is_stopped_with_the_numbers() {
+    let mut machine = machine();
+    let error = thread(&mut machine, |shared, cycle| turning(shared, 150.0, cycle));
+    let error = error.expect("the axis goes 100 units a second at most");
+    assert!(error.contains("too fast"), "{error}");
+    let numbers: Vec<f64> = error
+        .rsplit(' ')
+        .take(2)
+        .map(|n| n.parse().unwrap())
+        .collect();
+    assert!(numbers[1] > 100.0 && numbers[0] <= 100.0, "{error}");
+}
+
+#[test]
+fn a_spindle_that_does_not_turn_is_named() {
+    let mut machine = machine();
+    let error = thread(&mut machine, |shared, _| turning(shared, 0.0, 1));
+    assert!(error.expect("no index").contains("index"));
+}
+
+#[test]
+fn parameters_of_the_kinematics_are_answered_one_by_one() {
+    let configure = |coordinates: &CStr, machine: &CStr, tool_length: &CStr| {
+        let mut letter = -1;
+        // SAFETY: strings, and a number.
+        let error = unsafe {
+            framepath_kinematics_configure(
+                coordinates.as_ptr(),
+                machine.as_ptr(),
+                tool_length.as_ptr(),
+                &mut letter,
+            )
+        };
+        (error, letter)
+    };
+    assert_eq!(framepath_kinematics_tilt_axis(), 0);
+    for (coordinates, machine, tool_length, answer, says) in [
+        (c"", c"", c"", (1, 0), "no axis is named"),
+        (c"XYQ", c"", c"", (2, 3), "no axis letter"),
+        (c"XXXXXXXXXXXXXXXXX", c"", c"", (3, 17), "16"),
+        (c"XYZ", c"xyzac", c"", (4, 0), "X Y Z A C"),
+        (c"XYZ", c"puma", c"", (5, 0), "machine=identity"),
+        (c"XYZ", c"", c"long", (6, 0), "tool_length=frame"),
+        (c"XYZ", c"identity", c"machine", (0, 0), "no error"),
+    ] {
+        assert_eq!(configure(coordinates, machine, tool_length), answer);
+        assert!(words(framepath_kinematics_configure_text(answer.0)).contains(says));
+    }
+    assert_eq!(framepath_kinematics_tilt_axis(), 0);
+    assert_eq!(configure(c"XYZAC", c"xyzac", c"frame"), (0, 0));
+    assert_eq!(framepath_kinematics_tilt_axis(), 1);
+    assert_eq!(configure(c"XYZBC", c"xyzbc", c""), (0, 0));
+    assert_eq!(framepath_kinematics_tilt_axis(), 2);
+    // A refusal leaves the machine as it is.
+    assert_eq!(configure(c"XYZ", c"puma", c""), (5, 0));
+    assert_eq!(framepath_kinematics_tilt_axis(), 2);
+}
+
+#[test]
+fn each_refused_frame_has_its_words() {
+    let text = |number| words(framepath_kinematics_refusal_text(number));
+    for (number, says) in [
+        (1, "no such command"),
+        (2, "infinite"),
+        (3, "scale factor is 0"),
+        (4, "shift"),
+        (5, "more operations"),
+        (6, "no plane"),
+        (7, "singular"),
+        (8, "unequal"),
+        (9, "thousandfold"),
+        (10, "moves"),
+        (11, "teleop"),
+        (12, "switchkins-type"),
+        (13, "0, 1 or 2"),
+        (14, "does not have"),
+        (15, "dimension"),
+    ] {
+        assert!(text(number).contains(says), "{number}: {}", text(number));
+    }
+    assert_eq!(text(0), "refused");
+    assert_eq!(text(99), "refused");
+}
