@@ -10,14 +10,16 @@ use abi_calls::motion::{Inverse, Shared};
 use abi_calls::moves::{pose_of, tag};
 use framepath::abi::kinematics::{
     framepath_kinematics_configure, framepath_kinematics_configure_text,
-    framepath_kinematics_refusal_text, framepath_kinematics_tilt_axis,
+    framepath_kinematics_tilt_axis,
 };
+use framepath::abi::kinematics_words::framepath_kinematics_refusal_text;
 use framepath::abi::linuxcnc::{
-    EMCMOT_MOTION_ERROR_BIT, EMCMOT_MOTION_INPOS_BIT, PmCartesian, state_tag_t, tp_err_t,
+    EMCMOT_MOTION_ERROR_BIT, EMCMOT_MOTION_INPOS_BIT, PmCartesian, cmd_code_t, state_tag_t,
+    tp_err_t,
 };
 use framepath::abi::planner::add::{
     framepath_planner_add_circle, framepath_planner_add_line, framepath_planner_add_rigid_tap,
-    framepath_planner_error_text, framepath_planner_joint_out_of_range,
+    framepath_planner_error_text,
 };
 use framepath::abi::planner::run::{
     framepath_planner_abort, framepath_planner_clear, framepath_planner_queue_full,
@@ -27,6 +29,9 @@ use framepath::abi::planner::settings::{
     framepath_planner_set_analog_output, framepath_planner_set_cycle_time,
     framepath_planner_set_digital_output, framepath_planner_set_machine_map,
     framepath_planner_set_spindle_sync,
+};
+use framepath::abi::planner::soft_limits::{
+    FRAMEPATH_LEAVES_RANGE, FRAMEPATH_STAYS_IN_RANGE, framepath_planner_range_finding,
 };
 
 const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
@@ -160,6 +165,13 @@ impl Machine {
         panic!("not done");
     }
 
+    /// As task commands it.
+    fn abort(&mut self) {
+        self.shared.status().commandEcho = cmd_code_t::EMCMOT_ABORT;
+        // SAFETY: a handle and motmod's structure.
+        unsafe { framepath_planner_abort(self.shared.handle, self.shared.tp) };
+    }
+
     fn set_map(&mut self, framed: bool) {
         // SAFETY: a handle and nine numbers.
         unsafe {
@@ -237,8 +249,7 @@ fn each_refusal_has_its_words() {
     for _ in 0..50 {
         machine.cycle();
     }
-    // SAFETY: a handle and motmod's structure.
-    unsafe { framepath_planner_abort(machine.shared.handle, machine.shared.tp) };
+    machine.abort();
     assert_eq!(machine.line(1.0, 2, &tag()), -1);
     assert!(machine.reason().contains("after an abort"));
 }
@@ -251,27 +262,51 @@ fn a_joint_beyond_its_soft_limit_is_named() {
     for joint in &mut machine.shared.status().joint_status {
         (joint.min_pos_limit, joint.max_pos_limit) = (-100.0, 100.0);
     }
-    let named = |machine: &Machine| {
+    let finding = |machine: &Machine| {
+        let (mut line, mut joint) = (0, -1);
         let (mut position, mut limit) = (0.0, 0.0);
         // SAFETY: a handle, and numbers.
-        let joint = unsafe {
-            framepath_planner_joint_out_of_range(machine.shared.handle, &mut position, &mut limit)
+        let code = unsafe {
+            framepath_planner_range_finding(
+                machine.shared.handle,
+                &mut line,
+                &mut joint,
+                &mut position,
+                &mut limit,
+            )
         };
-        (joint, position, limit)
+        (code, joint, position, limit)
     };
     assert_eq!(machine.half_circle(20.0, 3, &tag()), 0);
-    assert_eq!(named(&machine).0, -1);
     machine.run();
+    assert_eq!(finding(&machine).0, FRAMEPATH_STAYS_IN_RANGE);
     machine.shared.status().joint_status[1].max_pos_limit = 9.0;
-    // Back over the other side.
-    assert_eq!(machine.half_circle(0.0, 3, &tag()), tp_err_t::TP_ERR_RANGE);
-    let (joint, position, limit) = named(&machine);
-    assert_eq!((joint, limit), (1, 9.0));
+    // Back over the other side: found before the machine begins with it, and said in one period.
+    assert_eq!(machine.half_circle(0.0, 3, &tag()), 0);
+    let mut found = Vec::new();
+    for _ in 0..200 {
+        machine.cycle();
+        let period = finding(&machine);
+        if period.0 != FRAMEPATH_STAYS_IN_RANGE {
+            found.push(period);
+        }
+    }
+    let [(code, joint, position, limit)] = found[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!((code, joint, limit), (FRAMEPATH_LEAVES_RANGE, 1, 9.0));
     assert!((position - 10.0).abs() < 1e-6, "{position}");
+    assert_eq!(machine.shared.tp().currentPos.tran.x, 20.0);
+    let flags = machine.shared.status().motionFlag;
+    assert_ne!(flags & EMCMOT_MOTION_ERROR_BIT as u16, 0);
+    assert_eq!(machine.line(1.0, 2, &tag()), -1);
+    assert!(machine.reason().contains("an error had stopped the motion"));
+    machine.abort();
     // An extra joint is none of the kinematics.
     machine.shared.config().numExtraJoints = 2;
     assert_eq!(machine.half_circle(0.0, 3, &tag()), 0);
-    assert_eq!(named(&machine).0, -1);
+    machine.run();
+    assert_eq!(machine.shared.tp().currentPos.tran.x, 0.0);
 }
 
 #[test]

@@ -6,10 +6,10 @@ use std::ptr::{null, null_mut};
 use framepath::abi::kinematics::{
     framepath_frame_inputs, framepath_frame_outputs, framepath_kinematics_configure,
     framepath_kinematics_configure_text, framepath_kinematics_forward,
-    framepath_kinematics_inverse, framepath_kinematics_linear_map,
-    framepath_kinematics_refusal_text, framepath_kinematics_switch, framepath_kinematics_tilt_axis,
-    framepath_kinematics_update,
+    framepath_kinematics_inverse, framepath_kinematics_linear_map, framepath_kinematics_switch,
+    framepath_kinematics_tilt_axis, framepath_kinematics_update,
 };
+use framepath::abi::kinematics_words::framepath_kinematics_refusal_text;
 use framepath::abi::linuxcnc::EmcPose;
 
 use super::choices::Choices;

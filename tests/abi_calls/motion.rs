@@ -6,9 +6,12 @@ use std::ffi::{c_char, c_int, c_ulong};
 use std::mem::MaybeUninit;
 use std::sync::OnceLock;
 
-use framepath::abi::linuxcnc::{EmcPose, TP_STRUCT, emcmot_config_t, emcmot_status_t};
+use framepath::abi::linuxcnc::{
+    EmcPose, KINEMATICS_TYPE, TP_STRUCT, emcmot_config_t, emcmot_status_t,
+};
+use framepath::abi::planner::soft_limits::framepath_planner_kinematics;
 use framepath::abi::planner::{
-    Handle, framepath_planner_create, framepath_planner_kinematics, framepath_planner_motion_data,
+    Handle, framepath_planner_create, framepath_planner_motion_data,
     framepath_planner_motion_functions,
 };
 use framepath::axes::AXIS_COUNT;
@@ -161,7 +164,12 @@ impl Shared {
 
     pub fn hand_over_inverse(&self, kinematics: Option<Inverse>) {
         INVERSE.set(kinematics.unwrap_or(Inverse::Identity));
-        framepath_planner_kinematics(kinematics.map(|_| inverse as _));
+        // Lines are looked at, too.
+        framepath_planner_kinematics(
+            kinematics.map(|_| inverse as _),
+            None,
+            KINEMATICS_TYPE::KINEMATICS_BOTH,
+        );
     }
 
     pub fn limits(&self) -> [[f64; AXIS_COUNT]; 2] {

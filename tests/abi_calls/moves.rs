@@ -2,18 +2,15 @@
 
 use std::ffi::{CStr, c_char, c_int};
 
-use framepath::abi::linuxcnc::{EmcPose, PmCartesian, state_tag_t, tp_err_t};
+use framepath::abi::linuxcnc::{EmcPose, PmCartesian, state_tag_t};
 use framepath::abi::planner::add::{
     framepath_planner_add_circle, framepath_planner_add_line, framepath_planner_add_rigid_tap,
-    framepath_planner_error_text, framepath_planner_joint_out_of_range,
+    framepath_planner_error_text,
 };
 
 use super::choices::Choices;
 use super::judge::{Kind, coordinates};
 use super::planner::{Calls, MOST_CYCLES, Position};
-
-/// Refused by [`framepath_planner_add_line`] for the soft limits of a joint.
-const RANGE: c_int = tp_err_t::TP_ERR_RANGE;
 
 pub fn pose_of(position: &Position) -> EmcPose {
     let [x, y, z, a, b, c, u, v, w] = *position;
@@ -44,21 +41,13 @@ impl Calls {
 
     /// What an added move has to leave behind.
     pub(super) fn added(&mut self, answer: c_int, before: c_int) {
-        assert!([0, 5, -1, RANGE].contains(&answer), "{answer}");
+        assert!([0, 5, -1].contains(&answer), "{answer}");
         self.judge.added(&self.shared, answer == 0, before);
         if answer == -1 {
             // SAFETY: a handle of the planner, which answers with a static string.
             let text = unsafe { CStr::from_ptr(framepath_planner_error_text(self.shared.handle)) };
             assert!(!text.is_empty(), "refused without a reason");
         }
-        let (mut position, mut limit) = (0.0, 0.0);
-        // SAFETY: a handle of the planner, and numbers.
-        let joint = unsafe {
-            framepath_planner_joint_out_of_range(self.shared.handle, &mut position, &mut limit)
-        };
-        assert!((-1..16).contains(&joint));
-        assert!(answer != RANGE || joint >= 0);
-        assert!(position.is_finite() && !limit.is_nan());
         self.check(Kind::Command);
     }
 

@@ -3,11 +3,8 @@
 use std::ffi::c_int;
 use std::ptr::{null, null_mut};
 
-use framepath::abi::linuxcnc::{FS_ENABLED, TP_STRUCT};
-use framepath::abi::planner::add::{
-    framepath_planner_add_rigid_tap, framepath_planner_error_text,
-    framepath_planner_joint_out_of_range,
-};
+use framepath::abi::linuxcnc::{FS_ENABLED, TP_STRUCT, cmd_code_t};
+use framepath::abi::planner::add::{framepath_planner_add_rigid_tap, framepath_planner_error_text};
 use framepath::abi::planner::run::{
     framepath_planner_abort, framepath_planner_clear, framepath_planner_fault_text,
     framepath_planner_pause, framepath_planner_position, framepath_planner_queue_full,
@@ -17,6 +14,9 @@ use framepath::abi::planner::settings::{
     framepath_planner_set_cycle_time, framepath_planner_set_jerk,
     framepath_planner_set_machine_map, framepath_planner_set_position,
     framepath_planner_set_run_direction,
+};
+use framepath::abi::planner::soft_limits::{
+    FRAMEPATH_STAYS_IN_RANGE, framepath_planner_range_finding,
 };
 use framepath::abi::planner::{Handle, framepath_planner_create};
 use framepath::axes::AXIS_COUNT;
@@ -232,7 +232,10 @@ impl Calls {
             match target {
                 Target::Pause => framepath_planner_pause(handle, tp),
                 Target::Resume => framepath_planner_resume(handle, tp),
-                Target::Abort => framepath_planner_abort(handle, tp),
+                Target::Abort => {
+                    self.shared.status().commandEcho = cmd_code_t::EMCMOT_ABORT;
+                    framepath_planner_abort(handle, tp)
+                }
                 Target::Clear => framepath_planner_clear(handle, tp),
             }
         };
@@ -339,13 +342,18 @@ impl Calls {
             assert_eq!(framepath_planner_queue_full(handle), 1);
             assert!(framepath_planner_fault_text(handle).is_null());
             assert!(!framepath_planner_error_text(handle).is_null());
-            assert_eq!(framepath_planner_set_jerk(here, null()), 0);
+            assert_eq!(
+                framepath_planner_set_jerk(here, null(), null_mut(), null_mut()),
+                0
+            );
             framepath_planner_set_machine_map(here, 1, null());
             assert_eq!(framepath_planner_set_position(here, tp, null()), -1);
             assert_eq!(framepath_planner_set_cycle_time(here, tp, 1e-3), -1);
+            let (line, joint) = (null_mut(), null_mut());
+            let (position, limit) = (null_mut(), null_mut());
             assert_eq!(
-                framepath_planner_joint_out_of_range(handle, null_mut(), null_mut()),
-                -1
+                framepath_planner_range_finding(handle, line, joint, position, limit),
+                FRAMEPATH_STAYS_IN_RANGE
             );
             assert_eq!(
                 framepath_planner_add_rigid_tap(here, tp, null(), 1.0, 0, 1.0, null()),

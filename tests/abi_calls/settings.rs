@@ -130,12 +130,30 @@ impl Calls {
 
     pub fn set_jerk(&mut self, jerk: &[f64; AXIS_COUNT]) {
         self.tell(format_args!("jerk {jerk:?}"));
-        // SAFETY: a handle of the planner, and nine numbers.
-        let refused = unsafe { framepath_planner_set_jerk(self.shared.handle, jerk.as_ptr()) };
-        let wrong = jerk.iter().position(|j| !(*j >= 0.0 && j.is_finite()));
+        let [_, acceleration] = self.shared.limits();
+        let period = self.shared.tp().cycleTime;
+        let meant: [JerkLimit; AXIS_COUNT] =
+            std::array::from_fn(|axis| JerkLimit::new(jerk[axis], acceleration[axis], period));
+        let (mut least, mut unlimited) = (f64::NAN, 0);
+        // SAFETY: a handle of the planner, and numbers.
+        let refused = unsafe {
+            framepath_planner_set_jerk(
+                self.shared.handle,
+                jerk.as_ptr(),
+                &mut least,
+                &mut unlimited,
+            )
+        };
+        let wrong = meant
+            .iter()
+            .position(|limit| matches!(limit, JerkLimit::Refused { .. }));
         assert_eq!(refused, wrong.map_or(-1, |axis| axis as c_int));
+        assert!(wrong.is_none() || least >= 0.0);
         if wrong.is_none() {
-            self.judge.jerk = jerk.map(|j| if j == 0.0 { f64::INFINITY } else { j });
+            self.judge.jerk = meant.map(|limit| match limit {
+                JerkLimit::Limited(limit) => limit,
+                _ => f64::INFINITY,
+            });
             self.sound &= jerk.iter().all(|j| *j == 0.0 || (1e3..1e9).contains(j));
         }
     }

@@ -3,9 +3,7 @@
 use libc::{c_double, c_int, c_uint, c_ulong};
 
 use super::{Handle, module};
-use crate::abi::linuxcnc::{
-    EMCMOT_MOTION_ERROR_BIT, EmcPose, KINEMATICS_TYPE, emcmot_config_t, emcmot_status_t,
-};
+use crate::abi::linuxcnc::{EmcPose, KINEMATICS_TYPE, emcmot_config_t, emcmot_status_t};
 use crate::abi::pose::pose_of;
 use crate::axes::Axes;
 use crate::machine::JOINT_COUNT;
@@ -149,7 +147,7 @@ impl Handle {
         }
         // SAFETY: null, or motmod's own structures for as long as the module is loaded.
         let (Some(status), Some(config)) =
-            (unsafe { (self.status.as_mut(), self.config.as_ref()) })
+            (unsafe { (self.status.as_ref(), self.config.as_ref()) })
         else {
             return;
         };
@@ -162,10 +160,6 @@ impl Handle {
         self.finding = self
             .planner
             .check_range(&range, &machine, &mut self.kinematics);
-        if let Some(Finding::Leaves { .. }) = self.finding {
-            // LinuxCNC's task then aborts the program.
-            status.motionFlag |= EMCMOT_MOTION_ERROR_BIT as u16;
-        }
     }
 }
 
