@@ -88,6 +88,7 @@ contract: modules tool
 
 soak: modules
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner_programs -- --nocapture
+	FRAMEPATH_CASES=1000000 $(CARGO) test --locked --release --test planner_short_programs -- --nocapture
 	$(PYTHON) -B tests/linuxcnc/soak.py --seconds 7200
 
 bench: prerequisites

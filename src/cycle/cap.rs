@@ -2,20 +2,24 @@
 //!
 //! A cap that the reference exceeds is approached softly, as a jerk-limited S-curve would, so
 //! that the machine arrives at the cap with no acceleration left. Before that, a guard makes sure
-//! that braking as hard as possible from now on would still keep all caps ahead.
+//! that braking as hard as possible from now on would still keep all caps ahead. What it cannot
+//! see, it takes for too fast: where the reference is slow the rate may rise to 1, and where the
+//! reference then gathers speed at its limits, turning the rate takes longer than any horizon.
+
+use std::borrow::Borrow;
 
 use super::demand::Demand;
 use super::interval::Interval;
 use super::release::Refusal;
 use super::rows::{Limits, Span};
 use super::state::State;
-use super::table::{OverrideKind, StoredCell, Table};
+use super::table::{OverrideKind, StoredCell, Table, USABLE};
 
 /// Cells of a block. A power of two.
 pub const BLOCK_LENGTH: usize = 16;
 
 /// How far ahead caps are looked for, seconds.
-const FORESIGHT: f64 = 0.1;
+pub const FORESIGHT: f64 = 0.2;
 
 /// How long a rate change is assumed to go on when the guard is asked for, seconds.
 const RATE_CHANGE_FORESIGHT: f64 = 0.12;
@@ -27,11 +31,14 @@ const APPROACH_PART: f64 = 0.85;
 const LEAST_APPROACH_PART: f64 = 0.1;
 
 /// Greatest period count of the guard's simulation.
-const GUARD_PERIODS: usize = 60;
+pub const GUARD_PERIODS: usize = 160;
 
-/// What the guard lets pass: of the cap, and of the programmed feed.
-const GUARD_TOLERANCE: f64 = 0.01;
-const GUARD_FEED_TOLERANCE: f64 = 5e-4;
+/// What the guard lets pass, of the cap.
+const GUARD_TOLERANCE: f64 = 3e-4;
+
+/// Of the cells that are known, what has to lie ahead of a state for the guard to trust what it sees
+/// there, where the table is too short for all of [`FORESIGHT`].
+const TRUSTED_SHARE: f64 = 0.5;
 
 /// Stands for no cap on feed per turn, turns a second.
 const MOST_TURNS: f64 = 1e12;
@@ -44,6 +51,8 @@ const FREE_PART: f64 = 1e-3;
 pub struct FeedBlock {
     /// Greatest feed at a rate of 1.
     feed: f32,
+    /// Greatest programmed feed.
+    programmed: f32,
     /// Greatest feed over programmed feed where the feed override applies.
     feed_over_programmed: f32,
     /// The same where the rapid override applies.
@@ -58,6 +67,7 @@ pub struct FeedBlock {
 impl FeedBlock {
     pub const EMPTY: Self = Self {
         feed: 0.0,
+        programmed: 0.0,
         feed_over_programmed: 0.0,
         rapid_over_programmed: 0.0,
         fixed_over_programmed: 0.0,
@@ -76,6 +86,23 @@ impl FeedBlock {
         };
         *greatest = greatest.max(ratio);
         self.feed = self.feed.max(cell.feed() as f32);
+        self.programmed = self.programmed.max(cell.programmed_feed);
+    }
+}
+
+impl FeedBlock {
+    /// The same block if the reference were as fast as programmed in all of it.
+    fn as_programmed(&self) -> Self {
+        let full = |ratio: f32| if ratio > 0.0 { 1.0 } else { 0.0 };
+        Self {
+            feed: self.programmed,
+            programmed: self.programmed,
+            feed_over_programmed: full(self.feed_over_programmed),
+            rapid_over_programmed: full(self.rapid_over_programmed),
+            fixed_over_programmed: full(self.fixed_over_programmed),
+            turns_over_programmed: full(self.turns_over_programmed),
+            fixed_turns_over_programmed: full(self.fixed_turns_over_programmed),
+        }
     }
 }
 
@@ -143,13 +170,24 @@ impl Caps {
     /// Greatest ratio of the reference's feed to its cap from `time` on, as far as anything ahead
     /// matters now. Above 1 the reference has to be slowed down somewhere.
     pub fn greatest_ratio(&self, table: &Table, time: f64, period: f64) -> f64 {
+        let cells = (FORESIGHT / period) as usize;
+        self.ratio_in(table.blocks(time, cells))
+    }
+
+    /// The same as far as cells are known, and if the reference were as fast as programmed everywhere.
+    fn ratio_at_programmed(&self, table: &Table, time: f64) -> f64 {
+        let as_programmed = table.blocks(time, USABLE).map(FeedBlock::as_programmed);
+        self.ratio_in(as_programmed)
+    }
+
+    fn ratio_in(&self, blocks: impl Iterator<Item = impl Borrow<FeedBlock>>) -> f64 {
         let velocity = 1.0 / self.max_velocity.max(1e-12);
         let feed = 1.0 / self.feed_override.max(1e-9);
         let rapid = 1.0 / self.rapid_override.max(1e-9);
         let fixed_turns = 1.0 / self.turns.max(1e-9);
         let turns = feed * fixed_turns;
-        let cells = (FORESIGHT / period) as usize;
-        table.blocks(time, cells).fold(0.0, |ratio: f64, block| {
+        blocks.fold(0.0, |ratio: f64, block| {
+            let block = block.borrow();
             ratio
                 .max(f64::from(block.feed) * velocity)
                 .max(f64::from(block.feed_over_programmed) * feed)
@@ -183,14 +221,23 @@ impl Caps {
         let (here, next) = (table.cell(index), table.cell(index + 1));
         let between = |a: f32, b: f32| f64::from(a) + part * (f64::from(b) - f64::from(a));
         let path_velocity = between(here.path_velocity, next.path_velocity);
-        let path_acceleration = between(here.path_acceleration, next.path_acceleration);
-        let path_jerk = f64::from(next.path_acceleration) - f64::from(here.path_acceleration);
+        let own_acceleration = between(here.path_acceleration, next.path_acceleration);
+        let own_jerk = f64::from(next.path_acceleration) - f64::from(here.path_acceleration);
 
         let feed_ratio = f64::from(here.feed_ratio.max(next.feed_ratio)).max(1e-3);
         let cap = self.feed_in(&[here, next]) / feed_ratio;
         if path_velocity < FREE_PART * cap || path_velocity < 1e-12 {
             return None;
         }
+
+        // In a rounded corner the feed changes with its ratio to the path velocity too: without it the
+        // machine lags behind a cap of the path velocity that falls towards the end of the corner.
+        let growth = match next.programmed_feed > 0.0 {
+            true => f64::from(next.feed_ratio - here.feed_ratio) / feed_ratio,
+            false => 0.0,
+        };
+        let path_acceleration = own_acceleration + path_velocity * growth;
+        let path_jerk = own_jerk + 2.0 * own_acceleration * growth;
 
         let (rate, change) = (state.rate, state.rate_change);
         let velocity = rate * path_velocity;
@@ -236,8 +283,10 @@ impl Caps {
         (state.rate + rising).min(1.0) * ratio > 1.0
     }
 
-    /// Whether the hardest braking from `state`, reached with `previous_n`, keeps the caps.
-    /// `Err` if that cannot be told before more cells are known.
+    /// Whether the hardest braking from `state`, reached with `previous_n`, keeps the caps: until all
+    /// that is ahead may be run through at a rate that does not rise any more. Not if that is not
+    /// seen within [`GUARD_PERIODS`] or what is left of the budget; `Err` if it cannot be told
+    /// before more cells are known.
     #[inline(never)]
     pub fn guard(
         &self,
@@ -250,29 +299,30 @@ impl Caps {
     ) -> Result<bool, Refusal> {
         let mut start = table.node(state.time);
         let mut last_feed = 0.0;
+        let as_programmed = self.ratio_at_programmed(table, state.time);
         for count in 0..GUARD_PERIODS {
             let (here, next) = (table.cell(start.cell), table.cell(start.cell + 1));
             let part = (state.time - start.cell as f64).clamp(0.0, 1.0);
             let feed = state.rate * (here.feed() + part * (next.feed() - here.feed()));
-            let allowed = self.feed(here) * (1.0 + GUARD_TOLERANCE)
-                + GUARD_FEED_TOLERANCE * f64::from(here.programmed_feed);
-            if feed > allowed {
+            if feed > self.feed(here) * (1.0 + GUARD_TOLERANCE) {
                 // Above the cap from the first: it was lowered just now, and the soft approach
                 // brakes anyway. The hardest braking would end far below the cap.
                 return Ok(count == 0);
             }
+            let keeps = |ratio: f64| state.rate * ratio <= 1.0 + GUARD_TOLERANCE;
             let falling = count > 0 && feed <= last_feed;
             if state.rate <= 1e-6
                 || table.is_behind_end(state.time)
+                || state.rate_change <= 0.0 && keeps(as_programmed)
                 || falling
-                    && state.rate * self.greatest_ratio(table, state.time, period)
-                        <= 1.0 + GUARD_TOLERANCE
+                    && sees_far(table, state.time, period)
+                    && keeps(self.greatest_ratio(table, state.time, period))
             {
                 return Ok(true);
             }
             match budget.checked_sub(1) {
                 Some(left) => *budget = left,
-                None => return Ok(true),
+                None => return Ok(false),
             }
             last_feed = feed;
             let predicted = state.step(previous_n);
@@ -287,15 +337,27 @@ impl Caps {
             state.rate = state.rate.clamp(0.0, 1.0);
             start = end;
         }
-        Ok(true)
+        Ok(false)
     }
 }
 
-/// The least n within all limits; where they contradict each other, the jerk decides.
+/// Whether enough is known behind `time`.
+fn sees_far(table: &Table, time: f64, period: f64) -> bool {
+    let known = table.length() as f64;
+    table.end().is_some() || known - time >= (FORESIGHT / period).min(TRUSTED_SHARE * known)
+}
+
+/// The least n within all limits; where they contradict each other, the jerk decides, and where its
+/// limits do so among themselves, the one that brakes least: no release leads through there.
 fn hardest_braking(span: &Span, state: State, predicted: State) -> f64 {
     let low = span
         .acceleration_interval(state, predicted)
         .low
         .max(Interval::of_rate(state).low);
-    span.jerk_interval(state, predicted).nearest(low)
+    let jerk = span.jerk_interval(state, predicted);
+    if jerk.is_empty() {
+        jerk.low
+    } else {
+        jerk.nearest(low)
+    }
 }

@@ -152,7 +152,7 @@ impl Executor {
             Ok(false) => allowed.low,
             Err(_) => {
                 self.wall = true;
-                wanted
+                allowed.low
             }
         }
     }

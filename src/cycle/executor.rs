@@ -1,6 +1,6 @@
 //! The servo cycle: one decision for each servo period.
 
-use super::cap::Caps;
+use super::cap::{Caps, FORESIGHT, GUARD_PERIODS};
 use super::cell::Cell;
 use super::decision::Goal;
 use super::demand::{Demand, Step};
@@ -12,7 +12,7 @@ use super::table::{CloseError, PushError, ReopenError, Table, USABLE};
 use crate::axes::AxisLimits;
 
 /// Servo periods that may be simulated in one cycle: bounds its cost.
-pub(super) const BUDGET: usize = 256;
+pub(super) const BUDGET: usize = 384;
 
 /// Why limits or a servo period were refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -324,12 +324,14 @@ impl Executor {
         matches!(self.goal, Goal::Cap(_)) || self.caps.may_bind(self.greatest_programmed_feed)
     }
 
-    /// Cells within which a change of feed is foreseen: those of a jerk-limited change from the
-    /// greatest programmed feed, and a margin.
+    /// Cells within which a change of feed is foreseen: those that the guard of the caps simulates and
+    /// those that it looks at from there, and no less than a jerk-limited change from the greatest
+    /// programmed feed takes.
     fn cells_to_brake(&self) -> usize {
         let braking = (2.0 * self.greatest_programmed_feed / self.limits.least_jerk()).sqrt();
         let period = self.servo_period.max(1e-9);
-        (0.06 / period).max(0.02 / period + 0.6 * braking) as usize
+        let seen = GUARD_PERIODS as f64 + FORESIGHT / period;
+        seen.max(0.02 / period + 1.6 * braking) as usize
     }
 
     pub(super) fn release(&self) -> &Release {

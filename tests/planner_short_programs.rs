@@ -1,0 +1,58 @@
+//! Short programs of all kinds of moves, from a nanometre on, on machines of all kinds: no fault, no limit
+//! exceeded, none left unfinished. What they found is kept in `planner_found_faults.rs`.
+
+mod planner_common;
+mod planner_short;
+
+use planner_common::{Extremes, seeded_runner, with_room};
+use planner_short::{any_program, run};
+use proptest::test_runner::{Config, RngSeed, TestRunner};
+
+/// As many programs as FRAMEPATH_CASES says, shared out among all processors.
+#[test]
+fn short_programs_keep_all_limits() {
+    let cases =
+        std::env::var("FRAMEPATH_CASES").map_or(2000, |cases| cases.parse().expect("a number"));
+    let config = Config {
+        cases,
+        failure_persistence: None,
+        ..Config::default()
+    };
+    let seed = match seeded_runner(config.clone()).config().rng_seed {
+        RngSeed::Fixed(seed) => seed,
+        RngSeed::Random => 0,
+    };
+    let workers = std::thread::available_parallelism().map_or(1, |count| count.get() as u32);
+    let work = |worker: u32| {
+        with_room(|| {
+            let mut greatest = Extremes::default();
+            let sum = std::cell::RefCell::new(&mut greatest);
+            let mut runner = TestRunner::new(Config {
+                cases: (cases + worker) / workers,
+                rng_seed: RngSeed::Fixed(seed.wrapping_add(u64::from(worker) << 32)),
+                ..config.clone()
+            });
+            let result = runner.run(&any_program(), |program| {
+                sum.borrow_mut().join(&run(&program)?);
+                Ok(())
+            });
+            if let Err(error) = result {
+                panic!("{error}");
+            }
+            greatest
+        })
+    };
+    let mut greatest = Extremes::default();
+    std::thread::scope(|scope| {
+        let started: Vec<_> = (0..workers)
+            .map(|worker| scope.spawn(move || work(worker)))
+            .collect();
+        for worker in started {
+            match worker.join() {
+                Ok(extremes) => greatest.join(&extremes),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+    });
+    println!("greatest over the limits: {greatest:?}");
+}
