@@ -13,8 +13,10 @@
 /* So many commands of task without a period of the controller mean that it does not run: there is one at most in a period.
  * Task sends three of the kind that arrives here when it starts. */
 #define COMMANDS_WITHOUT_CONTROLLER 3
-/* By how many moves the one order has to be ahead of the other to be believed; a late period looks like the wrong one. */
-#define ORDER_IS_SURE 8
+/* By how many moves the one order has to be ahead of the other to be believed, and how many of the wrong one a move of the
+ * right one outweighs: in the right order a late period looks like the wrong one, the other way round hardly ever. */
+#define ORDER_IS_SURE 16
+#define RIGHT_OUTWEIGHS 4
 /* How many times longer it is from a command to the controller than from the controller to the command in the wrong order. */
 #define MUCH_LONGER 4
 
@@ -68,7 +70,7 @@ static void controller_plans(void)
         return;
     before = threads.commanded - threads.ended;
     after = rtapi_get_clocks() - threads.commanded;
-    threads.order += after > MUCH_LONGER * before ? 1 : -1;
+    threads.order += after > MUCH_LONGER * before ? 1 : -RIGHT_OUTWEIGHS;
     threads.commanded = 0;
     if (threads.order < ORDER_IS_SURE)
         return;
