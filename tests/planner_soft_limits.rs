@@ -360,3 +360,24 @@ fn the_first_period_of_a_short_look_is_the_first_of_the_move() {
         assert!(status.position[0] <= 1.01 * first);
     });
 }
+
+/// Where the machine stands beyond a limit, the limit itself is named and not the place.
+#[test]
+fn the_limit_is_named_also_where_the_move_begins_beyond_it() {
+    with_machine(|machine| {
+        machine.planner.wait_for_range_check(true);
+        machine
+            .planner
+            .set_position(&at(12.0, 0.0))
+            .expect("finite");
+        machine
+            .line(at(13.0, 0.0), &feed_move(60.0))
+            .expect("a line");
+        let mut solver = Solver::new(16);
+        let (_, finding) = cycle(machine, &range(10.0), &mut solver);
+        let Some(Finding::Leaves { found, .. }) = finding else {
+            panic!("{finding:?}");
+        };
+        assert_eq!((found.joint, found.position, found.limit), (0, 13.0, 10.0));
+    });
+}

@@ -429,3 +429,22 @@ fn noise_at_a_limit_is_not_looked_into() {
     let verdict = (0..5).find_map(|_| sweep.step(&shape, &mut solver));
     assert!(matches!(verdict, Some(Verdict::Stays(_))), "{verdict:?}");
 }
+
+/// Kinematics that iterate may find another arm from too far away, which motion never gets to.
+#[test]
+fn another_arm_that_is_found_from_afar_does_not_count() {
+    let shape = line([0.0; 9], [180.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let two_armed = |at: &Axes, near: &Joints| {
+        let mut joints = joints_at(at);
+        let far = (joints[0] - near[0]).abs() > 9.0;
+        let other = (near[1] < 0.0) != far;
+        joints[1] = if other { -100.0 } else { 100.0 };
+        Some(joints)
+    };
+    let mut allowed = range(400.0);
+    allowed.least[1] = -50.0;
+    let mut near = [0.0; JOINT_COUNT];
+    near[1] = 100.0;
+    let (verdict, _) = sweep(&shape, &allowed, &near, two_armed);
+    assert_eq!(found(&verdict), None);
+}
