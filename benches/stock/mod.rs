@@ -1,5 +1,6 @@
 //! LinuxCNC's own kinematics modules in this process, to be measured beside ours.
 #![allow(unsafe_code)]
+#![allow(dead_code, reason = "each benchmark uses its own part")]
 
 use std::ffi::{CString, c_char, c_int, c_ulong, c_void};
 use std::path::Path;
@@ -14,8 +15,8 @@ type Forward =
 
 /// A kinematics module, loaded and set up.
 pub struct StockKinematics {
-    inverse: Inverse,
-    forward: Forward,
+    pub inverse: Inverse,
+    pub forward: Forward,
 }
 
 impl StockKinematics {
