@@ -96,6 +96,7 @@ static struct framepath_frame_inputs read_pins(void)
     in.releases_seen = *pins->releases_seen;
     in.heartbeat = *pins->heartbeat;
     in.period = 0.0;
+    in.clock = 0;
     return in;
 }
 
@@ -147,6 +148,7 @@ static void update(void *argument, long period)
     (void)argument;
     struct framepath_frame_inputs in = read_pins();
     in.period = period * 1e-9;
+    in.clock = rtapi_get_time();
     struct framepath_frame_outputs out;
     if (is_misplaced())
         return;

@@ -205,6 +205,10 @@ struct framepath_frame_inputs {
    The servo period, s.
    */
   double period;
+  /*
+   A clock that runs on, ns.
+   */
+  long long clock;
 };
 
 /*

@@ -179,6 +179,29 @@ fn a_guard_that_is_late_holds_the_machine_and_one_that_is_lost_switches_it_off()
 }
 
 #[test]
+fn a_servo_thread_that_was_late_does_not_blame_the_guard() {
+    let mut motion = framed();
+    motion.beating = false;
+    // The machine stood still for ten seconds, and the periods are made up for at once.
+    motion.inputs.clock += 10_000_000_000;
+    for _ in 0..10_000 {
+        motion.out = motion.control.update(&motion.inputs);
+        motion.inputs.clock += 5_000;
+    }
+    assert!(!motion.out.hold);
+    // Some milliseconds late now and then, the time of the clock counts in full.
+    let start = motion.inputs.clock;
+    while !motion.out.hold {
+        motion.inputs.clock += 20_000_000;
+        for _ in 0..20 {
+            motion.out = motion.control.update(&motion.inputs);
+        }
+    }
+    let seconds = (motion.inputs.clock - start) as f64 * 1e-9;
+    assert!((LATE - 0.15..LATE + 0.02).contains(&seconds), "{seconds}");
+}
+
+#[test]
 fn without_a_guard_there_are_no_frames() {
     let mut motion = Motion::new("identity", "XYZ");
     motion.beating = false;

@@ -305,7 +305,9 @@ class Guard:
             # in AUTO LinuxCNC accepts nothing but a start; in MDI no program can start meanwhile
             if self.mode(linuxcnc.MODE_MDI):
                 self.put_offsets_back()
-                self.mode(linuxcnc.MODE_AUTO)
+                # unless a screen has chosen another mode meanwhile
+                if Look(self.status).mode == linuxcnc.MODE_MDI:
+                    self.mode(linuxcnc.MODE_AUTO)
         else:
             self.command.task_plan_synch()
             self.wait(lambda: self.command.wait_complete(0.02) != -1, 1.0)
@@ -352,7 +354,8 @@ def link_to_framekins():
     """Links the pins that the guard and framekins have for each other: no HAL file can forget these."""
     for pin, kind in (("heartbeat", hal.HAL_U32), ("release", hal.HAL_BIT), ("releases-seen", hal.HAL_S32)):
         signal_name = f"{NAME}-{pin}"
-        hal.new_sig(signal_name, kind)
+        if signal_name not in {found["NAME"] for found in hal.get_info_signals()}:
+            hal.new_sig(signal_name, kind)
         hal.connect(f"{NAME}.{pin}", signal_name)
         hal.connect(f"framekins.{pin}", signal_name)
 

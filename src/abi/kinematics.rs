@@ -6,7 +6,7 @@
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
 
-use libc::{c_char, c_double, c_int, c_uint};
+use libc::{c_char, c_double, c_int, c_longlong, c_uint};
 
 use nalgebra::Vector3;
 
@@ -89,6 +89,8 @@ pub struct framepath_frame_inputs {
     pub heartbeat: c_uint,
     /// The servo period, s.
     pub period: c_double,
+    /// A clock that runs on, ns.
+    pub clock: c_longlong,
 }
 
 /// What is written to the pins after each servo period.
@@ -191,6 +193,7 @@ fn inputs_of(pins: &framepath_frame_inputs, tool_length: ToolLength) -> FrameInp
         releases_seen: pins.releases_seen,
         heartbeat: pins.heartbeat,
         period: pins.period,
+        clock: pins.clock,
     }
 }
 

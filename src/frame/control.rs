@@ -131,7 +131,8 @@ impl FrameControl {
                 Err(refusal) => self.outputs.refusal = Some(refusal),
             }
         }
-        self.heartbeat.listen(inputs.heartbeat, inputs.period);
+        self.heartbeat
+            .listen(inputs.heartbeat, inputs.period, inputs.clock);
         match &mut self.request {
             Some(request) => {
                 request.waited += 1;

@@ -43,6 +43,8 @@ pub struct FrameInputs {
     pub heartbeat: u32,
     /// The servo period, s.
     pub period: f64,
+    /// A clock that runs on, ns.
+    pub clock: i64,
 }
 
 /// What is written to the pins after each servo period.

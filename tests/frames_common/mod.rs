@@ -48,6 +48,7 @@ impl Motion {
             releases_seen: 0,
             heartbeat: 1,
             period: 0.001,
+            clock: 0,
         };
         let mut control = FrameControl::new(machine);
         let out = control.update(&inputs);
@@ -69,6 +70,7 @@ impl Motion {
             let _ = self.control.switch(self.type_seen, &self.inputs);
         }
         self.inputs.heartbeat += u32::from(self.beating);
+        self.inputs.clock += (self.inputs.period * 1e9).round() as i64;
         self.out = self.control.update(&self.inputs);
     }
 

@@ -280,6 +280,13 @@ class Operator:
         process = next(int(word) for word in words[words.index("frame-guard") + 1:] if word.isdigit())
         os.kill(process, getattr(signal, f"SIG{name}"))
 
+    def task(self, name):
+        """Sends the task controller a signal; here it is the only one."""
+        for process in (folder for folder in os.listdir("/proc") if folder.isdigit()):
+            with open(f"/proc/{process}/comm", encoding="ascii", errors="replace") as file:
+                if file.read().strip() == "milltask":
+                    os.kill(int(process), getattr(signal, f"SIG{name}"))
+
     def expect(self, pin, value, timeout=5):
         """Waits until a pin reads as this text."""
         self.wait_for(f"{pin} = {value}", lambda: subprocess.run(
