@@ -5,6 +5,7 @@ import unittest
 import harness
 from test_gcode import QUICK
 from test_operation import OFF, ON, Case, clearing, programs
+from frame_offsets import Offsets  # the path is that of test_operation
 
 #: servo periods in which a frame is gone: behind an error, an abort, machine off; behind the end under a screen
 AT_ONCE, UNDER_A_SCREEN = 10, 50
@@ -113,18 +114,19 @@ class EndOfAFrame(Case):
     def test_a_program_that_starts_too_early_does_not_move(self):
         # the interpreter still has the position in the frame: its first move would go somewhere else
         steps = [["mdi", "G0 X0 Y7 Z3"], ["open", "PROGRAMS/part.ngc"], ["forget"]]
-        for _ in range(10):
-            steps += [["start", "PROGRAMS/part.ngc"], ON, ["wait_moving"], ["abort"], ["cycle_start"], ["sleep", 0.3],
-                      ["abort"], ["sleep", 0.1]]
+        for _ in range(3):
+            steps += [["start", "PROGRAMS/part.ngc"], ON, ["wait_place", 0, 15], ["guard", "STOP"], ["abort"], OFF,
+                      ["cycle_start"], ["sleep", 0.3], ["guard", "CONT"], ["sleep", 0.5], KNOWN, ["finish"]]
         result = watched([*steps, ["recall", "errors"], OFF],
                          {"part": "G1 X5\no<trans> call [10] [20] [0]\nG1 X1\nG1 X400 F600\nM2\n"})
         self.fine(result)
+        self.assertEqual(sum("start the program again" in text for text in result.answers["errors"]), 3)
         y = result.column("joint.1")
         y = y[next(n for n, place in enumerate(y) if abs(place - 7) < 1e-9):]
         self.assertLess(max(y) - min(y), 1e-9)
 
 
-class Offsets(Case):
+class WorkOffsets(Case):
     def test_one_that_is_set_while_a_frame_has_to_go_is_put_back(self):
         # without the net motion is never seen to stand, and the frame cannot go
         result = watched([
@@ -141,6 +143,36 @@ class Offsets(Case):
         self.at(result, "back", (18, 0, 0))
         self.at(result, "moved", (8, 0, 0))
         self.assertLess(at_switches(result), 1e-9)
+
+
+class Status:
+    """LinuxCNC's status as far as offsets are concerned."""
+
+    def __init__(self, **values):
+        self.g5x_index, self.rotation_xy, self.axis_mask, self.program_units = 1, 0.0, 0b111, 2
+        self.g5x_offset, self.g92_offset = (0.0,) * 9, (0.0,) * 9
+        self.__dict__.update(values)
+
+
+class PutBack(unittest.TestCase):
+    def test_another_offset_that_is_chosen_is_not_one_that_is_set(self):
+        before = Offsets(Status())
+        set_x = Status(g5x_offset=(5.0,) + (0.0,) * 8)
+        self.assertTrue(Offsets(set_x).was_set_since(before))
+        self.assertTrue(Offsets(Status(rotation_xy=1.0)).was_set_since(before))
+        self.assertFalse(Offsets(Status(g5x_index=2, g5x_offset=set_x.g5x_offset)).was_set_since(before))
+        self.assertFalse(Offsets(Status()).was_set_since(before))
+        self.assertTrue(Offsets(Status(g92_offset=set_x.g5x_offset)).was_shifted_since(before))
+        self.assertFalse(Offsets(set_x).was_shifted_since(before))
+
+    def test_the_command_is_in_the_units_of_the_program(self):
+        status = Status(g5x_index=3, g5x_offset=(25.4, -5.08, 0.0, 30.0, 7.0, -45.0, 0.0, 0.0, 0.0), rotation_xy=12.5,
+                        axis_mask=0b101111, program_units=1)
+        self.assertEqual(Offsets(status).command(status, 1.0), "G10 L2 P3 X1.000000000 Y-0.200000000 Z0.000000000 "
+                         "A30.000000000 C-45.000000000 R12.500000000")
+        # a machine in inches, a program in millimetres
+        status = Status(g5x_offset=(1.0,) + (0.0,) * 8)
+        self.assertTrue(Offsets(status).command(status, 1 / 25.4).startswith("G10 L2 P1 X25.400000000 "))
 
 
 class Dead(Case):
