@@ -110,7 +110,7 @@ fuzz: prerequisites
 	cd fuzz && $(FUZZ_BUILD) --release
 	for target in frames planner; do \
 	    mkdir -p fuzz/corpus/$$target fuzz/artifacts/$$target && \
-	    fuzz/target/$(FUZZ_HOST)/release/$$target -max_total_time=$(FUZZ_SECONDS) -timeout=60 -max_len=2000 \
+	    fuzz/target/$(FUZZ_HOST)/release/$$target -max_total_time=$(FUZZ_SECONDS) -timeout=60 -max_len=2000 -len_control=0 \
 	        -artifact_prefix=fuzz/artifacts/$$target/ fuzz/corpus/$$target || exit 1; \
 	done
 

@@ -333,5 +333,106 @@ mod tests {
                 prop_assert!(jerk[axis].abs() <= axes.jerk[axis] * near);
             }
         }
+
+        /// What is said of vectors that are not quite perpendicular: of a growing circle.
+        #[test]
+        fn spirals_keep_every_axis_within_its_limits_all_along(
+            (growth, to) in (prop_oneof![0.2..0.8f64, 1.2..4.0f64], 0.2..3.0f64),
+            (velocity, acceleration, jerk) in (20.0..2000.0f64, 200.0..2000.0f64, 2e3..2e5f64),
+        ) {
+            let start = Axes::from([10.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            let (x, y) = (10.0 * growth * to.cos(), 10.0 * growth * to.sin());
+            let end = Axes::from([x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            let circle = Circle { center: Vector3::zeros(), normal: Vector3::z(), turn: 0 };
+            let arc = Arc9::new(&start, &end, &circle).expect("an arc");
+            let axes = equal_limits(velocity, acceleration, jerk);
+            let extent = arc.extent(&MachineMap::IDENTITY);
+            let v = greatest_speed(&extent, &axes, 1e9);
+            for share in (0..=40).map(|i| f64::from(i) / 40.0) {
+                let point = arc.point(share * arc.length());
+                for speed in [v, 0.7 * v, 0.3 * v] {
+                    let a = acceleration_left(&extent, &axes, speed);
+                    let j = jerk_left(&extent, &axes, speed, 0.5 * a);
+                    for sign in [-1.0, 1.0] {
+                        let taken = point.first * (sign * a) + point.second * (speed * speed);
+                        prop_assert!(taken.fixed_rows::<2>(0).norm() <= acceleration * (1.0 + 1e-9));
+                        let change = point.first * (sign * j)
+                            + point.second * (1.5 * speed * a)
+                            + point.third * (speed * speed * speed);
+                        prop_assert!(j <= 0.0 || change.amax() <= jerk * (1.0 + 1e-9));
+                    }
+                }
+            }
+        }
+
+        /// The greatest x is the one at which the bound is met.
+        #[test]
+        fn what_is_left_is_used_up(
+            (turning, linear) in (0.0..2.0f64, 0.0..2.0f64),
+            (bound, across) in (0.1..100.0f64, 0.0..100.0f64),
+        ) {
+            prop_assume!(turning + linear > 0.01);
+            let x = along(turning, linear, bound, across);
+            if turning * across >= bound {
+                prop_assert_eq!(x, 0.0);
+            } else {
+                let met = turning * x.hypot(across) + linear * x;
+                prop_assert!((met - bound).abs() < 1e-9 * bound, "{} of {}", met, bound);
+            }
+        }
+    }
+
+    /// A circle of radius r, in closed form.
+    #[test]
+    fn a_circle_leaves_what_its_curvature_leaves() {
+        let r = 10.0;
+        let Shape::Arc(arc) = quarter(r) else {
+            panic!("no arc");
+        };
+        let extent = arc.extent(&MachineMap::IDENTITY);
+        let same = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * b, "{a} is not {b}");
+        let all = f64::INFINITY;
+        let speed = |v, a, j| greatest_speed(&extent, &equal_limits(v, a, j), 1e9);
+        same(speed(80.0, all, all), 80.0);
+        same(speed(all, 1000.0, all), 100.0);
+        same(speed(all, all, 80_000.0), 200.0);
+        let axes = equal_limits(all, 1000.0, 20_000.0);
+        let left = |v: f64| (1e6 - (v * v / r).powi(2)).sqrt();
+        same(acceleration_left(&extent, &axes, 40.0), left(40.0));
+        // Softer axes: then it is what the acceleration takes of the jerk, 3 v a / r.
+        let softer = equal_limits(all, 1000.0, 10_000.0);
+        same(
+            acceleration_left(&extent, &softer, 60.0),
+            10_000.0 * r / 180.0,
+        );
+        let (v, a) = (40.0, 300.0);
+        let across = 3.0 * v * a / r;
+        let backward = v * v * v / (r * r);
+        let along_the_path = (20_000f64.powi(2) - across * across).sqrt();
+        same(jerk_left(&extent, &axes, v, a), along_the_path - backward);
+    }
+
+    /// A helix whose height is 3/4 of its way in the plane: of each unit .8 and .6.
+    #[test]
+    fn what_moves_in_proportion_counts() {
+        let height = 0.75 * std::f64::consts::FRAC_PI_2 * 10.0;
+        let start = Axes::from([10.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let end = Axes::from([0.0, 10.0, height, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let circle = Circle {
+            center: Vector3::zeros(),
+            normal: Vector3::z(),
+            turn: 0,
+        };
+        let arc = Arc9::new(&start, &end, &circle).expect("an arc");
+        let extent = arc.extent(&MachineMap::IDENTITY);
+        let mut axes = equal_limits(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        axes.velocity[2] = 30.0;
+        axes.acceleration[2] = 300.0;
+        axes.jerk[2] = 6000.0;
+        let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * b, "{a} is not {b}");
+        near(greatest_speed(&extent, &axes, 1e9), 50.0);
+        near(acceleration_left(&extent, &axes, 10.0), 500.0);
+        // What runs on evenly does not go back with the third derivative in the plane.
+        near(jerk_left(&extent, &axes, 10.0, 100.0), 10_000.0);
     }
 }

@@ -5,7 +5,7 @@ use framepath::abi::planner::settings::framepath_planner_set_blending;
 use super::judge::{Kind, coordinates};
 use super::planner::{Calls, Target};
 
-/// The program takes a second and a half.
+/// The program takes a quarter of a second.
 const MOST_CYCLES: usize = 5_000;
 
 /// An abort takes at most so many servo periods with limits that make sense.
@@ -52,7 +52,7 @@ fn set_anew(calls: &mut Calls) {
 /// Runs a short program to its end.
 pub fn goes_on(calls: &mut Calls) {
     set_anew(calls);
-    let ends = [[10.0, 0.0], [10.0, 5.0], [-3.0, 2.0]].map(|[x, y]| {
+    let ends = [[2.0, 0.0], [2.0, 1.0], [-1.0, 0.5]].map(|[x, y]| {
         let mut end = [0.0; 9];
         (end[0], end[1]) = (x, y);
         end
