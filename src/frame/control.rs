@@ -160,7 +160,7 @@ impl FrameControl {
         let wanted = self.machine_with(&inputs.table);
         self.outputs.tool_centre_point = self.machine().tool_centre_point();
         self.outputs.parameters_pending = wanted != Ok(self.active.machine);
-        self.outputs.tool_offset = self.active.tool_offset;
+        self.outputs.tool_offset = shown(&self.active.tool_offset);
         let guard = self.heartbeat.guard();
         let framed = self.outputs.active;
         self.outputs.guard = guard;
@@ -353,7 +353,7 @@ impl FrameControl {
             source: self.active.source,
             frame: None,
             machine: self.machine_with(&inputs.table)?,
-            tool_offset: shown(&inputs.tool_offset),
+            tool_offset: inputs.tool_offset,
         })
     }
 
@@ -378,7 +378,7 @@ impl FrameControl {
             source,
             frame,
             machine,
-            tool_offset: shown(&inputs.tool_offset),
+            tool_offset: inputs.tool_offset,
         })
     }
 }
