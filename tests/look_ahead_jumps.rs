@@ -4,7 +4,7 @@ mod look_ahead_routes;
 
 use framepath::axes::Axes;
 use framepath::path::PathPoint;
-use framepath::speed::look_ahead::{Piece, Route, SpeedCap, Vertex};
+use framepath::speed::look_ahead::{MOST_BREAKPOINTS, Piece, Route, SpeedCap, Vertex};
 use look_ahead_routes::run::{check_continuity, limits, offline, planner};
 
 /// The third derivative of Y between the vertices, per square millimetre.
@@ -82,6 +82,14 @@ impl Route for Cubics {
     }
     fn greatest_reach(&self) -> f64 {
         1.2
+    }
+    fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
+        let inside = Self::vertices().filter(|place| from < *place && *place < to);
+        places
+            .iter_mut()
+            .zip(inside)
+            .map(|(place, vertex)| *place = vertex)
+            .count()
     }
 }
 

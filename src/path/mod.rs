@@ -11,7 +11,9 @@ pub mod measure;
 pub use arc::{Arc9, ArcExtent, Circle};
 pub use line::Line9;
 
-use crate::axes::Axes;
+use nalgebra::ArrayStorage;
+
+use crate::axes::{AXIS_COUNT, Axes};
 
 /// Why a shape cannot be made of what the program gave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +30,8 @@ pub enum ShapeError {
     TooManyTurns,
 }
 
+const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
+
 /// A point of a shape.
 #[derive(Clone, Copy, Debug)]
 pub struct PathPoint {
@@ -42,6 +46,14 @@ pub struct PathPoint {
 }
 
 impl PathPoint {
+    /// At the origin, without a direction.
+    pub const ZERO: Self = Self {
+        position: ORIGIN,
+        first: ORIGIN,
+        second: ORIGIN,
+        third: ORIGIN,
+    };
+
     /// The same place of the path, run through in the other direction.
     pub fn backwards(self) -> Self {
         Self {

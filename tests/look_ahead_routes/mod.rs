@@ -5,7 +5,7 @@ pub mod run;
 
 use framepath::axes::Axes;
 use framepath::path::PathPoint;
-use framepath::speed::look_ahead::{Route, SpeedCap, Vertex};
+use framepath::speed::look_ahead::{MOST_BREAKPOINTS, Route, SpeedCap, Vertex};
 
 /// A polyline in XYZ whose corners are blended by the kernel 15/16 (1 - x^2)^2.
 #[derive(Clone, Debug)]
@@ -220,6 +220,19 @@ impl Route for Polyline {
     fn greatest_reach(&self) -> f64 {
         self.greatest_reach
     }
+
+    fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
+        let edges = (1..self.legs()).flat_map(|i| {
+            let (center, reach) = (self.positions[i], self.reaches[i]);
+            [center - reach, center + reach]
+        });
+        let inside = edges.filter(|place| from < *place && *place < to);
+        places
+            .iter_mut()
+            .zip(inside)
+            .map(|(place, edge)| *place = edge)
+            .count()
+    }
 }
 
 /// A curve in closed form, known as a whole.
@@ -254,6 +267,9 @@ impl<F: Fn(f64) -> PathPoint> Route for Curve<F> {
     }
     fn greatest_reach(&self) -> f64 {
         0.0
+    }
+    fn breakpoints(&self, _: f64, _: f64, _: &mut [f64; MOST_BREAKPOINTS]) -> usize {
+        0
     }
 }
 

@@ -190,3 +190,68 @@ pub fn any_limits() -> impl Strategy<Value = AxisLimits> {
         jerk: Axes::from(j) * jerk,
     })
 }
+
+/// Lines in XYZ at one feed with corners of all kinds between them, and other moves now and then.
+pub fn any_corners() -> impl Strategy<Value = Vec<Programmed>> {
+    let p = prop_oneof![
+        3 => Just(None),
+        1 => (-5.0..0.0f64).prop_map(|x| Some(TerminationCondition::Continuous { tolerance: x.exp() })),
+    ];
+    let direction = prop::array::uniform3(-1.0..1.0f64);
+    let line = (direction, 1usize..8, -1.5..2.0f64, p).prop_map(|(direction, mask, size, mode)| {
+        let is_moved = |axis: usize| axis < 3 && mask >> axis & 1 == 1;
+        let displacement = Axes::from_fn(|axis, _| {
+            if is_moved(axis) {
+                direction[axis] * size.exp()
+            } else {
+                0.0
+            }
+        });
+        Programmed {
+            mode,
+            ..Programmed::feed(Shape::Line(displacement), 200.0)
+        }
+    });
+    let other = any_move().prop_map(|other| Programmed {
+        mode: None,
+        wait_for_spindle: false,
+        ..other
+    });
+    prop::collection::vec(prop_oneof![4 => line, 1 => other], 3..25)
+}
+
+/// Limits that each axis has for itself over three decades, one of them without a limit of jerk now and
+/// then; and machines with one axis 5 to 30 times softer than the others.
+pub fn any_unequal_limits() -> impl Strategy<Value = AxisLimits> {
+    let decades = || prop::array::uniform9((0.0..3.0f64).prop_map(|x| 10f64.powf(x)));
+    let free = prop_oneof![2 => Just(None), 1 => (0usize..4).prop_map(Some)];
+    let mixed = (decades(), decades(), decades(), free).prop_map(|(v, a, j, free)| {
+        let acceleration = Axes::from(a) * 5.0;
+        let mut jerk = (Axes::from(j) * 200.0).inf(&(acceleration * GREATEST_JERK_RATE));
+        if let Some(axis) = free {
+            jerk[axis] = f64::INFINITY;
+        }
+        AxisLimits {
+            velocity: Axes::from(v),
+            acceleration,
+            jerk,
+        }
+    });
+    let soft = (3.7..5.7f64, 0usize..3, 5.0..30.0f64, any::<bool>());
+    let one_soft = soft.prop_map(|(jerk, axis, times, all)| {
+        let mut limits = AxisLimits {
+            velocity: Axes::repeat(200.0),
+            acceleration: Axes::repeat(2000.0),
+            jerk: Axes::repeat(10f64.powf(jerk)),
+        };
+        limits.jerk[axis] /= times;
+        if all {
+            limits.acceleration[axis] /= times;
+        }
+        limits
+    });
+    prop_oneof![mixed, one_soft]
+}
+
+/// Jerk over acceleration, per second: more cannot be seen in positions once a period.
+const GREATEST_JERK_RATE: f64 = 250.0;

@@ -1,6 +1,6 @@
 //! Runs a program while an operator acts, and judges every cycle of it.
 
-use framepath::axes::{Axes, AxisLimits};
+use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::moves::TerminationCondition;
 use framepath::path::{self, Circle, ShapeError};
 use framepath::planner::{Added, MoveRequest};
@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 use super::{Event, Programmed, Shape};
 use crate::planner_common::path_check::{self, Place, Wanted};
-use crate::planner_common::{Extremes, Machine, feed_move};
+use crate::planner_common::{Extremes, Machine, PERIOD, feed_move};
 
 /// Queues a move relative to where the last one ends.
 fn queue(
@@ -20,7 +20,7 @@ fn queue(
 ) -> Added {
     let request = MoveRequest {
         motion_type: programmed.motion_type,
-        max_velocity: 250.0,
+        max_velocity: GREATEST_SPEED,
         enables: programmed.enables,
         wait_for_spindle: programmed.wait_for_spindle,
         ..feed_move(programmed.feed)
@@ -88,21 +88,31 @@ struct Supplied {
     wait_for_spindle: bool,
 }
 
-/// A move that came less than so many cycles before may have come too late: it takes the slowest of
-/// the machines that long to brake.
-const LATE: usize = 1000;
+/// No move is faster.
+const GREATEST_SPEED: f64 = 250.0;
+
+/// A move that came less than so many cycles before may have come too late: it takes the machine that
+/// long to brake, 1000 at least.
+fn late(limits: &AxisLimits) -> usize {
+    let longest = (0..AXIS_COUNT).fold(0.0, |longest: f64, axis| {
+        let (a, j) = (limits.acceleration[axis], limits.jerk[axis]);
+        let v = limits.velocity[axis].min(GREATEST_SPEED);
+        longest.max((v / a + a / j).max(2.0 * (v / j).sqrt()))
+    });
+    (1.2 * longest / PERIOD).max(1000.0) as usize
+}
 
 /// After so many cycles without a move the planner may take the one before for the last.
 const SILENCE: usize = 8;
 
 /// Whether the program or the supply of moves explains that the machine came to rest before or on the
 /// move `next`.
-fn explains_rest(supplied: &[Supplied], next: i32, cycle: usize) -> bool {
+fn explains_rest(supplied: &[Supplied], next: i32, cycle: usize, late: usize) -> bool {
     let of = |id: i32| supplied.get(usize::try_from(id - 1).ok()?);
     let late = [next, next + 1]
         .into_iter()
         .filter_map(of)
-        .any(|supplied| cycle < supplied.cycle + LATE);
+        .any(|supplied| cycle < supplied.cycle + late);
     let silence = of(next - 1)
         .zip(of(next))
         .is_some_and(|(before, next)| next.cycle >= before.cycle + SILENCE);
@@ -124,6 +134,7 @@ pub fn run(
     supply: usize,
 ) -> Result<(Extremes, usize), TestCaseError> {
     let mut machine = Machine::new(limits);
+    let late = late(&limits);
     machine.planner.set_velocity_limit(1e3);
     machine
         .planner
@@ -212,7 +223,7 @@ pub fn run(
         stepped |= machine.inputs.stepping;
         if moved && standing && !status.done && !aborting && !stepped {
             prop_assert!(
-                explains_rest(&supplied, status.exec_id, cycle),
+                explains_rest(&supplied, status.exec_id, cycle, late),
                 "comes to rest at {} in cycle {cycle} for no reason",
                 status.exec_id
             );

@@ -250,6 +250,32 @@ impl BlendedPath {
         point
     }
 
+    /// The places behind `from` and before `to` where the third derivative or its slope may jump, as many
+    /// as there is room for; answers how many.
+    pub fn breakpoints(&self, from: f64, to: f64, places: &mut [f64]) -> usize {
+        if self.chain.is_empty() {
+            return 0;
+        }
+        let (start, end) = (self.chain.locate(from), self.chain.locate(to));
+        let left = u64::from(self.chain.leg(start).reached_from_left);
+        let right = u64::from(self.chain.leg(end).reached_from_right);
+        let first = start.saturating_add(1).saturating_sub(left);
+        let mut room = places.iter_mut();
+        let mut count = 0;
+        for number in first..=end.saturating_add(right) {
+            for place in self.chain.vertex(number).breakpoints() {
+                if from < place
+                    && place < to
+                    && let Some(free) = room.next()
+                {
+                    *free = place;
+                    count += 1;
+                }
+            }
+        }
+        count
+    }
+
     /// The leg at `s`, the later one where two meet; `None` if there is none at all.
     pub fn leg(&self, s: f64) -> Option<LegView> {
         (!self.chain.is_empty()).then(|| self.leg_view(self.chain.locate(s)))

@@ -55,5 +55,4 @@ pub use chooser::GREATEST_EXCESS;
 pub use error::BlendError;
 pub use leg::ProgrammedMove;
 pub use settings::BlendSettings;
-pub(crate) use vertex::CORE;
 pub use views::{LegView, Progress, VertexView};

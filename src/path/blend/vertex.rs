@@ -39,7 +39,7 @@ const WIDEST_EASEMENT: f64 = 64.0;
 const ISOLATED: f64 = 0.5;
 
 /// Below this share of the wider change the sharper one wants nodes of its own.
-pub(crate) const CORE: f64 = 0.9;
+const CORE: f64 = 0.9;
 
 /// How far a vertex is smoothed to both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -412,6 +412,26 @@ impl Vertex {
     /// The factor that belongs to them.
     pub fn stored_factor(&self) -> f64 {
         self.stored_factor
+    }
+
+    /// Where the third derivative of the path or its slope may jump.
+    pub fn breakpoints(&self) -> impl Iterator<Item = f64> {
+        let Widths {
+            kernel, easement, ..
+        } = self.stored;
+        // The kernel itself has no edge in the middle.
+        let curving = easement > 0.0 || self.jump_size > NO_JUMP;
+        let places = [
+            (self.s - kernel, kernel > 0.0),
+            (self.s - easement, easement > 0.0),
+            (self.s, curving),
+            (self.s + easement, easement > 0.0),
+            (self.s + kernel, kernel > 0.0),
+        ];
+        places
+            .into_iter()
+            .filter(|(_, is_there)| *is_there)
+            .map(|(place, _)| place)
     }
 
     /// Adds what it contributes in force to a point of the path, at a signed `distance` from it; -0

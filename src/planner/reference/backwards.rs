@@ -6,7 +6,7 @@ use crate::axes::Axes;
 use crate::moves::{MotionType, MoveQueue};
 use crate::path::PathPoint;
 use crate::path::blend::{BlendedPath, LegView, VertexView};
-use crate::speed::look_ahead::{Route, SpeedCap, Vertex};
+use crate::speed::look_ahead::{MOST_BREAKPOINTS, Route, SpeedCap, Vertex};
 
 impl Reference {
     /// Whether the machine goes back along the path.
@@ -90,6 +90,14 @@ impl Route for Backwards<'_> {
 
     fn greatest_reach(&self) -> f64 {
         self.path.greatest_reach()
+    }
+
+    fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
+        let count = self.path.breakpoints(-to, -from, places);
+        for place in places {
+            *place = -*place;
+        }
+        count
     }
 }
 

@@ -8,7 +8,9 @@ use crate::axes::Axes;
 use crate::moves::MoveQueue;
 use crate::path::PathPoint;
 use crate::path::blend::{BlendedPath, VertexView};
-use crate::speed::look_ahead::{LookAhead, Piece, Progress, Refusal, Route, SpeedCap, Vertex};
+use crate::speed::look_ahead::{
+    LookAhead, MOST_BREAKPOINTS, Piece, Progress, Refusal, Route, SpeedCap, Vertex,
+};
 
 /// Vertices that are looked at in a cycle, in search of the end of the run.
 const VERTICES_A_CYCLE: usize = 64;
@@ -273,6 +275,10 @@ impl Route for PathRoute<'_> {
 
     fn greatest_reach(&self) -> f64 {
         self.path.greatest_reach()
+    }
+
+    fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
+        self.path.breakpoints(from, to, places)
     }
 }
 

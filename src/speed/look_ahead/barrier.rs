@@ -7,6 +7,7 @@
 //! barrier's second derivatives indefinite, so that one term of them is left out.
 
 use super::interval::Parabola;
+use super::interval_samples::{Departure, IntervalSamples};
 use super::quads::{LANES, QUADS, Quad};
 use super::rows::{AxisRows, Sample, THIRD};
 
@@ -50,7 +51,7 @@ impl Barrier {
         &self,
         rows: &AxisRows,
         parabola: &Parabola,
-        samples: [&Sample; 3],
+        interval: &IntervalSamples,
         lengths: [f64; 3],
     ) -> Derivatives {
         let h = parabola.length;
@@ -58,7 +59,7 @@ impl Barrier {
         let weight = self.weight * h / b_middle.sqrt();
         let mut sum = Local::default();
         let places = [(0.0, 0.25, 1.0), (0.5, 0.5, 4.0), (1.0, 0.25, 1.0)];
-        for ((share, part, simpson), sample) in places.into_iter().zip(samples) {
+        for ((share, part, simpson), sample) in places.into_iter().zip(interval.places()) {
             let x = share * h;
             let (b, a) = parabola.at(x);
             let place = Place {
@@ -69,7 +70,14 @@ impl Barrier {
                 root: b.sqrt(),
             };
             let mut local = place.duration(h * (simpson / 6.0));
-            self.add_limits(&mut local, rows, &place, sample, weight * part);
+            self.add_limits(
+                &mut local,
+                rows,
+                &place,
+                sample,
+                &interval.departure,
+                weight * part,
+            );
             sum.add_at(&local, x);
         }
         sum.by_coefficients(lengths)
@@ -82,20 +90,25 @@ impl Barrier {
         rows: &AxisRows,
         place: &Place,
         sample: &Sample,
+        departure: &Departure,
         weight: f64,
     ) {
         let Place {
             b, a, u, inverse, ..
         } = *place;
-        let left = sample.cap(self.raise_squared) - b;
+        let left = sample.cap.raised(self.raise_squared) - b;
         if left > 0.0 {
             let inverse = 1.0 / left;
             sum.b += weight * inverse;
             sum.bb += weight * inverse * inverse;
         }
         // The bound of the jerk rows and its derivative by b.
-        let bound = self.margin * place.root * inverse;
-        let bound_slope = -0.5 * bound * inverse;
+        let third = f64::from(departure.third);
+        let whole = self.margin * place.root * inverse;
+        let bound = whole - third * b;
+        let bound_slope = -0.5 * whole * inverse - third;
+        // The departure takes so little of the acceleration that how it changes with b does not matter.
+        let margin = self.margin - f64::from(departure.second) * b;
         let mut limits = Limits::default();
         let mut lanes = 0;
         for quad in (0..QUADS).filter(|quad| sample.axes.in_quad(*quad)) {
@@ -103,12 +116,12 @@ impl Barrier {
             limits.add(
                 sample.quads.map(|quads| quads[quad]),
                 &rows.jerk_time_quads[quad],
-                [b, a, u, bound, bound_slope, self.margin].map(|value| value as f32),
+                [b, a, u, bound, bound_slope, margin].map(|value| value as f32),
             );
         }
         // Axes that stand still have no row, but the bound of one.
         let still = f64::from(lanes as u32 - sample.axes.count());
-        let jump = 2.0 * place.root / self.margin;
+        let jump = 2.0 / bound;
         let jumps = total(limits.jumps) - still * jump;
         let even = total(limits.even) - still * 0.5 * jump * jump;
         sum.u += weight * total(limits.u);
@@ -275,7 +288,7 @@ mod tests {
     use super::*;
     use crate::axes::{Axes, AxisLimits, MachineMap};
     use crate::path::PathPoint;
-    use crate::speed::look_ahead::{Route, SpeedCap, Vertex};
+    use crate::speed::look_ahead::{MOST_BREAKPOINTS, Route, SpeedCap, Vertex};
 
     /// A curve whose derivatives are all different from 0.
     struct Bend;
@@ -311,22 +324,25 @@ mod tests {
         fn greatest_reach(&self) -> f64 {
             0.0
         }
+        fn breakpoints(&self, _: f64, _: f64, _: &mut [f64; MOST_BREAKPOINTS]) -> usize {
+            0
+        }
     }
 
     /// What the derivatives are meant to be of, with the weight of the barrier given.
-    fn value(rows: &AxisRows, parabola: &Parabola, samples: [&Sample; 3], weight: f64) -> f64 {
+    fn value(rows: &AxisRows, parabola: &Parabola, interval: &IntervalSamples, weight: f64) -> f64 {
         let h = parabola.length;
         let places = [(0.0, 0.25, 1.0), (0.5, 0.5, 4.0), (1.0, 0.25, 1.0)];
         let mut sum = 0.0;
-        for ((share, part, simpson), sample) in places.into_iter().zip(samples) {
+        for ((share, part, simpson), sample) in places.into_iter().zip(interval.places()) {
             let (b, a) = parabola.at(share * h);
             sum += h * simpson / 6.0 / b.sqrt();
-            let mut logarithms = (sample.cap(1.0) - b).ln();
+            let mut logarithms = (sample.cap.raised(1.0) - b).ln();
             for axis in 0..3 {
                 let u = parabola.u;
                 let [first, second, third] = [sample.first, sample.second, sample.third];
                 let jerk = first[axis] * u + second[axis] * a + third[axis] * b;
-                let bound = 0.98 / b.sqrt();
+                let bound = 0.98 / b.sqrt() - f64::from(interval.departure.third) * b;
                 logarithms += (bound - jerk).ln() + (bound + jerk).ln();
                 let acceleration =
                     (first[axis] * a + second[axis] * b / 3.0) * rows.jerk_time()[axis];
@@ -345,18 +361,28 @@ mod tests {
             jerk: Axes::repeat(20_000.0),
         };
         let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
-        let samples = [0.0, 0.2, 0.4].map(|s| rows.sample(&Bend, s, 0.0));
-        let samples = samples.each_ref();
+        let [start, middle, end] = [0.0, 0.2, 0.4].map(|s| rows.sample(&Bend, s, 0.0));
+        let departure = Departure {
+            second: 0.0,
+            third: 2e-6,
+        };
+        let interval = IntervalSamples {
+            quarters: [middle.cap; 2],
+            start,
+            middle,
+            end,
+            departure,
+        };
         let lengths = [0.3, 0.4, 0.5];
         let coefficients = [900.0, 1050.0, 1100.0];
         let parabola = Parabola::of_coefficients(lengths, coefficients);
-        assert!(rows.keeps(&parabola, samples, 1.0, 0.98));
+        assert!(rows.keeps(&parabola, &interval, 1.0, 0.98));
         let barrier = Barrier {
             weight: 0.1,
             margin: 0.98,
             raise_squared: 1.0,
         };
-        let derivatives = barrier.derivatives(&rows, &parabola, samples, lengths);
+        let derivatives = barrier.derivatives(&rows, &parabola, &interval, lengths);
         let (middle, _) = parabola.at(0.2);
         let weight = 0.1 * 0.4 / middle.sqrt();
         for i in 0..3 {
@@ -364,7 +390,7 @@ mod tests {
                 let mut moved = coefficients;
                 moved[i] += step;
                 let parabola = Parabola::of_coefficients(lengths, moved);
-                value(&rows, &parabola, samples, weight)
+                value(&rows, &parabola, &interval, weight)
             };
             let difference = (at(1e-3) - at(-1e-3)) / 2e-3;
             let gradient = derivatives.gradient[i];

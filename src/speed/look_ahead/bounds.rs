@@ -3,7 +3,8 @@
 //! The jerk of an axis has three terms, `q' j`, `3 q'' v a` and `q''' v^3`. Each is given a share
 //! of J in advance, so that speed, acceleration and jerk along the path are limited one by one.
 
-use super::rows::{AxisRows, MovingAxes, Sample};
+use super::interval_samples::IntervalSamples;
+use super::rows::{AxisRows, MovingAxes};
 use crate::axes::AXIS_COUNT;
 use crate::cube_root::cube_root;
 
@@ -80,13 +81,18 @@ impl Bounds {
         jerk_fall: 0.0,
     };
 
-    /// Of an interval with these samples at start, middle and end.
-    pub fn of(rows: &AxisRows, samples: [&Sample; 3], raise_squared: f64, shares: &Shares) -> Self {
+    /// Of an interval with these samples.
+    pub fn of(
+        rows: &AxisRows,
+        interval: &IntervalSamples,
+        raise_squared: f64,
+        shares: &Shares,
+    ) -> Self {
         let margin = shares.margin;
-        let mut cap = Self::NONE.cap;
-        for sample in samples {
-            cap = cap.min(CAP_SHARE * sample.cap(raise_squared));
-        }
+        let mut cap = (CAP_SHARE * interval.least_cap(raise_squared)).min(Self::NONE.cap);
+        let samples = interval.places();
+        let [departure_second, departure_third] =
+            [interval.departure.second, interval.departure.third].map(f64::from);
         let moving = MovingAxes::at_any(samples);
         let times = rows.jerk_time();
         let [start, middle, end] = samples;
@@ -114,7 +120,8 @@ impl Bounds {
             twist = f64::max(twist, third);
             steepest = f64::max(steepest, second);
         }
-        curve /= 3.0;
+        curve = curve / 3.0 + departure_second;
+        twist += departure_third;
         if curve * cap > shares.curve {
             cap = shares.curve / curve;
         }
@@ -128,7 +135,7 @@ impl Bounds {
             (Self::NONE.acceleration, Self::NONE.acceleration);
         for bounds in axes.iter().take(count) {
             let slope = bounds.first * bounds.time;
-            let left = margin - bounds.second * bounds.time / 3.0 * cap;
+            let left = margin - (bounds.second * bounds.time / 3.0 + departure_second) * cap;
             if acceleration * slope > left {
                 acceleration = left / slope;
             }
@@ -139,7 +146,7 @@ impl Bounds {
         let (mut jerk, mut jerk_at_rest) = (Self::NONE.jerk, Self::NONE.jerk);
         for bounds in axes.iter().take(count) {
             let across = (bounds.second * acceleration * v).min(shares.across);
-            let left = margin - bounds.third * cap * v - across;
+            let left = margin - (bounds.third + departure_third) * cap * v - across;
             if jerk * bounds.first > left {
                 jerk = left / bounds.first;
             }

@@ -161,7 +161,7 @@ impl<R: Route> Look<'_, R> {
 
     fn evaluate(&self, s: f64) -> Place {
         let sample = self.rows.sample(self.route, s, 0.0);
-        let cap_speed = sample.cap(self.raise_squared).sqrt();
+        let cap_speed = sample.cap.raised(self.raise_squared).sqrt();
         Place {
             s,
             cap_speed,

@@ -7,19 +7,12 @@ use super::feature::{Feature, Look, Place, TWIST_AT};
 use super::grid::GROWTH;
 use super::route::{Route, Vertex};
 use super::rows::AxisRows;
-use crate::path::blend::CORE;
 
 /// A power of two, so that a masked index is in range for the compiler too.
 const SLOTS: usize = 256;
 
 /// No interval is made shorter than this share of the spacing there, for the sake of a jump.
 const NEAREST_NODE: f64 = 1e-3;
-
-/// How near to the ends of an interval an edge does not matter, share of the length.
-const EDGE: f64 = 0.15;
-
-/// The share of the reach of a change of shape within which its core is of about the same size.
-const RIM: f64 = 1.0 - CORE;
 
 /// Features in the order of the path, around the place where the grid is being made.
 ///
@@ -330,28 +323,20 @@ impl Features {
         best.into_iter().chain(rise).reduce(f64::min)
     }
 
-    /// Whether a change of shape begins or ends well inside of an interval, or its core may, of which
-    /// nothing is said where it is of about the same size.
-    pub fn has_edge(&self, s: f64, length: f64) -> bool {
-        let (start, end) = (s + EDGE * length, s + (1.0 - EDGE) * length);
-        let inside = |edge: f64, center: f64| {
-            let core = edge + RIM * (center - edge);
-            edge.min(core) < end && edge.max(core) > start
-        };
-        self.behind(s - self.behind)
-            .take_while(|feature| feature.center - self.before < s + length)
-            .filter(|feature| feature.speed > 0.0)
-            .any(|feature| {
-                inside(feature.start, feature.center) || inside(feature.end, feature.center)
-            })
-    }
-
     /// A change of the speed cap that two intervals of a `length` from `s` on would not quite come
     /// to.
     pub fn cap_change(&self, s: f64, length: f64) -> Option<f64> {
         self.behind(s + length)
             .take_while(|feature| feature.center - s < 2.0 * length)
             .find(|feature| feature.wants_node() && feature.center - s >= 1.3 * length)
+            .map(|feature| feature.center)
+    }
+
+    /// The changes of the speed cap between two places.
+    pub fn cap_changes(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+        self.behind(from)
+            .map_while(move |feature| (feature.center < to).then_some(feature))
+            .filter(|feature| feature.cap_changes)
             .map(|feature| feature.center)
     }
 

@@ -5,10 +5,12 @@
 
 use super::feature::before;
 use super::features::Features;
+use super::interval_samples::IntervalSamples;
 use super::rest_arc::RestArc;
 use super::route::Route;
-use super::rows::{AxisRows, IntervalSamples, Sample};
+use super::rows::{AxisRows, Sample};
 use super::spline::{CAPACITY, Interval, SampleBanks, Spline};
+use crate::path::PathPoint;
 
 /// How much the spacing grows with the distance from what asked for a small one. Also the spacing
 /// beside a rest over the length of its arc.
@@ -43,6 +45,8 @@ pub(super) struct Grid {
     k: usize,
     end: f64,
     end_spacing: f64,
+    /// The path where the next interval starts.
+    point: PathPoint,
 }
 
 impl Grid {
@@ -52,6 +56,7 @@ impl Grid {
             k: 0,
             end: 0.0,
             end_spacing: 0.0,
+            point: PathPoint::ZERO,
         }
     }
 
@@ -67,6 +72,7 @@ impl Grid {
         self.end = draft.end - length;
         self.end_spacing = GROWTH * length;
         let start = draft.at(cut).start;
+        self.point = route.point(start);
         let back = route.greatest_reach() * 1.01 + 1e-9 * start.abs();
         self.features.restart(start - back, raise_squared);
     }
@@ -98,7 +104,7 @@ impl Grid {
         }
         let s = draft.at(k).start;
         let left = *samples.start(draft, k);
-        let free = FREE_TIME * left.cap(raise_squared).sqrt();
+        let free = FREE_TIME * left.cap.raised(raise_squared).sqrt();
         let window = free / GROWTH + route.greatest_reach();
         if !self.features.covers(s + window) {
             self.features.take_next(rows, route, raise_squared);
@@ -114,7 +120,7 @@ impl Grid {
         }
         let (length, end, middle, right) =
             self.resolve(s, length, end, &left, rows, route, raise_squared);
-        if !(middle.is_sound() && right.is_sound()) {
+        if !(middle.sample.is_sound() && right.sample.is_sound()) {
             return GridStep::Unsound;
         }
 
@@ -127,18 +133,22 @@ impl Grid {
             ..Interval::NONE
         };
         let samples_here = samples.place_mut(draft, k);
-        samples_here.middle = middle;
-        samples_here.end = right;
-        let between = self
-            .features
-            .has_edge(s, length)
-            .then(|| [0.25, 0.75].map(|share| rows.curving(route, s + share * length)));
-        samples_here.cover(rows, raise_squared, between);
+        samples_here.middle = middle.sample;
+        samples_here.end = right.sample;
+        let points = [&self.point, &middle.point, &right.point];
+        samples_here.look_between(rows, route, s, length, points);
+        // Those that lie too near to another node to have one of their own.
+        for place in self.features.cap_changes(s, end) {
+            let cap = rows.sample(route, place, 0.0).cap;
+            samples_here.cap_beside((place - s) / length, &cap);
+        }
         let right = if self.features.is_on_vertex(end) {
-            rows.sample(route, end, length)
+            Seen::at(end, length, rows, route)
         } else {
             right
         };
+        self.point = right.point;
+        let right = right.sample;
         *draft.at_mut(k + 1) = Interval {
             start: end,
             length,
@@ -148,8 +158,7 @@ impl Grid {
         };
         *samples.place_mut(draft, k + 1) = IntervalSamples {
             start: right,
-            middle: right,
-            end: right,
+            ..IntervalSamples::NONE
         };
         if end >= self.end {
             draft.last = k;
@@ -195,17 +204,17 @@ impl Grid {
     }
 
     /// The rows at the end of an interval, as they are inside of it.
-    fn sample_end<R: Route>(&self, end: f64, length: f64, rows: &AxisRows, route: &R) -> Sample {
+    fn look_at_end<R: Route>(&self, end: f64, length: f64, rows: &AxisRows, route: &R) -> Seen {
         let place = if self.features.is_on_vertex(end) {
             before(end)
         } else {
             end
         };
-        rows.sample(route, place, length)
+        Seen::at(place, length, rows, route)
     }
 
     /// Shortens an interval at most three times while the third derivative of the path is not
-    /// resolved at the speed to be expected. Returns length, end and the samples at middle and end.
+    /// resolved at the speed to be expected. Returns length, end and what middle and end look like.
     #[allow(
         clippy::too_many_arguments,
         reason = "a struct for one call would hide what is changed"
@@ -219,21 +228,21 @@ impl Grid {
         rows: &AxisRows,
         route: &R,
         raise_squared: f64,
-    ) -> (f64, f64, Sample, Sample) {
+    ) -> (f64, f64, Seen, Seen) {
         let (mut speed, mut finest) = (0.0, f64::INFINITY);
         if let Some(spacing) = self.features.finest(s, end) {
             finest = spacing;
             let acceleration = rows.acceleration_from_rest(left);
-            let (center, cap) = (s + 0.5 * length, left.cap(raise_squared));
+            let (center, cap) = (s + 0.5 * length, left.cap.raised(raise_squared));
             let features = &self.features;
             let most = features.greatest_speed_squared(center, acceleration, cap);
             speed = 1.2 * most.sqrt();
         }
         let cubed = speed * speed * speed;
-        let mut middle = rows.sample(route, s + 0.5 * length, length);
-        let mut right = self.sample_end(end, length, rows, route);
+        let mut middle = Seen::at(s + 0.5 * length, length, rows, route);
+        let mut right = self.look_at_end(end, length, rows, route);
         for _ in 0..3 {
-            let bulge = middle.third - (left.third + right.third) * 0.5;
+            let bulge = middle.sample.third - (left.third + right.sample.third) * 0.5;
             let error = bulge.amax() * cubed;
             if error <= THIRD_DERIVATIVE_ERROR || length <= 0.4 * finest {
                 break;
@@ -244,10 +253,24 @@ impl Grid {
                 0.7
             };
             end = s + length;
-            middle = rows.sample(route, s + 0.5 * length, length);
-            right = self.sample_end(end, length, rows, route);
+            middle = Seen::at(s + 0.5 * length, length, rows, route);
+            right = self.look_at_end(end, length, rows, route);
         }
         (length, end, middle, right)
+    }
+}
+
+/// A place of the path and the rows there.
+struct Seen {
+    point: PathPoint,
+    sample: Sample,
+}
+
+impl Seen {
+    fn at<R: Route>(s: f64, length: f64, rows: &AxisRows, route: &R) -> Self {
+        let point = route.point(s);
+        let sample = rows.sample_of(route, s, &point, length);
+        Self { point, sample }
     }
 }
 

@@ -24,6 +24,7 @@ mod features;
 mod grid;
 mod hull;
 mod interval;
+mod interval_samples;
 #[allow(clippy::module_inception, reason = "the type that the folder is about")]
 mod look_ahead;
 mod newton;
@@ -41,4 +42,4 @@ mod sweeps;
 pub use look_ahead::{LookAhead, Progress};
 pub use piece::Piece;
 pub use refusal::Refusal;
-pub use route::{Route, SpeedCap, Vertex};
+pub use route::{MOST_BREAKPOINTS, Route, SpeedCap, Vertex};

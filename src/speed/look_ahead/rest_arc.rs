@@ -134,7 +134,7 @@ impl RestArcSearch {
             arc: RestArc { length, jerk },
             place,
             direction,
-            cap: rest.cap(raise_squared),
+            cap: rest.cap.raised(raise_squared),
             attempt: if sound { 0 } else { MOST_TRIES },
         }
     }

@@ -3,6 +3,9 @@
 use crate::axes::Axes;
 use crate::path::PathPoint;
 
+/// Room for places where the third derivative of the path may jump in an interval.
+pub const MOST_BREAKPOINTS: usize = 16;
+
 /// How fast the program lets a place of the path be run, as ds/dt. Positive, may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedCap {
@@ -52,4 +55,8 @@ pub trait Route {
 
     /// The greatest reach of all vertices.
     fn greatest_reach(&self) -> f64;
+
+    /// The places behind `from` and before `to` where the third derivative of the path or its slope
+    /// may jump, as many as there is room for; answers how many.
+    fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize;
 }

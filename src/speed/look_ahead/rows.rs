@@ -9,10 +9,12 @@
 use nalgebra::ArrayStorage;
 
 use super::interval::Parabola;
-use super::quads::{LANES, QUADS, Quads, ZEROS, quads};
+use super::interval_samples::IntervalSamples;
+use super::quads::{LANES, QUADS, Quad, Quads, ZEROS, quads};
 use super::route::{Route, SpeedCap};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
 use crate::cube_root::cube_root;
+use crate::path::PathPoint;
 
 const ZERO: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
 const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
@@ -26,14 +28,12 @@ const ACCELERATION_BETWEEN: f32 = 1e-3;
 /// .. and the jerk by this one: what is seen of it once a servo period is a mean.
 const JERK_BETWEEN: f32 = 0.03;
 
-/// Of the second difference of three places, how far what is smooth may exceed them in between.
-const SMOOTH_SHARE: f64 = 0.125;
+/// Where the jerk bends by more than this share of its limit between three places, it is looked at there.
+const JERK_BEND: f32 = 0.3;
 
-/// Of the jerk, by how much that may be exceeded without setting anything aside.
-const JERK_EXCESS: f64 = 0.015;
-
-/// The most that is set aside for what happens between the places that are looked at.
-const MOST_EXCESS: f64 = 0.3;
+/// By how much a chord of 1 / x^2 exceeds it in the middle, over the square of the change of x:
+/// an eighth of its second derivative.
+const CHORD: f64 = 0.75;
 
 /// A product is quicker than a quotient.
 pub(super) const THIRD: f32 = 1.0 / 3.0;
@@ -99,31 +99,24 @@ impl AxisRows {
         }
     }
 
-    /// The rows at `s`, in the middle of a stretch of the given `length` or at its end: the caps of
-    /// three such places hold in between. 0 where a place stands for itself.
+    /// The rows at `s`, in an interval of the given `length`: together with those a quarter of it
+    /// away its caps hold in between too. 0 where a place stands for itself.
     pub fn sample<R: Route>(&self, route: &R, s: f64, length: f64) -> Sample {
-        let point = route.point(s);
-        let third = self.map.apply(&point.third);
-        // Between two places q' may be greater than at both, by what it bends in half of the way.
-        let beside = length * length / 16.0;
+        self.sample_of(route, s, &route.point(s), length)
+    }
+
+    /// The same where the path is known to have this `point`.
+    pub fn sample_of<R: Route>(&self, route: &R, s: f64, point: &PathPoint, length: f64) -> Sample {
+        let cap = self.cap(route, s, point, 0.25 * length);
         let first = self.map.apply(&point.first);
-        let SpeedCap {
-            programmed,
-            greatest,
-        } = route.speed_cap(s, &point.first);
         let second = self.map.apply(&point.second);
-        let mut most = (greatest * greatest).min(GREATEST_SPEED_SQUARED);
         let mut axes = MovingAxes::NONE;
         for axis in 0..AXIS_COUNT {
-            let slope = first[axis].abs() + third[axis].abs() * beside;
-            if slope > 0.0 || second[axis] != 0.0 {
+            if first[axis] != 0.0 || second[axis] != 0.0 {
                 axes.add(axis);
             }
-            if slope > 0.0 {
-                let speed = self.velocity[axis] / slope;
-                most = most.min(speed * speed);
-            }
         }
+        let third = self.map.apply(&point.third);
         let first = first.component_mul(&self.inverse_jerk);
         let second = second.component_mul(&self.inverse_jerk) * 3.0;
         let third = third.component_mul(&self.inverse_jerk);
@@ -132,9 +125,34 @@ impl AxisRows {
             second,
             third,
             quads: [&first, &second, &third].map(quads),
+            cap,
+            axes,
+        }
+    }
+
+    /// The cap at `s`, where the path has this `point`: a v^2 that changes evenly to the cap that is
+    /// `beside` away exceeds no velocity in between.
+    pub fn cap<R: Route>(&self, route: &R, s: f64, point: &PathPoint, beside: f64) -> Cap {
+        let along = point.first * raised_norm(point, beside);
+        let SpeedCap {
+            programmed,
+            greatest,
+        } = route.speed_cap(s, &along);
+        let [first, second, third] =
+            [&point.first, &point.second, &point.third].map(|of| self.map.apply(of));
+        let mut most = (greatest * greatest).min(GREATEST_SPEED_SQUARED);
+        for axis in 0..AXIS_COUNT {
+            // By what q' may exceed both places in between, and 1 / q'^2 the chord between them.
+            let slope = first[axis].abs() + third[axis].abs() * (0.125 * beside * beside);
+            let change = second[axis] * beside;
+            let square = slope * slope + CHORD * change * change;
+            if square > 0.0 {
+                most = most.min(self.velocity[axis] * self.velocity[axis] / square);
+            }
+        }
+        Cap {
             programmed: programmed * programmed * CAP_SHARE,
             greatest: most * CAP_SHARE,
-            axes,
         }
     }
 
@@ -175,7 +193,7 @@ impl AxisRows {
     pub fn keeps(
         &self,
         parabola: &Parabola,
-        samples: [&Sample; 3],
+        interval: &IntervalSamples,
         raise_squared: f64,
         margin: f64,
     ) -> bool {
@@ -184,18 +202,22 @@ impl AxisRows {
         }
         let half = 0.5 * parabola.length;
         let [(b0, a0), (b1, a1), (b2, a2)] = [0.0, half, parabola.length].map(|x| parabola.at(x));
-        let [cap0, cap1, cap2] = samples.map(|sample| sample.cap(raise_squared));
+        let samples = interval.places();
+        let [cap0, cap1, cap2] = samples.map(|sample| sample.cap.raised(raise_squared));
+        let quarters = interval.quarters.map(|cap| cap.raised(raise_squared));
         let capped = b0 > 0.0 && b1 > 0.0 && b2 > 0.0 && b0 <= cap0 && b1 <= cap1 && b2 <= cap2;
         // Half of the way between two places b exceeds their mean by this.
         let bulge = -0.25 * parabola.u * half * half;
-        let kept = 0.5 * (b0 + b1) + bulge <= 0.5 * (cap0 + cap1)
-            && 0.5 * (b1 + b2) + bulge <= 0.5 * (cap1 + cap2);
+        let kept = 0.5 * (b0 + b1) + bulge <= quarters[0] && 0.5 * (b1 + b2) + bulge <= quarters[1];
         if !(capped && kept) {
             return false;
         }
         let places = [(b0, a0), (b1, a1), (b2, a2)].map(|(b, a)| (b as f32, a as f32));
         let speeds = places.map(|(b, _)| b.sqrt());
         let (u, half, margin) = (parabola.u as f32, half as f32, margin as f32);
+        let fastest = b0.max(b1).max(b2) as f32;
+        let for_acceleration = margin - interval.departure.second * fastest;
+        let for_jerk = margin - interval.departure.third * fastest * fastest.sqrt();
         let moving = MovingAxes::at_any(samples);
         // Without a branch, so that all lanes are looked at together: 1 where they keep their limits.
         let mut kept = [1u32; LANES];
@@ -204,6 +226,7 @@ impl AxisRows {
             let first = samples.map(|sample| &sample.quads[0][quad]);
             let second = samples.map(|sample| &sample.quads[1][quad]);
             let third = samples.map(|sample| &sample.quads[2][quad]);
+            let mut bent = [0u32; LANES];
             for lane in 0..LANES {
                 let time = times[lane];
                 let [mut accelerations, mut changes, mut jerks] = [[0.0; 3]; 3];
@@ -218,24 +241,67 @@ impl AxisRows {
                     jerks[place] = changes[place] * speeds[place];
                 }
                 let between = halves(accelerations, changes.map(|change| change * time * half));
-                let within = is_within(accelerations, margin, ACCELERATION_BETWEEN)
-                    & is_within(jerks, margin, JERK_BETWEEN)
-                    & (between <= margin + ACCELERATION_BETWEEN);
+                let within = is_within(accelerations, for_acceleration, ACCELERATION_BETWEEN)
+                    & is_within(jerks, for_jerk, JERK_BETWEEN)
+                    & (between <= for_acceleration + ACCELERATION_BETWEEN);
                 kept[lane] &= u32::from(within);
+                bent[lane] |= u32::from(is_bent(jerks));
+            }
+            let rows = [first, second, third];
+            if bent != [0; LANES] && !keeps_jerk_between(parabola, rows, for_jerk + JERK_BETWEEN) {
+                return false;
             }
         }
         kept == [1; LANES]
     }
 }
 
-/// The greatest amount in the middle of both halves of what has these values at start, middle and end:
+/// Whether a parabola through these values at start, middle and end bends back between them so much that
+/// it does not describe the jerk, which is no parabola.
+#[inline(always)]
+fn is_bent([start, middle, end]: [f32; 3]) -> bool {
+    let slope = 0.5 * (end - start);
+    let bend = start + end - 2.0 * middle;
+    (bend.abs() > JERK_BEND) & (slope.abs() < bend.abs())
+}
+
+/// Whether four axes keep this share of the jerk in the middle of both halves: their rows by u, a and b, at start,
+/// middle and end, are parabolas.
+#[inline(never)]
+fn keeps_jerk_between(parabola: &Parabola, rows: [[&Quad; 3]; 3], most: f32) -> bool {
+    let mut kept = true;
+    for (share, weights) in [(0.25, [0.375, 0.75, -0.125]), (0.75, [-0.125, 0.75, 0.375])] {
+        let (b, a) = parabola.at(share * parabola.length);
+        let factors = [parabola.u, a, b].map(|factor| (factor * b.sqrt()) as f32);
+        for lane in 0..LANES {
+            let mut jerk = 0.0;
+            for (row, factor) in rows.iter().zip(factors) {
+                for (place, weight) in row.iter().zip(weights) {
+                    jerk += place[lane] * (weight * factor);
+                }
+            }
+            kept &= jerk.abs() <= most;
+        }
+    }
+    kept
+}
+
+/// The greatest amount at three places in each half of what has these values at start, middle and end:
 /// of the cubic with its slopes there (Hermite), given as changes over a half.
 #[inline(always)]
-fn halves([start, middle, end]: [f32; 3], slopes: [f32; 3]) -> f32 {
-    let [slope0, slope1, slope2] = slopes.map(|slope| 0.125 * slope);
-    let first = 0.5 * (start + middle) + (slope0 - slope1);
-    let second = 0.5 * (middle + end) + (slope1 - slope2);
-    first.abs().max(second.abs())
+fn halves([start, middle, end]: [f32; 3], [slope0, slope1, slope2]: [f32; 3]) -> f32 {
+    let first = half([start, middle], [slope0, slope1]);
+    let second = half([middle, end], [slope1, slope2]);
+    first.max(second)
+}
+
+/// The same of one half.
+#[inline(always)]
+fn half([start, end]: [f32; 2], [slope0, slope1]: [f32; 2]) -> f32 {
+    let quarter = 0.84375 * start + 0.15625 * end + (0.140625 * slope0 - 0.046875 * slope1);
+    let middle = 0.5 * (start + end) + 0.125 * (slope0 - slope1);
+    let last = 0.15625 * start + 0.84375 * end + (0.046875 * slope0 - 0.140625 * slope1);
+    quarter.abs().max(middle.abs()).max(last.abs())
 }
 
 /// Whether the amounts of three values at start, middle and end are at most `most`, and those of the
@@ -285,6 +351,49 @@ impl MovingAxes {
     }
 }
 
+/// The caps of v^2 at a place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cap {
+    /// What the program asks for at 100 %.
+    programmed: f64,
+    /// What neither override nor axes exceed.
+    greatest: f64,
+}
+
+impl Cap {
+    pub const NONE: Self = Self {
+        programmed: 0.0,
+        greatest: 0.0,
+    };
+
+    /// What two caps both allow.
+    pub fn least(&self, other: &Self) -> Self {
+        Self {
+            programmed: self.programmed.min(other.programmed),
+            greatest: self.greatest.min(other.greatest),
+        }
+    }
+
+    /// The cap while those of the program are raised by sqrt(`raise_squared`).
+    #[inline]
+    pub fn raised(&self, raise_squared: f64) -> f64 {
+        (self.programmed * raise_squared).min(self.greatest)
+    }
+}
+
+/// What |q'| is to be multiplied by for the cap of the speed along the path, see [`AxisRows::cap`].
+fn raised_norm(point: &PathPoint, beside: f64) -> f64 {
+    let square = point.first.norm_squared();
+    if square <= 0.0 {
+        return 1.0;
+    }
+    let slope = point.first.dot(&point.second) / square;
+    let bend =
+        (point.second.norm_squared() + point.first.dot(&point.third)) / square - slope * slope;
+    let change = slope * beside;
+    (1.0 + CHORD * change * change).sqrt() + (-bend).max(0.0) * (0.125 * beside * beside)
+}
+
 /// The rows of all axes at a place of the path, in units of J.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
@@ -296,10 +405,7 @@ pub(super) struct Sample {
     pub third: Axes,
     /// The three in single precision.
     pub quads: [Quads; 3],
-    /// v^2 that the program asks for at 100 %.
-    programmed: f64,
-    /// v^2 that neither override nor axes exceed.
-    greatest: f64,
+    pub cap: Cap,
     /// Rows of all other axes are 0.
     pub axes: MovingAxes,
 }
@@ -310,21 +416,14 @@ impl Sample {
         second: ZERO,
         third: ZERO,
         quads: [ZEROS; 3],
-        programmed: 0.0,
-        greatest: 0.0,
+        cap: Cap::NONE,
         axes: MovingAxes::NONE,
     };
-
-    /// The cap of v^2 while the program's caps are raised by sqrt(`raise_squared`).
-    #[inline]
-    pub fn cap(&self, raise_squared: f64) -> f64 {
-        (self.programmed * raise_squared).min(self.greatest)
-    }
 
     /// Whether the path gave numbers and a speed to run at.
     pub fn is_sound(&self) -> bool {
         let sum = self.first.sum() + self.second.sum() + self.third.sum();
-        sum.is_finite() && self.programmed > 0.0 && self.greatest > 0.0
+        sum.is_finite() && self.cap.programmed > 0.0 && self.cap.greatest > 0.0
     }
 
     /// The speed at which curvature alone takes an axis to its acceleration or jerk.
@@ -344,83 +443,7 @@ impl Sample {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Curving {
     /// 3 q'' / J, shape (9).
-    second: Axes,
+    pub second: Axes,
     /// q''' / J, shape (9).
-    third: Axes,
-}
-
-/// The samples of an interval, at start and end as they are inside of it: where two legs meet the
-/// third derivative of the path may jump.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct IntervalSamples {
-    pub start: Sample,
-    pub middle: Sample,
-    pub end: Sample,
-}
-
-impl IntervalSamples {
-    pub const NONE: Self = Self {
-        start: Sample::NONE,
-        middle: Sample::NONE,
-        end: Sample::NONE,
-    };
-
-    /// By how much a derivative of the path may exceed what the three places show of it, shape (9).
-    ///
-    /// Between three values a parabola exceeds them by an eighth of their second difference at
-    /// most. What has a kink there, where a change of shape begins or ends, leaves the parabola:
-    /// the path is looked at in the middle of both halves, `between`.
-    fn hidden(&self, between: &Option<[Curving; 2]>) -> Curving {
-        let [start, middle, end] = [&self.start, &self.middle, &self.end].map(|sample| Curving {
-            second: sample.second,
-            third: sample.third,
-        });
-        let exceeds = |of: fn(&Curving) -> Axes| {
-            let [start, middle, end] = [&start, &middle, &end].map(of);
-            match between {
-                None => (start + end - middle * 2.0).abs() * SMOOTH_SHARE,
-                Some([first, last]) => {
-                    let parabola =
-                        |near: Axes, far: Axes| near * 0.375 + middle * 0.75 - far * 0.125;
-                    let first = (of(first) - parabola(start, end)).abs();
-                    let last = (of(last) - parabola(end, start)).abs();
-                    first.sup(&last)
-                }
-            }
-        };
-        Curving {
-            second: exceeds(|place| place.second),
-            third: exceeds(|place| place.third),
-        }
-    }
-
-    /// Makes room for what happens between the three places, see [`hidden`](Self::hidden). How
-    /// much that is of the limits depends on the speed, which is at most what cap and curvature
-    /// allow.
-    pub fn cover(&mut self, rows: &AxisRows, raise_squared: f64, between: Option<[Curving; 2]>) {
-        let [start, middle, end] = [&self.start, &self.middle, &self.end];
-        let mut speed = f64::INFINITY;
-        for sample in [start, middle, end] {
-            speed = speed
-                .min(sample.cap(raise_squared).sqrt())
-                .min(sample.curve_speed(rows));
-        }
-        if !speed.is_finite() {
-            return;
-        }
-        let Curving { second, third } = self.hidden(&between);
-        let mut excess = 0.0;
-        for axis in 0..AXIS_COUNT {
-            let acceleration = second[axis] * rows.jerk_time[axis] / 3.0 * speed * speed;
-            let jerk = third[axis] * speed * speed * speed;
-            excess = f64::max(excess, acceleration.max(jerk - JERK_EXCESS));
-        }
-        let factor = 1.0 + f64::min(excess, MOST_EXCESS);
-        for sample in [&mut self.start, &mut self.middle, &mut self.end] {
-            sample.first *= factor;
-            sample.second *= factor;
-            sample.third *= factor;
-            sample.quads = [&sample.first, &sample.second, &sample.third].map(quads);
-        }
-    }
+    pub third: Axes,
 }

@@ -11,8 +11,9 @@
 //! no motion of their own and hold the coefficients that tie the spline to the rests.
 
 use super::interval::Parabola;
+use super::interval_samples::IntervalSamples;
 use super::rest_arc::RestArc;
-use super::rows::{IntervalSamples, Sample};
+use super::rows::Sample;
 
 /// How many intervals there are from the oldest one that is needed. A power of two, so that a
 /// masked index is in range for the compiler too.
@@ -166,8 +167,9 @@ impl SampleBanks {
         banks: [[IntervalSamples::NONE; CAPACITY]; 2],
     };
 
+    /// The samples of interval k.
     #[inline]
-    fn place(&self, spline: &Spline, k: usize) -> &IntervalSamples {
+    pub fn of(&self, spline: &Spline, k: usize) -> &IntervalSamples {
         &self.banks[spline.at(k).bank & 1][k & MASK]
     }
 
@@ -177,13 +179,6 @@ impl SampleBanks {
 
     /// The sample at node k.
     pub fn start(&self, spline: &Spline, k: usize) -> &Sample {
-        &self.place(spline, k).start
-    }
-
-    /// The samples at start, middle and end of interval k.
-    #[inline]
-    pub fn of(&self, spline: &Spline, k: usize) -> [&Sample; 3] {
-        let IntervalSamples { start, middle, end } = self.place(spline, k);
-        [start, middle, end]
+        &self.of(spline, k).start
     }
 }

@@ -227,7 +227,7 @@ impl Draft {
     /// How many axes move in interval k.
     fn axes(&self, samples: &SampleBanks, k: usize) -> u32 {
         if self.has_samples(k) {
-            MovingAxes::at_any(samples.of(&self.spline, k)).count()
+            MovingAxes::at_any(samples.of(&self.spline, k).places()).count()
         } else {
             0
         }
