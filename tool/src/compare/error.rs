@@ -41,6 +41,9 @@ pub enum CompareError {
         .0.display()
     )]
     NotRepeatable(PathBuf),
+    /// A module did not run a program to its end: every run of that kind, a line each.
+    #[error("{}", .0.join("\n"))]
+    NotDone(Vec<String>),
     /// Something that is not the module's doing.
     #[error("a module cannot be run: {0}")]
     Run(io::Error),

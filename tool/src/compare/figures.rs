@@ -28,6 +28,8 @@ pub(crate) enum State {
     Aborted,
     /// A move was refused.
     Refused(String),
+    /// It dropped its moves and came to rest where none of them ends.
+    GaveUp(String),
     /// It stands still with moves to go.
     Stuck(String),
     TooLong,
@@ -54,6 +56,10 @@ impl State {
                     State::Stuck(format!("no motion any more at {end:.1} s{}", module_says()))
                 }
                 Ending::TooLong => State::TooLong,
+                Ending::GaveUp { line } => State::GaveUp(format!(
+                    "before the end of the move of line {line}{}",
+                    module_says()
+                )),
                 Ending::Refused { line, code } => State::Refused(format!(
                     "the move of line {line}, code {code}{}",
                     module_says()
@@ -112,6 +118,21 @@ impl Figures {
     /// It came to the end of the program, at the programmed end: its time counts.
     pub(crate) fn came_through(&self) -> bool {
         self.state == State::Complete && !self.motion.not_finite && self.final_error <= OFF_THE_END
+    }
+
+    /// What the planner did not do of the program, by its own decision: `None` where it came to the end,
+    /// and where that is not its doing.
+    pub(crate) fn not_done(&self) -> Option<String> {
+        match &self.state {
+            State::Refused(detail) => Some(format!("refuses {detail}")),
+            State::GaveUp(detail) => Some(format!("gives up {detail}")),
+            State::Stuck(detail) => Some(format!("is stuck: {detail}")),
+            State::Complete if self.final_error > OFF_THE_END => Some(format!(
+                "ends {:.6} mm off {}",
+                self.final_error, self.first_error
+            )),
+            _ => None,
+        }
     }
 
     /// A limit or a tolerance is exceeded by more than 1 %.

@@ -39,6 +39,7 @@ use crate::arguments::{file_name, not_negative, period, positive};
 use crate::canon::{read_program, read_text};
 use crate::generate;
 use crate::report::format::significant;
+use figures::Figures;
 use layer::{LayerSettings, lay};
 use limits::{Jerk, Limits};
 use operator::{Action, Event, at_time, random_events};
@@ -173,8 +174,8 @@ struct Report<'a> {
 /// Compares; tables or JSON on standard output.
 ///
 /// # Errors
-/// Programs that cannot be read, modules that do not exist. A module that crashes, hangs or is none
-/// is no error but a result.
+/// Programs that cannot be read, modules that do not exist; behind the results, programs that a planner
+/// refused or gave up. A module that crashes, hangs or is none is no error but a result.
 pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error>> {
     let mut limits = Limits::default();
     limits
@@ -236,7 +237,33 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error
             write!(output, "{}", table::OPTIMUM_LEGEND).map_err(CompareError::Write)?;
         }
     }
-    Ok(())
+    let not_done = not_done(&all);
+    if not_done.is_empty() {
+        Ok(())
+    } else {
+        output.flush().map_err(CompareError::Write)?;
+        Err(CompareError::NotDone(not_done).into())
+    }
+}
+
+/// A line for each run in which the planner itself left something of the program out.
+fn not_done(programs: &[ProgramRuns]) -> Vec<String> {
+    let line = |program: &ProgramRuns, run: &Figures| {
+        let what = run.not_done()?;
+        Some(format!(
+            "{}: {} with jerk {} {what}",
+            program.program, run.module, run.jerk
+        ))
+    };
+    programs
+        .iter()
+        .flat_map(|program| {
+            program
+                .runs
+                .iter()
+                .filter_map(move |run| line(program, run))
+        })
+        .collect()
 }
 
 /// Under what conditions the modules are compared.

@@ -45,6 +45,8 @@ pub(crate) enum Ending {
     TooLong,
     /// A move was refused: the line and the code.
     Refused { line: i32, code: i32 },
+    /// Nothing was left to do although the move of this line, the last one handed over, was not run.
+    GaveUp { line: i32 },
     /// The module could not be used.
     NotUsable(String),
     /// The record ends without an end.
@@ -111,6 +113,7 @@ impl<W: Write> Recorder<W> {
             Ending::TooLong => (3, 0, 0, ""),
             Ending::Refused { line, code } => (4, *line, *code, ""),
             Ending::NotUsable(text) => (5, 0, 0, text.as_str()),
+            Ending::GaveUp { line } => (6, *line, 0, ""),
             Ending::Missing => return Ok(()),
         };
         self.0.write_all(b"E")?;
@@ -192,6 +195,7 @@ impl Recording {
                     2 => Ending::Stuck,
                     3 => Ending::TooLong,
                     4 => Ending::Refused { line, code },
+                    6 => Ending::GaveUp { line },
                     _ => Ending::NotUsable(text),
                 };
                 return None;

@@ -170,6 +170,7 @@ fn note(figures: &Figures) -> Option<String> {
         State::Complete => return None,
         State::Aborted => "aborted".to_owned(),
         State::Refused(detail) => format!("REFUSED: {detail}"),
+        State::GaveUp(detail) => format!("GIVES UP: {detail}"),
         State::Stuck(detail) => format!("STUCK: {detail}"),
         State::TooLong => "TOO LONG".to_owned(),
         State::NotUsable(detail) => format!("NOT USABLE: {detail}"),

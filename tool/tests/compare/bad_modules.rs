@@ -46,6 +46,33 @@ fn refuses_a_move() {
     );
 }
 
+/// What task would hand over next would run on from there, with moves missing: the time of such a run
+/// counts nowhere, and the exit code tells.
+#[test]
+fn gives_up_a_program() {
+    let bench = Bench::new();
+    let file = bench.write("program.ngc", PROGRAM);
+    let (gives_up, sound) = (bench.module("GIVES_UP"), bench.module(""));
+    let output = bench.compare(&[
+        file.to_str().expect("text"),
+        "--with",
+        sound.to_str().expect("text"),
+        "--with",
+        gives_up.to_str().expect("text"),
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    let error = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(
+        error.trim_end(),
+        "program.ngc: made-upGIVES_UP.so with jerk unlimited gives up before the end of the move of \
+         line 4: made-up: an internal fault"
+    );
+    let table = String::from_utf8(output.stdout).expect("text");
+    assert!(table.contains("GIVES UP: before the end"), "{table}");
+    let (state, _) = state("GIVES_UP");
+    assert_eq!(state, "gave-up");
+}
+
 #[test]
 fn stands_still_for_ever() {
     let (state, detail) = state("STICKS");

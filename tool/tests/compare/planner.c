@@ -140,6 +140,15 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
         free(memory);
     }
 #endif
+#ifdef FAULT_GIVES_UP
+    if (cycles == 50) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "made-up: an internal fault\n");
+        count = 0;
+        from = here;
+        gone = 0;
+        return 0;
+    }
+#endif
 #ifdef FAULT_STANDS
     if (cycles >= 50 && stood < 20) {
         stood++;

@@ -54,7 +54,8 @@ impl Bench {
             "--json",
         ];
         arguments.extend(more);
-        let mut report = json(&self.compare(&arguments));
+        let output = self.compare(&arguments);
+        let mut report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         report["programs"][0]["runs"][0].take()
     }
 

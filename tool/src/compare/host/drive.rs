@@ -12,6 +12,7 @@ use crate::compare::kinematics::moves;
 use crate::compare::operator::Action;
 use crate::compare::program::{MotionType, Operation};
 use crate::compare::recording::{ABORTED, DONE, Ending, HELD, Recorder, STARVED, Sample, WAITING};
+use crate::compare::segment::largest_difference;
 use framepath::abi::linuxcnc::{
     DEFAULT_TC_QUEUE_SIZE, EMCMOT_MOTION_INPOS_BIT, EmcPose, FS_ENABLED,
 };
@@ -26,6 +27,10 @@ pub(crate) const PROGRESS_VARIABLE: &str = "FRAMEPATH_COMPARE_PROGRESS";
 
 /// Cycles that are recorded after the end, in which the module has to stand still.
 const SETTLING_CYCLES: u64 = 50;
+
+/// A planner with nothing left to do that is so many of its longest steps from where its last move ends has
+/// dropped it. LinuxCNC's own may be a step behind.
+const DROPPED: f64 = 2.0;
 
 /// The whole life of a driven process: job from standard input, records to standard output.
 pub(crate) fn serve() -> ExitCode {
@@ -94,6 +99,8 @@ pub(super) struct Drive<'a> {
     resume_at: Option<f64>,
     aborted: bool,
     pub(super) refused: Option<Ending>,
+    /// Where the last move ends that was handed over, and its line.
+    pub(super) goal: (Position, i32),
     revolutions: f64,
     position: Position,
     last_motion: u64,
@@ -114,6 +121,7 @@ impl<'a> Drive<'a> {
             resume_at: None,
             aborted: false,
             refused: None,
+            goal: ([0.0; 9], 0),
             revolutions: 0.0,
             position: [0.0; 9],
             last_motion: 0,
@@ -198,6 +206,9 @@ impl<'a> Drive<'a> {
             }
             let sample = self.servo();
             recorder.sample(&sample)?;
+            if !self.aborted && self.motion_done() && self.has_dropped(&sample.position) {
+                return Ok(Ending::GaveUp { line: self.goal.1 });
+            }
             if sample.flags & (HELD | WAITING) != 0 {
                 self.last_motion = self.cycle;
             }
@@ -223,6 +234,12 @@ impl<'a> Drive<'a> {
                 return Ok(Ending::TooLong);
             }
         }
+    }
+
+    /// Whether the last move that was handed over cannot have been run.
+    fn has_dropped(&self, position: &Position) -> bool {
+        let fastest = self.job.limits.velocity.into_iter().fold(0.0, f64::max);
+        largest_difference(position, &self.goal.0) > DROPPED * fastest * self.job.period
     }
 
     pub(super) fn motion_done(&self) -> bool {

@@ -40,6 +40,10 @@ impl Drive<'_> {
                         self.refused = Some(Ending::Refused { line, code: result });
                         break;
                     }
+                    // A tap comes back to where it began.
+                    if !matches!(a_move.shape, Shape::Tap) {
+                        self.goal = (a_move.end, a_move.line);
+                    }
                 }
                 Operation::WaitForMotion => {
                     if !self.motion_done() {
