@@ -30,6 +30,8 @@ help:
 	@echo 'make uninstall  remove them again'
 	@echo 'make sanitize   only the tests with the address and undefined-behaviour sanitizers and valgrind'
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
+	@echo 'make faults     what LinuxCNC does with both modules when something goes wrong, as the table of docs/faults.md'
+	@echo 'make short      thousands of random short programs through framepath plan: faults and limits that are exceeded'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make fuzz       any calls of the C interface of both modules, ten minutes each (FUZZ_SECONDS); make fuzz-filter: of the filter'
 	@echo 'make mutants    faults drawn at random, put into the core: how many the Rust tests catch (MUTANTS=120, SEED=); some hours'
@@ -85,6 +87,17 @@ sanitize: modules
 # What comes last in make test: the table of promises, two minutes of soak, plan against LinuxCNC.
 contract: modules tool
 	$(PYTHON) -B tests/linuxcnc/run_all.py --last
+
+# Processes killed and stopped, aborts, an INI file without sense, servo periods, full disks: half an hour; then a fault of
+# the planner in each servo period of a program: another half.
+faults: modules fault-modules tool
+	$(PYTHON) -B tests/linuxcnc/faults/fault_table.py
+	FRAMEPATH_FAULT_EVERY=1 $(PYTHON) -B tests/linuxcnc/test_faults_injected.py
+
+SHORT ?= 5000
+SEED ?= 1
+short: tool
+	$(PYTHON) -B tests/linuxcnc/short_programs.py --count $(SHORT) --seed $(SEED)
 
 soak: modules
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner_programs -- --nocapture
@@ -175,5 +188,5 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test sanitize contract soak bench fuzz \
-    fuzz-filter mutants compare figures header install uninstall clean
+.PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test sanitize contract faults short soak bench \
+    fuzz fuzz-filter mutants compare figures header install uninstall clean

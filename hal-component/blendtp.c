@@ -49,8 +49,13 @@ static struct {
     emcmot_status_t *status;
     emcmot_config_t *config;
 } motion;
+
 /* The name of the kinematics module. */
 static char kinematics[64] = "the kinematics module";
+
+/* What no move may exceed, and whether that was ever above 0: then it is the operator's slider that holds the machine. */
+static double greatest_velocity = 1;
+static int was_positive;
 
 /* framekins says how the axes of the program lie to those of the machine; other kinematics do not have it. */
 static int (*linear_map)(double map[9]);
@@ -121,6 +126,16 @@ static void say_forgotten_jerk_limits(void)
     }
 }
 
+/* With a greatest velocity of 0 in the INI a program would wait for ever without a word. */
+static int has_velocity(void)
+{
+    if (greatest_velocity > 0 || was_positive)
+        return 0;
+    rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the greatest velocity of the machine is %g: [TRAJ]MAX_LINEAR_VELOCITY has to be "
+                    "positive\n", greatest_velocity);
+    return -1;
+}
+
 /* What the planner has to know before a move is added. */
 static int prepare(void)
 {
@@ -130,7 +145,7 @@ static int prepare(void)
     say_forgotten_jerk_limits();
     if (linear_map)
         framepath_planner_set_machine_map(planner, linear_map(map), map);
-    return take_jerk_limits() || take_tolerances() ? -1 : 0;
+    return has_velocity() || take_jerk_limits() || take_tolerances() ? -1 : 0;
 }
 
 /* Says why a move was refused; zero-length moves are no error. */
@@ -285,7 +300,12 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
 
 int tpSetCycleTime(TP_STRUCT *tp, double seconds)
 {
-    return framepath_planner_set_cycle_time(planner, tp, seconds);
+    int result = framepath_planner_set_cycle_time(planner, tp, seconds);
+    /* motmod begins with 0, before it knows better. */
+    if (result != TP_ERR_OK && seconds != 0)
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: nothing can be planned for servo periods of %g s: [EMCMOT]SERVO_PERIOD is a number "
+                        "of nanoseconds from 10000 to 100000000\n", seconds);
+    return result;
 }
 
 int tpSetVmax(TP_STRUCT *tp, double vmax, double ini_maxvel)
@@ -302,6 +322,8 @@ int tpSetVlimit(TP_STRUCT *tp, double limit)
 {
     (void)tp;
     command_comes(motion.status);
+    greatest_velocity = limit;
+    was_positive |= limit > 0;
     return framepath_planner_set_velocity_limit(planner, limit);
 }
 

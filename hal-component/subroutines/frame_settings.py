@@ -111,6 +111,7 @@ class Settings:
                 raise SettingsError(f"{path}:{line}: section [{where}]: write [{SECTION}], in capitals")
         self.units_per_mm = _linear_units(ini)
         self.task_cycle = _task_cycle(ini)
+        _check_coordinates(ini)
         _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
         if self.clear_on_abort:
             _require(ini, "ON_ABORT_COMMAND", None, f"[{SECTION}]CLEAR_ON_ABORT = 1 depends on it; write "
@@ -130,6 +131,24 @@ def _linear_units(ini):
     if not 0 < units < float("inf"):
         raise SettingsError(f"{ini.path}:{line}: [TRAJ]LINEAR_UNITS = {text}: write mm or inch")
     return units
+
+
+def _check_coordinates(ini):
+    """The letters of framekins stand for the joints, one each: without this an axis would move nothing, in silence."""
+    kinematics, line = ini.find("KINS", "KINEMATICS")
+    letters = re.search(r"^framekins\b.*\bcoordinates=(\w+)", kinematics or "")
+    joints, _ = ini.find("KINS", "JOINTS")
+    if not letters or not (joints or "").isdigit():
+        return
+    letters = letters.group(1).upper()
+    place = f"{ini.path}:{line}: [KINS]KINEMATICS: coordinates={letters}"
+    if len(letters) != int(joints):
+        raise SettingsError(f"{place} names {len(letters)} joints, [KINS]JOINTS = {joints}: write a letter for each joint")
+    axes, _ = ini.find("TRAJ", "COORDINATES")
+    missing = set("".join((axes or "").upper().split())) - set(letters)
+    if missing:
+        raise SettingsError(f"{place}: [TRAJ]COORDINATES has an axis {sorted(missing)[0]} that moves no joint: write a letter for "
+                            "each axis")
 
 
 def _task_cycle(ini):

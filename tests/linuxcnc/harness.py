@@ -138,7 +138,8 @@ def edit_ini(text, changes):
 
 
 def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3, axes="xyz", timeout=300,
-        record=True, modules=None, integers=None, configuration=None, files=(), display="driver.py", recorder=None):
+        record=True, modules=None, integers=None, configuration=None, files=(), display="driver.py", recorder=None,
+        edit_hal=None):
     """Carries out a scenario.
 
     steps: list of [name, argument, ...], see driver.Operator; "on" and "home" are done first.
@@ -148,6 +149,7 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
     configuration: a folder with sample.ini and sample.hal in place of the sample that users get.
     files: what goes into the folder of the configuration; display: which of them stands where the screen stands.
     recorder: what records in place of a Recorder of these joints, axes and integers.
+    edit_hal: what makes another text of that of the sample's HAL file.
     Raises RuntimeError with LinuxCNC's output if LinuxCNC did not come up at all.
     """
     folder = tempfile.mkdtemp(prefix="framepath-run.")
@@ -162,6 +164,12 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
         for name, text in (programs or {}).items():
             with open(os.path.join(program_folder, name), "w", encoding="utf-8") as file:
                 file.write(text)
+        if edit_hal:
+            hal_path = os.path.join(config, f"{sample}.hal")
+            with open(hal_path, encoding="utf-8") as file:
+                edited = edit_hal(file.read())
+            with open(hal_path, "w", encoding="utf-8") as file:
+                file.write(edited)
         recorder = recorder or Recorder(joints, axes, integers)
         recording = os.path.join(folder, "recording.txt")
         ini_path = os.path.join(config, f"{sample}.ini")

@@ -15,7 +15,7 @@ import sys
 import time
 
 #: What runs several LinuxCNCs at once, or wants to know when moves come: side by side, when all the others are done.
-LAST = ("test_contract_table", "test_contract_soak", "test_plan", "test_compare")
+LAST = ("test_contract_table", "test_contract_soak", "test_plan", "test_compare", "test_short_programs", "test_faults_table")
 #: What takes longest comes first.
 FIRST = ("test_dialect_examples", "test_spindle", "test_look_ahead")
 HERE = os.path.dirname(os.path.abspath(__file__))

@@ -73,8 +73,8 @@ def motion(positions):
 class Recording:
     """A program as it ran, from the servo cycle in which its first move came."""
 
-    def __init__(self, result, number):
-        rows = result.columns("program", "moves", "scale", *(f"axis.{axis}" for axis in AXES))
+    def __init__(self, result, number, axes=AXES):
+        rows = result.columns("program", "moves", "scale", *(f"axis.{axis}" for axis in axes))
         rows = [row[1:] for row in rows if row[0] == number]
         before = rows[0][0]
         start = [tuple(row[2:]) for row in rows if row[0] == before][-1]
@@ -99,19 +99,24 @@ class Recording:
         return max((b - a for a, b in zip([0, *arrivals], arrivals)), default=0)
 
 
-def record(names, **machine):
-    """{name: Recording} from one LinuxCNC. machine: what differs from the sample (ini, configuration; harness.run)."""
+def record(names, programs=None, axes=AXES, **machine):
+    """{name: Recording} of programs, these ten unless others are given, from one LinuxCNC.
+
+    machine: what differs from the sample (ini, configuration; harness.run).
+    """
+    programs = programs or PROGRAMS
     steps = [["mdi", "G0 X1"]]
+    home = " ".join(f"{axis.upper()}0" for axis in axes)
     for number, name in enumerate(names, 1):
-        steps += [["mdi", "G61.1 G21 G90 G54 G53 G0 X0 Y0 Z0"], ["halcmd", "sets", "record-program", str(number)],
+        steps += [["mdi", f"G61.1 G21 G90 G54 G53 G0 {home}"], ["halcmd", "sets", "record-program", str(number)],
                   ["run", f"PROGRAMS/{name}.ngc"], ["halcmd", "sets", "record-program", "0"]]
     with tempfile.TemporaryDirectory() as modules:
         # shows when a move reaches the planner
         harness.modules_with("arrivals", modules)
-        result = harness.run(steps, {f"{name}.ngc": PROGRAMS[name] for name in names}, modules=modules,
-                             hal="loadrt arrivals\naddf arrivals servo-thread\n",
+        result = harness.run(steps, {f"{name}.ngc": programs[name] for name in names}, modules=modules,
+                             hal="loadrt arrivals\naddf arrivals servo-thread\n" + machine.pop("hal", ""),
                              integers={"moves": "arrivals.moves", "scale": "arrivals.scale", "program": ""},
                              **machine)
     if result.failure or result.errors:
         raise AssertionError(f"{result.failure} {result.errors}\n{result.log}")
-    return {name: Recording(result, number) for number, name in enumerate(names, 1)}
+    return {name: Recording(result, number, axes) for number, name in enumerate(names, 1)}

@@ -311,6 +311,16 @@ class SettingsOfTheIni(unittest.TestCase):
         self.refused("", "[TRAJ]LINEAR_UNITS", base=self.BASE.replace("mm", "feet"))
         self.refused("", "[TRAJ]LINEAR_UNITS is missing", base=self.BASE.replace("LINEAR_UNITS = mm\n", ""))
 
+    def test_letters_of_the_kinematics_that_do_not_fit_the_machine(self):
+        def machine(letters, joints=3, axes="XYZ"):
+            return f"[KINS]\nKINEMATICS = framekins coordinates={letters}\nJOINTS = {joints}\n[TRAJ]\nCOORDINATES = {axes}\n"
+
+        self.read(machine("xyz") + "[FRAMEPATH]\n")
+        self.read(machine("XYYZ", 4, "X Y Z"))
+        self.read(machine("XY").replace("framekins", "mykins"))
+        self.refused(machine("XY"), "[KINS]KINEMATICS: coordinates=XY names 2 joints, [KINS]JOINTS = 3")
+        self.refused(machine("XYY"), "[KINS]KINEMATICS: coordinates=XYY", "an axis Z that moves no joint")
+
     def test_linuxcnc_does_not_start_with_a_mistake(self):
         with self.assertRaises(RuntimeError) as caught:
             harness.run([], ini={("FRAMEPATH", "CLEAR_AT_STRAT"): "1"})

@@ -30,6 +30,11 @@ def plan(*arguments, check=True):
 
 
 class AgainstLinuxCnc(unittest.TestCase):
+    #: {name: text}, what they run on, and what it is recorded with
+    programs, ini, axes, machine = PROGRAMS, INI, AXES, {}
+    #: Cycles between two moves from which on it may matter in what time the moves of earlier programs came.
+    steady = math.inf
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -43,10 +48,10 @@ class AgainstLinuxCnc(unittest.TestCase):
 
     def planned(self, name, *options):
         """The position in each cycle, and how many there are from the first motion to the last."""
-        program, table = self.file(name + ".ngc", PROGRAMS[name]), os.path.join(self.folder, name + ".csv")
-        figures = json.loads(plan(program, "--ini", INI, "--json", "--csv", table, *options).stdout)["programs"][0]
+        program, table = self.file(name + ".ngc", self.programs[name]), os.path.join(self.folder, name + ".csv")
+        figures = json.loads(plan(program, "--ini", self.ini, "--json", "--csv", table, *options).stdout)["programs"][0]
         with open(table, encoding="utf-8") as rows:
-            positions = [tuple(float(row[f"axis.{axis}"]) for axis in AXES) for row in csv.DictReader(rows)]
+            positions = [tuple(float(row[f"axis.{axis}"]) for axis in self.axes) for row in csv.DictReader(rows)]
         first, last = motion(positions)
         # the plan also counts a cycle with less than what a recording shows
         self.assertLessEqual(figures["cycles"] - (last - first + 1), 2)
@@ -57,14 +62,15 @@ class AgainstLinuxCnc(unittest.TestCase):
         """Cycles, and how far any position is from the recorded one."""
         positions, cycles = self.planned(name, "--arrivals", self.file(name + ".txt", recording.arrivals()))
         compared = positions[:recording.end + 1]
-        self.assertEqual(len(compared), recording.end + 1, "the plan is shorter")
+        if len(compared) <= recording.end:
+            return cycles, math.inf
         return cycles, max(math.dist(a, b) for a, b in zip(compared, recording.positions))
 
     def test_times_and_positions(self):
-        left, planned = list(PROGRAMS), {}
+        left, planned = list(self.programs), {}
         for _ in range(ATTEMPTS):
             late = []
-            for name, recording in record(left).items():
+            for name, recording in record(left, self.programs, self.axes, **self.machine).items():
                 same, away = self.with_the_same_arrivals(name, recording)
                 if name not in planned:
                     planned[name] = self.planned(name)[1]
@@ -72,6 +78,9 @@ class AgainstLinuxCnc(unittest.TestCase):
                 print(f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, planned {off:+d} cycles; with the same "
                       f"arrivals {same - recording.cycles:+d} cycles, positions within {away:.2g} mm; longest wait "
                       f"for a move {recording.longest_wait()} cycles", flush=True)
+                if not away < SAME and recording.longest_wait() >= self.steady:
+                    late.append(name)
+                    continue
                 with self.subTest("the same arrivals", program=name):
                     self.assertLessEqual(abs(same - recording.cycles), 1)
                     self.assertLess(away, SAME)

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 use super::Handle;
 use crate::abi::linuxcnc::{EmcPose, PmCartesian, StateField, TP_STRUCT, state_tag_t, tp_err_t};
 use crate::abi::pose::axes_of;
+use crate::axes::AXIS_COUNT;
 use crate::moves::{MotionType, STATE_TAG_SIZE, StateTag};
 use crate::path::{Circle, ShapeError};
 use crate::planner::{AddError, Added, MoveRequest};
@@ -47,23 +48,50 @@ impl Handle {
     }
 }
 
+/// What is said of each axis that has no usable limits.
+const WITHOUT_LIMITS: [&CStr; AXIS_COUNT] = {
+    macro_rules! of {
+        ($($letter:literal)*) => {
+            [$(match CStr::from_bytes_with_nul(
+                concat!("a move needs axis ", $letter, ", which has no usable limits: [AXIS_", $letter,
+                        "]MAX_VELOCITY and MAX_ACCELERATION have to be positive\0").as_bytes(),
+            ) {
+                Ok(words) => words,
+                Err(_) => panic!("a zero within"),
+            }),*]
+        };
+    }
+    of!("X" "Y" "Z" "A" "B" "C" "U" "V" "W")
+};
+
 /// Why a move was refused, for the operator.
 fn words(error: AddError) -> &'static CStr {
     match error {
         AddError::Aborting => c"a move was sent while the machine comes to rest after an abort",
         AddError::QueueFull => c"a move was sent although the queue is full",
-        AddError::NotConfigured => c"a move was sent before the motion controller set its period and limits",
-        AddError::AxisLimits { .. } => {
-            c"a move needs an axis without usable limits: [AXIS_L]MAX_VELOCITY and MAX_ACCELERATION have to be positive"
+        AddError::NotConfigured => {
+            c"a move was sent before the motion controller set its period and limits"
         }
+        AddError::AxisLimits { axis } => WITHOUT_LIMITS
+            .get(axis)
+            .copied()
+            .unwrap_or(c"a move needs an axis without limits"),
         AddError::Shape(ShapeError::ZeroLength) => c"a move of length zero",
-        AddError::Shape(ShapeError::NotFinite) => c"a move has a coordinate that is infinite or not a number",
-        AddError::Shape(ShapeError::NoNormal) => c"an arc has no plane: the vector perpendicular to it is zero",
+        AddError::Shape(ShapeError::NotFinite) => {
+            c"a move has a coordinate that is infinite or not a number"
+        }
+        AddError::Shape(ShapeError::NoNormal) => {
+            c"an arc has no plane: the vector perpendicular to it is zero"
+        }
         AddError::Shape(ShapeError::RadiusTooSmall) => c"an arc starts or ends at its own centre",
         AddError::Shape(ShapeError::TooManyTurns) => c"an arc has more turns than can be counted",
-        AddError::Feed { .. } => c"a move has no feed: F, or [TRAJ]MAX_LINEAR_VELOCITY and the [AXIS_L] limits, is zero",
+        AddError::Feed { .. } => {
+            c"a move has no feed: F, or [TRAJ]MAX_LINEAR_VELOCITY and the [AXIS_L] limits, is zero"
+        }
         AddError::Spindle { .. } => c"a move is to follow a spindle that does not exist",
-        AddError::PerTurn(_) => c"the feed per turn (F in G95) or the pitch (K) is negative or not a number",
+        AddError::PerTurn(_) => {
+            c"the feed per turn (F in G95) or the pitch (K) is negative or not a number"
+        }
         AddError::RigidTap => c"a rigid tap (G33.1) has no spindle to follow, or I is not positive",
         AddError::Tripped => c"a move was sent after an error had stopped the motion; abort first",
     }

@@ -1,5 +1,7 @@
 //! What motmod sets between moves.
 
+use core::ops::RangeInclusive;
+
 use libc::{c_double, c_int, c_uchar, c_uint};
 use nalgebra::Matrix3;
 
@@ -117,7 +119,10 @@ pub unsafe extern "C" fn framepath_planner_set_machine_map(
         .set_machine_map(&Matrix3::new(xx, xy, xz, yx, yy, yz, zx, zy, zz));
 }
 
-/// Sets the duration of a servo period in seconds. -1 if that is not possible now.
+/// Servo periods that motion can be planned for, seconds.
+const PERIODS: RangeInclusive<f64> = 1e-5..=0.1;
+
+/// Sets the duration of a servo period in seconds. -1 if that is not possible now, or not one from 10 microseconds to 0.1 s.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
@@ -131,7 +136,7 @@ pub unsafe extern "C" fn framepath_planner_set_cycle_time(
     let (Some(handle), Some(tp)) = (unsafe { (handle.as_mut(), tp.as_mut()) }) else {
         return tp_err_t::TP_ERR_FAIL;
     };
-    if !handle.planner.set_cycle_time(seconds) {
+    if !PERIODS.contains(&seconds) || !handle.planner.set_cycle_time(seconds) {
         return tp_err_t::TP_ERR_FAIL;
     }
     tp.cycleTime = seconds;

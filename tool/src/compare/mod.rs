@@ -227,7 +227,8 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error
             programs: &all,
             ratios: &ratios,
         };
-        serde_json::to_writer_pretty(&mut output, &report)?;
+        let written = serde_json::to_writer_pretty(&mut output, &report);
+        written.map_err(|error| CompareError::Write(error.into()))?;
         writeln!(output).map_err(CompareError::Write)?;
     } else {
         write!(output, "{}", ratios::text(&ratios)).map_err(CompareError::Write)?;
@@ -237,11 +238,11 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error
             write!(output, "{}", table::OPTIMUM_LEGEND).map_err(CompareError::Write)?;
         }
     }
+    output.flush().map_err(CompareError::Write)?;
     let not_done = not_done(&all);
     if not_done.is_empty() {
         Ok(())
     } else {
-        output.flush().map_err(CompareError::Write)?;
         Err(CompareError::NotDone(not_done).into())
     }
 }

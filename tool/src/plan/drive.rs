@@ -19,7 +19,7 @@ use std::path::Path;
 /// one (4) after M52 only.
 const OVERRIDES: u8 = 0x0b;
 
-/// Cycles without any change after which the plan counts as stuck.
+/// Cycles without any travel after which the plan counts as stuck.
 const STUCK: u64 = 100_000;
 
 /// Longer dwells are not planned cycle by cycle, s.
@@ -105,6 +105,7 @@ pub struct Drive<'a> {
     /// Moves that the planner was given.
     moves: usize,
     last_line: i32,
+    last_position: Axes,
     last_change: u64,
     finished: bool,
 }
@@ -155,6 +156,7 @@ impl<'a> Drive<'a> {
             },
             moves: 0,
             last_line: 0,
+            last_position: Axes::zeros(),
             last_change: 0,
             finished: false,
         })
@@ -359,14 +361,17 @@ impl<'a> Drive<'a> {
         if let Some(error) = status.spindle_error {
             return stopped(spindle_error(&error));
         }
-        if status.active_depth > 0 || self.dwell_until.is_some() || status.done {
+        // Whatever creeps by less than this in so long a time has no end.
+        let moves = (self.last_position - status.position).amax() > NO_TRAVEL;
+        if moves || self.dwell_until.is_some() || self.hold_until.is_some() || status.done {
             self.last_change = self.cycle;
+            self.last_position = status.position;
         }
         if self.cycle - self.last_change > STUCK {
             let why = if status.waiting_for_index {
                 "it waits for the index of a spindle that does not turn"
             } else {
-                "it stands still with moves to go"
+                "it stands still with moves to go. This is a fault of blendtp: please report it with the program"
             };
             return stopped(why.to_owned());
         }

@@ -134,7 +134,8 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> 
     let unwritable = |source| PlanError::unwritable(Path::new("standard output"), source);
     if arguments.json {
         let programs = serde_json::json!({ "programs": all });
-        serde_json::to_writer_pretty(&mut output, &programs)?;
+        let written = serde_json::to_writer_pretty(&mut output, &programs);
+        written.map_err(|error| unwritable(error.into()))?;
         writeln!(output).map_err(unwritable)?;
     } else {
         let texts = all.iter().map(text::render);
@@ -144,6 +145,8 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> 
             writeln!(output, "\nWritten: {}", file.display()).map_err(unwritable)?;
         }
     }
+    // Else what does not end with a line is written at the end of the process, whose errors nobody sees.
+    output.flush().map_err(unwritable)?;
     Ok(())
 }
 

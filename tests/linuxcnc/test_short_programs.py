@@ -1,0 +1,69 @@
+"""Random short programs (short_programs.py): none may end in a fault or beyond a limit, and a real LinuxCNC does with
+them what `framepath plan` says."""
+
+import os
+import shutil
+import unittest
+
+import harness
+import short_programs
+import test_plan
+
+#: Programs that are planned, with every limit of jerk; short_programs.py takes as many as one likes.
+PLANNED = 250
+#: Programs that a real LinuxCNC runs.
+RUN = range(1, 41)
+#: X Y Z and a rotary axis that lock nothing, with what a random program wants of room.
+CONTRACT = os.path.join(harness.HERE, "contract", "machine")
+FAR = 1e4
+CHANGES = {(f"{section}_{name}", key): sign * FAR for section, names in (("AXIS", "XYZAB"), ("JOINT", "01234")) for name in names
+           for key, sign in (("MIN_LIMIT", -1), ("MAX_LIMIT", 1))}
+CHANGES.update({("AXIS_Y", "OFFSET_AV_RATIO"): None, ("TASK", "CYCLE_TIME"): 0.001})
+JERK = 20000
+
+
+class Planned(unittest.TestCase):
+    def test_none_ends_in_a_fault_or_beyond_a_limit(self):
+        found = short_programs.bulk(range(1, PLANNED + 1))
+        lines = list(short_programs.summary(found, PLANNED))
+        print("\n".join(lines))
+        self.assertFalse(any(map(len, found.values())), "\n".join(lines))
+
+
+class Recorder(harness.Recorder):
+    """Of a machine without frames."""
+
+    def __init__(self):
+        super().__init__(5, "xyzb", {"moves": "arrivals.moves", "scale": "arrivals.scale", "program": ""})
+        del self.integers["slot"]
+        self.header.remove("slot")
+
+
+class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
+    axes = "xyzb"
+    #: A planner waits the longer for a move the slower they came, in the programs before as well, and 8 ms at least.
+    steady = 8
+    machine = {"sample": "machine", "configuration": CONTRACT, "ini": CHANGES, "timeout": 600,
+               "hal": "".join(f"setp blendtp.axis.{axis}.max-jerk {JERK}\n" for axis in "xyzab")}
+
+    def setUp(self):
+        super().setUp()
+        configuration = os.path.join(self.folder, "machine")
+        shutil.copytree(CONTRACT, configuration)
+        self.ini = os.path.join(configuration, "machine.ini")
+        with open(self.ini, encoding="utf-8") as file:
+            text = harness.edit_ini(file.read(), CHANGES)
+        with open(self.ini, "w", encoding="utf-8") as file:
+            file.write(text)
+        self.machine = dict(self.machine, recorder=Recorder())
+        # what has no plan is the other test's
+        texts = {f"short{seed}": short_programs.program(seed).text for seed in RUN}
+        self.programs = {name: text for name, text in texts.items() if self.has_plan(name, text)}
+        self.assertGreater(len(self.programs), len(RUN) // 2)
+
+    def has_plan(self, name, text):
+        return test_plan.plan(self.file(name + ".ngc", text), "--ini", self.ini, check=False).returncode == 0
+
+
+if __name__ == "__main__":
+    unittest.main()
