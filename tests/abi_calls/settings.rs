@@ -10,6 +10,7 @@ use framepath::abi::planner::settings::{
     framepath_planner_set_velocity_limit,
 };
 use framepath::axes::AXIS_COUNT;
+use framepath::planner::JerkLimit;
 
 use super::choices::Choices;
 use super::judge::Kind;
