@@ -73,11 +73,7 @@ struct Motion {
 
 fn zeroed<T>() -> Box<T> {
     // SAFETY: LinuxCNC's structures are plain numbers and null pointers where all bytes are zero.
-    unsafe {
-        Box::<MaybeUninit<T>>::new_zeroed()
-            .assume_init()
-            .assume_init()
-    }
+    Box::new(unsafe { MaybeUninit::zeroed().assume_init() })
 }
 
 unsafe extern "C" fn velocity(_axis: i32) -> f64 {
