@@ -556,12 +556,14 @@ void framepath_planner_set_machine_map(struct framepath_planner *handle,
                                        const double *map);
 
 /*
- Sets the duration of a servo period in seconds. -1 if that is not possible now.
+ Sets the duration of a servo period in seconds. -1 if that is not possible now, or not one from 10 microseconds to 0.1 s.
 
  # Safety
  `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
  */
-int framepath_planner_set_cycle_time(struct framepath_planner *handle, TP_STRUCT *tp, double seconds);
+int framepath_planner_set_cycle_time(struct framepath_planner *handle,
+                                     TP_STRUCT *tp,
+                                     double seconds);
 
 /*
  Sets what no move may exceed along its path, machine units per second.

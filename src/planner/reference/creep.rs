@@ -51,7 +51,7 @@ impl Reference {
 pub(super) fn law<R: Route>(route: &R, start: f64, outlook: &Outlook) -> Option<MoveLaw> {
     let end = stretch_end(route, start);
     let length = end - start;
-    if !(length > 0.0) {
+    if length.is_nan() || length <= 0.0 {
         return None;
     }
     let limits = path_limits(route, start, end, outlook);
