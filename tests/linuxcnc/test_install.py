@@ -29,6 +29,8 @@ class Install(unittest.TestCase):
             for name in ("usr/lib/linuxcnc/modules/framekins.so", "usr/lib/linuxcnc/modules/blendtp.so",
                          "usr/bin/framepath", "usr/share/man/man1/framepath.1", "usr/share/man/man9/framekins.9",
                          "usr/share/man/man9/blendtp.9", "usr/share/framepath/subroutines/trans.ngc",
+                         *(f"usr/share/framepath/subroutines/frame_{part}.py"
+                           for part in ("guard", "heart", "offsets", "settings")),
                          "usr/share/framepath/configs/framepath-sim/framepath-sim.ini"):
                 self.assertIn(name, there)
             # the samples find the subroutines by the same relative path as in the repository
