@@ -74,8 +74,10 @@ class Look:
         self.idle = status.interp_state == linuxcnc.INTERP_IDLE
         #: changes with each command to LinuxCNC
         self.serial = status.echo_serial_number
-        self.moving = not status.inpos or status.queue > 0
         self.teleop = status.motion_mode == linuxcnc.TRAJ_MODE_TELEOP
+        # a jog in teleop is in position all the while
+        jogging = self.teleop and any(axis["velocity"] for axis in status.axis)
+        self.moving = not status.inpos or status.queue > 0 or jogging
         self.coordinated = status.motion_mode == linuxcnc.TRAJ_MODE_COORD
         self.non_modal = status.gcodes[2]
         self.motion_type = status.motion_type
@@ -123,6 +125,8 @@ class Guard:
         #: since when the frame should have gone, None if it need not; and whether that was told
         self.stays_since = None
         self.told = False
+        #: when teleop was left for it last
+        self.tried = 0.0
         self.status.poll()
         # what the one before has not done is done by whoever switches the machine on again
         pins["releases-seen"] = hal.get_value("framekins.releases")
@@ -267,7 +271,7 @@ class Guard:
     def remove(self, before):
         """The frame has to go and no program runs: framekins removes it as soon as motion stands outside of teleop."""
         gone = self.wait(lambda: not hal.get_value("framekins.active"), 0.02)
-        if not gone and before.on and before.teleop and not before.moving:
+        if not gone and before.on and before.teleop and not before.moving and self.may_try():
             # a change in teleop would make the joints jump: leave it for a moment
             self.mode(linuxcnc.MODE_MDI)
             gone = self.wait(lambda: not hal.get_value("framekins.active"), 0.2)
@@ -282,6 +286,14 @@ class Guard:
             self.due = None
         elif not before.moving:
             self.complain()
+
+    def may_try(self):
+        """Whether teleop mode is to be left now: where that did not help for a while, only once a second."""
+        now = time.monotonic()
+        if self.told and now - self.tried < PATIENCE:
+            return False
+        self.tried = now
+        return True
 
     def complain(self):
         """Tells once of a frame that does not go although nothing is in its way."""

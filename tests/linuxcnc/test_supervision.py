@@ -115,6 +115,17 @@ class EndOfAFrame(Case):
             for got, wanted in zip(result.answers["jogged"][key], (6, 52, 0)):
                 self.assertAlmostEqual(got, wanted, delta=1e-3)
 
+    def test_a_jog_is_not_disturbed(self):
+        # LinuxCNC refuses another mode while it jogs, and says so each time
+        result = watched([["mdi", "o<trans> call [0] [50] [0]"], ["mdi", "G0 X1 Y2"], ["teleop", True], ["jog", 0, 10, 20],
+                          ["force", "framekins.command", 0], ["sleep", 1], ON, ["wait_place", 0, 20.99], OFF,
+                          ["sleep", 0.3], ["note", "end"]], {})
+        self.fine(result)
+        for key in ("joints", "position"):
+            for got, wanted in zip(result.answers["end"][key], (21, 52, 0)):
+                self.assertAlmostEqual(got, wanted, delta=1e-3)
+        self.assertLess(at_switches(result), 1e-6)
+
     def test_a_program_that_starts_too_early_does_not_move(self):
         # the interpreter still has the position in the frame: its first move would go somewhere else
         steps = [["mdi", "G0 X0 Y7 Z3"], ["open", "PROGRAMS/part.ngc"], ["forget"]]
