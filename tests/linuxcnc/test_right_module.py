@@ -8,11 +8,11 @@ import subprocess
 import tempfile
 import unittest
 
+import abi_drivers
 import harness
+from abi_drivers import HEADERS, LIBRARY
 from test_loading import MOTION, Refusals, halrun
 
-HEADERS = os.environ.get("LINUXCNC_INCLUDE", "/usr/include/linuxcnc")
-LIBRARY = os.path.join(os.path.dirname(harness.MODULES), "realtime", "libframepath.a")
 #: What every refusal of a module of another LinuxCNC says.
 BUILT_FOR, RUNNING, REMEDY = "built for LinuxCNC", "running under LinuxCNC 2.9", "make install again"
 
@@ -59,13 +59,13 @@ class OtherLinuxCNC(unittest.TestCase):
         return output
 
     def test_another_version_is_refused_at_once(self):
-        for version in ("2.10.0~pre1", "2.8.4", "3.9.0"):
+        for version in ("2.10.0~pre1", "3.9.0"):
             build(self.modules, f"LINUXCNC_VERSION={version}")
             self.assert_refused("loadrt blendtp\n", "blendtp", f"{BUILT_FOR} {version},")
             self.assert_refused("loadrt framekins coordinates=XYZ\n", "framekins", f"{BUILT_FOR} {version},")
 
     def test_another_release_of_the_series_and_an_unknown_one_are_not(self):
-        for version in ("2.9.0", "2.9.10", "2.9", ""):
+        for version in ("2.9.10", ""):
             build(self.modules, f"LINUXCNC_VERSION={version}")
             output, code = halrun(MOTION, self.modules)
             self.assertEqual(code, 0, output)
@@ -92,6 +92,39 @@ class OtherLinuxCNC(unittest.TestCase):
     def test_fields_in_another_order_are_refused(self):
         self.other_layout("double rapid_scale;\t/* velocity scale factor for rapids */\n\tunsigned char enables_new;",
                           "unsigned char enables_new;\n\tdouble rapid_scale;", "the overrides are not 1")
+
+
+class RunningVersion(unittest.TestCase):
+    """The version is read beside the program that loads the module, be LinuxCNC installed or run in place."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.tree = folder.name
+        os.mkdir(os.path.join(self.tree, "bin"))
+        os.mkdir(os.path.join(self.tree, "scripts"))
+
+    def started(self, built_for, running, script):
+        """What a program with blendtp in it says at its start."""
+        program = os.path.join(self.tree, "bin", "program")
+        abi_drivers.with_source("blendtp", program, built_for=built_for)
+        with open(os.path.join(self.tree, script), "w", encoding="utf-8") as file:
+            file.write(f'#!/bin/bash\n# LINUXCNCVERSION\nLINUXCNCVERSION="{running}"; export LINUXCNCVERSION\n')
+        done = subprocess.run([program, "1", "0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        os.remove(os.path.join(self.tree, script))
+        return done.returncode, done.stdout
+
+    def test_built_for_this_one_and_loaded_by_the_next(self):
+        for script in ("bin/linuxcnc", "scripts/linuxcnc"):
+            code, said = self.started("2.9.4", "2.10.0~pre1", script)
+            self.assertNotEqual(code, 0, said)
+            self.assertIn("blendtp: built for LinuxCNC 2.9.4, running under LinuxCNC 2.10.0~pre1: in framepath's sources: "
+                          "make install again", said)
+
+    def test_the_same_series(self):
+        for script in ("bin/linuxcnc", "scripts/linuxcnc"):
+            code, said = self.started("2.9.0~pre1", "2.9.10", script)
+            self.assertEqual(code, 0, said)
 
 
 class Beside(Refusals):
@@ -124,6 +157,17 @@ class Built(unittest.TestCase):
             build(modules, "built-for", f"LINUXCNC_INCLUDE={headers}")
             with open(noticed, encoding="utf-8") as file:
                 self.assertNotEqual(file.read(), first)
+
+    def test_headers_of_a_linuxcnc_that_is_run_in_place(self):
+        with tempfile.TemporaryDirectory() as tree:
+            for name in ("include", "scripts"):
+                os.mkdir(os.path.join(tree, name))
+            shutil.copy(os.path.join(HEADERS, "motion.h"), os.path.join(tree, "include"))
+            with open(os.path.join(tree, "scripts", "linuxcnc"), "w", encoding="utf-8") as file:
+                file.write('LINUXCNCVERSION="2.9.77"; export LINUXCNCVERSION\n')
+            build(tree, "built-for", f"LINUXCNC_INCLUDE={tree}/include")
+            with open(os.path.join(tree, "built-for"), encoding="utf-8") as file:
+                self.assertEqual(file.readline(), "2.9.77\n")
 
     def test_cargo_looks_at_what_make_has_noticed(self):
         noticed = f"cargo:rerun-if-changed={os.path.join(harness.MODULES, 'built-for')}"

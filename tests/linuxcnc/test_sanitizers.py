@@ -8,16 +8,9 @@ import tempfile
 import unittest
 import unittest.mock
 
-import harness
-from test_right_module import HEADERS, LIBRARY
+import abi_drivers
 
-DRIVERS = os.path.join(harness.ROOT, "tests", "abi")
-STUBS = os.path.join(harness.ROOT, "tool", "src", "compare", "host", "stubs.c")
-FLAGS = ["-g", "-O1", "-Wall", "-Wextra", "-Werror", "-DRTAPI", "-DUSPACE", "-D__MODULE__", "-D_GNU_SOURCE",
-         "-DHOST_KEEPS_HEAP", "-isystem", HEADERS, "-I", os.path.join(harness.ROOT, "include"), "-I", DRIVERS]
 SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize=object-size", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"]
-#: driver of each module, and what it is compiled with
-MODULES = {"blendtp": ("drive_planner.c", []), "framekins": ("drive_kinematics.c", ["-DHOST_WITHOUT_KINEMATICS"])}
 MACHINES = (("XYZ", "identity", "frame"), ("xyyzabcuvw", "identity", "machine"), ("XYZAC", "xyzac", "frame"),
             ("XYZBC", "xyzbc", "machine"))
 REFUSED = (("", "identity", "frame", "coordinates="), ("XYQ", "identity", "frame", "coordinates=XYQ"),
@@ -32,15 +25,7 @@ class Driven(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        cls.drivers = {name: cls.compiled(name, os.path.join(cls.folder, name)) for name in MODULES}
-
-    @classmethod
-    def cc(cls, output, *arguments):
-        done = subprocess.run(["cc", *FLAGS, *arguments, "-o", output], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, check=False)
-        if done.returncode:
-            raise AssertionError(done.stdout)
-        return output
+        cls.drivers = {name: cls.compiled(name, os.path.join(cls.folder, name)) for name in abi_drivers.MODULES}
 
     def done(self, name, *arguments):
         return subprocess.run([*self.WRAPPER, self.drivers[name], *arguments], stdout=subprocess.PIPE,
@@ -96,9 +81,7 @@ class Sanitizers(Watched, Driven):
 
     @classmethod
     def compiled(cls, name, output):
-        driver, flags = MODULES[name]
-        return cls.cc(output, *SANITIZERS, *flags, '-DFRAMEPATH_BUILT_FOR=""', os.path.join(harness.SAMPLES, f"{name}.c"),
-                      os.path.join(DRIVERS, driver), STUBS, "-lm", LIBRARY)
+        return abi_drivers.with_source(name, output, *SANITIZERS)
 
     def environment(self):
         # what a machine has until it is switched off is no leak
@@ -113,10 +96,7 @@ class Valgrind(Watched, Driven):
 
     @classmethod
     def compiled(cls, name, output):
-        driver, flags = MODULES[name]
-        module = os.path.join(cls.folder, f"{name}.so")
-        shutil.copy(os.path.join(harness.MODULES, f"{name}.so"), module)
-        return cls.cc(output, *flags, os.path.join(DRIVERS, driver), STUBS, module, "-rdynamic", "-lm")
+        return abi_drivers.with_module(name, output)
 
 
 if __name__ == "__main__":

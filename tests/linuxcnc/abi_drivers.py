@@ -1,0 +1,38 @@
+"""Builds the programs of tests/abi, which drive a module in a process without LinuxCNC."""
+
+import os
+import shutil
+import subprocess
+
+import harness
+
+HEADERS = os.environ.get("LINUXCNC_INCLUDE", "/usr/include/linuxcnc")
+LIBRARY = os.path.join(os.path.dirname(harness.MODULES), "realtime", "libframepath.a")
+DRIVERS = os.path.join(harness.ROOT, "tests", "abi")
+STUBS = os.path.join(harness.ROOT, "tool", "src", "compare", "host", "stubs.c")
+FLAGS = ["-g", "-O1", "-Wall", "-Wextra", "-Werror", "-DRTAPI", "-DUSPACE", "-D__MODULE__", "-D_GNU_SOURCE",
+         "-DHOST_KEEPS_HEAP", "-isystem", HEADERS, "-I", os.path.join(harness.ROOT, "include"), "-I", DRIVERS]
+#: the driver of each module, and what it is compiled with
+MODULES = {"blendtp": ("drive_planner.c", []), "framekins": ("drive_kinematics.c", ["-DHOST_WITHOUT_KINEMATICS"])}
+
+
+def _cc(name, output, *arguments):
+    driver, flags = MODULES[name]
+    done = subprocess.run(["cc", *FLAGS, *flags, os.path.join(DRIVERS, driver), STUBS, *arguments, "-o", output],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    if done.returncode:
+        raise AssertionError(done.stdout)
+    return output
+
+
+def with_source(name, output, *flags, built_for=""):
+    """A driver with the C of its module and the library in one, built for this version of LinuxCNC."""
+    return _cc(name, output, f'-DFRAMEPATH_BUILT_FOR="{built_for}"', *flags, os.path.join(harness.SAMPLES, f"{name}.c"),
+               "-Wl,--no-as-needed", "-lm", LIBRARY)
+
+
+def with_module(name, output):
+    """A driver with a copy of the module that users get, beside it."""
+    module = f"{output}.so"
+    shutil.copy(os.path.join(harness.MODULES, f"{name}.so"), module)
+    return _cc(name, output, module, "-rdynamic", "-lm")
