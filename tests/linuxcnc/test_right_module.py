@@ -23,6 +23,7 @@ def build(folder, *arguments):
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     if done.returncode:
         raise AssertionError(done.stdout)
+    return done.stdout
 
 
 def changed_headers(folder, before, after):
@@ -157,6 +158,12 @@ class Built(unittest.TestCase):
             build(modules, "built-for", f"LINUXCNC_INCLUDE={headers}")
             with open(noticed, encoding="utf-8") as file:
                 self.assertNotEqual(file.read(), first)
+
+    def test_headers_of_another_series_are_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for version, told in (("2.10.0~pre1", True), ("3.9.0", True), ("2.9.0~pre1+git", False), ("2.9", False), ("", False)):
+                said = build(folder, "built-for", f"LINUXCNC_VERSION={version}")
+                self.assertEqual(f"LinuxCNC 2.9; the headers in {HEADERS} are those of {version}" in said, told, said)
 
     def test_headers_of_a_linuxcnc_that_is_run_in_place(self):
         with tempfile.TemporaryDirectory() as tree:
