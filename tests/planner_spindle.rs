@@ -304,3 +304,37 @@ fn a_pause_before_the_index_holds_the_thread() {
         keeps_limits(lathe.machine);
     });
 }
+
+#[test]
+fn a_thread_that_is_held_before_it_begins_takes_a_later_turn() {
+    with_machine(|machine| {
+        let mut lathe = Lathe::new(machine, 6.0);
+        lathe
+            .machine
+            .planner
+            .set_spindle_synchronisation(SPINDLE as i32, 1.5, false);
+        lathe.machine.line(z(30.0), &fast()).expect("a thread");
+        while !lathe.awaits_index {
+            lathe.cycle();
+        }
+        while lathe.awaits_index {
+            lathe.cycle();
+        }
+        // It knows the turn that it would begin with.
+        for _ in 0..20 {
+            lathe.cycle();
+        }
+        lathe.machine.planner.pause();
+        for _ in 0..900 {
+            assert_eq!(lathe.cycle().position, z(0.0));
+        }
+        lathe.machine.planner.resume();
+        lathe.run(100_000);
+        assert_eq!(lathe.errors, []);
+        assert!(off_the_groove(&lathe.phases(6.0, 28.0, 1.5)) * 1.5 < 1e-3);
+        // Nothing has to be made up for.
+        let steps = lathe.record.windows(2).map(|pair| pair[1].1 - pair[0].1);
+        let fastest = steps.fold(0.0, f64::max) / PERIOD;
+        assert!(fastest < 1.05 * 1.5 * 6.0, "{fastest}");
+    });
+}

@@ -122,15 +122,24 @@ def listed(folders):
 
 
 def cargo(arguments, log, seconds=None):
-    """Whether a cargo command succeeds; None where it takes longer than so many seconds."""
+    """Whether a cargo command succeeds; None where it takes longer than so many seconds.
+
+    One test that fails is enough: others may go on for ever."""
     environment = dict(os.environ, CARGO_TARGET_DIR=os.path.join(WORK, "build"), **ENVIRONMENT)
     command = ["cargo", "test", "--locked", "--package", "framepath", *arguments]
+    begun, read = time.monotonic(), os.path.getsize(log.name)
     with subprocess.Popen(command, cwd=TREE, env=environment, stdout=log, stderr=log, start_new_session=True) as process:
-        try:
-            return process.wait(seconds) == 0
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            return None
+        while True:
+            try:
+                return process.wait(0.5) == 0
+            except subprocess.TimeoutExpired:
+                late = seconds is not None and time.monotonic() - begun > seconds
+                with open(log.name, "rb") as written:
+                    written.seek(read)
+                    failed = b" ... FAILED\n" in written.read()
+                if late or failed:
+                    os.killpg(process.pid, signal.SIGKILL)
+                    return False if failed else None
 
 
 def patch(mutant, *options):
@@ -153,6 +162,10 @@ def outcome(mutant, tests, seconds, log):
 
 def seconds_without_fault(tests, log):
     """How long these tests may take; they have to pass without a fault."""
+    if not cargo(["--no-run", *tests], log):
+        # A run that was killed while it compiled leaves halves behind.
+        shutil.rmtree(os.path.join(WORK, "build", "debug", "incremental"), ignore_errors=True)
+        subprocess.run(["touch", "src/lib.rs"], cwd=TREE, check=True)
     if not cargo(["--no-run", *tests], log):
         sys.exit(f"cannot be built: {tests}; see {log.name}")
     begun = time.monotonic()
@@ -181,6 +194,11 @@ def run_folder(folder, mutants, results):
 def keep(results):
     with open(os.path.join(WORK, "results.json"), "w", encoding="utf-8") as file:
         json.dump(results, file, indent=1)
+
+
+def kept():
+    with open(os.path.join(WORK, "results.json"), encoding="utf-8") as file:
+        return json.load(file)
 
 
 def report(drawn, results, known, seed):
@@ -223,6 +241,7 @@ def main():
     parser.add_argument("--folders", default=",".join(TESTS),
                         help="of src, with commas between them: what is drawn from others is left out")
     parser.add_argument("--least", type=float, default=0.85, help="the share that has to be caught")
+    parser.add_argument("--resume", action="store_true", help="what the last run has found is not tested again")
     parser.add_argument("--match", help="instead of drawing, all mutants whose names have this")
     options = parser.parse_args()
     folders = options.folders.split(",")
@@ -237,9 +256,10 @@ def main():
     else:
         drawn = random.Random(options.seed).sample(mutants, min(options.count, len(mutants)))
     print(f"{len(drawn)} of {len(mutants)} mutants", flush=True)
-    results = {}
+    results = kept() if options.resume else {}
     for folder in folders:
-        in_folder = [mutant for mutant in drawn if folder_of(mutant) == folder]
+        in_folder = [mutant for mutant in drawn
+                     if folder_of(mutant) == folder and results.get(mutant["name"], "missed") == "missed"]
         if in_folder:
             run_folder(folder, in_folder, results)
     share = report(drawn, results, known, options.seed)
