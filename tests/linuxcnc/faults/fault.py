@@ -21,6 +21,8 @@ TOLERANCE = 0.05
 OFF = 1e-3
 PERIOD = 1e-3
 
+COUNTER = "loadrt threadtest count=1\naddf threadtest.0.increment servo-thread\n"
+
 HEAD = f"G21 G17 G90 G94 G54 G64 P{TOLERANCE} Q0 F3000"
 #: Blends and rapids from wherever the machine is; what it does shows whether everything is right again.
 TRIAL = "\n".join([HEAD, "G1 X20", "G1 Y10", "G2 X30 Y0 J-10", "G0 X5 Y5 Z2", "M2"]) + "\n"
@@ -59,7 +61,12 @@ def require(holds, text):
 
 
 def operated(steps, programs=None, **options):
-    """A Result of harness.run with the operator of this folder, and the trial among the programs."""
+    """A Result of harness.run with the operator of this folder, and the trial among the programs.
+
+    The operator counts servo periods: the machine of the outcome table has a counter, the sample gets one.
+    """
+    if "configuration" not in options:
+        options["hal"] = COUNTER + options.get("hal", "")
     options.setdefault("display", "operate_faults.py")
     options.setdefault("files", ("faults/operate_faults.py",))
     return harness.run(steps, {"trial.ngc": TRIAL, **(programs or {})}, **options)

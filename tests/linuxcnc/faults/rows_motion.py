@@ -8,7 +8,6 @@ from fault import (HEAD, OFF, TOLERANCE, Fault, Peaks, from_route, harness, oper
                  without_failure)
 
 SECTION = "Motion"
-COUNTER = "loadrt threadtest count=1\naddf threadtest.0.increment servo-thread\n"
 #: LinuxCNCs side by side for the aborts, and how many aborts there are.
 SESSIONS, ABORTS, FEW = 4, 1000, 40
 
@@ -69,9 +68,9 @@ class Aborts(Fault):
 
     def sessions(self):
         if self.short:
-            return [abort_session(SHAPES, FEW, 0, range(3), hal=COUNTER)]
+            return [abort_session(SHAPES, FEW, 0, range(3))]
         with concurrent.futures.ThreadPoolExecutor(SESSIONS) as pool:
-            return list(pool.map(lambda seed: abort_session(SHAPES, ABORTS // SESSIONS, seed, range(3), hal=COUNTER), range(SESSIONS)))
+            return list(pool.map(lambda seed: abort_session(SHAPES, ABORTS // SESSIONS, seed, range(3)), range(SESSIONS)))
 
     def run(self):
         peaks, off = zip(*self.sessions())
