@@ -34,6 +34,10 @@ class AgainstLinuxCnc(unittest.TestCase):
     programs, ini, axes, machine = PROGRAMS, INI, AXES, {}
     #: Cycles between two moves from which on it may matter in what time the moves of earlier programs came.
     steady = math.inf
+    #: Such up to which a program takes the time that was planned.
+    prompt = PROMPT
+    #: mm
+    same = SAME
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -78,14 +82,14 @@ class AgainstLinuxCnc(unittest.TestCase):
                 print(f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, planned {off:+d} cycles; with the same "
                       f"arrivals {same - recording.cycles:+d} cycles, positions within {away:.2g} mm; longest wait "
                       f"for a move {recording.longest_wait()} cycles", flush=True)
-                if not away < SAME and recording.longest_wait() >= self.steady:
+                if not away < self.same and recording.longest_wait() >= self.steady:
                     late.append(name)
                     continue
                 with self.subTest("the same arrivals", program=name):
                     self.assertLessEqual(abs(same - recording.cycles), 1)
-                    self.assertLess(away, SAME)
+                    self.assertLess(away, self.same)
                 if abs(off) > max(3, 0.002 * recording.cycles):
-                    self.assertGreater(recording.longest_wait(), PROMPT, f"{name} takes another time than planned, "
+                    self.assertGreater(recording.longest_wait(), self.prompt, f"{name} takes another time than planned, "
                                        "although its moves came promptly")
                     late.append(name)
             left = late

@@ -1,6 +1,7 @@
 """Random short programs (short_programs.py): none may end in a fault or beyond a limit, and a real LinuxCNC does with
 them what `framepath plan` says."""
 
+import math
 import os
 import shutil
 import unittest
@@ -8,6 +9,7 @@ import unittest
 import harness
 import short_programs
 import test_plan
+from ten_programs import motion
 
 #: Programs that are planned, with every limit of jerk; short_programs.py takes as many as one likes.
 PLANNED = 250
@@ -41,8 +43,11 @@ class Recorder(harness.Recorder):
 
 class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
     axes = "xyzb"
-    #: A planner waits the longer for a move the slower they came, in the programs before as well, and 8 ms at least.
-    steady = 8
+    #: The planner waits the longer for a move the slower they came, in the programs before as well: it matters where all the
+    #: motion takes milliseconds.
+    steady = 2
+    prompt = 7
+    same = 1e-6
     machine = {"sample": "machine", "configuration": CONTRACT, "ini": CHANGES, "timeout": 600,
                "hal": "".join(f"setp blendtp.axis.{axis}.max-jerk {JERK}\n" for axis in "xyzab")}
 
@@ -60,6 +65,14 @@ class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
         texts = {f"short{seed}": short_programs.program(seed).text for seed in RUN}
         self.programs = {name: text for name, text in texts.items() if self.has_plan(name, text)}
         self.assertGreater(len(self.programs), len(RUN) // 2)
+
+    def with_the_same_arrivals(self, name, recording):
+        """From the first motion on: how long the planner waits before it is what the programs before have to do with."""
+        positions, cycles = self.planned(name, "--arrivals", self.file(name + ".txt", recording.arrivals()))
+        begins = [motion([places[0], *places])[0] - 1 for places in (positions, recording.positions)]
+        pairs = list(zip(positions[begins[0]:], recording.positions[begins[1]:recording.end + 1]))
+        away = max(math.dist(a, b) for a, b in pairs)
+        return cycles, away if len(pairs) == recording.end + 1 - begins[1] else math.inf
 
     def has_plan(self, name, text):
         return test_plan.plan(self.file(name + ".ngc", text), "--ini", self.ini, check=False).returncode == 0

@@ -54,7 +54,7 @@ REFUSED = [
 
 #: What LinuxCNC has a sensible value for, and what only makes a machine slow: the program runs as it should.
 HARMLESS = [
-    (X, "MAX_VELOCITY", (None, "inf")),
+    (X, "MAX_VELOCITY", ("inf",)),
     (X, "MAX_ACCELERATION", (None, "inf")),
     (X, "MAX_JERK", ("0", "1e9", "1e300")),
     (TRAJ, "MAX_LINEAR_VELOCITY", (None, "inf")),

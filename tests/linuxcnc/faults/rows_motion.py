@@ -64,18 +64,27 @@ class Aborts(Fault):
     """Each time the machine rests on its path within 4 s, within all limits, without an error; the next program is right"""
 
     section = SECTION
-    done = "1,000 aborts at random periods of programs of blends, arcs, dense code and in a frame"
+    done = "1,000 aborts at random periods of programs of blends, arcs and dense code"
+    shapes = {name: shape for name, shape in SHAPES.items() if name != "frame"}
+    parts = SESSIONS
 
     def sessions(self):
         if self.short:
-            return [abort_session(SHAPES, FEW, 0, range(3))]
+            return [abort_session(self.shapes, FEW, 0, range(3))]
         with concurrent.futures.ThreadPoolExecutor(SESSIONS) as pool:
-            return list(pool.map(lambda seed: abort_session(SHAPES, ABORTS // SESSIONS, seed, range(3)), range(SESSIONS)))
+            return list(pool.map(lambda seed: abort_session(self.shapes, ABORTS // SESSIONS, seed, range(3)), range(self.parts)))
 
     def run(self):
         peaks, off = zip(*self.sessions())
         shares = [max(peak.shares[degree] for peak in peaks) for degree in range(3)]
         return "v {:.3f}, a {:.3f}, j {:.3f}, rests within {:.3f} mm of the program".format(*shares, max(off))
+
+
+class FramedAborts(Aborts):
+    __doc__ = Aborts.__doc__
+    done = "250 aborts at random periods of a program in a frame"
+    shapes = {"frame": SHAPES["frame"]}
+    parts = 1
 
 
 class RotaryAborts(Aborts):
