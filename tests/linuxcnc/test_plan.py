@@ -36,8 +36,8 @@ class AgainstLinuxCnc(unittest.TestCase):
     steady = math.inf
     #: Such up to which a program takes the time that was planned.
     prompt = PROMPT
-    #: mm
-    same = SAME
+    #: mm, and cycles from the first motion to the last
+    same, same_cycles = SAME, 1
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -86,7 +86,7 @@ class AgainstLinuxCnc(unittest.TestCase):
                     late.append(name)
                     continue
                 with self.subTest("the same arrivals", program=name):
-                    self.assertLessEqual(abs(same - recording.cycles), 1)
+                    self.assertLessEqual(abs(same - recording.cycles), self.same_cycles)
                     self.assertLess(away, self.same)
                 if abs(off) > max(3, 0.002 * recording.cycles):
                     self.assertGreater(recording.longest_wait(), self.prompt, f"{name} takes another time than planned, "
