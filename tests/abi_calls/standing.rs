@@ -34,6 +34,8 @@ fn set_anew(calls: &mut Calls) {
     (status.stepping, status.enables_new) = (0, 0x0f);
     calls.shared.config().numSpindles = 0;
     calls.adaptive = 1.0;
+    // What stopped for a fault waits for the operator.
+    calls.command(Target::Abort);
     calls.command(Target::Clear);
     calls.place(&[0.0; 9]);
     assert_eq!(calls.set_cycle_time(1e-3), 0, "the period is refused");
