@@ -302,6 +302,7 @@ fn a_joint_beyond_its_soft_limit_is_named() {
     assert_eq!(machine.line(1.0, 2, &tag()), -1);
     assert!(machine.reason().contains("an error had stopped the motion"));
     machine.abort();
+    machine.cycle();
     // An extra joint is none of the kinematics.
     machine.shared.config().numExtraJoints = 2;
     assert_eq!(machine.half_circle(0.0, 3, &tag()), 0);

@@ -225,7 +225,9 @@ impl Calls {
             return;
         }
         assert!((0..=2).contains(&slot));
-        assert!(self.pins.in_position != 0 && self.pins.teleop == 0);
+        // With the machine off teleop is no obstacle to removing a frame.
+        assert!(self.pins.teleop == 0 || self.pins.enabled == 0 && linear_map().1 == 0);
+        assert_ne!(self.pins.in_position, 0);
         self.check_round_trip();
     }
 
@@ -272,7 +274,22 @@ impl Calls {
             *value = choices.one_of([0.0, 1.0, 2.0, size, -size]);
             *value = choices.or_strange(*value);
         }
+        self.sign();
+        if choices.rarely(30) {
+            self.pins.check = choices.or_strange(1.0);
+        }
         self.period();
+    }
+
+    /// The check that belongs to what is on the pins, as the subroutines send it.
+    fn sign(&mut self) {
+        let pins = &self.pins;
+        let [a, b, c] = pins.value;
+        let [x, y, z] = pins.work_offset;
+        let sent = [pins.command, a, b, c, x, y, z, pins.work_rotation];
+        let primes = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
+        let parts = primes.iter().zip(sent);
+        self.pins.check = parts.map(|(prime, part)| prime.sqrt() * part).sum();
     }
 
     fn choose_joints(&mut self, choices: &mut Choices) {
@@ -345,6 +362,13 @@ impl Calls {
     fn choose_state(&mut self, choices: &mut Choices) {
         self.pins.in_position = choices.one_of([1, 1, 0]);
         self.pins.teleop = choices.one_of([0, 0, 1]);
+        self.pins.enabled = choices.one_of([1, 1, 1, 0]);
+        self.pins.release_on_abort = choices.one_of([0, 1]);
+        self.pins.release = choices.one_of([0, 0, 1]);
+        self.pins.releases_seen = choices.one_of([self.shown.releases, 0, -1]);
+        self.pins.heartbeat = u32::from(choices.byte());
+        self.pins.period = choices.one_of([1e-3, 0.0, 0.5, f64::NAN]);
+        self.pins.clock = i64::from(choices.byte()) * 10_000_000;
     }
 
     fn call_with_nothing(&mut self, choices: &mut Choices) {
@@ -369,13 +393,23 @@ impl Calls {
         assert!((0..=2).contains(&framepath_kinematics_tilt_axis()));
     }
 
+    /// The guard of the frames lives.
+    fn beat(&mut self) {
+        self.pins.heartbeat = self.pins.heartbeat.wrapping_add(1).max(1);
+        self.pins.clock += 1_000_000;
+    }
+
     /// Whatever was called before: at rest, with pins that make sense, the frame is removed and a new one made.
     fn goes_on(&mut self) {
+        if !self.configured {
+            return;
+        }
         self.pins = neutral();
         self.linked = true;
         self.joints = [0.0; JOINTS];
         // A command that motion never answered is given up.
         for _ in 0..120 {
+            self.beat();
             self.period();
         }
         for (code, active) in [(9.0, 0), (1.0, 1)] {
@@ -385,7 +419,10 @@ impl Calls {
             }
             self.pins.command = self.number * 1000.0 + code;
             self.pins.value = [0.0; 3];
+            self.sign();
+            self.beat();
             self.period();
+            self.beat();
             self.period();
             let shown = &self.shown;
             assert_eq!((shown.refusal, shown.acknowledged), (0, self.number));
@@ -399,6 +436,8 @@ fn neutral() -> framepath_frame_inputs {
     // SAFETY: plain numbers.
     let mut pins: framepath_frame_inputs = unsafe { std::mem::zeroed() };
     pins.in_position = 1;
+    pins.enabled = 1;
+    pins.period = 1e-3;
     (pins.map[0], pins.map[5], pins.map[10]) = (1.0, 1.0, 1.0);
     (pins.tilt_range, pins.rotary_range) = ([-100.0, 100.0], [-360.0, 360.0]);
     pins
