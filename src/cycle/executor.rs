@@ -206,6 +206,12 @@ impl Executor {
         }
     }
 
+    /// Whether the machine moves and would run out of cells in the next cycle.
+    pub fn is_dry(&self) -> bool {
+        let moves = self.state.rate > 0.0 || self.state.rate_change != 0.0;
+        self.started && moves && self.table.end().is_none() && self.table.length() < 2
+    }
+
     /// Reference time since the start of the cell that it lies in, seconds.
     pub fn time_in_cell(&self) -> f64 {
         self.state.time * self.servo_period

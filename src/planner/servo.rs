@@ -120,7 +120,22 @@ impl Planner {
         }
         if self.running {
             self.build(inputs);
+            if self.executor.is_dry() && self.coast(inputs) {
+                self.fail(Fault::Starved);
+                self.build(inputs);
+            }
         }
+    }
+
+    /// Goes on straight along the path, since nothing else is left. Whether there is a path.
+    fn coast(&mut self, inputs: &CycleInputs) -> bool {
+        let outlook = Outlook {
+            queue: &self.queue,
+            limits: &self.limits,
+            map: &self.map,
+            now: self.conditions(inputs),
+        };
+        self.reference.coast(&outlook)
     }
 
     /// What holds in this servo period.

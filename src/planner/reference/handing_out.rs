@@ -33,6 +33,10 @@ impl Reference {
                     }
                 }
                 _ => {
+                    #[cfg(test)]
+                    if self.dry {
+                        return Ahead::Later;
+                    }
                     if self.waits_for_continuation(outlook, needed) {
                         return Ahead::Later;
                     }

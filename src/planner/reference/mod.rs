@@ -10,6 +10,7 @@
 
 mod backwards;
 mod cell_builder;
+mod coast;
 mod creep;
 mod handing_out;
 mod outlook;

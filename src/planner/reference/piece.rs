@@ -1,5 +1,6 @@
 //! The pieces of a reference that were handed out and are not yet behind the machine.
 
+use super::coast::Coast;
 use crate::path::PathPoint;
 use crate::path::blend::BlendedPath;
 use crate::speed::{JerkLimitedProfile, ProfileState, look_ahead};
@@ -21,6 +22,8 @@ pub(super) enum Law {
     Creep(MoveLaw),
     /// The same, back along the path.
     CreepBack(MoveLaw),
+    /// On along the path, where nothing else is left.
+    Coast(Coast),
 }
 
 /// A move, or its rest, run by one profile.
@@ -64,6 +67,7 @@ impl Piece {
     pub fn state(&self, t: f64, within: f64) -> ProfileState {
         match &self.law {
             Law::Run(piece) | Law::Return(piece) => piece.at(t),
+            Law::Coast(coast) => coast.state(t, within),
             Law::Move(law) | Law::Creep(law) | Law::CreepBack(law) => {
                 let state = law.profile.state(t, within);
                 ProfileState {
@@ -80,6 +84,7 @@ impl Piece {
     pub fn next_jump(&self, t: f64) -> f64 {
         match &self.law {
             Law::Run(_) | Law::Return(_) => f64::INFINITY,
+            Law::Coast(coast) => coast.next_jump(t),
             Law::Move(law) | Law::Creep(law) | Law::CreepBack(law) => law.profile.next_jump(t),
         }
     }
@@ -88,6 +93,7 @@ impl Piece {
     pub fn path_distance(&self, distance: f64) -> f64 {
         match &self.law {
             Law::Return(_) | Law::CreepBack(_) => -distance,
+            Law::Coast(coast) if coast.backwards => -distance,
             _ => distance,
         }
     }
@@ -98,6 +104,7 @@ impl Piece {
         let s = self.path_distance(distance);
         match &self.law {
             Law::Move(law) | Law::Creep(law) if s >= law.end => path.point_before(s),
+            Law::Coast(coast) => coast.point(path, distance),
             Law::Return(_) | Law::CreepBack(_) => path.point_before(s).backwards(),
             _ => path.point(s),
         }
@@ -149,8 +156,9 @@ impl Pieces {
         false
     }
 
+    /// Whether no piece can be pushed: the last slot is for [`Self::push_last`].
     pub fn is_full(&self) -> bool {
-        self.count >= SLOTS
+        self.count >= SLOTS - 1
     }
 
     pub fn front(&self) -> Option<&Piece> {
@@ -168,6 +176,13 @@ impl Pieces {
     /// Appends a piece; does nothing if the ring is full.
     pub fn push(&mut self, piece: Piece) {
         if !self.is_full() {
+            self.push_last(piece);
+        }
+    }
+
+    /// Appends a piece that no other follows, for which there is always room.
+    pub fn push_last(&mut self, piece: Piece) {
+        if self.count < SLOTS {
             self.count += 1;
             self.slots[slot(self.last())] = piece;
         }
@@ -201,14 +216,14 @@ mod tests {
             });
         }
         assert!(pieces.is_full());
-        for serial in 0..SLOTS {
+        for serial in 0..SLOTS - 1 {
             assert_eq!(
                 pieces.front().map(|piece| piece.duration),
                 Some(serial as f64)
             );
             assert_eq!(
                 pieces.back().map(|piece| piece.duration),
-                Some(f64::from(SLOTS - 1))
+                Some(f64::from(SLOTS - 2))
             );
             pieces.pop();
         }

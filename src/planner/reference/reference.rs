@@ -75,6 +75,9 @@ pub struct Reference {
     /// Seconds of the last piece that have been handed out.
     pub(super) frontier: f64,
     pub(super) cell: CellBuilder,
+    /// Hands out nothing more.
+    #[cfg(test)]
+    pub dry: bool,
 }
 
 impl Reference {
@@ -94,6 +97,8 @@ impl Reference {
             elapsed: 0.0,
             frontier: 0.0,
             cell: CellBuilder::new(),
+            #[cfg(test)]
+            dry: false,
         }
     }
 

@@ -1,0 +1,230 @@
+//! Where nothing more can be handed out although the machine moves: on along the path at the speed it has,
+//! for as long as it takes to come to rest.
+
+use super::outlook::Outlook;
+use super::piece::{Law, Piece};
+use super::reference::Reference;
+use crate::axes::{AXIS_COUNT, Axes};
+use crate::path::PathPoint;
+use crate::path::blend::BlendedPath;
+use crate::speed::ProfileState;
+
+/// The share of the jerk that an acceleration is released with: the rest is left for braking.
+const RELEASE_SHARE: f64 = 0.5;
+
+/// On along the path at a speed that stays as it is once the acceleration has been released.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coast {
+    start: ProfileState,
+    /// Seconds until the acceleration is 0.
+    release: f64,
+    /// Where the path may still change or ends: from there on straight ahead.
+    end: f64,
+    pub backwards: bool,
+}
+
+impl Coast {
+    /// Distance and its derivatives at time `t`, before or behind the release as `within` is.
+    pub fn state(&self, t: f64, within: f64) -> ProfileState {
+        let ProfileState {
+            distance,
+            velocity,
+            acceleration,
+            ..
+        } = self.start;
+        let jerk = -acceleration / self.release;
+        let ramp = |t: f64| ProfileState {
+            distance: distance + t * (velocity + t * (acceleration / 2.0 + t * jerk / 6.0)),
+            velocity: (velocity + t * (acceleration + t * jerk / 2.0)).max(0.0),
+            acceleration: acceleration + t * jerk,
+            jerk,
+        };
+        if within < self.release {
+            return ramp(t);
+        }
+        let released = ramp(self.release);
+        ProfileState {
+            distance: released.distance + (t - self.release) * released.velocity,
+            velocity: released.velocity,
+            acceleration: 0.0,
+            jerk: 0.0,
+        }
+    }
+
+    /// When the acceleration is released, if that is after `t`; else infinite.
+    pub fn next_jump(&self, t: f64) -> f64 {
+        if t < self.release {
+            self.release
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// The path at a distance, straight on behind its end.
+    pub fn point(&self, path: &BlendedPath, distance: f64) -> PathPoint {
+        let at = |distance: f64| {
+            if self.backwards {
+                path.point_before(-distance).backwards()
+            } else {
+                path.point(distance)
+            }
+        };
+        if distance < self.end {
+            return at(distance);
+        }
+        let end = if self.backwards {
+            path.point(-self.end).backwards()
+        } else {
+            path.point_before(self.end)
+        };
+        PathPoint {
+            position: end.position + end.first * (distance - self.end),
+            first: end.first,
+            second: Axes::zeros(),
+            third: Axes::zeros(),
+        }
+    }
+}
+
+impl Reference {
+    /// Goes on along the path from what was handed out last, without an end: the machine has to be held.
+    /// `false` if nothing was handed out.
+    pub fn coast(&mut self, outlook: &Outlook) -> bool {
+        let Some(last) = self.pieces.back_mut() else {
+            return false;
+        };
+        let start = last.state(self.frontier, self.frontier);
+        let first = outlook
+            .map
+            .apply(&last.point(&self.path, start.distance).first);
+        let jerk = outlook.axis_limits().jerk;
+        // Seconds for a unit of acceleration with all of the jerk; braking ends at rest, and no later.
+        let seconds = (0..AXIS_COUNT)
+            .map(|axis| first[axis].abs() / jerk[axis])
+            .fold(0.0, f64::max);
+        let share = if start.acceleration > 0.0 {
+            RELEASE_SHARE
+        } else {
+            1.0
+        };
+        let backwards = matches!(last.law, Law::Return(_) | Law::CreepBack(_));
+        let end = if backwards {
+            -self.current().end()
+        } else {
+            self.path.final_end()
+        };
+        let coast = Coast {
+            start,
+            release: (seconds * start.acceleration.abs() / share).max(outlook.now.period),
+            end: end.max(start.distance),
+            backwards,
+        };
+        if let Some(last) = self.pieces.back_mut() {
+            last.duration = self.frontier;
+        }
+        self.pieces.push_last(Piece {
+            law: Law::Coast(coast),
+            duration: f64::INFINITY,
+        });
+        self.frontier = 0.0;
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use crate::axes::{Axes, AxisLimits};
+    use crate::moves::{MotionType, StateTag, TerminationCondition};
+    use crate::path::Circle;
+    use crate::planner::status::Fault;
+    use crate::planner::{CycleInputs, MoveRequest, Planner};
+
+    const PERIOD: f64 = 1e-3;
+
+    /// Starves the executor in the given servo period of a line, an arc and a line. How far from the
+    /// circle and its tangents the machine comes to rest.
+    fn starve(jerk: f64, period: usize) -> f64 {
+        let limits = AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(jerk),
+        };
+        let mut planner = Planner::new();
+        assert!(planner.set_cycle_time(PERIOD));
+        planner.set_limits(&limits);
+        planner.set_termination(TerminationCondition::Continuous { tolerance: 0.05 });
+        let request = MoveRequest {
+            motion_type: MotionType::Feed,
+            feed: 80.0,
+            max_velocity: 1e3,
+            enables: 0x0f,
+            wait_for_spindle: false,
+            indexer_joint: None,
+            tag: StateTag::EMPTY,
+        };
+        let half = Circle {
+            center: Vector3::new(20.0, 10.0, 0.0),
+            normal: Vector3::z(),
+            turn: 0,
+        };
+        let turned = Axes::x() * 20.0 + Axes::y() * 20.0;
+        planner
+            .add_line(&(Axes::x() * 20.0), &request)
+            .expect("a line");
+        planner
+            .add_circle(&turned, &half, &request)
+            .expect("an arc");
+        planner
+            .add_line(&(Axes::y() * 20.0), &request)
+            .expect("a line");
+        let mut positions = vec![Axes::zeros(); 4];
+        for cycle in 0.. {
+            assert!(cycle < 5000, "never at rest: {:?}", planner.status());
+            planner.reference.dry = cycle >= period;
+            let status = planner.cycle(&CycleInputs::default());
+            positions.push(status.position);
+            if status.done {
+                break;
+            }
+        }
+        assert_eq!(planner.status().fault, Some(Fault::Starved));
+        let rest = planner.status().position;
+        positions.extend([rest; 4]);
+        for window in positions.windows(4) {
+            let velocity = (window[3] - window[2]).amax() / PERIOD;
+            let acceleration = (window[3] - window[2] * 2.0 + window[1]).amax() / PERIOD.powi(2);
+            let third = window[3] - window[2] * 3.0 + window[1] * 3.0 - window[0];
+            let third = third.amax() / PERIOD.powi(3);
+            assert!(
+                velocity <= 80.1 && acceleration <= 1001.0,
+                "{velocity} {acceleration}"
+            );
+            assert!(third <= 1.1 * jerk, "{third}");
+        }
+        let [x, y] = [rest[0] - 20.0, rest[1] - 10.0];
+        if x <= 0.0 {
+            (y.abs() - 10.0).abs()
+        } else {
+            (x.hypot(y) - 10.0).abs()
+        }
+    }
+
+    #[test]
+    fn a_machine_that_is_starved_brakes_on_its_path() {
+        for jerk in [2e4, 1e5, f64::INFINITY] {
+            std::thread::Builder::new()
+                .stack_size(64 << 20)
+                .spawn(move || {
+                    for period in (20..620).step_by(20) {
+                        let away = starve(jerk, period);
+                        assert!(away < 0.05, "{away} at {period}, jerk {jerk}");
+                    }
+                })
+                .expect("a thread")
+                .join()
+                .expect("no panic");
+        }
+    }
+}
