@@ -232,9 +232,10 @@ impl Caps {
 
         // In a rounded corner the feed changes with its ratio to the path velocity too: without it the
         // machine lags behind a cap of the path velocity that falls towards the end of the corner.
-        let growth = match next.programmed_feed > 0.0 {
-            true => f64::from(next.feed_ratio - here.feed_ratio) / feed_ratio,
-            false => 0.0,
+        let growth = if next.programmed_feed > 0.0 {
+            f64::from(next.feed_ratio - here.feed_ratio) / feed_ratio
+        } else {
+            0.0
         };
         let path_acceleration = own_acceleration + path_velocity * growth;
         let path_jerk = own_jerk + 2.0 * own_acceleration * growth;

@@ -119,7 +119,7 @@ fn any_way() -> impl Strategy<Value = Way> {
             Way::Line(Axes::from_fn(|axis, _| if axes >> axis & 1 == 0 { 0.0 } else { way[axis] * size }))
         }),
         1 => (
-            (size(), 0.0..6.2f64, 0usize..3),
+            (size(), 0.0..std::f64::consts::TAU, 0usize..3),
             prop_oneof![-6.2..6.2f64, -20.0..20.0f64],
             prop_oneof![2 => Just(0.0), 1 => -1.0..1.0f64],
             prop_oneof![4 => Just([0.0; 6]), 1 => prop::array::uniform6(-1.0..1.0f64)],
