@@ -19,4 +19,4 @@ pub const FAULTS_FAIL: bool = false;
 
 /// What an axis may go beyond its velocity limit, as a share of it. Where the limits of the axes are unequal, .53 % too
 /// much is known; 1e-3 is what is promised.
-pub const VELOCITY_EXCESS: f64 = 2e-2;
+pub const VELOCITY_EXCESS: f64 = 1e-3;
