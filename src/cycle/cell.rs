@@ -26,8 +26,9 @@ pub struct Cell {
     pub path_velocity: f64,
     /// Its derivative at the start.
     pub path_acceleration: f64,
-    /// Feed over path speed, at most in this cell: 1 where the path parameter is the distance
-    /// that F counts, less than 1 inside blends.
+    /// Greatest feed in this cell over the path speed at its start, or, where the path speed rises,
+    /// over the path speed there: 1 where the path parameter is the distance that F counts, less than 1
+    /// inside blends.
     pub feed_ratio: f64,
     /// What the program asks for at an override of 100 %: the F word, or the rapid rate.
     pub programmed_feed: f64,

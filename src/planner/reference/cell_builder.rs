@@ -18,6 +18,8 @@ const BESIDE: f64 = 1e-6;
 #[derive(Debug)]
 pub(super) struct CellBuilder {
     cell: Option<Cell>,
+    /// Path velocity at its start, in path distance.
+    start_velocity: f64,
     filled: f64,
 }
 
@@ -33,6 +35,7 @@ impl CellBuilder {
     pub const fn new() -> Self {
         Self {
             cell: None,
+            start_velocity: 0.0,
             filled: 0.0,
         }
     }
@@ -75,9 +78,11 @@ impl CellBuilder {
         // Where the stretch ends with a leg, the third derivative of the path may jump.
         let back = BESIDE * (second.along.distance - first.along.distance);
         let third = at(to, back);
-        let cell = self
-            .cell
-            .get_or_insert_with(|| first.cell(piece, ground, &second));
+        let start_velocity = &mut self.start_velocity;
+        let cell = self.cell.get_or_insert_with(|| {
+            *start_velocity = first.along.velocity;
+            first.cell(piece, ground, &second)
+        });
         // A parabola through three values exceeds its ends by no more than the middle value
         // exceeds their mean; a smooth curve over a small angle hardly differs from it.
         let bulge = |a: &Axes, b: &Axes, c: &Axes| (b - (a + c) * 0.5).abs();
@@ -89,7 +94,14 @@ impl CellBuilder {
         let jerk = bulge(&first.jerk, &second.jerk, &third.jerk);
         for end in [&first, &third] {
             widen(cell, &end.acceleration, &acceleration, &end.jerk, &jerk);
-            cell.feed_ratio = cell.feed_ratio.max(end.slope);
+            // Where a rounded corner ends, the path velocity falls as the slope rises: the greatest
+            // slope times the velocity before would be a feed that there never is.
+            let share = if end.along.velocity < *start_velocity {
+                end.along.velocity / *start_velocity
+            } else {
+                1.0
+            };
+            cell.feed_ratio = cell.feed_ratio.max(end.slope * share);
         }
     }
 }
