@@ -109,13 +109,17 @@ fn runs_with(fault: Fault, period: usize) -> Option<usize> {
 
 #[test]
 fn a_fault_in_any_period_stops_on_the_path_and_holds_until_an_abort() {
-    for (number, fault) in FAULTS.into_iter().enumerate() {
-        // Each kind of fault in other periods, all of them in each sixth one of a whole program.
-        let ended = (number..LONG)
-            .step_by(FAULTS.len())
-            .find_map(|period| runs_with(fault, period));
+    // Each kind of fault in other periods, all of them in each sixth one of a whole program.
+    let ends = |number: usize| {
+        let mut periods = (number..LONG).step_by(FAULTS.len());
+        let ended = periods.find_map(|period| runs_with(FAULTS[number], period));
         assert!(ended.is_some_and(|periods| periods > 200), "{ended:?}");
-    }
+    };
+    std::thread::scope(|scope| {
+        for number in 0..FAULTS.len() {
+            scope.spawn(move || ends(number));
+        }
+    });
 }
 
 #[test]

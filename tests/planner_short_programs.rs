@@ -12,7 +12,7 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 #[test]
 fn short_programs_keep_all_limits() {
     let cases =
-        std::env::var("FRAMEPATH_CASES").map_or(2000, |cases| cases.parse().expect("a number"));
+        std::env::var("FRAMEPATH_CASES").map_or(10_000, |cases| cases.parse().expect("a number"));
     let config = Config {
         cases,
         failure_persistence: None,

@@ -66,6 +66,7 @@ static void add_move(void)
     double feed = number(.1, 300);
     int kind = pick(12), result;
     shared->status.commandNumEcho += pick(9) > 0;
+    shared->status.commandEcho = EMCMOT_SET_LINE;
     tpSetId(tp, whole(1000));
     if (kind < 8)
         result = tpAddLine(tp, pose(), whole(6), feed, number(10, 400), number(1, 5000), random_bits(), !pick(9), whole(16), tag());
@@ -97,11 +98,21 @@ static void set_something(void)
     }
 }
 
+/* As task commands it, for an operator or because motion has an error. */
+static void abort_motion(void)
+{
+    shared->status.commandEcho = EMCMOT_ABORT;
+    tpAbort(tp);
+    shared->status.motionFlag &= ~EMCMOT_MOTION_ERROR_BIT;
+}
+
 static void operate(void)
 {
+    if (shared->status.motionFlag & EMCMOT_MOTION_ERROR_BIT)
+        abort_motion();
     switch (pick(200)) {
     case 0: tpPause(tp); break;
-    case 1: tpAbort(tp); break;
+    case 1: if (pick(2)) tpAbort(tp); else abort_motion(); break;
     case 2: tpClear(tp); break;
     case 3: case 4: case 5: tpResume(tp); break;
     case 6: framepath_host_set("axis.x.max-jerk", number(1e3, 1e6)); break;
@@ -221,7 +232,7 @@ static void refuse_impossible_pins(void)
 {
     static const double impossible[] = {NAN, -INFINITY, -1, -1e-300};
     for (unsigned i = 0; i < sizeof impossible / sizeof impossible[0]; i++) {
-        refuse_by_name("axis.x.max-jerk", impossible[i], 20000);
+        refuse_by_name("axis.x.max-jerk", impossible[i], 0);
         refuse_by_name("axis.w.max-jerk", impossible[i], 0);
         refuse_by_name("millimetre", impossible[i], 1);
         refuse_by_name("rotary-tolerance", impossible[i], 0);

@@ -163,6 +163,20 @@ class Events(Case):
             self.assertAlmostEqual(value, target, delta=1e-9)
 
 
+class Found(Case):
+    def test_a_first_move_of_nanometres_loses_no_retract(self):
+        # the planner once gave up the moves in its queue here, and the rapid went through the work
+        lines = ["G21 G90 G17 G94 G64", "G1 Y0.00001 F1658", "G1 Y0.00001 Z-0.00089 F1106.6", "G1 X1 Z-0.00089 F1200",
+                 "G0 Z50", "G4 P0.1", "G0 X100 Y0", "M2"]
+        result = harness.run([RUN, ["note", "end"]], {"part.ngc": "\n".join(lines) + "\n"},
+                             hal="".join(f"setp blendtp.axis.{axis}.max-jerk 0\n" for axis in AXES))
+        self.completed(result)
+        for value, target in zip(result.answers["end"]["joints"], (100, 0, 50)):
+            self.assertAlmostEqual(value, target, delta=1e-9)
+        for x, z in result.columns("axis.x", "axis.z"):
+            self.assertTrue(x < 1.01 or z > 49.99, f"X {x} at Z {z}")
+
+
 class Refused(Case):
     def nothing_moves(self, result):
         for axis in AXES:

@@ -126,13 +126,13 @@ class GuardKilled(ProcessFault):
 
 
 class GuardStopped(ProcessFault):
-    """The same; once it lives again the frame goes, and the next program is right"""
+    """The same; it switches the machine off, and when that is on again the next program is right"""
 
     done = "`kill -STOP` of frame_guard in a program with a frame, 4 s later `-CONT`"
 
     def run(self):
         result = operated([*START_IN_FRAME, ["suspend", "frame_guard", 4.0], ["wait_for_rest"], ["sleep", 4.5], ["abort"],
-                           ["expect", "framekins.active", "FALSE"], ["sleep", 0.5], *NEXT], PROGRAMS)
+                           ["expect", "framekins.active", "FALSE"], ["sleep", 0.5], ["on"], *NEXT], PROGRAMS)
         without_failure(result)
         rest = result.answers["rest"]["seconds"]
         require(rest <= GUARDED_WITHIN, f"at rest after {rest:.1f} s")
