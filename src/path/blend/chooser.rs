@@ -31,10 +31,6 @@ const GREATEST_OPEN: u64 = 48;
 /// Distance of what is yet to come from the edge of a final kernel, in design widths.
 const LAG: f64 = 0.5;
 
-/// Legs that turn by less, length of the difference of unit vectors, may be chords of a curve: 60
-/// degrees.
-const CHORD_TURN: f64 = 1.0;
-
 /// What of the tolerance a trial may use; the rest is for hardened vertices.
 const TRIAL_SHARE: f64 = 0.98;
 
@@ -489,7 +485,7 @@ impl Chooser {
         let coming = if last.stop_after || bare {
             end
         } else {
-            (end - last.reserve(settings, vertex.turn_size < CHORD_TURN)).max(wall)
+            (end - last.reserve(settings, vertex.turn_size)).max(wall)
         };
         (open..next)
             .map(|number| chain.vertex(number))

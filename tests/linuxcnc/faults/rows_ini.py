@@ -17,7 +17,7 @@ REFUSED = [
     (X, "MAX_ACCELERATION", ("0", "-5"), ("X", "MAX_ACCELERATION")),
     (X, "MAX_ACCELERATION", ("fast",), ("AXIS_X", "MAX_ACCELERATION")),
     (X, "MAX_ACCELERATION", ("nan",), ("isnan", "AxisSetMaxAcceleration")),
-    (X, "MAX_JERK", ("-5", "inf", "nan"), ("AXIS_X", "MAX_JERK")),
+    (X, "MAX_JERK", ("-5", "1", "nan"), ("AXIS_X", "MAX_JERK")),
     (X, "MAX_JERK", ("much",), ("framepath-sim.hal", "much")),
     (X, "MAX_JERK", (None,), ("AXIS_X", "MAX_JERK")),
     (TRAJ, "MAX_LINEAR_VELOCITY", ("0", "-5"), ("MAX_LINEAR_VELOCITY",)),
@@ -56,7 +56,7 @@ REFUSED = [
 HARMLESS = [
     (X, "MAX_VELOCITY", ("inf",)),
     (X, "MAX_ACCELERATION", (None, "inf")),
-    (X, "MAX_JERK", ("0", "1e9", "1e300")),
+    (X, "MAX_JERK", ("0", "1e9", "1e300", "inf")),
     (TRAJ, "MAX_LINEAR_VELOCITY", (None, "inf")),
     (TRAJ, "DEFAULT_LINEAR_VELOCITY", ("0", None)),
     ("TASK", "CYCLE_TIME", ("0", "text", None)),
