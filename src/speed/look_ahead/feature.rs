@@ -19,6 +19,9 @@ const NOTICEABLE_JUMP: f64 = 0.02;
 /// places that are looked at would miss, is longer than that where it matters.
 const UNSEEN_TIME: f64 = 3e-5;
 
+/// The most that the spacings of two changes of shape differ by, one of which stands for both.
+const JOINED: f64 = 2.0;
+
 /// Where the curvature of most blends changes most, share of their reach.
 pub(super) const TWIST_AT: f64 = 0.45;
 
@@ -105,6 +108,17 @@ impl Feature {
         let core = 0.25 * (self.end - self.start);
         let beside = ((s - self.center).abs() - core).max(0.0);
         self.speed * self.speed + 2.0 * acceleration * beside
+    }
+
+    /// Whether one may stand for both. A wide change of shape must not ask for the nodes of a narrow one all
+    /// over its reach.
+    pub fn is_as_fine_as(&self, other: &Self) -> bool {
+        let (finer, coarser) = if self.spacing < other.spacing {
+            (self.spacing, other.spacing)
+        } else {
+            (other.spacing, self.spacing)
+        };
+        coarser <= JOINED * finer
     }
 
     /// Whether a node belongs on its center.

@@ -172,6 +172,7 @@ impl Features {
             && !last.wants_node()
             && !feature.wants_node()
             && feature.center - last.center < 0.25 * last.spacing.min(feature.spacing)
+            && last.is_as_fine_as(&feature)
         {
             last.end = last.end.max(feature.end);
             last.start = last.start.min(feature.start);
