@@ -305,6 +305,7 @@ impl BlendedPath {
             end: leg.end(),
             speed: leg.speed,
             greatest_speed: leg.greatest_speed,
+            turning: leg.turning,
             measure_rate: leg.measure_rate,
             measure: leg.measure,
         }

@@ -50,6 +50,8 @@ pub(super) struct Leg {
     pub measure_rate: f64,
     /// What F counts.
     pub measure: Measure,
+    /// How far its direction turns for a unit of path distance, radians: 0 on a line.
+    pub turning: f64,
     /// Programmed speed, path distance per second.
     pub speed: f64,
     /// The speed that no override may exceed.
@@ -77,6 +79,7 @@ impl Leg {
         length: 0.0,
         measure_rate: 1.0,
         measure: Measure::Linear,
+        turning: 0.0,
         speed: 0.0,
         greatest_speed: 0.0,
         allowance: Allowance::Exact(0.0),
@@ -106,6 +109,7 @@ impl Leg {
                 }
                 Shape::Arc(_) => Measure::Linear,
             },
+            turning: turning(&programmed.shape) / per_measure,
             speed,
             greatest_speed: programmed.greatest_feed.max(programmed.feed) * per_measure,
             allowance: match programmed.termination {
@@ -200,4 +204,14 @@ impl Leg {
         point.third *= rate * rate * rate;
         point
     }
+}
+
+/// How far the direction of a shape turns where it starts for a unit of its length, radians.
+///
+/// Of a circle the second derivative is the radius times the square of that, the third one times its third
+/// power; what moves on evenly is in neither.
+fn turning(shape: &Shape) -> f64 {
+    let start = shape.point(0.0);
+    let (second, third) = (start.second.norm(), start.third.norm());
+    if second > 0.0 { third / second } else { 0.0 }
 }

@@ -30,9 +30,10 @@ const LEAST_ROUNDING: f64 = 0.01;
 /// coordinates.
 const TANGENT: f64 = 0.01;
 
-/// Halves of the shorter leg that an easement reaches at most. Those at both ends of an arc much
-/// shorter than they are wide nearly cancel each other, but for their edges: there the third
-/// derivative rises within the length of the arc, which is too short for the nodes of the plan.
+/// Halves of the shorter leg, of an arc not more than a radian, that an easement reaches at most. Those
+/// at both ends of an arc much shorter than they are wide nearly cancel each other, but for their edges:
+/// there the third derivative rises within the length of the arc, which is too short for the nodes of the
+/// plan. Those at an arc of several turns would lead many radii away from it.
 const WIDEST_EASEMENT: f64 = 64.0;
 
 /// A kernel this much narrower than half the shorter leg makes an isolated corner.
@@ -293,7 +294,7 @@ impl Vertex {
             let wanted = settings
                 .full_speed_easement(self.jump_size, speed)
                 .max(design_width)
-                .min(WIDEST_EASEMENT * self.half_leg);
+                .min(WIDEST_EASEMENT * before.half_for_corner().min(after.half_for_corner()));
             self.free_easement = wanted.min(self.free_limit);
             self.base.easement = within.sqrt().min(wanted).max(self.free_easement);
         }

@@ -32,6 +32,8 @@ pub struct LegView {
     pub speed: f64,
     /// The same for the feed that no override may exceed.
     pub greatest_speed: f64,
+    /// How far its direction turns for a unit of path distance, radians: 0 on a line.
+    pub turning: f64,
     /// How much F counts for a unit of path distance.
     pub measure_rate: f64,
     /// What F counts.

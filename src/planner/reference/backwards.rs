@@ -92,6 +92,12 @@ impl Route for Backwards<'_> {
         self.path.greatest_reach()
     }
 
+    fn turning(&self, distance: f64) -> f64 {
+        self.path
+            .leg_before(-distance)
+            .map_or(0.0, |leg| leg.turning)
+    }
+
     fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
         let count = self.path.breakpoints(-to, -from, places);
         for place in places {

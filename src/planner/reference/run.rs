@@ -277,6 +277,10 @@ impl Route for PathRoute<'_> {
         self.path.greatest_reach()
     }
 
+    fn turning(&self, s: f64) -> f64 {
+        self.path.leg(s).map_or(0.0, |leg| leg.turning)
+    }
+
     fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
         self.path.breakpoints(from, to, places)
     }

@@ -22,6 +22,10 @@ const FREE_TIME: f64 = 8e-3;
 /// The most of a radius of curvature that an interval covers where no vertex asks for nodes.
 const RADIUS_SHARE: f64 = 0.25;
 
+/// The most of an arc that an interval covers, radians, also where easements wider than the arc straighten
+/// it at the places that are looked at.
+const GREATEST_ANGLE: f64 = 1.0;
+
 /// The share of J that the third derivative of the path may leave its linear interpolation by.
 const THIRD_DERIVATIVE_ERROR: f64 = 0.04;
 
@@ -113,7 +117,7 @@ impl Grid {
         self.features.drop_before(s, free);
 
         let previous = draft.at(k - 1).length;
-        let step = self.step(s, previous, free, &left);
+        let step = self.step(route, s, previous, free, &left);
         let (length, end) = (step.length, step.end);
         if !(length > 0.0 && end > s) {
             return GridStep::Unsound;
@@ -169,12 +173,13 @@ impl Grid {
     }
 
     /// The length of the interval from `s` on, by features and neighbours.
-    fn step(&self, s: f64, previous: f64, free: f64, left: &Sample) -> Step {
+    fn step<R: Route>(&self, route: &R, s: f64, previous: f64, free: f64, left: &Sample) -> Step {
         let most = free.min(previous * (1.0 + 2.0 * GROWTH));
         let (mut length, within) = self.features.spacing(s, most);
         if !within {
             length = length.min((RADIUS_SHARE * left.radius()).max(0.02 * free));
         }
+        length = length.min(GREATEST_ANGLE / route.turning(s));
         let by_end = (self.end_spacing + GROWTH * (self.end - s)) / (1.0 + GROWTH);
         let mut near_end = by_end < 0.9 * length;
         length = length.min(by_end);

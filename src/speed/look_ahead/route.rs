@@ -56,6 +56,12 @@ pub trait Route {
     /// The greatest reach of all vertices.
     fn greatest_reach(&self) -> f64;
 
+    /// How far the direction of the move itself turns from `s` on for a unit of s, radians, whatever
+    /// smoothing makes of it: 0 on a line.
+    fn turning(&self, _s: f64) -> f64 {
+        0.0
+    }
+
     /// The places behind `from` and before `to` where the third derivative of the path or its slope
     /// may jump, as many as there is room for; answers how many.
     fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize;
