@@ -126,3 +126,21 @@ fn slow_moves_among_fast_ones_keep_their_feed() {
         panic!("{error}");
     }
 }
+
+/// The first phase from rest, which is longer than both of the first moves, led over the slow one at the feed of
+/// the first: 3.2 times its own.
+#[test]
+fn a_slow_move_behind_the_first_keeps_its_feed() {
+    let along = |displacement: f64, feed: f64| Line {
+        displacement: [displacement, 0.0, 0.0],
+        feed: feed / 60.0,
+        tolerance: None,
+    };
+    let lines = [
+        along(0.0006, 1000.0),
+        along(0.00155, 10.0),
+        along(0.13, 1500.0),
+    ];
+    let excess = with_room(|| greatest_excess(limits(20_000.0), 0.02, &lines));
+    assert!(excess <= TOLERANCE, "{excess}");
+}

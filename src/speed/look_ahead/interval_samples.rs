@@ -107,10 +107,17 @@ impl IntervalSamples {
         self.quarters = [(start, middle, 0.25), (middle, end, 0.75)].map(|(from, to, share)| {
             // The middle of the cubic with these slopes (Hermite).
             let change = (from.second - to.second) * (length / 16.0);
+            let first = (from.first + to.first) * 0.5 + change;
+            // Where one bends |q'| up and the other down, their mean would hide both.
+            let third = if first.dot(&from.third) < first.dot(&to.third) {
+                from.third
+            } else {
+                to.third
+            };
             let point = PathPoint {
-                first: (from.first + to.first) * 0.5 + change,
+                first,
                 second: (from.second + to.second) * 0.5,
-                third: (from.third + to.third) * 0.5,
+                third,
                 ..*from
             };
             rows.cap(route, s + share * length, &point, 0.25 * length)

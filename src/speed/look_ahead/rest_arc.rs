@@ -25,6 +25,12 @@ pub(super) const PROVISIONAL: f64 = 0.5;
 /// Lengths that are tried; each is less than the one before.
 const MOST_TRIES: usize = 16;
 
+/// The share of the cap of v^2 that an arc may come to: beside it the speed goes on to change.
+const CAP_SHARE: f64 = 0.25;
+
+/// How many vertices an arc may lead over.
+const MOST_VERTICES: usize = 32;
+
 /// How many vertices on each side of a rest are looked at.
 const NEIGHBOURS: usize = 8;
 
@@ -99,6 +105,7 @@ pub(super) struct RestArcSearch {
     place: f64,
     direction: f64,
     cap: f64,
+    raise_squared: f64,
     attempt: usize,
 }
 
@@ -135,6 +142,7 @@ impl RestArcSearch {
             place,
             direction,
             cap: rest.cap.raised(raise_squared),
+            raise_squared,
             attempt: if sound { 0 } else { MOST_TRIES },
         }
     }
@@ -146,8 +154,8 @@ impl RestArcSearch {
         }
         let arc = self.arc;
         let fitting = arc.fits(rows, route, self.place, self.direction);
-        let slow = arc.velocity() * arc.velocity() <= 0.25 * self.cap;
-        if fitting >= arc.jerk && slow {
+        let slow = arc.velocity() * arc.velocity() <= CAP_SHARE * self.cap;
+        if fitting >= arc.jerk && slow && self.keeps_caps(rows, route) {
             return ArcStep::Found(arc);
         }
         if fitting < arc.jerk {
@@ -156,6 +164,40 @@ impl RestArcSearch {
         self.arc.length *= if self.attempt < 2 { 0.6 } else { 0.35 };
         self.attempt += 1;
         ArcStep::More
+    }
+}
+
+impl RestArcSearch {
+    /// Whether the arc exceeds none of the caps that it leads over: the speed grows with the distance from
+    /// the rest, so that each is kept if it is where the next one begins, and where the arc ends.
+    fn keeps_caps<R: Route>(&self, rows: &AxisRows, route: &R) -> bool {
+        let RestArc { length, .. } = self.arc;
+        let square = self.arc.velocity() * self.arc.velocity();
+        let cap = |s: f64| {
+            let cap = rows.cap(route, s, &route.point(s), 0.0);
+            cap.raised(self.raise_squared)
+        };
+        let mut s = self.place;
+        for _ in 0..MOST_VERTICES {
+            let next = if self.direction > 0.0 {
+                route.vertex_after(s)
+            } else {
+                route.vertex_before(s)
+            };
+            let away = |vertex: &Vertex| (vertex.position - self.place) * self.direction;
+            let Some(vertex) = next.filter(|vertex| away(vertex) < length) else {
+                let end = self.place + self.direction * length;
+                return s == self.place || square <= CAP_SHARE * cap(end);
+            };
+            s = vertex.position;
+            let share = cube_root(away(&vertex) / length);
+            // v^2 goes with the fourth power of time, the distance with the third.
+            let there = square * share * share * share * share;
+            if vertex.cap_changes && there > cap(s) {
+                return false;
+            }
+        }
+        false
     }
 }
 

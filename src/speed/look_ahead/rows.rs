@@ -206,10 +206,14 @@ impl AxisRows {
         let [cap0, cap1, cap2] = samples.map(|sample| sample.cap.raised(raise_squared));
         let quarters = interval.quarters.map(|cap| cap.raised(raise_squared));
         let capped = b0 > 0.0 && b1 > 0.0 && b2 > 0.0 && b0 <= cap0 && b1 <= cap1 && b2 <= cap2;
-        // Half of the way between two places b exceeds their mean by this.
-        let bulge = -0.25 * parabola.u * half * half;
-        let kept = 0.5 * (b0 + b1) + bulge <= quarters[0] && 0.5 * (b1 + b2) + bulge <= quarters[1];
-        if !(capped && kept) {
+        if !(capped
+            && keeps_caps_between(
+                [b0, b1, b2],
+                parabola.u * half * half,
+                [cap0, cap1, cap2],
+                quarters,
+            ))
+        {
             return false;
         }
         let places = [(b0, a0), (b1, a1), (b2, a2)].map(|(b, a)| (b as f32, a as f32));
@@ -254,6 +258,28 @@ impl AxisRows {
         }
         kept == [1; LANES]
     }
+}
+
+/// Whether v^2 keeps its caps between start, middle and end: in the middle of both halves, where they are known, and
+/// half of the way to there, where they are no less than the mean of those beside. `bend`: u times the square
+/// of half the length.
+fn keeps_caps_between(
+    [start, middle, end]: [f64; 3],
+    bend: f64,
+    [cap_start, cap_middle, cap_end]: [f64; 3],
+    quarters: [f64; 2],
+) -> bool {
+    // Half of the way between two places v^2 exceeds their mean by this.
+    let bulge = -0.25 * bend;
+    let [first, last] = [start + middle, middle + end].map(|sum| 0.5 * sum + bulge);
+    let kept = first <= quarters[0] && last <= quarters[1];
+    let twice_bulge = 0.5 * bulge;
+    let between =
+        |at: f64, next: f64, cap: f64, next_cap: f64| at + next + twice_bulge <= cap + next_cap;
+    kept && between(start, first, cap_start, quarters[0])
+        && between(first, middle, quarters[0], cap_middle)
+        && between(middle, last, cap_middle, quarters[1])
+        && between(last, end, quarters[1], cap_end)
 }
 
 /// Whether a parabola through these values at start, middle and end bends back between them so much that
