@@ -119,23 +119,32 @@ impl Planner {
             self.start(inputs);
         }
         if self.running {
-            self.build(inputs);
-            if self.executor.is_dry() && self.coast(inputs) {
-                self.fail(Fault::Starved);
-                self.build(inputs);
+            if !self.build(inputs) {
+                self.reference.take_back();
+                self.brake_for(Fault::CellRefused, inputs);
+            }
+            if self.executor.is_dry() {
+                self.brake_for(Fault::Starved, inputs);
             }
         }
     }
 
-    /// Goes on straight along the path, since nothing else is left. Whether there is a path.
-    fn coast(&mut self, inputs: &CycleInputs) -> bool {
+    /// Goes on straight along the path, since nothing else is left, and comes to rest there.
+    fn brake_for(&mut self, fault: Fault, inputs: &CycleInputs) {
         let outlook = Outlook {
             queue: &self.queue,
             limits: &self.limits,
             map: &self.map,
             now: self.conditions(inputs),
         };
-        self.reference.coast(&outlook)
+        if self.reference.coast(&outlook) {
+            self.fail(fault);
+            // What follows a missing period would be a jump.
+            self.closed = !self.build(inputs);
+        } else if fault == Fault::CellRefused {
+            self.fail(fault);
+            self.closed = true;
+        }
     }
 
     /// What holds in this servo period.
@@ -152,8 +161,8 @@ impl Planner {
         }
     }
 
-    /// Hands the executor as much of the reference as it wants to see.
-    fn build(&mut self, inputs: &CycleInputs) {
+    /// Hands the executor as much of the reference as it wants to see. `false` if it refused some.
+    fn build(&mut self, inputs: &CycleInputs) -> bool {
         let outlook = Outlook {
             queue: &self.queue,
             limits: &self.limits,
@@ -199,11 +208,7 @@ impl Planner {
                 self.closed = true;
             }
         }
-        if refused {
-            // What follows a missing period would be a jump.
-            self.closed = true;
-            self.fail(Fault::CellRefused);
-        }
+        !refused
     }
 
     /// Runs the reference for one servo period and reports where that leads.

@@ -87,9 +87,18 @@ impl Coast {
 }
 
 impl Reference {
+    /// Whether it goes on along the path without an end.
+    pub fn is_coasting(&self) -> bool {
+        let last = self.pieces.back();
+        last.is_some_and(|last| matches!(last.law, Law::Coast(_)))
+    }
+
     /// Goes on along the path from what was handed out last, without an end: the machine has to be held.
-    /// `false` if nothing was handed out.
+    /// `false` if nothing was handed out, or it does so already.
     pub fn coast(&mut self, outlook: &Outlook) -> bool {
+        if self.is_coasting() {
+            return false;
+        }
         let Some(last) = self.pieces.back_mut() else {
             return false;
         };
@@ -138,14 +147,23 @@ mod tests {
     use crate::axes::{Axes, AxisLimits};
     use crate::moves::{MotionType, StateTag, TerminationCondition};
     use crate::path::Circle;
+    use crate::planner::reference::Reference;
     use crate::planner::status::Fault;
     use crate::planner::{CycleInputs, MoveRequest, Planner};
 
     const PERIOD: f64 = 1e-3;
 
-    /// Starves the executor in the given servo period of a line, an arc and a line. How far from the
+    /// What goes wrong.
+    type Spoil = fn(&mut Reference);
+
+    /// Nothing more is handed out.
+    const DRY: Spoil = |reference| reference.dry = true;
+    /// What is handed out is refused.
+    const REFUSED: Spoil = |reference| reference.spoiled = true;
+
+    /// Lets something go wrong in the given servo period of a line, an arc and a line. How far from the
     /// circle and its tangents the machine comes to rest.
-    fn starve(jerk: f64, period: usize) -> f64 {
+    fn stop_for(fault: Fault, spoil: Spoil, jerk: f64, period: usize) -> f64 {
         let limits = AxisLimits {
             velocity: Axes::repeat(100.0),
             acceleration: Axes::repeat(1000.0),
@@ -182,14 +200,16 @@ mod tests {
         let mut positions = vec![Axes::zeros(); 4];
         for cycle in 0.. {
             assert!(cycle < 5000, "never at rest: {:?}", planner.status());
-            planner.reference.dry = cycle >= period;
+            if cycle == period {
+                spoil(&mut planner.reference);
+            }
             let status = planner.cycle(&CycleInputs::default());
             positions.push(status.position);
             if status.done {
                 break;
             }
         }
-        assert_eq!(planner.status().fault, Some(Fault::Starved));
+        assert_eq!(planner.status().fault, Some(fault));
         let rest = planner.status().position;
         positions.extend([rest; 4]);
         for window in positions.windows(4) {
@@ -211,14 +231,13 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_machine_that_is_starved_brakes_on_its_path() {
+    fn brakes_on_its_path(fault: Fault, spoil: Spoil) {
         for jerk in [2e4, 1e5, f64::INFINITY] {
             std::thread::Builder::new()
                 .stack_size(64 << 20)
                 .spawn(move || {
                     for period in (20..620).step_by(20) {
-                        let away = starve(jerk, period);
+                        let away = stop_for(fault, spoil, jerk, period);
                         assert!(away < 0.05, "{away} at {period}, jerk {jerk}");
                     }
                 })
@@ -226,5 +245,30 @@ mod tests {
                 .join()
                 .expect("no panic");
         }
+    }
+
+    #[test]
+    fn a_machine_that_is_starved_brakes_on_its_path() {
+        brakes_on_its_path(Fault::Starved, DRY);
+    }
+
+    /// It goes on from the last period that was good.
+    #[test]
+    fn a_machine_whose_next_period_is_refused_brakes_on_its_path() {
+        brakes_on_its_path(Fault::CellRefused, REFUSED);
+    }
+
+    #[test]
+    fn a_first_period_that_is_refused_moves_nothing() {
+        std::thread::Builder::new()
+            .stack_size(64 << 20)
+            .spawn(|| {
+                let away = stop_for(Fault::CellRefused, REFUSED, 2e4, 0);
+                // At the start of the line to the circle.
+                assert_eq!(away, 0.0);
+            })
+            .expect("a thread")
+            .join()
+            .expect("no panic");
     }
 }

@@ -19,6 +19,9 @@ impl Reference {
             let left = outlook.now.period - self.cell.filled();
             match self.pieces.back() {
                 Some(piece) if self.frontier < piece.duration => {
+                    if self.cell.filled() == 0.0 {
+                        self.cell_start = (self.pieces.last(), self.frontier);
+                    }
                     let to = piece.duration.min(self.frontier + left);
                     let completes = self.frontier + left <= piece.duration;
                     let ground = Ground {
@@ -29,6 +32,8 @@ impl Reference {
                     self.cell.add(piece, &ground, self.frontier, to);
                     self.frontier = to;
                     if completes && let Some(cell) = self.cell.take() {
+                        #[cfg(test)]
+                        let cell = self.spoil(cell);
                         return Ahead::Cell(cell);
                     }
                 }
@@ -51,6 +56,35 @@ impl Reference {
                     self.frontier = 0.0;
                 }
             }
+        }
+    }
+
+    /// Takes back the servo period that was handed out last: what lies before it stays.
+    pub fn take_back(&mut self) {
+        let (piece, from) = self.cell_start;
+        if from > 0.0 {
+            self.pieces.truncate(piece);
+            self.frontier = from;
+        } else {
+            // The piece that it begins with may be what is wrong.
+            self.pieces.truncate(piece.wrapping_sub(1));
+            self.frontier = self.pieces.back().map_or(0.0, |last| last.duration);
+        }
+        self.cell.clear();
+        self.resting = self.pieces.front().is_none();
+    }
+
+    /// A cell that the executor refuses, unless the machine already coasts.
+    #[cfg(test)]
+    fn spoil(&self, cell: crate::cycle::Cell) -> crate::cycle::Cell {
+        let path_velocity = if self.spoiled && !self.is_coasting() {
+            f64::NAN
+        } else {
+            cell.path_velocity
+        };
+        crate::cycle::Cell {
+            path_velocity,
+            ..cell
         }
     }
 

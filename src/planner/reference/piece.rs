@@ -195,8 +195,14 @@ impl Pieces {
         }
     }
 
+    /// Drops all pieces behind the one with this number, which is one of them or the one before.
+    pub fn truncate(&mut self, last: u32) {
+        let kept = last.wrapping_sub(self.first).wrapping_add(1);
+        self.count = self.count.min(kept);
+    }
+
     /// Number of the last piece; only asked for if there is one.
-    fn last(&self) -> u32 {
+    pub fn last(&self) -> u32 {
         self.first.wrapping_add(self.count).wrapping_sub(1)
     }
 }

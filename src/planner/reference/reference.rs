@@ -75,9 +75,15 @@ pub struct Reference {
     /// Seconds of the last piece that have been handed out.
     pub(super) frontier: f64,
     pub(super) cell: CellBuilder,
+    /// Where the servo period began that was handed out last: the number of its first piece, and how many
+    /// seconds of it had been handed out before.
+    pub(super) cell_start: (u32, f64),
     /// Hands out nothing more.
     #[cfg(test)]
     pub dry: bool,
+    /// Hands out servo periods that are no numbers.
+    #[cfg(test)]
+    pub spoiled: bool,
 }
 
 impl Reference {
@@ -97,8 +103,11 @@ impl Reference {
             elapsed: 0.0,
             frontier: 0.0,
             cell: CellBuilder::new(),
+            cell_start: (0, 0.0),
             #[cfg(test)]
             dry: false,
+            #[cfg(test)]
+            spoiled: false,
         }
     }
 
