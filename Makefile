@@ -34,7 +34,8 @@ help:
 	@echo 'make short      thousands of random short programs through framepath plan: faults and limits that are exceeded'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make fuzz       any calls of the C interface of both modules, ten minutes each (FUZZ_SECONDS); make fuzz-filter: of the filter'
-	@echo 'make mutants    faults drawn at random, put into the core: how many the Rust tests catch (MUTANTS=120, SEED=); some hours'
+	@echo 'make mutants    faults drawn at random, put into the core: how many the Rust tests catch (MUTANTS=120, SEED=); an hour'
+	@echo 'make deny       licences, known faults and sources of the crates that are used (cargo-deny)'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
@@ -60,10 +61,20 @@ tool: prerequisites
 demo: modules tool
 	./demo/run
 
+# What the filter and the report are built with where there is no LinuxCNC: no headers, no libclang.
+WITHOUT_LINUXCNC = LINUXCNC_INCLUDE=/nonexistent LIBCLANG_PATH=/nonexistent
+
 lint:
 	@./prerequisites lint
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
+	$(WITHOUT_LINUXCNC) $(CARGO) clippy --locked -p framepath-tool --no-default-features --all-targets -- -D warnings
+	! $(CARGO) tree --locked -p framepath-tool --no-default-features --edges normal,build | grep -E 'bindgen|clang|clarabel'
+
+# Licences, known faults and sources of all dependencies: deny.toml. Wants the network and cargo-deny:
+# cargo install cargo-deny --locked.
+deny:
+	$(CARGO) deny check licenses advisories bans sources
 
 # The same random cases each time, so that what fails can be had again; make soak takes others.
 test: export PROPTEST_RNG_SEED ?= 1
@@ -133,15 +144,15 @@ DIALECT ?= sinumerik
 fuzz-filter:
 	cd tool/fuzz && CARGO_PROFILE_DEV_OPT_LEVEL=1 $(FUZZ_BUILD)
 	mkdir -p tool/fuzz/corpus/$(DIALECT)
-	tool/fuzz/target/$(FUZZ_HOST)/debug/$(DIALECT) -max_total_time=$(FUZZ_SECONDS) -timeout=20 tool/fuzz/corpus/$(DIALECT)
+	DIALECT=$(DIALECT) tool/fuzz/target/$(FUZZ_HOST)/debug/dialect -max_total_time=$(FUZZ_SECONDS) -timeout=20 tool/fuzz/corpus/$(DIALECT)
 
-# Mutation testing, see tests/mutants: which tests belong to which folder, and what is known to change nothing. Wants
-# cargo-mutants, which knows the mutants: cargo install cargo-mutants --locked.
+# Mutation testing, see tests/mutants, which has what is known to change nothing. Wants cargo-mutants, which knows the mutants:
+# cargo install cargo-mutants --locked. Cut short, it goes on with RESUME=1 and the same seed.
 MUTANTS ?= 120
-SEED ?=
+RESUME ?=
 
 mutants: prerequisites
-	$(PYTHON) -B tests/mutants/mutants.py --count $(MUTANTS) $(if $(SEED),--seed $(SEED))
+	$(PYTHON) -B tests/mutants/mutants.py --count $(MUTANTS) $(if $(filter-out file,$(origin SEED)),--seed $(SEED)) $(if $(RESUME),--resume)
 
 # LinuxCNC's sample programs as they are, where the feed limits most of them, then with every F raised, and the
 # generated programs.
@@ -188,5 +199,5 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint test linuxcnc-test sanitize contract faults short soak bench \
+.PHONY: help prerequisites modules fault-modules tool demo lint deny test linuxcnc-test sanitize contract faults short soak bench \
     fuzz fuzz-filter mutants compare figures header install uninstall clean

@@ -5,7 +5,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use framepath::cycle::cell::Cell;
-use framepath::cycle::{Demand, Executor, Step};
+use framepath::cycle::{Demand, Executor, ExecutorStep};
 use std::time::{Duration, Instant};
 
 #[path = "../tests/executor_support/mod.rs"]
@@ -77,7 +77,7 @@ impl Cells {
             }
             let demand = demand(i);
             let start = Instant::now();
-            let step: Step = executor.cycle(&demand);
+            let step: ExecutorStep = executor.cycle(&demand);
             each(start.elapsed());
             if step.end_reached {
                 return;

@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use framepath::axes::{AxisLimits, MachineMap};
-use framepath::speed::look_ahead::{LookAhead, Progress};
+use framepath::speed::look_ahead::{LookAhead, PlanProgress};
 use look_ahead_routes::run::{PERIOD, limits, planner};
 use look_ahead_routes::{Polyline, contour, zigzag};
 
@@ -35,7 +35,7 @@ impl Machine {
 
     fn cycle(&mut self) {
         self.now += PERIOD;
-        if self.planner.slice(&self.route, BUDGET) != Progress::Ready {
+        if self.planner.slice(&self.route, BUDGET) != PlanProgress::Ready {
             self.now = 0.0;
             return;
         }
@@ -79,7 +79,7 @@ fn first_plans(c: &mut Criterion) {
             b.iter_batched_ref(
                 || planner(&axes),
                 |planner| {
-                    while planner.slice(&route, 1) == Progress::Starting {}
+                    while planner.slice(&route, 1) == PlanProgress::Starting {}
                     planner.end()
                 },
                 BatchSize::LargeInput,

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use framepath::axes::{Axes, AxisLimits};
+use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, StateTag, TerminationCondition};
-use framepath::path::Circle;
 use framepath::planner::{CycleInputs, MoveRequest, Planner};
 use nalgebra::Vector3;
 

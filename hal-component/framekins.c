@@ -48,6 +48,12 @@ static struct {
     hal_bit_t *enabled, *release_on_abort, *release, *releasing, *hold, *guarded;
     hal_s32_t *releases, *releases_seen;
     hal_u32_t *heartbeat, *version;
+    /* What frame_guard looks at. It has these linked to pins of its own, which are read without HAL's lock: a process that is
+       killed while it holds that would stop every other one. Users link the ones of the same names above. */
+    struct {
+        hal_bit_t *active;
+        hal_float_t *command, *acknowledged, *work_offset[3], *work_rotation, *tool_offset[3];
+    } guard;
 } *pins;
 
 static int component;
@@ -121,6 +127,18 @@ static void write_pins(const struct framepath_frame_outputs *out)
     *pins->guarded = out->guarded;
 }
 
+static void write_guard_pins(const struct framepath_frame_inputs *in, const struct framepath_frame_outputs *out)
+{
+    *pins->guard.active = out->active;
+    *pins->guard.command = in->command;
+    *pins->guard.acknowledged = out->acknowledged;
+    for (int i = 0; i < 3; i++) {
+        *pins->guard.work_offset[i] = in->work_offset[i];
+        *pins->guard.tool_offset[i] = out->tool_offset[i];
+    }
+    *pins->guard.work_rotation = in->work_rotation;
+}
+
 /* Tells the operator of a guard that is missed, and of each stage once. */
 static void tell_alarm(int alarm)
 {
@@ -159,6 +177,7 @@ static void update(void *argument, long period)
         tell_impossible_pin(&in);
     tell_alarm(out.alarm);
     write_pins(&out);
+    write_guard_pins(&in, &out);
 }
 
 /* For blendtp: the linear part of the frame, and whether one is in force. */
@@ -225,6 +244,14 @@ static int export_guard_pins(void)
     error |= hal_pin_s32_newf(HAL_OUT, &pins->releases, component, "framekins.releases");
     error |= hal_pin_bit_newf(HAL_OUT, &pins->hold, component, "framekins.hold");
     error |= hal_pin_bit_newf(HAL_OUT, &pins->guarded, component, "framekins.guarded");
+    error |= hal_pin_bit_newf(HAL_OUT, &pins->guard.active, component, "framekins.guard.active");
+    error |= hal_pin_float_newf(HAL_OUT, &pins->guard.command, component, "framekins.guard.command");
+    error |= hal_pin_float_newf(HAL_OUT, &pins->guard.acknowledged, component, "framekins.guard.acknowledged");
+    for (int i = 0; i < 3; i++) {
+        error |= hal_pin_float_newf(HAL_OUT, &pins->guard.work_offset[i], component, "framekins.guard.work-offset.%c", "xyz"[i]);
+        error |= hal_pin_float_newf(HAL_OUT, &pins->guard.tool_offset[i], component, "framekins.guard.frame-tool-offset.%c", "xyz"[i]);
+    }
+    error |= hal_pin_float_newf(HAL_OUT, &pins->guard.work_rotation, component, "framekins.guard.work-offset.rotation");
     if (error)
         return -1;
     /* The machine counts as on, and may be, until somebody says otherwise. */

@@ -42,12 +42,12 @@ static int take_tolerances(void)
                         "set it to 1, or to 0.0393700787 on a machine in inches\n", *pins->millimetre);
         return -1;
     case FRAMEPATH_BAD_ROTARY_TOLERANCE:
-        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.rotary-tolerance is %g: it must be a number of degrees, or 0 for as many "
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.rotary-tolerance is %g: it must be a number of degrees up to 1e6, 0 for as many "
                         "degrees as P has millimetres\n", *pins->rotary_tolerance);
         return -1;
     case FRAMEPATH_BAD_DEFAULT_TOLERANCE:
-        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.default-tolerance is %g: it must be 0 or a positive number of machine "
-                        "units\n", *pins->default_tolerance);
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.default-tolerance is %g: it must be a number of machine units from 0 to "
+                        "1e6\n", *pins->default_tolerance);
         return -1;
     default:
         return 0;

@@ -546,7 +546,7 @@ int framepath_planner_set_blending(struct framepath_planner *handle,
 
 /*
  Says whether a frame is in force, and how the axes of the program lie to those of the machine behind it: three rows
- of a 3x3 map of X Y Z. The map is taken while nothing is queued, since a frame changes only at standstill; otherwise, and if it is not finite, it is left as it is.
+ of a 3x3 map of X Y Z. The map is taken while nothing is queued, since a frame changes only at standstill; otherwise it is left as it is. Behind one with an element that is not a number or greater than 1e4 no move is taken.
 
  # Safety
  `handle` from `framepath_planner_create`; `map` has nine numbers.

@@ -53,12 +53,24 @@ impl MachineMap {
     /// Without a frame the axes of the program are those of the machine.
     pub const IDENTITY: Self = Self(Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0));
 
-    /// `None` if an element is infinite or not a number.
+    /// What no element exceeds. A programmed frame scales by a thousand at most.
+    pub const GREATEST_ELEMENT: f64 = 1e4;
+
+    /// `None` if an element is not a number or greater than [`Self::GREATEST_ELEMENT`].
     pub fn new(linear: &Matrix3<f64>) -> Option<Self> {
         linear
             .iter()
-            .all(|element| element.is_finite())
+            .all(|element| element.abs() <= Self::GREATEST_ELEMENT)
             .then_some(Self(*linear))
+    }
+
+    /// The axes of the program, 0 to 8, that move an axis of the machine.
+    pub fn axes_of(&self, axis: usize) -> impl Iterator<Item = usize> {
+        let row: [f64; AXIS_COUNT] = core::array::from_fn(|from| match self.0.get((axis, from)) {
+            Some(element) => *element,
+            None => f64::from(u8::from(axis == from)),
+        });
+        (0..AXIS_COUNT).filter(move |from| row[*from] != 0.0)
     }
 
     /// A derivative of the path, shape (9), as the axes of the machine see it.
@@ -98,6 +110,9 @@ mod tests {
         let machine = Axes::from([-2.0, 1.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
         assert_eq!(map.apply(&program), machine);
         assert_eq!(MachineMap::IDENTITY.apply(&program), program);
-        assert!(MachineMap::new(&(quarter_turn * f64::NAN)).is_none());
+        for factor in [f64::NAN, f64::INFINITY, -1.1e4, 1e300] {
+            assert!(MachineMap::new(&(quarter_turn * factor)).is_none());
+        }
+        assert!(MachineMap::new(&(quarter_turn * 1e4)).is_some());
     }
 }

@@ -1,10 +1,13 @@
 //! The real-time core of framepath.
 //!
-//! A move travels through the folders in this order:
-//! [`moves`] (what LinuxCNC queues) -> [`path`] (its shape over arc length) -> [`speed`] (how fast
-//! it may be run) -> [`cycle`] (where the machine is in each servo period) -> [`frame`] (the
-//! programmed frame) -> [`machine`] (joints). [`planner`] holds the first four together; `abi` is
-//! the edge to C, the only place with `unsafe` code.
+//! Two programs share it. A move goes through the folders of blendtp in this order: [`moves`] (what
+//! LinuxCNC queues) -> [`path`] (what the machine follows, rounded within the tolerance) ->
+//! [`speed`] (how fast it may be run) -> [`cycle`] (how far the machine gets in a servo period);
+//! [`planner`] holds the four together. In framekins a position goes through [`frame`] (the
+//! programmed frame) -> [`machine`] (joints), and [`kinematics`] holds the two together. `abi` is
+//! the edge to C of both, the only place with `unsafe` code, and there with the feature `linuxcnc`
+//! only. No folder imports one that comes later, and no file leads back to itself: `tests/order.rs`
+//! has the order and holds it.
 //!
 //! Principles:
 //!
@@ -13,11 +16,13 @@
 //!   for them are at the edge.
 //! - Simple and clear over fast and clever, until a measurement says otherwise.
 
+#[cfg(feature = "linuxcnc")]
 pub mod abi;
 pub mod axes;
 mod cube_root;
 pub mod cycle;
 pub mod frame;
+pub mod kinematics;
 pub mod machine;
 pub mod moves;
 pub mod path;

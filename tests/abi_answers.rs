@@ -1,18 +1,14 @@
-//! What the C interface answers to single calls: each code, each word, each value handed on.
+//! What the C interface of blendtp answers to single calls: each code, each word, each value handed on.
 #![allow(unsafe_code)]
 
 mod abi_calls;
 
-use std::ffi::{CStr, c_char, c_int};
+use std::ffi::c_int;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use abi_calls::motion::{Inverse, Shared};
 use abi_calls::moves::{pose_of, tag};
-use framepath::abi::kinematics::{
-    framepath_kinematics_configure, framepath_kinematics_configure_text,
-    framepath_kinematics_tilt_axis,
-};
-use framepath::abi::kinematics_words::framepath_kinematics_refusal_text;
+use abi_calls::words;
 use framepath::abi::linuxcnc::{
     EMCMOT_MOTION_ERROR_BIT, EMCMOT_MOTION_INPOS_BIT, PmCartesian, cmd_code_t, state_tag_t,
     tp_err_t,
@@ -43,14 +39,6 @@ static ONE: Mutex<()> = Mutex::new(());
 struct Machine {
     shared: Shared,
     _one: MutexGuard<'static, ()>,
-}
-
-fn words<'a>(text: *const c_char) -> &'a str {
-    assert!(!text.is_null());
-    // SAFETY: the library answers with static strings.
-    unsafe { CStr::from_ptr(text) }
-        .to_str()
-        .expect("plain words")
 }
 
 fn machine() -> Machine {
@@ -173,9 +161,14 @@ impl Machine {
     }
 
     fn set_map(&mut self, framed: bool) {
+        self.scale_by(framed, 1.0);
+    }
+
+    fn scale_by(&mut self, framed: bool, scale: f64) {
+        let map = IDENTITY.map(|element| element * scale);
         // SAFETY: a handle and nine numbers.
         unsafe {
-            framepath_planner_set_machine_map(self.shared.handle, framed.into(), IDENTITY.as_ptr());
+            framepath_planner_set_machine_map(self.shared.handle, framed.into(), map.as_ptr());
         }
     }
 }
@@ -218,6 +211,23 @@ fn what_means_the_machine_is_refused_in_a_frame_only() {
 }
 
 #[test]
+fn behind_a_frame_without_sense_no_move_is_taken() {
+    let mut machine = machine();
+    for scale in [f64::NAN, f64::INFINITY, 1.1e4, -1e300] {
+        machine.scale_by(true, scale);
+        assert_eq!(machine.line(1.0, 2, &tag()), tp_err_t::TP_ERR_FAIL);
+        assert!(machine.reason().contains("the frame in force scales"));
+        assert_eq!(machine.half_circle(1.0, 2, &tag()), tp_err_t::TP_ERR_FAIL);
+        assert_eq!(machine.shared.tp().depth, 0);
+        machine.scale_by(true, -3.0);
+        assert_eq!(machine.line(1.0, 2, &tag()), 0);
+        machine.run();
+        assert_eq!(machine.line(0.0, 2, &tag()), 0);
+        machine.run();
+    }
+}
+
+#[test]
 fn each_refusal_has_its_words() {
     let mut machine = machine();
     for kind in [0, 7, -1] {
@@ -229,6 +239,8 @@ fn each_refusal_has_its_words() {
     assert_eq!(machine.line(0.0, 2, &tag()), tp_err_t::TP_ERR_ZERO_LENGTH);
     assert_eq!(machine.line(f64::NAN, 2, &tag()), -1);
     assert!(machine.reason().contains("not a number"));
+    assert_eq!(machine.line(1e10, 2, &tag()), -1);
+    assert!(machine.reason().contains("further than 1e7 units"));
     assert_eq!(machine.tap(-5.0, 1.0, &tag()), -1);
     assert!(machine.reason().contains("G33.1"));
     machine.follow_spindle(0, 1.0, 0);
@@ -446,72 +458,28 @@ fn a_thread_that_outruns_the_axes_is_stopped_with_the_numbers() {
 }
 
 #[test]
+fn feed_per_turn_is_planned_for_the_commanded_speed() {
+    let mut machine = machine();
+    machine.shared.config().numSpindles = 1;
+    let mut planned = [600.0, 1200.0, -1200.0].map(|commanded| {
+        machine.shared.status().spindle_status[0].speed = commanded;
+        machine.cycle();
+        machine.follow_spindle(0, 0.5, 1);
+        assert_eq!(machine.line(1.0, 2, &tag()), 0);
+        let planned = machine.shared.status().requested_vel;
+        machine.abort();
+        machine.run();
+        planned
+    });
+    // Half a unit a turn, at 10 turns a second.
+    assert!((5.0..20.0).contains(&planned[0]), "{planned:?}");
+    planned[0] *= 2.0;
+    assert_eq!(planned, [planned[0]; 3]);
+}
+
+#[test]
 fn a_spindle_that_does_not_turn_is_named() {
     let mut machine = machine();
     let error = thread(&mut machine, |shared, _| turning(shared, 0.0, 1));
     assert!(error.expect("no index").contains("index"));
-}
-
-#[test]
-fn parameters_of_the_kinematics_are_answered_one_by_one() {
-    let configure = |coordinates: &CStr, machine: &CStr, tool_length: &CStr| {
-        let mut letter = -1;
-        // SAFETY: strings, and a number.
-        let error = unsafe {
-            framepath_kinematics_configure(
-                coordinates.as_ptr(),
-                machine.as_ptr(),
-                tool_length.as_ptr(),
-                &mut letter,
-            )
-        };
-        (error, letter)
-    };
-    assert_eq!(framepath_kinematics_tilt_axis(), 0);
-    for (coordinates, machine, tool_length, answer, says) in [
-        (c"", c"", c"", (1, 0), "no axis is named"),
-        (c"XYQ", c"", c"", (2, 3), "no axis letter"),
-        (c"XXXXXXXXXXXXXXXXX", c"", c"", (3, 17), "16"),
-        (c"XYZ", c"xyzac", c"", (4, 0), "X Y Z A C"),
-        (c"XYZ", c"puma", c"", (5, 0), "machine=identity"),
-        (c"XYZ", c"", c"long", (6, 0), "tool_length=frame"),
-        (c"XYZ", c"identity", c"machine", (0, 0), "no error"),
-    ] {
-        assert_eq!(configure(coordinates, machine, tool_length), answer);
-        assert!(words(framepath_kinematics_configure_text(answer.0)).contains(says));
-    }
-    assert_eq!(framepath_kinematics_tilt_axis(), 0);
-    assert_eq!(configure(c"XYZAC", c"xyzac", c"frame"), (0, 0));
-    assert_eq!(framepath_kinematics_tilt_axis(), 1);
-    assert_eq!(configure(c"XYZBC", c"xyzbc", c""), (0, 0));
-    assert_eq!(framepath_kinematics_tilt_axis(), 2);
-    // A refusal leaves the machine as it is.
-    assert_eq!(configure(c"XYZ", c"puma", c""), (5, 0));
-    assert_eq!(framepath_kinematics_tilt_axis(), 2);
-}
-
-#[test]
-fn each_refused_frame_has_its_words() {
-    let text = |number| words(framepath_kinematics_refusal_text(number));
-    for (number, says) in [
-        (1, "no such command"),
-        (2, "infinite"),
-        (3, "scale factor is 0"),
-        (4, "shift"),
-        (5, "more operations"),
-        (6, "no plane"),
-        (7, "singular"),
-        (8, "unequal"),
-        (9, "thousandfold"),
-        (10, "moves"),
-        (11, "teleop"),
-        (12, "switchkins-type"),
-        (13, "0, 1 or 2"),
-        (14, "does not have"),
-        (15, "dimension"),
-    ] {
-        assert!(text(number).contains(says), "{number}: {}", text(number));
-    }
-    assert_eq!(text(0), "refused");
-    assert_eq!(text(99), "refused");
 }

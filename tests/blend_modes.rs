@@ -5,8 +5,8 @@ mod blend_common;
 use blend_common::*;
 use framepath::axes::Axes;
 use framepath::moves::TerminationCondition;
-use framepath::path::blend::{BlendedPath, ProgrammedMove};
-use framepath::path::{Arc9, Circle, Shape};
+use framepath::moves::shape::{Arc9, Circle, Shape};
+use framepath::path::{BlendedPath, ProgrammedMove};
 use nalgebra::Vector3;
 
 /// A line along X that goes over into a quarter circle of radius 5 about (10, 5).

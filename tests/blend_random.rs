@@ -3,7 +3,7 @@
 mod blend_common;
 
 use blend_common::*;
-use framepath::path::blend::{BlendSettings, BlendedPath};
+use framepath::path::{BlendSettings, BlendedPath};
 use proptest::prelude::*;
 
 fn check(

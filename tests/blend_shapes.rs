@@ -5,9 +5,9 @@ mod blend_common;
 use blend_common::*;
 use framepath::axes::Axes;
 use framepath::moves::TerminationCondition;
-use framepath::path::blend::{BlendError, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
-use framepath::path::measure::Measure;
-use framepath::path::{Line9, PathPoint, Shape};
+use framepath::moves::shape::measure::Measure;
+use framepath::moves::shape::{Line9, PathPoint, Shape};
+use framepath::path::{BlendError, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
 
 #[test]
 fn a_corner_uses_its_tolerance() {

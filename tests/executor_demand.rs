@@ -120,7 +120,7 @@ fn judge_cap(
                 );
             }
         }
-        prop_assert_eq!(player.executor.releases_lost(), 0);
+        prop_assert_eq!(player.executor.backups_lost(), 0);
     }
     Ok(())
 }
@@ -176,7 +176,7 @@ proptest! {
             }
         }
         run_to_end(&mut player, &Demand::RUN);
-        prop_assert_eq!(player.executor.releases_lost(), 0);
+        prop_assert_eq!(player.executor.backups_lost(), 0);
     }
 
     #[test]

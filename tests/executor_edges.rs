@@ -133,7 +133,7 @@ fn very_short_moves() {
         }
         assert!((player.time - reference.duration()).abs() < 1e-12);
         assert!(monitor.acceleration <= 1.001 && monitor.jerk <= 1.05);
-        assert_eq!(player.executor.releases_lost(), 0);
+        assert_eq!(player.executor.backups_lost(), 0);
     }
 }
 
@@ -258,7 +258,7 @@ fn limits_lowered_under_way_stop_nothing() {
     // What the reference needs by itself is never more than the limits it was planned for.
     assert!((player.time - reference.duration()).abs() < 1e-12);
     assert!(monitor.acceleration <= 1.001 && monitor.jerk <= 1.05);
-    assert_eq!(player.executor.releases_lost(), 0);
+    assert_eq!(player.executor.backups_lost(), 0);
 }
 
 /// A reference on the limits exactly, with bounds that are a little beyond them.

@@ -5,7 +5,7 @@ mod executor_support;
 use executor_support::monitor::Monitor;
 use executor_support::uniform_limits;
 use framepath::axes::{Axes, AxisLimits};
-use framepath::cycle::{Cell, Demand, Executor, Step};
+use framepath::cycle::{Cell, Demand, Executor, ExecutorStep};
 
 const PERIOD: f64 = 1e-3;
 const RADIUS: f64 = 2.0;
@@ -45,7 +45,7 @@ impl Circling {
         circling
     }
 
-    fn cycle(&mut self, demand: &Demand) -> Step {
+    fn cycle(&mut self, demand: &Demand) -> ExecutorStep {
         while self.executor.cells_ahead() < self.executor.cells_wanted() {
             let angle = self.phase + TURNING * PERIOD * self.pushed as f64;
             self.executor.push(&cell(angle)).unwrap();
@@ -66,7 +66,7 @@ impl Circling {
 
     /// Periods until it runs as the reference does.
     fn rise(&mut self) -> usize {
-        let full = |step: Step| step.rate == 1.0 && step.rate_change == 0.0;
+        let full = |step: ExecutorStep| step.rate == 1.0 && step.rate_change == 0.0;
         (1..2000)
             .find(|_| full(self.cycle(&Demand::RUN)))
             .expect("full rate")
@@ -76,7 +76,7 @@ impl Circling {
         let monitor = &self.monitor;
         assert!(monitor.acceleration <= 1.001, "{}", monitor.acceleration);
         assert!(monitor.jerk <= 1.05, "{}", monitor.jerk);
-        assert_eq!(self.executor.releases_lost(), 0);
+        assert_eq!(self.executor.backups_lost(), 0);
     }
 }
 

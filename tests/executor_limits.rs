@@ -158,7 +158,7 @@ fn judge(
         monitor.acceleration
     );
     prop_assert!(monitor.jerk <= 1.05, "jerk {}", monitor.jerk);
-    prop_assert_eq!(player.executor.releases_lost(), 0);
+    prop_assert_eq!(player.executor.backups_lost(), 0);
     Ok(())
 }
 

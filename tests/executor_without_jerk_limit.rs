@@ -5,7 +5,7 @@ mod executor_support;
 use executor_support::monitor::Monitor;
 use executor_support::uniform_limits;
 use framepath::axes::{Axes, AxisLimits};
-use framepath::cycle::{Cell, Demand, Executor, Step};
+use framepath::cycle::{Cell, Demand, Executor, ExecutorStep};
 use proptest::prelude::*;
 
 const PERIOD: f64 = 1e-3;
@@ -111,7 +111,7 @@ impl Machine {
         machine
     }
 
-    fn cycle(&mut self, demand: &Demand) -> Step {
+    fn cycle(&mut self, demand: &Demand) -> ExecutorStep {
         while self.executor.cells_ahead() < self.executor.cells_wanted() {
             let start = PERIOD * self.pushed as f64;
             self.executor.push(&self.path.cell(start)).unwrap();
@@ -125,7 +125,7 @@ impl Machine {
 
     /// Periods until it is as fast as the demand leaves it.
     fn reaches(&mut self, rate: f64, demand: &Demand) -> usize {
-        let reached = |step: Step| (step.rate - rate).abs() < 1e-3;
+        let reached = |step: ExecutorStep| (step.rate - rate).abs() < 1e-3;
         (1..2000)
             .find(|_| reached(self.cycle(demand)))
             .expect("the rate")

@@ -2,9 +2,9 @@
 
 mod frames_common;
 
-use framepath::frame::Refusal;
-use framepath::frame::check::check_sum;
-use framepath::frame::control::FrameInputs;
+use framepath::kinematics::FrameRefusal;
+use framepath::kinematics::check::check_sum;
+use framepath::kinematics::control::FrameInputs;
 use frames_common::Motion;
 
 fn xyz() -> Motion {
@@ -73,22 +73,22 @@ fn a_refusal_keeps_the_old_frame() {
     let mut motion = xyz();
     assert_eq!(motion.send(1, [5.0, 6.0, 7.0]), None);
     let refusals = [
-        (1, [f64::NAN, 0.0, 0.0], Refusal::NotFinite),
-        (2, [0.0, f64::INFINITY, 0.0], Refusal::NotFinite),
-        (3, [10.0, f64::NAN, 0.0], Refusal::NotFinite),
-        (8, [f64::NAN, 0.0, 0.0], Refusal::NotFinite),
-        (3, [10.0, 3.0, 0.0], Refusal::UnknownCommand),
-        (3, [10.0, 0.5, 0.0], Refusal::UnknownCommand),
-        (4, [10.0, 20.0, 2.0], Refusal::UnknownCommand),
-        (0, [0.0; 3], Refusal::UnknownCommand),
-        (14, [0.0; 3], Refusal::UnknownCommand),
-        (109, [0.0; 3], Refusal::UnknownCommand),
-        (999, [0.0; 3], Refusal::UnknownCommand),
-        (107, [1.0, 0.0, 1.0], Refusal::ZeroScale),
-        (101, [1e7, 0.0, 0.0], Refusal::TranslationTooLarge),
-        (4, [90.0, 45.0, 0.0], Refusal::ImpossibleAngles),
-        (7, [1.0, 1.0, 1000.0], Refusal::IllConditioned),
-        (7, [2000.0, 2000.0, 2000.0], Refusal::ScaleOutOfRange),
+        (1, [f64::NAN, 0.0, 0.0], FrameRefusal::NotFinite),
+        (2, [0.0, f64::INFINITY, 0.0], FrameRefusal::NotFinite),
+        (3, [10.0, f64::NAN, 0.0], FrameRefusal::NotFinite),
+        (8, [f64::NAN, 0.0, 0.0], FrameRefusal::NotFinite),
+        (3, [10.0, 3.0, 0.0], FrameRefusal::UnknownCommand),
+        (3, [10.0, 0.5, 0.0], FrameRefusal::UnknownCommand),
+        (4, [10.0, 20.0, 2.0], FrameRefusal::UnknownCommand),
+        (0, [0.0; 3], FrameRefusal::UnknownCommand),
+        (14, [0.0; 3], FrameRefusal::UnknownCommand),
+        (109, [0.0; 3], FrameRefusal::UnknownCommand),
+        (999, [0.0; 3], FrameRefusal::UnknownCommand),
+        (107, [1.0, 0.0, 1.0], FrameRefusal::ZeroScale),
+        (101, [1e7, 0.0, 0.0], FrameRefusal::TranslationTooLarge),
+        (4, [90.0, 45.0, 0.0], FrameRefusal::ImpossibleAngles),
+        (7, [1.0, 1.0, 1000.0], FrameRefusal::IllConditioned),
+        (7, [2000.0, 2000.0, 2000.0], FrameRefusal::ScaleOutOfRange),
     ];
     for (code, value, refusal) in refusals {
         assert_eq!(motion.send(code, value), Some(refusal), "{code} {value:?}");
@@ -96,9 +96,9 @@ fn a_refusal_keeps_the_old_frame() {
         assert_eq!(motion.out.operations, 1);
     }
     motion.inputs.map[10] = 0.0;
-    assert_eq!(motion.send(12, [0.0; 3]), Some(Refusal::Singular));
+    assert_eq!(motion.send(12, [0.0; 3]), Some(FrameRefusal::Singular));
     motion.inputs.work_offset[1] = f64::NAN;
-    assert_eq!(motion.send(11, [0.0; 3]), Some(Refusal::NotFinite));
+    assert_eq!(motion.send(11, [0.0; 3]), Some(FrameRefusal::NotFinite));
     motion.inputs.work_offset[1] = 0.0;
     // And the next command is carried out as if nothing had been.
     assert_eq!(motion.send(101, [1.0, 0.0, 0.0]), None);
@@ -120,7 +120,7 @@ fn alternating_operations_fill_the_list() {
     }
     assert!(matches!(
         refused,
-        Some(Refusal::TooManyOperations | Refusal::IllConditioned)
+        Some(FrameRefusal::TooManyOperations | FrameRefusal::IllConditioned)
     ));
 }
 
@@ -148,7 +148,7 @@ fn nonsense_on_the_command_pin_is_no_command() {
         motion.period();
         assert_eq!(
             motion.out.refusal,
-            Some(Refusal::UnknownCommand),
+            Some(FrameRefusal::UnknownCommand),
             "{command}"
         );
         assert!(!motion.out.active);
@@ -176,9 +176,9 @@ fn numbers_may_start_again() {
 #[test]
 fn moving_and_teleop_refuse_at_both_ends() {
     type Change = fn(&mut FrameInputs, bool);
-    let changes: [(Change, Refusal); 2] = [
-        (|inputs, on| inputs.in_position = !on, Refusal::Moving),
-        (|inputs, on| inputs.teleop = on, Refusal::Teleop),
+    let changes: [(Change, FrameRefusal); 2] = [
+        (|inputs, on| inputs.in_position = !on, FrameRefusal::Moving),
+        (|inputs, on| inputs.teleop = on, FrameRefusal::Teleop),
     ];
     for (change, refusal) in changes {
         let mut motion = xyz();
@@ -209,7 +209,10 @@ fn moving_and_teleop_refuse_at_both_ends() {
 fn a_switch_that_nobody_makes_is_given_up() {
     let mut motion = xyz();
     motion.linked = false;
-    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), Some(Refusal::NotSwitched));
+    assert_eq!(
+        motion.send(1, [5.0, 0.0, 0.0]),
+        Some(FrameRefusal::NotSwitched)
+    );
     // Linked later: nothing happens by itself.
     motion.linked = true;
     for _ in 0..5 {
@@ -222,6 +225,29 @@ fn a_switch_that_nobody_makes_is_given_up() {
 }
 
 #[test]
+fn motion_may_take_a_hundred_periods_to_switch() {
+    for (periods, taken) in [
+        (0, true),
+        (1, true),
+        (100, true),
+        (101, false),
+        (200, false),
+    ] {
+        let mut motion = xyz();
+        motion.linked = false;
+        motion.put(1, [5.0, 0.0, 0.0]);
+        for _ in 0..=periods {
+            motion.period();
+        }
+        motion.linked = true;
+        motion.period();
+        assert_eq!(motion.out.active, taken, "after {periods} periods");
+        let refusal = (!taken).then_some(FrameRefusal::NotSwitched);
+        assert_eq!(motion.out.refusal, refusal, "after {periods} periods");
+    }
+}
+
+#[test]
 fn by_hand() {
     let mut motion = xyz();
     motion.inputs.map[3] = 3.0;
@@ -231,7 +257,7 @@ fn by_hand() {
     assert_eq!(motion.machine([0.0; 3]), [3.0, 0.0, 0.0]);
     for kind in [-1, 3, i32::MIN, i32::MAX] {
         let result = motion.control.switch(kind, &motion.inputs);
-        assert_eq!(result, Err(Refusal::UnknownType));
+        assert_eq!(result, Err(FrameRefusal::UnknownType));
     }
     assert_eq!(motion.machine([0.0; 3]), [3.0, 0.0, 0.0]);
     assert_eq!(motion.control.switch(0, &motion.inputs), Ok(()));
@@ -257,7 +283,7 @@ fn a_lathe_has_no_y_to_turn_into() {
     ] {
         assert_eq!(
             lathe.send(code, value),
-            Some(Refusal::MissingAxis),
+            Some(FrameRefusal::MissingAxis),
             "{code}"
         );
         assert_eq!(lathe.machine([0.0; 3]), [1.0, 0.0, 0.0]);
@@ -274,5 +300,8 @@ fn a_frame_is_removed_whatever_the_tool_offset_is() {
         assert!(!motion.out.active);
         assert_eq!(motion.out.tool_offset, [1.0, 0.0, 0.0]);
     }
-    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), Some(Refusal::NotFinite));
+    assert_eq!(
+        motion.send(1, [5.0, 0.0, 0.0]),
+        Some(FrameRefusal::NotFinite)
+    );
 }

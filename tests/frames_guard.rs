@@ -2,11 +2,11 @@
 
 mod frames_common;
 
-use framepath::frame::Refusal;
-use framepath::frame::check::check_sum;
-use framepath::frame::control::FrameInputs;
-use framepath::frame::heartbeat::{Guard, LATE, LOST};
-use framepath::frame::release::SETTLED;
+use framepath::kinematics::FrameRefusal;
+use framepath::kinematics::check::check_sum;
+use framepath::kinematics::control::FrameInputs;
+use framepath::kinematics::heartbeat::{Guard, LATE, LOST};
+use framepath::kinematics::release::SETTLED;
 use frames_common::Motion;
 
 /// A machine that stands with a frame in force.
@@ -81,6 +81,30 @@ fn in_teleop_it_goes_when_that_is_left_or_the_machine_is_off() {
 }
 
 #[test]
+fn while_it_has_to_go_nothing_else_is_switched_to_in_teleop() {
+    for slot in [-1, 0, 1, 2, 3] {
+        let mut motion = framed();
+        motion.linked = false;
+        (motion.inputs.teleop, motion.inputs.enabled) = (true, false);
+        for _ in 0..=SETTLED {
+            motion.period();
+        }
+        assert_eq!(motion.out.switchkins_type, 0, "it has been asked for");
+        let switched = motion.control.switch(slot, &motion.inputs);
+        if slot == 0 {
+            assert_eq!(switched, Ok(()));
+            assert!(motion.control.active().is_none());
+        } else {
+            assert_eq!(switched, Err(FrameRefusal::Teleop), "type {slot}");
+            assert_eq!(motion.machine([0.0; 3]), [5.0, 6.0, 7.0]);
+            // It goes all the same.
+            (motion.linked, motion.type_seen) = (true, slot);
+            assert!(periods_until_gone(&mut motion).is_some());
+        }
+    }
+}
+
+#[test]
 fn an_abort_between_request_and_switch_removes_what_comes() {
     let mut motion = Motion::new("identity", "XYZ");
     motion.put(1, [5.0, 0.0, 0.0]);
@@ -95,10 +119,13 @@ fn an_abort_between_request_and_switch_removes_what_comes() {
 #[test]
 fn the_refusal_that_ended_a_program_stays_to_be_read() {
     let mut motion = framed();
-    assert_eq!(motion.send(107, [0.0, 1.0, 1.0]), Some(Refusal::ZeroScale));
+    assert_eq!(
+        motion.send(107, [0.0, 1.0, 1.0]),
+        Some(FrameRefusal::ZeroScale)
+    );
     motion.inputs.command = 0.0;
     assert!(periods_until_gone(&mut motion).is_some());
-    assert_eq!(motion.out.refusal, Some(Refusal::ZeroScale));
+    assert_eq!(motion.out.refusal, Some(FrameRefusal::ZeroScale));
 }
 
 #[test]
@@ -171,7 +198,10 @@ fn a_guard_that_is_late_holds_the_machine_and_one_that_is_lost_switches_it_off()
         motion.period();
         assert!(motion.out.guarded && !motion.out.hold, "{period}");
         motion.inputs.enabled = true;
-        assert_eq!(motion.send(1, [1.0, 0.0, 0.0]), Some(Refusal::Unguarded));
+        assert_eq!(
+            motion.send(1, [1.0, 0.0, 0.0]),
+            Some(FrameRefusal::Unguarded)
+        );
         assert_eq!(motion.send(9, [0.0; 3]), None);
         motion.beating = true;
         assert_eq!(motion.send(1, [1.0, 0.0, 0.0]), None);
@@ -206,8 +236,11 @@ fn without_a_guard_there_are_no_frames() {
     let mut motion = Motion::new("identity", "XYZ");
     motion.beating = false;
     motion.inputs.heartbeat = 0;
-    motion.control = framepath::frame::control::FrameControl::new(*motion.control.machine());
-    assert_eq!(motion.send(1, [1.0, 0.0, 0.0]), Some(Refusal::Unguarded));
+    motion.control = framepath::kinematics::control::FrameControl::new(*motion.control.machine());
+    assert_eq!(
+        motion.send(1, [1.0, 0.0, 0.0]),
+        Some(FrameRefusal::Unguarded)
+    );
     assert_eq!(motion.send(9, [0.0; 3]), None);
     assert_eq!(motion.out.guard, Guard::Never);
     run(&mut motion, 3.0);
@@ -267,12 +300,12 @@ fn a_missing_or_swapped_net_is_refused() {
                     continue;
                 }
                 arrive(&mut motion.inputs, &sent, nets);
-                let whole = framepath::frame::check::is_whole(&motion.inputs);
+                let whole = framepath::kinematics::check::is_whole(&motion.inputs);
                 assert!(!whole, "{sent:?} {nets:?}");
             }
             arrive(&mut motion.inputs, &sent, identity);
             assert!(
-                framepath::frame::check::is_whole(&motion.inputs),
+                framepath::kinematics::check::is_whole(&motion.inputs),
                 "{sent:?}"
             );
         }
@@ -285,13 +318,13 @@ fn a_command_without_its_check_changes_nothing() {
     motion.put(1, [10.0, 5.0, 0.0]);
     motion.inputs.value[1] = 0.0;
     motion.period();
-    assert_eq!(motion.out.refusal, Some(Refusal::WrongCheck));
+    assert_eq!(motion.out.refusal, Some(FrameRefusal::WrongCheck));
     assert_eq!(motion.machine([0.0; 3]), [5.0, 6.0, 7.0]);
     for check in [0.0, f64::NAN, f64::INFINITY] {
         motion.put(1, [10.0, 5.0, 0.0]);
         motion.inputs.check = check;
         motion.period();
-        assert_eq!(motion.out.refusal, Some(Refusal::WrongCheck));
+        assert_eq!(motion.out.refusal, Some(FrameRefusal::WrongCheck));
     }
     // A frame can be removed whatever the nets are.
     motion.put(9, [1.0; 3]);

@@ -3,8 +3,10 @@
 mod look_ahead_routes;
 
 use framepath::axes::Axes;
-use framepath::path::PathPoint;
-use framepath::speed::look_ahead::{MOST_BREAKPOINTS, Piece, Route, SpeedCap, Vertex};
+use framepath::moves::shape::PathPoint;
+use framepath::speed::look_ahead::{
+    MOST_BREAKPOINTS, PlannedSegment, Route, RouteVertex, SpeedCap,
+};
 use look_ahead_routes::run::{check_continuity, limits, offline, planner};
 
 /// The third derivative of Y between the vertices, per square millimetre.
@@ -29,8 +31,8 @@ impl Cubics {
     }
 }
 
-fn vertex(position: f64) -> Vertex {
-    Vertex {
+fn vertex(position: f64) -> RouteVertex {
+    RouteVertex {
         position,
         reach: 1.2,
         core: 0.0,
@@ -74,10 +76,10 @@ impl Route for Cubics {
             greatest: 80.0,
         }
     }
-    fn vertex_after(&self, s: f64) -> Option<Vertex> {
+    fn vertex_after(&self, s: f64) -> Option<RouteVertex> {
         Self::vertices().find(|place| *place > s).map(vertex)
     }
-    fn vertex_before(&self, s: f64) -> Option<Vertex> {
+    fn vertex_before(&self, s: f64) -> Option<RouteVertex> {
         Self::vertices().rev().find(|place| *place < s).map(vertex)
     }
     fn greatest_reach(&self) -> f64 {
@@ -94,7 +96,7 @@ impl Route for Cubics {
 }
 
 /// The greatest jerk of an axis in a piece, just inside of its ends too.
-fn greatest_jerk(piece: &Piece) -> f64 {
+fn greatest_jerk(piece: &PlannedSegment) -> f64 {
     let at = |share: f64| {
         let state = piece.at(share * piece.duration);
         let (v, a) = (state.velocity, state.acceleration);

@@ -3,8 +3,8 @@
 mod look_ahead_routes;
 
 use framepath::axes::{Axes, AxisLimits};
-use framepath::path::PathPoint;
-use framepath::speed::look_ahead::{Progress, Refusal};
+use framepath::moves::shape::PathPoint;
+use framepath::speed::look_ahead::{PlanProgress, PlanRefusal};
 use look_ahead_routes::run::{
     PERIOD, Peaks, check_continuity, duration, limits, live, offline, peaks, planner,
 };
@@ -155,7 +155,10 @@ fn what_cannot_be_planned_is_refused() {
     for _ in 0..1000 {
         unlimited.slice(&route, 100);
     }
-    assert_eq!(unlimited.progress(), Progress::Refused(Refusal::NoRest));
+    assert_eq!(
+        unlimited.progress(),
+        PlanProgress::Refused(PlanRefusal::NoRest)
+    );
     assert!(unlimited.freeze().is_none());
 
     let broken = Curve {
@@ -174,7 +177,10 @@ fn what_cannot_be_planned_is_refused() {
     for _ in 0..1000 {
         planner.slice(&broken, 100);
     }
-    assert_eq!(planner.progress(), Progress::Refused(Refusal::Unsound));
+    assert_eq!(
+        planner.progress(),
+        PlanProgress::Refused(PlanRefusal::Unsound)
+    );
 }
 
 /// A route that goes silent: the plan ends at rest inside what is known, and goes on later.

@@ -3,7 +3,7 @@
 mod look_ahead_routes;
 
 use framepath::axes::MachineMap;
-use framepath::speed::look_ahead::{LookAhead, Progress, Route};
+use framepath::speed::look_ahead::{LookAhead, PlanProgress, Route};
 use framepath::speed::{JerkLimitedProfile, PathLimits};
 use look_ahead_routes::run::{
     PERIOD, check_continuity, duration, limits, live, offline, peaks, planner,
@@ -82,7 +82,7 @@ fn a_zigzag_that_arrives_leg_by_leg_takes_hardly_longer_than_one_planned_at_once
 /// Works in the smallest slices until there is a plan.
 fn first_plan<R: Route>(planner: &mut LookAhead, route: &R) {
     for _ in 0..100_000 {
-        if planner.slice(route, 1) == Progress::Ready {
+        if planner.slice(route, 1) == PlanProgress::Ready {
             return;
         }
     }
@@ -90,7 +90,7 @@ fn first_plan<R: Route>(planner: &mut LookAhead, route: &R) {
 }
 
 #[test]
-fn the_polish_is_worth_its_time() {
+fn the_refinement_is_worth_its_time() {
     let axes = limits(100.0, 1000.0, 20_000.0);
     // So fast a feed that the first plan covers both legs.
     let route = zigzag(2, 0.049, 1000.0);
@@ -101,8 +101,8 @@ fn the_polish_is_worth_its_time() {
         .map(|piece| piece.duration)
         .sum();
     planner.start(0.0, &axes, &MachineMap::IDENTITY, PERIOD);
-    let polished = duration(&offline(&mut planner, &route, 400));
-    assert!(polished < 0.95 * swept, "{swept} s, polished {polished} s");
+    let refined = duration(&offline(&mut planner, &route, 400));
+    assert!(refined < 0.95 * swept, "{swept} s, refined {refined} s");
 }
 
 #[test]

@@ -3,10 +3,9 @@
 mod frames_common;
 
 use framepath::axes::Axes;
-use framepath::frame::control::FrameControl;
-use framepath::frame::{
-    AngleRange, Refusal, RotaryLimits, ToolLength, ToolNormalError, tool_normal,
-};
+use framepath::frame::ToolLength;
+use framepath::kinematics::control::FrameControl;
+use framepath::kinematics::{AngleRange, FrameRefusal, RotaryLimits, ToolNormalError, tool_normal};
 use framepath::machine::Machine;
 use frames_common::Motion;
 use nalgebra::Vector3;
@@ -32,13 +31,13 @@ fn the_table_is_taken_over_at_a_switch_only() {
     motion.inputs.table.tool_offset = f64::NAN;
     assert_eq!(
         motion.send(1, [1.0, 0.0, 0.0]),
-        Some(Refusal::MachineParameters)
+        Some(FrameRefusal::MachineParameters)
     );
     assert!(motion.out.parameters_pending && !motion.out.active);
     assert_eq!(*motion.control.machine(), before);
     motion.inputs.table.tool_offset = 10.0;
     motion.inputs.in_position = false;
-    assert_eq!(motion.send(11, [0.0; 3]), Some(Refusal::Moving));
+    assert_eq!(motion.send(11, [0.0; 3]), Some(FrameRefusal::Moving));
     assert_eq!(*motion.control.machine(), before);
     motion.inputs.in_position = true;
     assert_eq!(motion.send(11, [0.0; 3]), None);
@@ -58,7 +57,7 @@ fn wrong_dimensions_at_the_start_leave_the_tool_centre_point_off() {
     inputs.table.offset = Vector3::new(0.0, 0.0, f64::INFINITY);
     let mut control = FrameControl::new(machine);
     let out = control.update(&inputs);
-    assert_eq!(out.refusal, Some(Refusal::MachineParameters));
+    assert_eq!(out.refusal, Some(FrameRefusal::MachineParameters));
     assert!(out.parameters_pending && !out.tool_centre_point);
     // The right ones are in force from the first period on.
     inputs.table.offset = Vector3::zeros();

@@ -2,10 +2,8 @@
 //! here.
 
 use framepath::axes::Axes;
-use framepath::frame::{
-    ActiveFrame, AngleRange, FrameError, Operation, OperationList, OrientationError, RotaryAngles,
-    ToolLength, WorkOffset, tool_angles,
-};
+use framepath::frame::{ActiveFrame, FrameError, Operation, OperationList, ToolLength, WorkOffset};
+use framepath::kinematics::{AngleRange, OrientationError, RotaryAngles, tool_angles};
 use framepath::machine::{
     Coordinates, CoordinatesError, Identity, JOINT_COUNT, Machine, RotaryDirection, TableTilting,
     TableTiltingParameters, TiltAxis,
@@ -215,7 +213,7 @@ proptest! {
         let distance = |a: RotaryAngles| {
             (a.tilt - current.tilt).hypot(a.rotary - current.rotary)
         };
-        let both = framepath::frame::tool_angles::solutions(&machine, &direction, current).unwrap();
+        let both = framepath::kinematics::tool_angles::solutions(&machine, &direction, current).unwrap();
         // Every solution that the limits allow, by counting.
         let turns = || (-4..=4).map(|n| 360.0 * f64::from(n));
         let best = both

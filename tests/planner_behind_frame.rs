@@ -3,9 +3,10 @@
 mod planner_common;
 
 use framepath::axes::{Axes, MachineMap};
-use framepath::path::Circle;
+use framepath::moves::shape::Circle;
+use framepath::planner::{AddError, Added};
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use planner_common::{Machine, at, equal_limits, feed_move, with_room};
+use planner_common::{Machine, at, equal_limits, feed_move, with_machine, with_room};
 use proptest::prelude::*;
 
 /// A rotation with scales and mirrors.
@@ -89,4 +90,27 @@ fn a_turned_line_takes_what_its_joints_allow() {
         extremes.velocity > 0.999 && extremes.velocity <= 1.001,
         "{extremes:?}"
     );
+}
+
+#[test]
+fn an_axis_that_a_frame_moves_needs_limits() {
+    let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    for (map, moved) in [(Matrix3::identity(), 0), (quarter_turn, 1)] {
+        for without in 0..4 {
+            with_machine(|machine| {
+                let mut limits = equal_limits(20_000.0);
+                limits.acceleration[without] = 0.0;
+                machine.planner.set_limits(&limits);
+                assert!(machine.planner.set_machine_map(&map));
+                let added = machine.line(at(5.0, 0.0), &feed_move(10.0));
+                let refused = Err(AddError::AxisLimits { axis: without });
+                let expected = if without == moved {
+                    refused
+                } else {
+                    Ok(Added::Queued)
+                };
+                assert_eq!(added, expected);
+            });
+        }
+    }
 }

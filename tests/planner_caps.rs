@@ -54,11 +54,12 @@ fn run(jerk: f64, corners: &[[f64; 2]], kind: Cap, cap: f64, from: usize) -> (f6
     let extremes = machine.extremes();
     assert!(extremes.acceleration <= 1.001, "{extremes:?}");
     assert!(extremes.jerk <= 1.05, "{extremes:?}");
-    // From 100 mm/s: the acceleration is built up and taken back, each with all of the jerk.
+    // Twice what it takes on a line from 100 mm/s, where the acceleration is built up and taken back with all of
+    // the jerk: a corner may need the acceleration for itself.
     let slowing = if from == 0 {
         0
     } else {
-        ((100.0 / 1000.0 + 2.0 * 1000.0 / jerk) / PERIOD) as usize
+        (2.0 * (100.0 / 1000.0 + 2.0 * 1000.0 / jerk) / PERIOD) as usize
     };
     let steps = machine.positions.windows(2).skip(4 + from + slowing);
     let speeds = steps.map(|pair| (pair[1] - pair[0]).norm() / PERIOD);
@@ -97,7 +98,7 @@ fn caps_are_kept_behind_slanted_corners() {
     }
 }
 
-/// To be mended: one in a hundred of such programs is above 1.001, up to 1.1.
+/// One in a thousand of such programs is above 1.001: by what the jerk changes the speed in a servo period.
 #[test]
 fn caps_are_kept_behind_any_corners() {
     let cases =
@@ -132,12 +133,12 @@ fn caps_are_kept_behind_any_corners() {
             .collect();
         let (over, _) = with_room(|| run(jerk, &corners, kind, cap, from));
         above.set(above.get() + u32::from(over > 1.001));
-        prop_assert!(over <= 1.2, "{over}");
+        prop_assert!(over <= 1.02, "{over}");
         Ok(())
     });
     if let Err(error) = result {
         panic!("{error}");
     }
     let above = above.get();
-    assert!(above <= 1 + cases / 40, "{above} of {cases}");
+    assert!(above <= cases / 200, "{above} of {cases}");
 }

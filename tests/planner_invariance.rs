@@ -4,8 +4,8 @@
 mod planner_common;
 
 use framepath::axes::{Axes, AxisLimits};
+use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, StateTag, TerminationCondition};
-use framepath::path::Circle;
 use framepath::planner::{Added, CycleInputs, MoveRequest, Planner};
 use nalgebra::Vector3;
 use planner_common::with_room;

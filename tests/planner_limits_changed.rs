@@ -122,3 +122,31 @@ fn a_blended_path_without_a_rest_is_run_with_the_limits_it_began_with() {
         );
     });
 }
+
+#[test]
+fn a_rest_beside_the_program_is_left_along_the_path_that_led_there() {
+    // Lines of micrometres, rounded together: they come faster than they are run, until the path has no room and rests.
+    let feed = feed_move(0.6);
+    for turn in [0.1_f64, 0.2, 0.3] {
+        with_machine(|machine| {
+            let blended = TerminationCondition::Continuous { tolerance: 0.0 };
+            machine.planner.set_termination(blended);
+            let mut end = at(0.0, 0.0);
+            let mut limits = equal_limits(f64::INFINITY);
+            machine.planner.set_limits(&limits);
+            assert!(machine.planner.set_cycle_time(0.01));
+            for number in 0..500 {
+                let (sin, cos) = (turn * f64::from(number)).sin_cos();
+                end += at(cos, sin) * 1.6e-3;
+                machine.line(end, &feed).expect("a line");
+                if number > 200 {
+                    limits.velocity[7] = f64::from(number);
+                    machine.planner.set_limits(&limits);
+                }
+                machine.cycle();
+            }
+            machine.run(5000);
+            assert_eq!(machine.planner.status().position, end);
+        });
+    }
+}

@@ -5,7 +5,7 @@ mod planner_common;
 use std::f64::consts::TAU;
 
 use framepath::axes::{Axes, AxisLimits};
-use framepath::path::Circle;
+use framepath::moves::shape::Circle;
 use framepath::planner::CycleInputs;
 use nalgebra::Vector3;
 use planner_common::{Machine, PERIOD, feed_move, with_room};

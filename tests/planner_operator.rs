@@ -3,7 +3,7 @@
 mod planner_common;
 
 use framepath::moves::MotionType;
-use framepath::path::Circle;
+use framepath::moves::shape::Circle;
 use framepath::planner::{AddError, MoveRequest};
 use nalgebra::Vector3;
 use planner_common::{at, feed_move, with_machine};

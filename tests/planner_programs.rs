@@ -1,6 +1,6 @@
 //! Random programs of lines, arcs and helices while an operator does everything an operator can
 //! do: always within the limits, always at the end point. What they found is kept in
-//! `planner_found_limits.rs`, `planner_found_between.rs` and `planner_found_rests.rs`.
+//! `regressions_limits.rs`, `regressions_between.rs` and `regressions_rests.rs`.
 
 mod planner_common;
 mod planner_random;

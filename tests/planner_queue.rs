@@ -3,8 +3,8 @@
 mod planner_common;
 
 use framepath::axes::AxisLimits;
+use framepath::moves::shape::{Circle, ShapeError};
 use framepath::moves::{CAPACITY, MotionType, StateTag, TerminationCondition};
-use framepath::path::{Circle, ShapeError};
 use framepath::planner::{AddError, Added, MoveRequest, PositionError};
 use nalgebra::Vector3;
 use planner_common::{Machine, PERIOD, at, equal_limits, feed_move, with_machine, with_room};
@@ -123,7 +123,15 @@ fn what_cannot_be_done_is_refused() {
     with_machine(|machine| {
         let to = at(1.0, 0.0);
         let good = feed_move(50.0);
-        for (feed, max_velocity) in [(0.0, 1.0), (-1.0, 1.0), (f64::INFINITY, 1.0), (1.0, 0.0)] {
+        for (feed, max_velocity) in [
+            (0.0, 1.0),
+            (-1.0, 1.0),
+            (f64::INFINITY, 1.0),
+            (1.0, 0.0),
+            (9e-10, 1.0),
+            (5e-324, 1.0),
+            (1.0, 1e-300),
+        ] {
             let request = MoveRequest {
                 feed,
                 max_velocity,
@@ -180,15 +188,31 @@ fn what_cannot_be_done_is_refused() {
             machine.circle(to, &circle, &good),
             Err(AddError::Shape(ShapeError::RadiusTooSmall))
         );
-        let mut limits = equal_limits(20_000.0);
-        limits.acceleration[2] = 0.0;
-        machine.planner.set_limits(&limits);
+        for far in [1.1e7, -1e300] {
+            assert_eq!(
+                machine.line(at(0.0, far), &good),
+                Err(AddError::Shape(ShapeError::TooFar))
+            );
+        }
         let mut up = to;
         up[2] = 1.0;
-        assert_eq!(
-            machine.line(up, &good),
-            Err(AddError::AxisLimits { axis: 2 })
-        );
+        for (velocity, acceleration) in [
+            (100.0, 0.0),
+            (100.0, 9e-4),
+            (100.0, 5e-324),
+            (100.0, f64::NAN),
+            (9e-10, 1000.0),
+            (-1.0, 1000.0),
+        ] {
+            let mut limits = equal_limits(20_000.0);
+            (limits.velocity[2], limits.acceleration[2]) = (velocity, acceleration);
+            machine.planner.set_limits(&limits);
+            assert_eq!(
+                machine.line(up, &good),
+                Err(AddError::AxisLimits { axis: 2 }),
+                "{velocity} {acceleration}"
+            );
+        }
         assert_eq!(
             machine.line(to, &good),
             Ok(Added::Queued),

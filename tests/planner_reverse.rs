@@ -4,8 +4,8 @@
 mod planner_common;
 
 use framepath::axes::Axes;
+use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, TerminationCondition};
-use framepath::path::Circle;
 use framepath::planner::{DirectionError, MoveRequest, Status};
 use nalgebra::Vector3;
 use planner_common::{

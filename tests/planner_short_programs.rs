@@ -1,5 +1,5 @@
 //! Short programs of all kinds of moves, from a nanometre on, on machines of all kinds: no fault, no limit
-//! exceeded, none left unfinished. What they found is kept in `planner_found_faults.rs`.
+//! exceeded, none left unfinished. What they found is kept in `regressions_faults.rs`.
 
 mod planner_common;
 mod planner_short;

@@ -5,7 +5,7 @@ mod planner_common;
 use framepath::axes::Axes;
 use framepath::machine::JOINT_COUNT;
 use framepath::moves::TerminationCondition;
-use framepath::path::Circle;
+use framepath::moves::shape::Circle;
 use framepath::planner::range::{Finding, JointRange, JointSolver, Joints};
 use framepath::planner::{AddError, Status};
 use nalgebra::Vector3;

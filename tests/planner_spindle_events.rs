@@ -5,7 +5,7 @@ mod planner_common;
 use framepath::moves::TerminationCondition;
 use framepath::planner::{AddError, MoveRequest, SpindleError};
 use planner_common::lathe::{Lathe, SPINDLE, fast, feed_of, keeps_limits, off_the_groove, z};
-use planner_common::{Machine, feed_move, with_machine};
+use planner_common::{Machine, PERIOD, feed_move, with_machine};
 
 /// Starts a long thread, and runs it for a while.
 fn in_a_thread(machine: &mut Machine, speed: f64) -> Lathe<'_> {
@@ -116,6 +116,30 @@ fn a_spindle_that_stands_or_turns_the_other_way_begins_no_thread() {
         assert_eq!(lathe.errors, [SpindleError::NoIndex]);
         assert_eq!(lathe.machine.planner.status().position, z(0.0));
     });
+}
+
+#[test]
+fn an_index_is_waited_for_as_long_as_the_spindle_needs_for_four_turns() {
+    // Below a thousandth of a turn a second the spindle stands.
+    for (speed, seconds) in [
+        (0.0, 20.0),
+        (5e-4, 20.0),
+        (0.1, 40.0),
+        (0.15, 26.7),
+        (2.0, 20.0),
+    ] {
+        with_machine(|machine| {
+            let mut lathe = Lathe::new(machine, speed);
+            lathe.has_index = false;
+            lathe.thread(50.0, 1.0);
+            assert_eq!(lathe.errors, [SpindleError::NoIndex]);
+            let waited = lathe.record.len() as f64 * PERIOD;
+            assert!(
+                (waited - seconds).abs() < 0.03 * seconds,
+                "{speed}: {waited} s"
+            );
+        });
+    }
 }
 
 #[test]

@@ -7,8 +7,8 @@ use framepath::axes::Axes;
 use framepath::machine::{
     Coordinates, JOINT_COUNT, RotaryDirection, TableTilting, TableTiltingParameters, TiltAxis,
 };
-use framepath::path::{Arc9, Circle, Line9, Shape};
-use framepath::planner::range::{JointRange, JointSolver, Joints, OutOfRange, Sweep, Verdict};
+use framepath::moves::shape::{Arc9, Circle, Line9, Shape};
+use framepath::planner::range::{JointRange, JointSolver, Joints, OutOfRange, RangeVerdict, Sweep};
 use nalgebra::Vector3;
 use planner_common::{joints_at, seeded_runner};
 use proptest::prelude::*;
@@ -45,7 +45,7 @@ fn sweep(
     range: &JointRange,
     near: &Joints,
     inverse: impl FnMut(&Axes, &Joints) -> Option<Joints>,
-) -> (Verdict, usize) {
+) -> (RangeVerdict, usize) {
     let mut solver = Counting { inverse, calls: 0 };
     let mut sweep = Sweep::new(shape, range, near);
     for _ in 0..100_000 {
@@ -56,11 +56,11 @@ fn sweep(
     panic!("the look never ends");
 }
 
-fn found(verdict: &Verdict) -> Option<OutOfRange> {
+fn found(verdict: &RangeVerdict) -> Option<OutOfRange> {
     match verdict {
-        Verdict::Stays(_) => None,
-        Verdict::Leaves(found) => Some(*found),
-        Verdict::Unknown => panic!("a machine with joints everywhere is unknown"),
+        RangeVerdict::Stays(_) => None,
+        RangeVerdict::Leaves(found) => Some(*found),
+        RangeVerdict::Unknown => panic!("a machine with joints everywhere is unknown"),
     }
 }
 
@@ -177,7 +177,7 @@ fn a_place_out_of_reach_makes_a_move_unknown() {
         [700.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     );
     let (verdict, calls) = sweep(&shape, &range(400.0), &[0.0; JOINT_COUNT], scara);
-    assert!(matches!(verdict, Verdict::Unknown), "{verdict:?}");
+    assert!(matches!(verdict, RangeVerdict::Unknown), "{verdict:?}");
     assert!(calls < 200, "{calls} calls");
 }
 
@@ -191,7 +191,7 @@ fn what_is_not_found_from_afar_is_found_from_nearby() {
     };
     let (verdict, _) = sweep(&shape, &range(400.0), &[0.0; JOINT_COUNT], shy);
     assert!(
-        matches!(verdict, Verdict::Stays(joints) if joints[0] == 180.0),
+        matches!(verdict, RangeVerdict::Stays(joints) if joints[0] == 180.0),
         "{verdict:?}"
     );
     let mut narrow = range(400.0);
@@ -427,7 +427,10 @@ fn noise_at_a_limit_is_not_looked_into() {
     let mut solver = Noisy(0);
     let mut sweep = Sweep::new(&shape, &range(10.0), &[0.0; JOINT_COUNT]);
     let verdict = (0..5).find_map(|_| sweep.step(&shape, &mut solver));
-    assert!(matches!(verdict, Some(Verdict::Stays(_))), "{verdict:?}");
+    assert!(
+        matches!(verdict, Some(RangeVerdict::Stays(_))),
+        "{verdict:?}"
+    );
 }
 
 /// Kinematics that iterate may find another arm from too far away, which motion never gets to.

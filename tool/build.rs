@@ -1,91 +1,11 @@
-//! Compiles what `framepath compare` starts in processes of their own and keeps it in the executable:
-//! the program that runs LinuxCNC's interpreter (C++, src/canon/interpreter), and what stands where
-//! HAL stands for a planner module (C, src/compare/host/stubs.c).
+//! With the feature `linuxcnc`: the programs that run LinuxCNC's interpreter and planner modules.
 
-use std::env;
-use std::path::{Path, PathBuf};
-use std::process::exit;
-
-/// Where Debian's linuxcnc-uspace-dev puts the headers.
-const DEFAULT_INCLUDE: &str = "/usr/include/linuxcnc";
-
-include!("../build/watch.rs");
+#[cfg(feature = "linuxcnc")]
+#[path = "build/linuxcnc.rs"]
+mod linuxcnc;
 
 fn main() {
-    println!("cargo:rerun-if-env-changed=LINUXCNC_INCLUDE");
-    println!("cargo:rerun-if-changed=src/canon/interpreter");
-    println!("cargo:rerun-if-changed=src/compare/host/stubs.c");
-    let include = env::var("LINUXCNC_INCLUDE").unwrap_or_else(|_| DEFAULT_INCLUDE.to_owned());
-    if !Path::new(&include).join("interp_base.hh").exists() {
-        eprintln!(
-            "error: LinuxCNC's header interp_base.hh is not in {include}\n\
-             help: apt-get install linuxcnc-uspace-dev, or name the folder in LINUXCNC_INCLUDE"
-        );
-        exit(1);
-    }
-    watch(&include);
-    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    compile_interpreter(&include, &out.join("interpreter"));
-    compile_stubs(&include, &out.join("stubs.so"));
-}
-
-/// An executable, linked with LinuxCNC's interpreter.
-fn compile_interpreter(include: &str, output: &Path) {
-    let folder = Path::new("src/canon/interpreter");
-    let mut compiler = cc::Build::new()
-        .cpp(true)
-        .opt_level(2)
-        .get_compiler()
-        .to_command();
-    compiler
-        .arg("-std=c++17")
-        .arg("-I")
-        .arg(folder)
-        .args(["-isystem", include])
-        .args([
-            folder.join("main.cc"),
-            folder.join("calls.cc"),
-            folder.join("answers.cc"),
-            folder.join("settings.cc"),
-        ])
-        .args(["-rdynamic", "-lrs274", "-lpyplugin"])
-        // What librs274 needs itself is found when it is loaded.
-        .arg("-Wl,--allow-shlib-undefined")
-        .arg("-o")
-        .arg(output);
-    finish(
-        compiler,
-        "C++ compiler: apt-get install g++ linuxcnc-uspace linuxcnc-uspace-dev",
-    );
-}
-
-/// A shared object that is loaded before all others.
-fn compile_stubs(include: &str, output: &Path) {
-    let mut compiler = cc::Build::new().opt_level(2).get_compiler().to_command();
-    compiler
-        .args(["-shared", "-fPIC", "-DRTAPI", "-DUSPACE"])
-        .args(["-isystem", include])
-        .arg("src/compare/host/stubs.c")
-        .arg("-o")
-        .arg(output);
-    finish(
-        compiler,
-        "C compiler: apt-get install gcc linuxcnc-uspace-dev",
-    );
-}
-
-fn finish(mut compiler: std::process::Command, needed: &str) {
-    match compiler.status() {
-        Ok(status) if status.success() => {}
-        Ok(status) => {
-            eprintln!(
-                "error: {compiler:?} ended with {status}\nhelp: this needs LinuxCNC and a {needed}"
-            );
-            exit(1);
-        }
-        Err(error) => {
-            eprintln!("error: {compiler:?} cannot be run: {error}\nhelp: this needs a {needed}");
-            exit(1);
-        }
-    }
+    println!("cargo:rerun-if-changed=build");
+    #[cfg(feature = "linuxcnc")]
+    linuxcnc::build();
 }

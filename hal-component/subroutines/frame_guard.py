@@ -47,6 +47,15 @@ PATIENCE = 1.0
 #: s that LinuxCNC's task may take beyond three of its cycles until its status is up to date
 SETTLING = 0.2
 
+#: What the guard and framekins have for each other: pins of the guard, with framekins' and the kind of both. A look takes
+#: only its own pins: those of others are read under HAL's lock, and a guard that is killed while it holds that would stop
+#: every other process that wants it.
+TOLD = {"release": ("release", hal.HAL_BIT), "releases-seen": ("releases-seen", hal.HAL_S32)}
+WATCHED = {"releases": ("releases", hal.HAL_S32), "active": ("guard.active", hal.HAL_BIT),
+           **{name: (f"guard.{name}", hal.HAL_FLOAT) for name in (
+               "command", "acknowledged", "work-offset.x", "work-offset.y", "work-offset.z", "work-offset.rotation",
+               "frame-tool-offset.x", "frame-tool-offset.y", "frame-tool-offset.z")}}
+
 #: framekins' inputs that motion has to be linked to, and motion's that framekins has to be: (pin, net, what is lost)
 NETS = (
     ("framekins.in-position", "net motion-in-position motion.in-position => framekins.in-position",
@@ -65,7 +74,8 @@ NETS = (
 class Look:
     """LinuxCNC's state at one moment."""
 
-    def __init__(self, status):
+    def __init__(self, status, pins):
+        """pins: the guard's own, see WATCHED."""
         status.poll()
         self.on = status.task_state == linuxcnc.STATE_ON
         self.mode = status.task_mode
@@ -85,11 +95,11 @@ class Look:
         # G92 turns with the work offset; the same sum as in frame_send.ngc
         turned = turn(status.rotation_xy, status.g92_offset)
         self.work_offset = (*(a + b for a, b in zip(status.g5x_offset, turned)), status.rotation_xy)
-        self.active = bool(hal.get_value("framekins.active"))
-        self.command = hal.get_value("framekins.command")
-        self.acknowledged = hal.get_value("framekins.acknowledged")
+        self.active = pins["active"]
+        self.command = pins["command"]
+        self.acknowledged = pins["acknowledged"]
         #: how often framekins has removed a frame by itself
-        self.releases = hal.get_value("framekins.releases")
+        self.releases = pins["releases"]
         self.offsets = Offsets(status)
 
 
@@ -103,7 +113,7 @@ class Guard:
     """Looks at LinuxCNC again and again, and acts."""
 
     def __init__(self, settings, pins, heart):
-        """pins: release and releases-seen."""
+        """pins: release and releases-seen to write, and those of WATCHED to read."""
         self.settings = settings
         self.pins = pins
         self.heart = heart
@@ -129,9 +139,12 @@ class Guard:
         self.tried = 0.0
         self.status.poll()
         # what the one before has not done is done by whoever switches the machine on again
-        pins["releases-seen"] = hal.get_value("framekins.releases")
+        pins["releases-seen"] = self.pins["releases"]
         #: the HAL file has been looked at
         self.checked = False
+
+    def look(self):
+        return Look(self.status, self.pins)
 
     def check_nets(self):
         """Tells of what the HAL file has forgotten."""
@@ -141,7 +154,7 @@ class Guard:
 
     def step(self):
         """One look."""
-        now, last = Look(self.status), self.last or Look(self.status)
+        now, last = self.look(), self.last or self.look()
         if now.on and not self.checked:
             # now somebody is there to read it
             self.check_nets()
@@ -164,9 +177,9 @@ class Guard:
             self.offsets = self.offsets or now.offsets
         if going:
             self.remove(now)
-        if hal.get_value("framekins.releases") != self.pins["releases-seen"]:
+        if self.pins["releases"] != self.pins["releases-seen"]:
             self.read_anew()
-        self.last = Look(self.status) if going or unread else now
+        self.last = self.look() if going or unread else now
 
     def follow_commands(self, now, last):
         """Keeps what the frame was made with."""
@@ -227,11 +240,9 @@ class Guard:
                       "frame_tool_change, or call o<frame_suspend> before M6 and o<frame_resume> after it")
         elif not self.commanded:
             return  # a frame set on the pins by hand: what it was made for is not known
-        elif differ(now.work_offset, [hal.get_value(f"framekins.work-offset.{k}")
-                                      for k in ("x", "y", "z", "rotation")]):
+        elif differ(now.work_offset, [self.pins[f"work-offset.{k}"] for k in ("x", "y", "z", "rotation")]):
             self.stop("the work offset has changed while a frame is active: call o<frame_refresh> behind the change")
-        elif self.changes_lengths and differ(now.tool_offset, [hal.get_value(f"framekins.frame-tool-offset.{k}")
-                                                               for k in ("x", "y", "z")]):
+        elif self.changes_lengths and differ(now.tool_offset, [self.pins[f"frame-tool-offset.{k}"] for k in "xyz"]):
             self.stop("the tool offset has changed while a frame with a scale or a mirror is active: "
                       "call o<frame_refresh> behind the change")
 
@@ -256,7 +267,7 @@ class Guard:
     def mode(self, mode):
         """Whether LinuxCNC is in this mode now. Somebody else may choose another one at any moment."""
         self.command.mode(mode)
-        return self.wait(lambda: Look(self.status).mode == mode, 0.2)
+        return self.wait(lambda: self.look().mode == mode, 0.2)
 
     def settle(self):
         """Waits until the position without the frame is in task's own status, where the interpreter reads it."""
@@ -270,14 +281,14 @@ class Guard:
 
     def remove(self, before):
         """The frame has to go and no program runs: framekins removes it as soon as motion stands outside of teleop."""
-        gone = self.wait(lambda: not hal.get_value("framekins.active"), 0.02)
+        gone = self.wait(lambda: not self.pins["active"], 0.02)
         if not gone and before.on and before.teleop and not before.moving and self.may_try():
             # a change in teleop would make the joints jump: leave it for a moment
             self.mode(linuxcnc.MODE_MDI)
-            gone = self.wait(lambda: not hal.get_value("framekins.active"), 0.2)
+            gone = self.wait(lambda: not self.pins["active"], 0.2)
             if gone:
                 self.read_anew()
-            if Look(self.status).mode == linuxcnc.MODE_MDI:
+            if self.look().mode == linuxcnc.MODE_MDI:
                 self.mode(linuxcnc.MODE_MANUAL)
         if gone:
             self.pins["release"] = False
@@ -285,7 +296,9 @@ class Guard:
                 self.command.text_msg("framepath: the frame is removed, programs start without one")
             self.due = None
         elif not before.moving:
-            self.complain()
+            self.complain("the frame has to go, and framekins does not remove it: neither touch off nor start a program; "
+                          "are framekins.in-position, framekins.teleop and motion.switchkins-type linked as in the HAL "
+                          "file of the sample?")
 
     def may_try(self):
         """Whether teleop mode is to be left now: where that did not help for a while, only once a second."""
@@ -295,31 +308,33 @@ class Guard:
         self.tried = now
         return True
 
-    def complain(self):
-        """Tells once of a frame that does not go although nothing is in its way."""
+    def complain(self, text):
+        """Tells once of what does not get done although nothing is in its way."""
         self.stays_since = self.stays_since or time.monotonic()
         if not self.told and time.monotonic() - self.stays_since > PATIENCE:
             self.told = True
-            self.tell("the frame has to go, and framekins does not remove it: neither touch off nor start a program; "
-                      "are framekins.in-position, framekins.teleop and motion.switchkins-type linked as in the HAL "
-                      "file of the sample?")
+            self.tell(text)
 
     def read_anew(self):
         """Makes the interpreter read its position without the frame. Until then framekins holds the machine."""
-        releases = hal.get_value("framekins.releases")
+        releases = self.pins["releases"]
         self.settle()
         # held as the machine is, what has begun can wait; an abort may still be on its way to the status
-        if not self.wait(lambda: Look(self.status).idle, SETTLING + 3 * self.settings.task_cycle):
+        if not self.wait(lambda: self.look().idle, SETTLING + 3 * self.settings.task_cycle):
             self.stop("a command was given while the frame was being removed: give it again, start the program again")
-            self.wait(lambda: Look(self.status).idle, 1.0)
-        now = Look(self.status)
+            self.wait(lambda: self.look().idle, 1.0)
+        now = self.look()
         if now.on and now.auto:
             # in AUTO LinuxCNC accepts nothing but a start; in MDI no program can start meanwhile
-            if self.mode(linuxcnc.MODE_MDI):
-                self.put_offsets_back()
-                # unless a screen has chosen another mode meanwhile
-                if Look(self.status).mode == linuxcnc.MODE_MDI:
-                    self.mode(linuxcnc.MODE_AUTO)
+            if not self.mode(linuxcnc.MODE_MDI):
+                # a program was started since that look, and LinuxCNC refuses the change: the next step stops it
+                self.complain("the frame is gone, and LinuxCNC does not leave AUTO so that its position can be read "
+                              "anew: the machine is held until then; choose MDI mode, then AUTO again")
+                return
+            self.put_offsets_back()
+            # unless a screen has chosen another mode meanwhile
+            if self.look().mode == linuxcnc.MODE_MDI:
+                self.mode(linuxcnc.MODE_AUTO)
         else:
             self.command.task_plan_synch()
             self.wait(lambda: self.command.wait_complete(0.02) != -1, 1.0)
@@ -328,7 +343,7 @@ class Guard:
 
     def put_offsets_back(self):
         """Offsets that were set while the frame had to go belong to positions in it."""
-        now, before = Look(self.status), self.offsets
+        now, before = self.look(), self.offsets
         if before is None:
             return
         if now.offsets.was_shifted_since(before):
@@ -339,13 +354,13 @@ class Guard:
                 back = now.mode
                 if back == linuxcnc.MODE_MDI or self.mode(linuxcnc.MODE_MDI):
                     self.command.mdi(words)
-                    self.wait(lambda: not Look(self.status).offsets.was_set_since(before), 1.0)
+                    self.wait(lambda: not self.look().offsets.was_set_since(before), 1.0)
                     if back != linuxcnc.MODE_MDI:
                         self.mode(back)
-            done = not Look(self.status).offsets.was_set_since(before)
+            done = not self.look().offsets.was_set_since(before)
             self.tell("a work offset was set while a frame had to go, from a position in the frame: "
                       + ("it is put back, touch off again" if done else f"give {words} in MDI, then touch off again"))
-        self.offsets = Look(self.status).offsets
+        self.offsets = self.look().offsets
 
 
 def make_component(settings):
@@ -354,22 +369,24 @@ def make_component(settings):
     for pin, kind, value in (
             ("analog-output", hal.HAL_S32, settings.analog_output),
             ("units-per-mm", hal.HAL_FLOAT, settings.units_per_mm),
+            ("z-joint", hal.HAL_S32, settings.z_joint),
             ("rots-convention", hal.HAL_S32, int(settings.rots_convention == "k2"))):
         component.newpin(pin, kind, hal.HAL_OUT)
         component[pin] = value
-    component.newpin("release", hal.HAL_BIT, hal.HAL_OUT)
-    component.newpin("releases-seen", hal.HAL_S32, hal.HAL_OUT)
+    for direction, pins in ((hal.HAL_OUT, TOLD), (hal.HAL_IN, WATCHED)):
+        for pin, (_, kind) in pins.items():
+            component.newpin(pin, kind, direction)
     return component
 
 
 def link_to_framekins():
     """Links the pins that the guard and framekins have for each other: no HAL file can forget these."""
-    for pin, kind in (("heartbeat", hal.HAL_U32), ("release", hal.HAL_BIT), ("releases-seen", hal.HAL_S32)):
+    for pin, (theirs, kind) in {"heartbeat": ("heartbeat", hal.HAL_U32), **TOLD, **WATCHED}.items():
         signal_name = f"{NAME}-{pin}"
         if signal_name not in {found["NAME"] for found in hal.get_info_signals()}:
             hal.new_sig(signal_name, kind)
         hal.connect(f"{NAME}.{pin}", signal_name)
-        hal.connect(f"framekins.{pin}", signal_name)
+        hal.connect(f"framekins.{theirs}", signal_name)
 
 
 def set_up_framekins(settings):
@@ -378,7 +395,7 @@ def set_up_framekins(settings):
     if "framekins.active" not in pins:
         return ("framekins is not loaded: write [KINS]KINEMATICS = framekins coordinates=..., and load frame_guard "
                 "behind it")
-    if "framekins.releases" not in pins:
+    if "framekins.guard.active" not in pins:
         return "the framekins that is installed is older than frame_guard: install both from one version of framepath"
     hal.set_p("framekins.release-on-abort", str(int(settings.clear_on_abort)))
     machine = settings.tool_length == "machine"

@@ -65,6 +65,22 @@ def _choice(*words):
     return lambda text: text.lower() if text.lower() in words else None
 
 
+def _tolerance(text):
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if 0.001 <= value <= 10 else None
+
+
+def _place(text):
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if abs(value) <= 100000 else None
+
+
 def _output(text):
     if not text.isdigit() or int(text) + OUTPUTS > MOST_OUTPUTS:
         return None
@@ -78,6 +94,9 @@ KEYS = {
     "CLEAR_ON_ABORT": (True, _switch, "0 or 1"),
     "TOOL_LENGTH": ("frame", _choice("frame", "machine"), "frame or machine"),
     "ROTS_CONVENTION": ("seed", _choice("seed", "k2"), "seed or k2"),
+    # read by framepath filter
+    "TOLERANCE": (0.01, _tolerance, "a tolerance from 0.001 to 10 mm"),
+    "RETRACT_Z": (None, _place, "a place of the machine in mm"),
     "ANALOG_OUTPUT": (0, _output, f"a whole number from 0 to {MOST_OUTPUTS - OUTPUTS}"),
 }
 
@@ -85,7 +104,8 @@ KEYS = {
 class Settings:
     """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
 
-    units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s.
+    units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s; z_joint: number of the joint of Z,
+    -1 if there is none.
     """
 
     def __init__(self, path):
@@ -111,6 +131,7 @@ class Settings:
                 raise SettingsError(f"{path}:{line}: section [{where}]: write [{SECTION}], in capitals")
         self.units_per_mm = _linear_units(ini)
         self.task_cycle = _task_cycle(ini)
+        self.z_joint = _z_joint(ini)
         _check_coordinates(ini)
         _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
         if self.clear_on_abort:
@@ -133,14 +154,24 @@ def _linear_units(ini):
     return units
 
 
-def _check_coordinates(ini):
-    """The letters of framekins stand for the joints, one each: without this an axis would move nothing, in silence."""
+def _joint_letters(ini):
+    """The letters of framekins, one for each joint, and their line; empty if they are not there."""
     kinematics, line = ini.find("KINS", "KINEMATICS")
     letters = re.search(r"^framekins\b.*\bcoordinates=(\w+)", kinematics or "")
+    return (letters.group(1).upper() if letters else ""), line
+
+
+def _z_joint(ini):
+    letters, _ = _joint_letters(ini)
+    return (letters or "XYZ").find("Z")
+
+
+def _check_coordinates(ini):
+    """The letters of framekins stand for the joints, one each: without this an axis would move nothing, in silence."""
+    letters, line = _joint_letters(ini)
     joints, _ = ini.find("KINS", "JOINTS")
     if not letters or not (joints or "").isdigit():
         return
-    letters = letters.group(1).upper()
     place = f"{ini.path}:{line}: [KINS]KINEMATICS: coordinates={letters}"
     if len(letters) != int(joints):
         raise SettingsError(f"{place} names {len(letters)} joints, [KINS]JOINTS = {joints}: write a letter for each joint")

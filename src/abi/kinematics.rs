@@ -13,9 +13,10 @@ use nalgebra::Vector3;
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::{AXIS_COUNT, Axes};
-use crate::frame::control::{FrameControl, FrameInputs, FrameOutputs};
-use crate::frame::heartbeat::Guard;
-use crate::frame::{AffineMap, AngleRange, RotaryLimits, ToolLength, tool_normal};
+use crate::frame::{AffineMap, ToolLength};
+use crate::kinematics::control::{FrameControl, FrameInputs, FrameOutputs};
+use crate::kinematics::heartbeat::Guard;
+use crate::kinematics::{AngleRange, RotaryLimits, tool_normal};
 use crate::machine::{
     ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, RotaryDirection,
     TableTiltingParameters, TiltAxis,
@@ -142,12 +143,12 @@ struct Kinematics {
 }
 
 /// Memory for the one machine of a module.
-struct Memory(UnsafeCell<Kinematics>);
+struct KinematicsMemory(UnsafeCell<Kinematics>);
 
 // SAFETY: LinuxCNC calls the kinematics from one thread at a time, see the head of this file.
-unsafe impl Sync for Memory {}
+unsafe impl Sync for KinematicsMemory {}
 
-static MEMORY: Memory = Memory(UnsafeCell::new(Kinematics {
+static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
     control: None,
     tool_length: ToolLength::Frame,
     position: [0.0; AXIS_COUNT],

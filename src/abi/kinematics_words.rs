@@ -5,7 +5,7 @@ use core::ffi::CStr;
 use libc::{c_char, c_int};
 
 use super::kinematics::{FRAMEPATH_GUARD_LATE, FRAMEPATH_GUARD_LOST};
-use crate::frame::Refusal;
+use crate::kinematics::FrameRefusal;
 
 /// What the operator is told of an alarm.
 #[unsafe(no_mangle)]
@@ -21,24 +21,24 @@ pub extern "C" fn framepath_kinematics_alarm_text(alarm: c_int) -> *const c_char
 /// The words for a refusal, with the remedy.
 #[unsafe(no_mangle)]
 pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_char {
-    const WORDS: [(Refusal, &CStr); 17] = [
-        (Refusal::UnknownCommand, c"there is no such command; use the subroutines of framepath"),
-        (Refusal::NotFinite, c"a value is infinite or not a number"),
-        (Refusal::ZeroScale, c"a scale factor is 0; use 1 for an axis that keeps its size"),
-        (Refusal::TranslationTooLarge, c"a shift is larger than a machine"),
-        (Refusal::TooManyOperations, c"more operations are added than there is room for; begin anew with TRANS, ROT, SCALE or MIRROR"),
-        (Refusal::ImpossibleAngles, c"no plane meets these two angles"),
-        (Refusal::Singular, c"the frame is singular: it flattens space, so that no position could be found back"),
-        (Refusal::IllConditioned, c"the scales of the frame are too unequal"),
-        (Refusal::ScaleOutOfRange, c"the frame enlarges or shrinks more than a thousandfold"),
-        (Refusal::Moving, c"the machine moves; wait for the end of the motion"),
-        (Refusal::Teleop, c"motion is in teleop mode, where a switch would make the joints jump; leave it first"),
-        (Refusal::NotSwitched, c"motion did not switch; link framekins.switchkins-type to motion.switchkins-type"),
-        (Refusal::UnknownType, c"motion.switchkins-type has to be 0, 1 or 2"),
-        (Refusal::MissingAxis, c"the frame moves an axis that the machine does not have; see coordinates= of framekins"),
-        (Refusal::MachineParameters, c"a dimension of the machine is not a number or larger than a machine; see the pins framekins.x-rot-point and those beside it"),
-        (Refusal::WrongCheck, c"the values that have arrived are not those that were sent: a net from an analog output to framekins is missing or wrong, for one the new net frame-check motion.analog-out-08 => framekins.check; compare with the HAL file of a sample"),
-        (Refusal::Unguarded, c"frame_guard does not live, and nobody would remove the frame: load it in the HAL file, loadusr -Wn frame-guard .../frame_guard.py"),
+    const WORDS: [(FrameRefusal, &CStr); 17] = [
+        (FrameRefusal::UnknownCommand, c"there is no such command; use the subroutines of framepath"),
+        (FrameRefusal::NotFinite, c"a value is infinite or not a number"),
+        (FrameRefusal::ZeroScale, c"a scale factor is 0; use 1 for an axis that keeps its size"),
+        (FrameRefusal::TranslationTooLarge, c"a shift is larger than a machine"),
+        (FrameRefusal::TooManyOperations, c"more operations are added than there is room for; begin anew with TRANS, ROT, SCALE or MIRROR"),
+        (FrameRefusal::ImpossibleAngles, c"no plane meets these two angles"),
+        (FrameRefusal::Singular, c"the frame is singular: it flattens space, so that no position could be found back"),
+        (FrameRefusal::IllConditioned, c"the scales of the frame are too unequal"),
+        (FrameRefusal::ScaleOutOfRange, c"the frame enlarges or shrinks more than a thousandfold"),
+        (FrameRefusal::Moving, c"the machine moves; wait for the end of the motion"),
+        (FrameRefusal::Teleop, c"motion is in teleop mode, where a switch would make the joints jump; leave it first"),
+        (FrameRefusal::NotSwitched, c"motion did not switch; link framekins.switchkins-type to motion.switchkins-type"),
+        (FrameRefusal::UnknownType, c"motion.switchkins-type has to be 0, 1 or 2"),
+        (FrameRefusal::MissingAxis, c"the frame moves an axis that the machine does not have; see coordinates= of framekins"),
+        (FrameRefusal::MachineParameters, c"a dimension of the machine is not a number or larger than a machine; see the pins framekins.x-rot-point and those beside it"),
+        (FrameRefusal::WrongCheck, c"the values that have arrived are not those that were sent: a net from an analog output to framekins is missing or wrong, for one the new net frame-check motion.analog-out-08 => framekins.check; compare with the HAL file of a sample"),
+        (FrameRefusal::Unguarded, c"frame_guard does not live, and nobody would remove the frame: load it in the HAL file, loadusr -Wn frame-guard .../frame_guard.py"),
     ];
     WORDS
         .iter()

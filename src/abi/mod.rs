@@ -5,7 +5,7 @@ pub mod kinematics;
 pub mod kinematics_words;
 pub mod linuxcnc;
 pub mod planner;
-mod pose;
+pub mod pose;
 
 use libc::c_uint;
 

@@ -4,7 +4,7 @@ use super::linuxcnc::{EmcPose, PmCartesian};
 use crate::axes::Axes;
 
 /// A pose as nine numbers.
-pub(super) fn axes_of(pose: &EmcPose) -> Axes {
+pub fn axes_of(pose: &EmcPose) -> Axes {
     Axes::from([[
         pose.tran.x,
         pose.tran.y,

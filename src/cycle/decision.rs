@@ -1,24 +1,13 @@
 //! What the executor wants in a servo period, and which n = dm/dt would serve it best.
 
 use super::Executor;
-use super::cap::Caps;
+use super::backup_trajectory::BackupRefusal;
+use super::cap::{Caps, hard_braking};
 use super::demand::Demand;
-use super::interval::Interval;
+use super::goal::Goal;
+use super::rate_derivative_interval::RateDerivativeInterval;
 use super::rows::Span;
 use super::table::Node;
-
-/// What the executor wants in a servo period.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Goal {
-    /// Come to rest: rate 0.
-    Hold,
-    /// As fast as the reference: rate 1.
-    Run,
-    /// As fast as the feed cap allows. The reference exceeds it ahead, at most by this ratio.
-    Cap(f64),
-    /// To be where a thread wants the machine to be.
-    Follow,
-}
 
 /// The reference counts as too fast for a cap from this ratio on.
 const CAP_BINDS: f64 = 1.0001;
@@ -50,7 +39,7 @@ impl Executor {
         }
     }
 
-    /// The n of this period. Whatever it is, the stored release continues from its end.
+    /// The n of this period. Whatever it is, the stored backup trajectory continues from its end.
     pub(super) fn decide(&mut self, goal: Goal) -> f64 {
         let state = self.state;
         let is_adjusted = matches!(goal, Goal::Cap(_) | Goal::Follow);
@@ -60,7 +49,7 @@ impl Executor {
         };
         if state.rate_change == 0.0 && state.rate == target && !is_adjusted {
             self.goal = goal;
-            self.release_mut().clear();
+            self.backup_mut().clear();
             return 0.0;
         }
         if std::mem::discriminant(&goal) != std::mem::discriminant(&self.goal) {
@@ -76,9 +65,9 @@ impl Executor {
         let jerk = span.jerk_interval(state, predicted);
         let mut allowed = jerk
             .intersection(&span.acceleration_interval(state, predicted))
-            .intersection(&Interval::of_rate(state));
+            .intersection(&RateDerivativeInterval::of_rate(state));
         if allowed.is_empty() {
-            allowed = Interval {
+            allowed = RateDerivativeInterval {
                 low: allowed.low.min(safe),
                 high: allowed.high.max(safe),
             };
@@ -103,15 +92,15 @@ impl Executor {
             return n;
         }
         if (wanted - safe).abs() < SAME_N {
-            self.release_mut().advance();
+            self.backup_mut().advance();
             return safe;
         }
         self.search(safe, wanted, &start)
     }
 
-    /// The n of the stored release: always possible.
+    /// The n of the stored backup trajectory: always possible.
     fn safe_n(&mut self, start: &Node) -> f64 {
-        if let Some(n) = self.release().next() {
+        if let Some(n) = self.backup().next() {
             return n;
         }
         let state = self.state;
@@ -120,7 +109,7 @@ impl Executor {
         }
         // Cannot happen as long as arithmetic is exact. The best that is left: release as fast as
         // the jerk allows at this instant.
-        self.releases_lost = self.releases_lost.saturating_add(1);
+        self.backups_lost = self.backups_lost.saturating_add(1);
         let predicted = state.step(0.0);
         let end = self.table.node(predicted.time);
         Span::new(&self.table, &self.limits, start, &end)
@@ -129,7 +118,12 @@ impl Executor {
     }
 
     /// The n that the feed cap asks for.
-    fn toward_cap(&mut self, ratio: f64, jerk: &Interval, allowed: &Interval) -> f64 {
+    fn toward_cap(
+        &mut self,
+        ratio: f64,
+        jerk: &RateDerivativeInterval,
+        allowed: &RateDerivativeInterval,
+    ) -> f64 {
         let state = self.state;
         let wanted = match self.caps.approach(&self.table, &self.limits, state, jerk) {
             Some(n) => allowed.nearest(n),
@@ -138,22 +132,30 @@ impl Executor {
         if wanted <= allowed.low || !Caps::needs_guard(state, ratio, self.servo_period) {
             return wanted;
         }
-        let next = state.step(wanted);
-        let answer = self.caps.guard(
-            &self.table,
-            &self.limits,
-            next,
-            wanted,
-            self.servo_period,
-            &mut self.budget,
-        );
-        match answer {
-            Ok(true) => wanted,
-            Ok(false) => allowed.low,
-            Err(_) => {
-                self.wall = true;
-                allowed.low
+        // What the guard brakes with is enough where it has been obeyed so far.
+        let braking = allowed.nearest(hard_braking(jerk, allowed.low)).min(wanted);
+        for n in [wanted, braking] {
+            match self.keeps_caps(n) {
+                Ok(true) => return n,
+                Ok(false) => {}
+                Err(_) => {
+                    self.wall = true;
+                    break;
+                }
             }
         }
+        allowed.low
+    }
+
+    /// Whether braking keeps the caps behind a period with this n.
+    fn keeps_caps(&mut self, n: f64) -> Result<bool, BackupRefusal> {
+        self.caps.guard(
+            &self.table,
+            &self.limits,
+            self.state.step(n),
+            n,
+            self.servo_period,
+            &mut self.budget,
+        )
     }
 }

@@ -45,7 +45,7 @@ impl Demand {
 
 /// What the executor did in one servo period.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub struct ExecutorStep {
     /// How far the reference time advanced, seconds, from 0 to one servo period. Exactly one
     /// servo period at a rate of 1.
     pub advance: f64,

@@ -1,12 +1,12 @@
 //! The servo cycle: one decision for each servo period.
 
+use super::backup_trajectory::BackupTrajectory;
 use super::cap::{Caps, FORESIGHT, GUARD_PERIODS};
 use super::cell::Cell;
-use super::decision::Goal;
-use super::demand::{Demand, Step};
+use super::demand::{Demand, ExecutorStep};
 use super::follow::Pursuit;
-use super::release::Release;
-use super::rows::Limits;
+use super::goal::Goal;
+use super::rows::PeriodLimits;
 use super::state::State;
 use super::table::{CloseError, PushError, ReopenError, Table, USABLE};
 use crate::axes::AxisLimits;
@@ -37,12 +37,14 @@ pub struct Executor {
     pub(super) state: State,
     /// Seconds; 0 before the first [`Executor::configure`].
     pub(super) servo_period: f64,
-    pub(super) limits: Limits,
-    /// The stored release is `releases[stored]`; the other one is for the candidate.
-    pub(super) releases: [Release; 2],
+    pub(super) limits: PeriodLimits,
+    /// The stored backup trajectory is `backups[stored]`; the other one is for the candidate.
+    pub(super) backups: [BackupTrajectory; 2],
     pub(super) stored: usize,
     /// Part of the way to the wanted n that the search tries first.
     pub(super) fraction: f64,
+    /// Whether that was towards a lower n than the stored backup trajectory's.
+    pub(super) brakes: bool,
     pub(super) goal: Goal,
     pub(super) caps: Caps,
     /// In a thread: where to be.
@@ -54,7 +56,7 @@ pub struct Executor {
     pub(super) started: bool,
     pub(super) starved: bool,
     pub(super) end_reached: bool,
-    pub(super) releases_lost: u64,
+    pub(super) backups_lost: u64,
 }
 
 impl Executor {
@@ -64,10 +66,11 @@ impl Executor {
             table: Table::new(),
             state: State::START,
             servo_period: 0.0,
-            limits: Limits::UNLIMITED,
-            releases: [Release::EMPTY, Release::EMPTY],
+            limits: PeriodLimits::UNLIMITED,
+            backups: [BackupTrajectory::EMPTY, BackupTrajectory::EMPTY],
             stored: 0,
             fraction: 1.0,
+            brakes: false,
             goal: Goal::Run,
             caps: Caps::NONE,
             pursuit: None,
@@ -77,7 +80,7 @@ impl Executor {
             started: false,
             starved: false,
             end_reached: false,
-            releases_lost: 0,
+            backups_lost: 0,
         }
     }
 
@@ -92,7 +95,7 @@ impl Executor {
         }
         check(limits)?;
         self.servo_period = servo_period;
-        self.limits = Limits::new(limits, servo_period);
+        self.limits = PeriodLimits::new(limits, servo_period);
         self.reset();
         Ok(())
     }
@@ -104,7 +107,7 @@ impl Executor {
             return Err(ConfigureError::ServoPeriod(self.servo_period));
         }
         check(limits)?;
-        self.limits = Limits::new(limits, self.servo_period);
+        self.limits = PeriodLimits::new(limits, self.servo_period);
         Ok(())
     }
 
@@ -113,8 +116,8 @@ impl Executor {
     pub fn reset(&mut self) {
         self.table.clear();
         self.state = State::START;
-        for release in &mut self.releases {
-            release.clear();
+        for backup in &mut self.backups {
+            backup.clear();
         }
         self.fraction = 1.0;
         self.greatest_programmed_feed = 0.0;
@@ -157,7 +160,7 @@ impl Executor {
         if self.table.end().is_none() {
             return Err(ReopenError::Open);
         }
-        if self.end_reached || self.release().relies_on_end() {
+        if self.end_reached || self.backup().relies_on_end() {
             return Err(ReopenError::EndInUse);
         }
         self.table.reopen();
@@ -174,7 +177,7 @@ impl Executor {
     /// is closed there is nothing more to push.
     ///
     /// The less is frozen in the table, the sooner the planner's improvements count. So it is
-    /// little while the reference runs as it is, as far as the stored release reaches while the
+    /// little while the reference runs as it is, as far as the stored backup trajectory reaches while the
     /// rate changes, and as far as it takes to brake where a feed cap may bind.
     pub fn cells_wanted(&self) -> usize {
         // From the time of the state to the end of the cell behind, which is known only when the
@@ -183,7 +186,7 @@ impl Executor {
         // 6 ms, but no less than it takes to answer a demand, and no more than is of use.
         let mut wanted = ((6e-3 / self.servo_period.max(1e-9)) as usize).clamp(4, 6);
         if self.goal == Goal::Hold || !self.is_idle() {
-            wanted = wanted.max(self.cells_for_release());
+            wanted = wanted.max(self.cells_for_backup());
         }
         if self.may_be_capped() {
             wanted = wanted.max(self.cells_to_brake());
@@ -196,11 +199,11 @@ impl Executor {
     }
 
     /// How many cells the executor cannot do without while its rate changes, from the one that the
-    /// reference time lies in; 0 while it does not. A release must not leave the known cells: with less
+    /// reference time lies in; 0 while it does not. A backup trajectory must not leave the known cells: with less
     /// of them a hold takes longer.
     pub fn cells_needed(&self) -> usize {
         if self.state.rate_change != 0.0 || self.goal == Goal::Hold && self.state.rate > 0.0 {
-            self.cells_for_release()
+            self.cells_for_backup()
         } else {
             0
         }
@@ -217,14 +220,14 @@ impl Executor {
         self.state.time * self.servo_period
     }
 
-    /// How often the stored release ended before the rate change was 0: a count of numerical
+    /// How often the stored backup trajectory ended before the rate change was 0: a count of numerical
     /// accidents, to be 0.
-    pub fn releases_lost(&self) -> u64 {
-        self.releases_lost
+    pub fn backups_lost(&self) -> u64 {
+        self.backups_lost
     }
 
     /// One servo period.
-    pub fn cycle(&mut self, demand: &Demand) -> Step {
+    pub fn cycle(&mut self, demand: &Demand) -> ExecutorStep {
         self.wall = false;
         if self.end_reached || self.table.length() == 0 && !self.started {
             return self.standing();
@@ -256,7 +259,7 @@ impl Executor {
     }
 
     /// Takes the step with this n, behind which the state is `next`.
-    fn commit(&mut self, n: f64, next: State) -> Step {
+    fn commit(&mut self, n: f64, next: State) -> ExecutorStep {
         let state = self.state;
         let mut next = next.within_range();
         // At a rate of 1 this is exactly one period, wherever in its cell the time lies.
@@ -271,7 +274,7 @@ impl Executor {
             }
             None if next.time > known => {
                 self.starved = true;
-                self.release_mut().clear();
+                self.backup_mut().clear();
                 advance = (known - state.time).max(0.0);
                 next = State {
                     time: known,
@@ -287,25 +290,25 @@ impl Executor {
         if passed > 0 {
             self.table.discard(passed);
             self.state.time -= passed as f64;
-            for release in &mut self.releases {
-                release.shift(passed as f64);
+            for backup in &mut self.backups {
+                backup.shift(passed as f64);
             }
         }
-        Step {
+        ExecutorStep {
             advance: advance * self.servo_period,
             ..self.standing()
         }
     }
 
     /// The answer for the present state, without an advance.
-    fn standing(&mut self) -> Step {
+    fn standing(&mut self) -> ExecutorStep {
         let rests = self.end_reached || !self.started;
         let (rate, rate_change) = if rests {
             (0.0, 0.0)
         } else {
             (self.state.rate, self.state.rate_change / self.servo_period)
         };
-        Step {
+        ExecutorStep {
             advance: 0.0,
             rate,
             rate_change,
@@ -321,9 +324,9 @@ impl Executor {
         self.state.rate_change == 0.0 && (self.state.rate == 0.0 || self.state.rate == 1.0)
     }
 
-    /// As far as the stored release reaches, and as far again as it may reach after the next cycle.
-    fn cells_for_release(&self) -> usize {
-        self.release().end_time() as usize + 16
+    /// As far as the stored backup trajectory reaches, and as far again as it may reach after the next cycle.
+    fn cells_for_backup(&self) -> usize {
+        self.backup().end_time() as usize + 16
     }
 
     fn may_be_capped(&self) -> bool {
@@ -340,12 +343,12 @@ impl Executor {
         seen.max(0.02 / period + 1.6 * braking) as usize
     }
 
-    pub(super) fn release(&self) -> &Release {
-        &self.releases[self.stored & 1]
+    pub(super) fn backup(&self) -> &BackupTrajectory {
+        &self.backups[self.stored & 1]
     }
 
-    pub(super) fn release_mut(&mut self) -> &mut Release {
-        &mut self.releases[self.stored & 1]
+    pub(super) fn backup_mut(&mut self) -> &mut BackupTrajectory {
+        &mut self.backups[self.stored & 1]
     }
 }
 

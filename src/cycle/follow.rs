@@ -1,6 +1,6 @@
 //! A thread: the machine is to be at a given place along the path, moving with the spindle.
 
-use super::interval::Interval;
+use super::rate_derivative_interval::RateDerivativeInterval;
 use super::state::State;
 use super::table::Table;
 use crate::cube_root::cube_root;
@@ -96,7 +96,12 @@ impl Pursuit {
     }
 
     /// The n for the next period. `None` where the reference is so slow that any rate is right.
-    pub fn approach(&self, table: &Table, state: State, jerk_interval: &Interval) -> Option<f64> {
+    pub fn approach(
+        &self,
+        table: &Table,
+        state: State,
+        jerk_interval: &RateDerivativeInterval,
+    ) -> Option<f64> {
         let along = table.along(state.time);
         if along.velocity < FREE_PART * self.velocity || along.velocity < 1e-12 {
             return None;

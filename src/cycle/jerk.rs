@@ -10,9 +10,8 @@
 //! Hence three rows for each axis: the mean jerk within the limit, less an allowance for a jump in
 //! the reference; and the jerk at both ends of the period, without the jump, not far above it.
 
-use super::lanes::{LANE_COUNT, Lanes, greater, lesser};
-use super::rows::ROUNDING;
-use super::table::StoredCell;
+use super::lanes::{LANE_COUNT, Lanes, ROUNDING, greater, lesser};
+use super::stored_cell::StoredCell;
 
 /// By how much less mean jerk makes up for the jump of the reference's own: 6 * 0.064 of it, since
 /// the period counts a sixth.

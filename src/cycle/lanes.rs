@@ -16,6 +16,9 @@ pub type Lanes = [f32; LANE_COUNT];
 /// finite, so that no difference of two of them is NaN.
 pub const UNLIMITED: f32 = 1e34;
 
+/// Single precision must not turn a reference that is on the limit into one that is beyond.
+pub const ROUNDING: f32 = 1.0 + 1e-5;
+
 /// What a reference may at most claim to need; infinite bounds are lowered to it.
 const GREATEST_BOUND: f64 = 1e30;
 

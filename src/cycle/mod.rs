@@ -13,32 +13,35 @@
 //!
 //! Two facts carry everything. With m = n = 0 the motion is feasible for ever, at every rate from
 //! 0 to 1. So a state is safe if m can be brought to 0 from it within the limits: the executor
-//! always holds one such release, verified against the cells of the table, and follows it until it
-//! has found a better move that comes with a release of its own. Hence feed hold, override and
+//! always holds one such backup trajectory, verified against the cells of the table, and follows it until it
+//! has found a better move that comes with a backup trajectory of its own. Hence feed hold, override and
 //! abort may come at any instant, in any order. Where no axis has a limit of jerk, m may jump to 0
 //! at once, and nothing has to be released.
 //!
 //! Inside, time is counted in servo periods: a velocity is what an axis moves in one period. The
 //! formulas then need no period, and a [cell](Cell) of the table is one unit of reference time.
 
+mod backup_trajectory;
 mod cap;
 pub mod cell;
 mod decision;
 mod demand;
 mod executor;
+mod feed_block;
 mod follow;
-mod interval;
+mod goal;
 mod jerk;
 mod lanes;
-mod release;
+mod rate_derivative_interval;
 mod rows;
 mod search;
 mod state;
+mod stored_cell;
 mod table;
 mod without_jerk_limit;
 
 pub use cell::Cell;
-pub use demand::{Demand, Step};
+pub use demand::{Demand, ExecutorStep};
 pub use executor::{ConfigureError, Executor};
 pub use follow::Follow;
 pub use table::{CAPACITY, CloseError, PushError, ReopenError};

@@ -5,9 +5,9 @@
 //! from what all rows have in common. The rows look at both ends of the period, linearised around
 //! a predicted n; what was picked is then checked once more, in the middle of the period too.
 
-use super::interval::{Interval, N_LIMIT};
 use super::jerk::{INSTANT_TOLERANCE, Jerk, MEAN_TOLERANCE};
-use super::lanes::{LANE_COUNT, Lanes, greater, greatest, least, lesser, scaled_limits};
+use super::lanes::{LANE_COUNT, Lanes, ROUNDING, greater, greatest, least, lesser, scaled_limits};
+use super::rate_derivative_interval::{N_LIMIT, RateDerivativeInterval};
 use super::state::State;
 use super::table::{Node, Table};
 use crate::axes::AxisLimits;
@@ -19,21 +19,18 @@ const ACCELERATION_PART: f32 = 0.9985;
 /// what the rows have put on the limit.
 const ACCELERATION_ROW_PART: f32 = 0.9995;
 
-/// Single precision must not turn a reference that is on the limit into one that is beyond.
-pub(super) const ROUNDING: f32 = 1.0 + 1e-5;
-
 /// Slope, units per period, below which an axis does not move and its rows mean nothing.
 const LEAST_SLOPE: f32 = 1e-12;
 
 /// Limits of the axes in units of the servo period.
 #[derive(Clone, Debug)]
-pub struct Limits {
+pub struct PeriodLimits {
     acceleration: Lanes,
     jerk: Lanes,
     least_jerk: f64,
 }
 
-impl Limits {
+impl PeriodLimits {
     pub const UNLIMITED: Self = Self {
         acceleration: [super::lanes::UNLIMITED; LANE_COUNT],
         jerk: [super::lanes::UNLIMITED; LANE_COUNT],
@@ -79,18 +76,18 @@ impl Limits {
 pub struct Span {
     start: Node,
     end: Node,
-    acceleration: Bounds,
+    acceleration: DerivativeBounds,
     jerk: Jerk,
 }
 
 /// Bounds of a derivative, as centre and half width, and the limit that holds.
-struct Bounds {
+struct DerivativeBounds {
     centre: Lanes,
     half: Lanes,
     limit: Lanes,
 }
 
-impl Bounds {
+impl DerivativeBounds {
     /// Bounds over two cells.
     #[inline(always)]
     fn new(min: [&Lanes; 2], max: [&Lanes; 2], limit: &Lanes) -> Self {
@@ -122,13 +119,13 @@ impl Bounds {
 impl Span {
     /// The period from `start` to about `end`.
     #[inline(always)]
-    pub fn new(table: &Table, limits: &Limits, start: &Node, end: &Node) -> Self {
+    pub fn new(table: &Table, limits: &PeriodLimits, start: &Node, end: &Node) -> Self {
         let (a, b) = (table.cell(start.cell), table.cell(end.cell));
         let (behind_a, behind_b) = (table.cell(start.cell + 1), table.cell(end.cell + 1));
         Self {
             start: *start,
             end: *end,
-            acceleration: Bounds::new(
+            acceleration: DerivativeBounds::new(
                 [&a.acceleration_min, &b.acceleration_min],
                 [&a.acceleration_max, &b.acceleration_max],
                 &limits.acceleration,
@@ -140,7 +137,7 @@ impl Span {
     /// The n that keep the jerk of all axes within its limits, in the mean over the period and at
     /// both ends of it, given the state at its start and the predicted state at its end.
     #[inline(always)]
-    pub fn jerk_interval(&self, start: State, end: State) -> Interval {
+    pub fn jerk_interval(&self, start: State, end: State) -> RateDerivativeInterval {
         let mut rows = Rows::within(N_LIMIT);
         let [square, cube, coupling, change] = powers(start);
         let end_rate = greater(end.rate as f32, 0.0);
@@ -182,7 +179,7 @@ impl Span {
 
     /// The n that keep the acceleration of all axes within its limits at the end of the period.
     #[inline(always)]
-    pub fn acceleration_interval(&self, start: State, end: State) -> Interval {
+    pub fn acceleration_interval(&self, start: State, end: State) -> RateDerivativeInterval {
         let mut rows = Rows::within(N_LIMIT);
         let end_rate = greater(end.rate as f32, 0.0);
         let square = end_rate * end_rate;
@@ -203,7 +200,7 @@ impl Span {
 
     /// The rate changes that keep the acceleration of all axes within its limits at both ends of the period, if
     /// they are constant over it; `rate` is the one at its start, `predicted` the rate change that is expected.
-    pub fn rate_change_interval(&self, rate: f64, predicted: f64) -> Interval {
+    pub fn rate_change_interval(&self, rate: f64, predicted: f64) -> RateDerivativeInterval {
         let mut rows = Rows::within(1.0);
         let (rate, predicted) = (greater(rate as f32, 0.0), predicted as f32);
         let end_rate = greater(rate + predicted, 0.0);
@@ -323,8 +320,8 @@ impl Rows {
     }
 
     #[inline(always)]
-    fn interval(&self) -> Interval {
-        Interval {
+    fn interval(&self) -> RateDerivativeInterval {
+        RateDerivativeInterval {
             low: f64::from(greatest(&self.low)),
             high: f64::from(least(&self.high)),
         }
@@ -382,7 +379,7 @@ mod tests {
                 acceleration: Axes::repeat(0.2),
                 jerk: Axes::repeat(0.02),
             };
-            let limits = Limits::new(&limits, 1.0);
+            let limits = PeriodLimits::new(&limits, 1.0);
             let table = table(velocity, acceleration, jerk);
             let state = State { time: 0.3, rate, rate_change };
             let predicted = state.step(0.0);
@@ -433,7 +430,7 @@ mod tests {
             acceleration: Axes::repeat(f64::INFINITY),
             jerk: Axes::repeat(f64::INFINITY),
         };
-        let limits = Limits::new(&unlimited, 1e-3);
+        let limits = PeriodLimits::new(&unlimited, 1e-3);
         assert_eq!(limits.least_jerk(), f64::INFINITY);
         let infinite = Axes::repeat(f64::INFINITY);
         let table = table(Axes::repeat(5.0), Axes::repeat(0.1), infinite);
@@ -445,7 +442,7 @@ mod tests {
         let end = state.step(0.0);
         let (a, b) = (table.node(state.time), table.node(end.time));
         let span = Span::new(&table, &limits, &a, &b);
-        let all = Interval {
+        let all = RateDerivativeInterval {
             low: -N_LIMIT,
             high: N_LIMIT,
         };

@@ -1,13 +1,13 @@
-//! The search for an n that comes with a release: the shield around whatever is wanted.
+//! The search for an n that comes with a backup trajectory: the shield around whatever is wanted.
 //!
-//! The n of the stored release is always possible. A candidate takes its place only if the period
-//! with it keeps the limits and a release from the state behind it was found.
+//! The n of the stored backup trajectory is always possible. A candidate takes its place only if the period
+//! with it keeps the limits and a backup trajectory from the state behind it was found.
 
 use super::Executor;
-use super::decision::Goal;
+use super::backup_trajectory::{BackupRefusal, Reserve};
 use super::executor::BUDGET;
-use super::interval::{Interval, N_LIMIT, RATE_CHANGE_LIMIT};
-use super::release::{Refusal, Reserve};
+use super::goal::Goal;
+use super::rate_derivative_interval::{N_LIMIT, RATE_CHANGE_LIMIT, RateDerivativeInterval};
 use super::rows::Span;
 use super::table::Node;
 
@@ -17,7 +17,7 @@ const TRIES: usize = 6;
 /// The search for the best n ends when it is known to this part of the way.
 const SEARCH_TOLERANCE: f64 = 0.06;
 
-/// With less than this left of the budget, what was found is good enough: where releases are long
+/// With less than this left of the budget, what was found is good enough: where backup trajectories are long
 /// it changes little from cycle to cycle.
 const ENOUGH_LEFT: usize = BUDGET * 7 / 8;
 
@@ -26,13 +26,13 @@ pub(super) const LEAST_FRACTION: f64 = 1.0 / 64.0;
 
 impl Executor {
     /// Two periods that end exactly on the target rate with no rate change, if such a pair keeps
-    /// all limits. The second one is stored as the release, the first one is the answer. In the
+    /// all limits. The second one is stored as the backup trajectory, the first one is the answer. In the
     /// second period of such a pair the answer is the stored one. Never more than `most`.
     pub(super) fn landing(
         &mut self,
         target: f64,
         most: f64,
-        allowed: &Interval,
+        allowed: &RateDerivativeInterval,
         start: &Node,
     ) -> Option<f64> {
         let state = self.state;
@@ -41,11 +41,11 @@ impl Executor {
         let second = missing + 0.5 * state.rate_change;
         if !allowed.contains(first) || first > most || second.abs() > N_LIMIT {
             // Already in the second period of a pair?
-            let n = self.release().next().filter(|_| self.release().is_last())?;
+            let n = self.backup().next().filter(|_| self.backup().is_last())?;
             if n > most || (state.step(n).rate - target).abs() > 1e-9 {
                 return None;
             }
-            self.release_mut().advance();
+            self.backup_mut().advance();
             return Some(n);
         }
         let middle = state.step(first);
@@ -66,14 +66,20 @@ impl Executor {
             return None;
         }
         let relies_on_end = self.table.is_behind_end(last.time);
-        self.release_mut().set_single(second, last, relies_on_end);
+        self.backup_mut().set_single(second, last, relies_on_end);
         Some(first)
     }
 
-    /// The n nearest to the wanted one that comes with a release: from the stored release's n as
+    /// The n nearest to the wanted one that comes with a backup trajectory: from the stored backup trajectory's n as
     /// far towards the wanted one as it can be verified within the budget.
     pub(super) fn search(&mut self, safe: f64, wanted: f64, start: &Node) -> f64 {
         let (mut verified, mut refused) = (0.0, 2.0);
+        // What was refused while the rate rose says nothing about braking.
+        let brakes = wanted < safe;
+        if brakes != self.brakes {
+            self.brakes = brakes;
+            self.fraction = 1.0;
+        }
         let mut fraction = self.fraction;
         let mut best = None;
         for _ in 0..TRIES {
@@ -104,13 +110,13 @@ impl Executor {
             }
             None => {
                 self.fraction = fraction.max(LEAST_FRACTION);
-                self.release_mut().advance();
+                self.backup_mut().advance();
                 safe
             }
         }
     }
 
-    /// Whether this n keeps the limits and has a release of its own, which is then stored.
+    /// Whether this n keeps the limits and has a backup trajectory of its own, which is then stored.
     fn verify(&mut self, n: f64, start: &Node) -> bool {
         let state = self.state;
         let next = state.step(n).settled();
@@ -130,7 +136,7 @@ impl Executor {
         let rises = next.rate_change > 0.0 && matches!(self.goal, Goal::Run | Goal::Cap(_));
         let reserve = if rises { Reserve::Kept } else { Reserve::Used };
         let spare = 1 - (self.stored & 1);
-        let found = self.releases[spare].find(
+        let found = self.backups[spare].find(
             &self.table,
             &self.limits,
             reserve,
@@ -140,7 +146,7 @@ impl Executor {
         );
         match found {
             Ok(()) => self.stored = spare,
-            Err(refusal) => self.wall |= refusal == Refusal::Wall,
+            Err(refusal) => self.wall |= refusal == BackupRefusal::Wall,
         }
         found.is_ok()
     }

@@ -5,7 +5,7 @@
 
 use super::Executor;
 use super::cap::Caps;
-use super::decision::Goal;
+use super::goal::Goal;
 use super::rows::Span;
 use super::search::LEAST_FRACTION;
 use super::state::State;
@@ -20,7 +20,7 @@ impl Executor {
     /// The rate change over this period, per servo period.
     pub(super) fn rate_change(&mut self, goal: Goal) -> f64 {
         self.goal = goal;
-        self.release_mut().clear();
+        self.backup_mut().clear();
         let state = self.state;
         let wanted = match goal {
             Goal::Hold => -state.rate,

@@ -1,6 +1,6 @@
 //! The `coordinates=` parameter of a kinematics module: which joint is which axis.
 
-use super::JOINT_COUNT;
+use super::joints::JOINT_COUNT;
 use crate::axes::{AXIS_COUNT, AXIS_LETTERS, Axes};
 
 /// Why a `coordinates=` text is refused.

@@ -1,7 +1,7 @@
 //! Identity kinematics: every joint is an axis.
 
-use super::JOINT_COUNT;
 use super::coordinates::Coordinates;
+use super::joints::JOINT_COUNT;
 use crate::axes::Axes;
 
 /// Every joint is an axis, several joints may be the same one (gantries).

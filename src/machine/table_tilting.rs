@@ -28,8 +28,8 @@
 
 use nalgebra::Vector3;
 
-use super::JOINT_COUNT;
 use super::coordinates::{Coordinates, CoordinatesError};
+use super::joints::JOINT_COUNT;
 use crate::axes::Axes;
 use crate::frame::FrameError;
 use crate::frame::angle::sin_cos_degrees;

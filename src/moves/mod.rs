@@ -3,6 +3,8 @@
 mod motion_type;
 mod outputs;
 mod queue;
+mod queued_move;
+pub mod shape;
 mod synchronisation;
 mod tag;
 mod termination;
@@ -10,48 +12,7 @@ mod termination;
 pub use motion_type::MotionType;
 pub use outputs::SynchronisedOutputs;
 pub use queue::{CAPACITY, MoveQueue, QueueFull};
+pub use queued_move::{FEED_OVERRIDE_ENABLED, Move};
 pub use synchronisation::{SPINDLE_COUNT, Synchronisation, SynchronisationMode};
 pub use tag::{STATE_TAG_SIZE, StateTag};
 pub use termination::TerminationCondition;
-
-use crate::path::Shape;
-
-/// Bit of [`Move::enables`]: the feed or rapid override applies to the move (M48, M50).
-pub const FEED_OVERRIDE_ENABLED: u8 = 0x02;
-
-/// One queued move.
-#[derive(Clone, Copy, Debug)]
-pub struct Move {
-    /// LinuxCNC's number of the move, reported while it runs.
-    pub id: i32,
-    /// The interpreter's state when it issued the move.
-    pub tag: StateTag,
-    /// What the program meant by the move.
-    pub motion_type: MotionType,
-    /// Where it goes, with its length.
-    pub shape: Shape,
-    /// What the program asks for at an override of 100 %, units of the shape's measure per second.
-    pub feed: f64,
-    /// What no override may exceed, units of the shape's measure per second: LinuxCNC derives it
-    /// from the velocity limits of the axes.
-    pub max_velocity: f64,
-    /// Which overrides apply, LinuxCNC's bits (`FS_ENABLED` and its neighbours).
-    pub enables: u8,
-    /// Whether the move may only start with all spindles at speed.
-    pub wait_for_spindle: bool,
-    /// The spindle that the move follows, `None` where its feed is per minute.
-    pub synchronisation: Option<Synchronisation>,
-    /// The joint of a locking rotary indexer that has to be unlocked for the move.
-    pub indexer_joint: Option<i32>,
-    /// How the move meets the next one.
-    pub termination: TerminationCondition,
-    /// What M62, M63 and M67 asked for since the move before: written once, when the move starts.
-    pub outputs: SynchronisedOutputs,
-}
-
-impl Move {
-    /// Whether the feed override, or the rapid override of a rapid move, applies.
-    pub fn override_enabled(&self) -> bool {
-        self.enables & FEED_OVERRIDE_ENABLED != 0
-    }
-}

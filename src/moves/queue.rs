@@ -1,7 +1,8 @@
 //! The moves that wait and the one that runs, in order.
 
-use super::{MotionType, Move, StateTag, SynchronisedOutputs, TerminationCondition};
-use crate::path::Shape;
+use super::queued_move::Move;
+use super::shape::Shape;
+use super::{MotionType, StateTag, SynchronisedOutputs, TerminationCondition};
 
 /// From this length on the queue reports itself full.
 pub const CAPACITY: usize = 2000;

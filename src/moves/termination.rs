@@ -1,5 +1,8 @@
 //! How a move meets the next one.
 
+/// A wider tolerance than this, machine units, is used as this: the path leaves the program by less than it may.
+const GREATEST_TOLERANCE: f64 = 1e3;
+
 /// LinuxCNC's path control modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TerminationCondition {
@@ -25,7 +28,9 @@ impl TerminationCondition {
         match number {
             0 => Some(Self::Stop),
             1 => Some(Self::Exact),
-            2 | 3 => Some(Self::Continuous { tolerance }),
+            2 | 3 => Some(Self::Continuous {
+                tolerance: tolerance.min(GREATEST_TOLERANCE),
+            }),
             _ => None,
         }
     }
@@ -48,6 +53,8 @@ mod tests {
         let continuous = Some(TerminationCondition::Continuous { tolerance: 0.5 });
         assert_eq!(TerminationCondition::from_number(2, 0.5), continuous);
         assert_eq!(TerminationCondition::from_number(3, 0.5), continuous);
+        let widest = Some(TerminationCondition::Continuous { tolerance: 1e3 });
+        assert_eq!(TerminationCondition::from_number(2, 1e300), widest);
         assert_eq!(TerminationCondition::from_number(4, 0.5), None);
         assert_eq!(TerminationCondition::from_number(2, -0.5), None);
         assert_eq!(TerminationCondition::from_number(2, f64::NAN), None);

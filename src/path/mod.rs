@@ -1,131 +1,58 @@
-//! The shape of a move over its length: lines, arcs, helices and spirals in nine axes.
+//! The path that the machine follows where it may leave the programmed one: G64.
 //!
-//! Every shape runs from `s = 0` to `s = length()`, where s is the distance that the feed F
-//! counts (see [`measure`]), and gives position and three derivatives by s.
+//! One mechanism rounds corners, smooths dense code and eases the way between lines and arcs. The
+//! path is that of the program plus smooth functions of narrow support, one for each vertex:
+//!
+//! ```text
+//! q(s) = p(s) + sum over vertices of turn * w * phi(|s - s_i| / w) + jump * ...
+//! ```
+//!
+//! with s the arc length of the programmed path. Whatever the widths, second derivatives are
+//! continuous, third derivatives jump only where those of the program do at the ends of arcs, and
+//! kernels may overlap any number of vertices: then they average out the rounding of coordinates.
+//! The tolerance is kept by evaluation of q - p, not by a search for the nearest point. As s is the
+//! distance of the program, the number of the running move and the distance to go are monotone,
+//! and every q(s) belongs to one move.
+//!
+//! What may be changed depends on the mode:
+//!
+//! - G64 P: everything within P. A corner that stands alone uses all of it, with a kernel that is
+//!   flat where acceleration limits the speed in it and peaked where jerk does.
+//! - G64 without P: every move is touched. A corner is rounded as wide as its slower feed needs,
+//!   by acceleration and jerk, up to half of the shorter move (on an arc up to a radian), without
+//!   a tolerance. Where that is not enough to keep the feed, as in dense code, kernels may be wider
+//!   as long as they leave what is so rounded by no more than the default tolerance.
+//! - G61: nothing at a corner, where the machine stops. Where moves meet in a tangent (a hundredth
+//!   of a radian, for the rounding of coordinates) it passes without a stop: an easement leaves the
+//!   program by no more than a micrometre on either side of the point and by nothing in it, a
+//!   remaining turn of the direction by less than half of that.
+//!
+//! The order of the parts: a move becomes a `leg`, short lines after the `line_merger` has joined
+//! them; legs meet in a `vertex` and lie in a `chain`; the `optimizer` gives the vertices of a
+//! `window` their widths, beginning with the `base_width`; the `deviation` is checked, and
+//! `hardening` stands behind it all. [`BlendedPath`] is what the rest of the planner sees.
 
-mod arc;
-pub mod blend;
-mod line;
-pub mod measure;
+mod base_width;
+mod blended_path;
+mod chain;
+mod deviation;
+mod easement;
+mod error;
+mod hardening;
+mod jump;
+mod kernel;
+mod leg;
+mod line_merger;
+mod metric;
+mod settings;
+mod vertex;
+mod views;
+mod width_optimizer;
+mod window;
 
-pub use arc::{Arc9, ArcExtent, Circle};
-pub use line::Line9;
-
-use nalgebra::ArrayStorage;
-
-use crate::axes::{AXIS_COUNT, Axes};
-
-/// Why a shape cannot be made of what the program gave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShapeError {
-    /// Start and end are the same point: there is nothing to do. Not an error to LinuxCNC.
-    ZeroLength,
-    /// A coordinate is infinite or not a number, or so large that lengths overflow.
-    NotFinite,
-    /// The vector perpendicular to the plane of a circle has no direction.
-    NoNormal,
-    /// The start or the end of an arc lies on its axis, where it has no direction.
-    RadiusTooSmall,
-    /// More full turns than can be counted exactly.
-    TooManyTurns,
-}
-
-const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
-
-/// A point of a shape.
-#[derive(Clone, Copy, Debug)]
-pub struct PathPoint {
-    /// Machine units and degrees.
-    pub position: Axes,
-    /// dq/ds.
-    pub first: Axes,
-    /// d2q/ds2.
-    pub second: Axes,
-    /// d3q/ds3.
-    pub third: Axes,
-}
-
-impl PathPoint {
-    /// At the origin, without a direction.
-    pub const ZERO: Self = Self {
-        position: ORIGIN,
-        first: ORIGIN,
-        second: ORIGIN,
-        third: ORIGIN,
-    };
-
-    /// The same place of the path, run through in the other direction.
-    pub fn backwards(self) -> Self {
-        Self {
-            first: -self.first,
-            third: -self.third,
-            ..self
-        }
-    }
-}
-
-/// The path of one move.
-#[derive(Clone, Copy, Debug)]
-#[allow(
-    clippy::large_enum_variant,
-    reason = "shapes lie in slots of equal size, without a heap"
-)]
-pub enum Shape {
-    /// A straight line in nine axes.
-    Line(Line9),
-    /// An arc, helix or spiral in XYZ, the other axes in proportion.
-    Arc(Arc9),
-}
-
-impl Shape {
-    /// A line of length zero, what a slot of the queue holds before its first use.
-    pub const VACANT: Self = Self::Line(Line9::VACANT);
-
-    /// Greatest s, positive, in machine units, or in degrees if only A B C move.
-    pub fn length(&self) -> f64 {
-        match self {
-            Self::Line(line) => line.length(),
-            Self::Arc(arc) => arc.length(),
-        }
-    }
-
-    /// The end point exactly as it was given, shape (9).
-    pub fn end(&self) -> Axes {
-        match self {
-            Self::Line(line) => line.end(),
-            Self::Arc(arc) => arc.end(),
-        }
-    }
-
-    /// Whether nothing but A B C moves, so that s is in degrees.
-    pub fn is_rotary(&self) -> bool {
-        match self {
-            Self::Line(line) => line.is_rotary(),
-            Self::Arc(_) => false,
-        }
-    }
-
-    /// Whether an axis, 0 to 8, moves at all.
-    pub fn moves(&self, axis: usize) -> bool {
-        match self {
-            Self::Line(line) => line.moves(axis),
-            Self::Arc(arc) => arc.moves(axis),
-        }
-    }
-
-    /// The point at `s`, held within 0 and the length.
-    pub fn position(&self, s: f64) -> Axes {
-        match self {
-            Self::Line(line) => line.position(s),
-            Self::Arc(arc) => arc.position(s),
-        }
-    }
-
-    /// The point at `s`, held within 0 and the length, with derivatives.
-    pub fn point(&self, s: f64) -> PathPoint {
-        match self {
-            Self::Line(line) => line.point(s),
-            Self::Arc(arc) => arc.point(s),
-        }
-    }
-}
+pub use blended_path::BlendedPath;
+pub use error::BlendError;
+pub use leg::ProgrammedMove;
+pub use settings::BlendSettings;
+pub use views::{LegView, MoveProgress, VertexView};
+pub use width_optimizer::GREATEST_EXCESS;

@@ -1,8 +1,10 @@
 //! How far the path may leave the program where the program does not say.
 
+use core::ops::RangeInclusive;
+
 use crate::axes::AxisLimits;
 use crate::moves::{MoveQueue, TerminationCondition};
-use crate::path::blend::BlendSettings;
+use crate::path::BlendSettings;
 
 /// Moves that are looked at for the first tolerance of a program, of those that have come when its
 /// path begins.
@@ -14,14 +16,20 @@ const MOVES: u64 = 16;
 const LEAST_WEIGHT: f64 = 1e-9;
 const GREATEST_WEIGHT: f64 = 1e9;
 
+/// Lengths of a millimetre that are taken, machine units: 1 or 1/25.4; with a metre or a micrometre as the unit 1e-3 or 1e3.
+const MILLIMETRES: RangeInclusive<f64> = 1e-6..=1e6;
+
+/// The greatest tolerance that a configuration may give, machine units or degrees.
+const GREATEST_TOLERANCE: f64 = 1e6;
+
 /// Why settings were refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BlendingError {
-    /// The length of a millimetre is not a positive, finite number.
+    /// The length of a millimetre is not a number from 1e-6 to 1e6.
     Millimetre,
-    /// The tolerance of rotary axes is negative or not finite.
+    /// The tolerance of rotary axes is not a number from 0 to 1e6.
     RotaryTolerance,
-    /// The tolerance for G64 without P is negative or not finite.
+    /// The tolerance for G64 without P is not a number from 0 to 1e6.
     DefaultTolerance,
 }
 
@@ -57,8 +65,8 @@ impl Blending {
         rotary_tolerance: f64,
         default_tolerance: f64,
     ) -> Result<(), BlendingError> {
-        let not_negative = |value: f64| value >= 0.0 && value.is_finite();
-        if !(millimetre > 0.0 && millimetre.is_finite()) {
+        let not_negative = |value: f64| (0.0..=GREATEST_TOLERANCE).contains(&value);
+        if !MILLIMETRES.contains(&millimetre) {
             return Err(BlendingError::Millimetre);
         }
         if !not_negative(rotary_tolerance) {
@@ -133,14 +141,27 @@ mod tests {
         for (rotary, default) in [
             (0.0, 0.02),
             (0.5, 0.02),
-            (f64::MIN_POSITIVE, f64::MAX),
-            (f64::MAX, 0.0),
+            (f64::MIN_POSITIVE, 1e6),
+            (1e6, 0.0),
         ] {
             let mut blending = Blending::DEFAULT;
             assert_eq!(blending.set(1.0, rotary, default), Ok(()));
             assert!(blending.settings(&EMPTY, &limits(2e4)).is_some());
             assert!(blending.greatest_tolerance() > 0.0);
         }
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_by_name() {
+        let mut blending = Blending::DEFAULT;
+        let mut set = |millimetre, rotary, default| blending.set(millimetre, rotary, default);
+        for wrong in [-1.0, f64::NAN, f64::INFINITY, 1.1e6, f64::MAX] {
+            assert_eq!(set(wrong, 0.0, 0.02), Err(BlendingError::Millimetre));
+            assert_eq!(set(1.0, wrong, 0.02), Err(BlendingError::RotaryTolerance));
+            assert_eq!(set(1.0, 0.0, wrong), Err(BlendingError::DefaultTolerance));
+        }
+        assert_eq!(set(9e-7, 0.0, 0.02), Err(BlendingError::Millimetre));
+        assert_eq!(set(1e-6, 0.0, 0.0), Ok(()));
     }
 
     #[test]

@@ -6,16 +6,16 @@ use super::blending::{Blending, BlendingError};
 use super::inputs::SpindleInputs;
 use super::range::RangeCheck;
 use super::reference::Reference;
-use super::request::{AddError, Added, MoveRequest};
+use super::request::{AddError, Added, LEAST_LIMITS, LEAST_VELOCITY, MoveRequest};
 use super::spindle::{SpindleCommand, Thread, Tracker};
 use super::status::{Fault, Status};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
 use crate::cycle::Executor;
+use crate::moves::shape::{Arc9, Circle, Line9, Shape, ShapeError};
 use crate::moves::{
     Move, MoveQueue, QueueFull, SPINDLE_COUNT, StateTag, Synchronisation, SynchronisationMode,
     SynchronisedOutputs, TerminationCondition,
 };
-use crate::path::{Arc9, Circle, Line9, Shape, ShapeError};
 
 /// A position with a coordinate that is infinite or not a number was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,8 +140,8 @@ impl Planner {
     /// it, keep the limits that it began with. LinuxCNC may change limits at any time, so it is
     /// cheap to call this in each cycle.
     ///
-    /// An axis one of whose limits is zero, negative or not a number keeps the limits it had, and
-    /// new moves of it are refused.
+    /// An axis one of whose limits is next to zero, negative or not a number keeps the limits it had,
+    /// and new moves of it are refused.
     pub fn set_limits(&mut self, limits: &AxisLimits) {
         let next = &mut self.next_limits;
         for axis in 0..AXIS_COUNT {
@@ -150,7 +150,10 @@ impl Planner {
                 limits.acceleration[axis],
                 limits.jerk[axis],
             ];
-            let usable = new.iter().all(|limit| *limit > 0.0);
+            let usable = new
+                .iter()
+                .zip(LEAST_LIMITS)
+                .all(|(limit, least)| *limit >= least);
             self.limited[axis] = usable;
             if usable {
                 [
@@ -182,8 +185,8 @@ impl Planner {
     }
 
     /// Sets how X Y Z of the program lie to those of the machine, shape (3, 3): the limits hold for
-    /// the machine. `false`, and nothing changes, if it is not finite, or while anything is queued:
-    /// a frame changes only at standstill.
+    /// the machine. `false`, and nothing changes, if it is not one of [`MachineMap`], or while anything
+    /// is queued: a frame changes only at standstill.
     pub fn set_machine_map(&mut self, linear: &Matrix3<f64>) -> bool {
         match MachineMap::new(linear) {
             Some(map) if self.status.done => {
@@ -325,12 +328,13 @@ impl Planner {
         let max_velocity = request.max_velocity;
         let feed =
             synchronisation.map_or(request.feed, |with| self.planned_feed(&with, max_velocity));
-        let usable = |velocity: f64| velocity > 0.0 && velocity.is_finite();
+        let usable = |velocity: f64| velocity >= LEAST_VELOCITY && velocity.is_finite();
         if !(usable(feed) && usable(max_velocity)) {
             return Err(AddError::Feed { feed, max_velocity });
         }
         let mut axes = (0..AXIS_COUNT).zip(self.limited);
-        if let Some((axis, _)) = axes.find(|(axis, limited)| !limited && shape.moves(*axis)) {
+        let moves = |axis| self.map.axes_of(axis).any(|from| shape.moves(from));
+        if let Some((axis, _)) = axes.find(|(axis, limited)| !limited && moves(*axis)) {
             return Err(AddError::AxisLimits { axis });
         }
         let queued = Move {

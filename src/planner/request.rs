@@ -1,7 +1,15 @@
 //! A request for a move, and what becomes of it.
 
+use crate::moves::shape::ShapeError;
 use crate::moves::{MotionType, StateTag};
-use crate::path::ShapeError;
+
+/// Feeds and limits of velocity from here on are taken, units per second: with less a micrometre takes more than a quarter
+/// of an hour, and times overflow.
+pub(super) const LEAST_VELOCITY: f64 = 1e-9;
+
+/// What of velocity, acceleration and jerk is taken for a limit from here on, units per second, second squared and cubed. A
+/// jerk that reaches the acceleration in a time that makes sense is never as small.
+pub(super) const LEAST_LIMITS: [f64; 3] = [LEAST_VELOCITY, 1e-3, 1e-4];
 
 /// What comes with a move besides its shape.
 #[derive(Clone, Copy, Debug)]
@@ -41,15 +49,15 @@ pub enum AddError {
     QueueFull,
     /// The duration of a servo period has not been set.
     NotConfigured,
-    /// An axis is to move that has no usable limits: one of them is zero, negative or not a
-    /// number, or they have never been set.
+    /// An axis is to move that has no usable limits: one of them is next to zero or not a number,
+    /// or they have never been set.
     AxisLimits {
         /// Index of the axis.
         axis: usize,
     },
     /// The move has no usable shape.
     Shape(ShapeError),
-    /// The feed or its greatest value is zero, negative or not finite.
+    /// The feed or its greatest value is less than 1e-9 or not finite.
     Feed {
         /// What was asked for, units per second.
         feed: f64,

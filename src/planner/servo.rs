@@ -5,7 +5,8 @@ use super::planner::Planner;
 use super::reference::{Ahead, Conditions, Outlook, ReferencePoint};
 use super::status::{Fault, Status};
 use crate::axes::Axes;
-use crate::cycle::{Demand, Step};
+use crate::cycle::{Demand, ExecutorStep};
+use crate::moves::shape::measure::LEAST_DISTANCE;
 use crate::moves::{Move, SynchronisedOutputs};
 
 /// At most so many servo periods of the reference are built in one cycle.
@@ -53,7 +54,9 @@ impl Planner {
         };
         self.status.waiting_for_spindle =
             !backwards && (next.wait_for_spindle || begins_thread) && !inputs.spindles_at_speed;
-        let begun = self.queue.first_serial() < self.entered;
+        // The path may have left the program, and rest beside the place where its next move begins.
+        let beside = (next.shape.position(0.0) - self.status.position).amax() > LEAST_DISTANCE;
+        let begun = beside || self.queue.first_serial() < self.entered;
         let stale = self.limits_changed() || inputs.stepping != self.reference.is_single();
         if self.queue.released(self.queue.first_serial()).is_none() {
             return;
@@ -423,7 +426,7 @@ impl Planner {
     }
 
     /// Reports a machine under way.
-    fn report_motion(&mut self, point: &ReferencePoint, step: &Step) {
+    fn report_motion(&mut self, point: &ReferencePoint, step: &ExecutorStep) {
         self.report_queue();
         let status = &mut self.status;
         status.position = point.position;

@@ -6,22 +6,11 @@
 //! |q' v| <= V      |q' a + q'' v^2| <= A      |q' j + 3 q'' v a + q''' v^3| <= J
 //! ```
 
-use super::JerkLimitedProfile;
+use super::path_limits::PathLimits;
+use super::profile::JerkLimitedProfile;
 use crate::axes::{Axes, AxisLimits, MachineMap};
 use crate::cube_root::cube_root;
-use crate::path::{ArcExtent, Shape};
-
-/// Greatest velocity, acceleration and jerk along a shape, all of them possible at the same time
-/// without any axis exceeding its limits. Positive; acceleration and jerk may be infinite.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathLimits {
-    /// ds/dt, units of the shape's measure per second.
-    pub velocity: f64,
-    /// d2s/dt2.
-    pub acceleration: f64,
-    /// d3s/dt3.
-    pub jerk: f64,
-}
+use crate::moves::shape::{ArcExtent, Shape};
 
 impl PathLimits {
     /// What a shape allows below a velocity of `cap` > 0, with the axes of the machine lying to
@@ -92,7 +81,7 @@ fn of_arc(extent: &ArcExtent, length: f64, axes: &AxisLimits, cap: f64) -> PathL
 
 /// One axis of an arc: how much of the motion in the plane and of the motion in proportion it
 /// takes, and its limits.
-struct Row {
+struct ArcAxis {
     turning: f64,
     linear: f64,
     velocity: f64,
@@ -100,7 +89,7 @@ struct Row {
     jerk: f64,
 }
 
-fn rows<'a>(extent: &'a ArcExtent, axes: &'a AxisLimits) -> impl Iterator<Item = Row> + 'a {
+fn rows<'a>(extent: &'a ArcExtent, axes: &'a AxisLimits) -> impl Iterator<Item = ArcAxis> + 'a {
     // Vectors that are not quite perpendicular add up to more than the square root of the sum of
     // squares, by at most this factor.
     let oblique = (1.0 + extent.cosine).sqrt();
@@ -115,7 +104,7 @@ fn rows<'a>(extent: &'a ArcExtent, axes: &'a AxisLimits) -> impl Iterator<Item =
                 .zip(axes.jerk.iter()),
         )
         .map(
-            move |((amplitude, linear), ((velocity, acceleration), jerk))| Row {
+            move |((amplitude, linear), ((velocity, acceleration), jerk))| ArcAxis {
                 turning: amplitude * oblique,
                 linear: *linear,
                 velocity: *velocity,
@@ -193,7 +182,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::path::{Arc9, Circle, Line9};
+    use crate::moves::shape::{Arc9, Circle, Line9};
 
     fn equal_limits(velocity: f64, acceleration: f64, jerk: f64) -> AxisLimits {
         AxisLimits {

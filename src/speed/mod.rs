@@ -2,8 +2,11 @@
 
 mod limits;
 pub mod look_ahead;
+mod path_limits;
 mod profile;
+mod profile_state;
 mod ramp;
 
-pub use limits::PathLimits;
-pub use profile::{JerkLimitedProfile, ProfileState};
+pub use path_limits::PathLimits;
+pub use profile::JerkLimitedProfile;
+pub use profile_state::ProfileState;

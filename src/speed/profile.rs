@@ -4,22 +4,10 @@
 //! and Robots (Springer 2008), sections 3.4 and 3.4.3 for the closed form; with unlimited jerk it
 //! is the trapezoid of section 3.2.
 
-use super::PathLimits;
+use super::path_limits::PathLimits;
+use super::profile_state::ProfileState;
 use super::ramp::Ramp;
 use crate::cube_root::cube_root;
-
-/// State at an instant of a profile.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProfileState {
-    /// Distance from the start of the profile.
-    pub distance: f64,
-    /// Its derivative, 0 and above.
-    pub velocity: f64,
-    /// Its second derivative.
-    pub acceleration: f64,
-    /// Its third derivative, 0 where the acceleration jumps.
-    pub jerk: f64,
-}
 
 /// A run over a given distance: up to the peak velocity, on at that velocity, and down to rest.
 /// At most seven phases of constant jerk.

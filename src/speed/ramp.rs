@@ -1,6 +1,7 @@
 //! A change of velocity between two steady ones, with limited acceleration and jerk.
 
-use super::{PathLimits, ProfileState};
+use super::path_limits::PathLimits;
+use super::profile_state::ProfileState;
 
 /// From a lower steady velocity up to a higher one, as fast as acceleration and jerk allow: jerk
 /// up, constant acceleration, jerk down. Run backward it is the way down.

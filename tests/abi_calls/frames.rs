@@ -152,11 +152,8 @@ impl Calls {
             50..53 => self.choose_table(choices),
             53..55 => self.choose_map(choices),
             55..58 => self.choose_state(choices),
-            58..60 => {
-                let slot = choices.one_of([0, 1, 2, 3]);
-                let slot = choices.integer(slot);
-                self.switch(slot);
-            }
+            58 => self.switch_to_any(choices),
+            59 => self.switch_while_removing(choices),
             60 => self.pins.command = choices.or_strange(1e6),
             61 => self.choose_machine(choices),
             62 => self.linked = choices.rarely(2),
@@ -369,6 +366,24 @@ impl Calls {
         self.pins.heartbeat = u32::from(choices.byte());
         self.pins.period = choices.one_of([1e-3, 0.0, 0.5, f64::NAN]);
         self.pins.clock = i64::from(choices.byte()) * 10_000_000;
+    }
+
+    fn switch_to_any(&mut self, choices: &mut Choices) {
+        let slot = choices.one_of([0, 1, 2, 3]);
+        let slot = choices.integer(slot);
+        self.switch(slot);
+    }
+
+    /// With the machine off the frame has to go, even in teleop; motion does not listen, and somebody switches by hand.
+    fn switch_while_removing(&mut self, choices: &mut Choices) {
+        let linked = std::mem::replace(&mut self.linked, false);
+        (self.pins.enabled, self.pins.release_on_abort) = (0, 1);
+        (self.pins.in_position, self.pins.teleop) = (1, choices.one_of([1, 1, 0]));
+        for _ in 0..choices.one_of([6, 1, 4]) {
+            self.period();
+        }
+        self.switch_to_any(choices);
+        self.linked = linked;
     }
 
     fn call_with_nothing(&mut self, choices: &mut Choices) {

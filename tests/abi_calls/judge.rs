@@ -9,8 +9,8 @@ use framepath::abi::planner::run::{
 use framepath::axes::AXIS_COUNT;
 use nalgebra::Matrix3;
 
+use super::VELOCITY_EXCESS;
 use super::motion::Shared;
-use super::{FAULTS_FAIL, VELOCITY_EXCESS};
 
 /// Room in the queue, with the margin for moves that are on their way when it says that it is full.
 const MOST_QUEUED: usize = 4096;
@@ -44,8 +44,6 @@ pub struct Judge {
     pub next_id: i32,
     /// The greatest number in positions and moves since the position was set: what is computed with it is rounded.
     size: f64,
-    /// Whether the planner itself has gone wrong in this case.
-    pub faulted: bool,
 }
 
 pub fn coordinates(pose: &EmcPose) -> [f64; AXIS_COUNT] {
@@ -72,14 +70,13 @@ impl Judge {
             ids: Vec::new(),
             next_id: 0,
             size: 1.0,
-            faulted: false,
         }
     }
 
     /// The planner has asked for the limits.
     pub fn limits_asked(&mut self, [velocity, acceleration]: [[f64; AXIS_COUNT]; 2]) {
         for axis in 0..AXIS_COUNT {
-            if velocity[axis] > 0.0 && acceleration[axis] > 0.0 && self.jerk[axis] > 0.0 {
+            if velocity[axis] >= 1e-9 && acceleration[axis] >= 1e-3 && self.jerk[axis] > 0.0 {
                 self.held[axis] = velocity[axis];
                 self.greatest[axis] = self.greatest[axis].max(velocity[axis]);
             }
@@ -88,7 +85,7 @@ impl Judge {
 
     /// A frame was handed over.
     pub fn mapped(&mut self, map: &[f64; 9]) {
-        if self.was_done && map.iter().all(|element| element.is_finite()) {
+        if self.was_done && map.iter().all(|element| element.abs() <= 1e4) {
             self.map = Matrix3::from_row_slice(map);
         }
     }
@@ -159,7 +156,8 @@ impl Judge {
         }
     }
 
-    fn check_faults(&mut self, shared: &mut Shared) {
+    /// Whatever was asked for, the planner itself does not go wrong.
+    fn check_faults(&self, shared: &mut Shared) {
         let (mut asked, mut greatest) = (f64::NAN, f64::NAN);
         // SAFETY: a handle of the planner, and numbers.
         let (fault, spindle) = unsafe {
@@ -175,10 +173,7 @@ impl Judge {
             assert!(!text(spindle).is_empty());
         }
         if !fault.is_null() {
-            self.faulted = true;
-            if FAULTS_FAIL {
-                panic!("a fault of the planner: {}", text(fault));
-            }
+            panic!("a fault of the planner: {}", text(fault));
         }
     }
 

@@ -4,6 +4,8 @@
 #![allow(unsafe_code)]
 #![allow(dead_code, reason = "each front end uses its own part")]
 
+use std::ffi::{CStr, c_char};
+
 pub mod choices;
 pub mod frames;
 mod judge;
@@ -13,9 +15,14 @@ pub mod planner;
 mod settings;
 mod standing;
 
-/// Whether a fault of the planner itself fails a case: none may happen, whatever is asked for. Off while faults are known
-/// that have not been mended; nothing else depends on it.
-pub const FAULTS_FAIL: bool = false;
+/// A text of the library.
+pub fn words<'a>(text: *const c_char) -> &'a str {
+    assert!(!text.is_null());
+    // SAFETY: the library answers with static strings.
+    unsafe { CStr::from_ptr(text) }
+        .to_str()
+        .expect("plain words")
+}
 
 /// What an axis may go beyond its velocity limit, as a share of it. Where the limits of the axes are unequal, .53 % too
 /// much is known; 1e-3 is what is promised.

@@ -6,8 +6,8 @@ use core::f64::consts::TAU;
 
 use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::TerminationCondition;
-use framepath::path::blend::{BlendSettings, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
-use framepath::path::{Arc9, Circle, Line9, PathPoint, Shape};
+use framepath::moves::shape::{Arc9, Circle, Line9, PathPoint, Shape};
+use framepath::path::{BlendSettings, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 

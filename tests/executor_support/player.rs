@@ -2,7 +2,7 @@
 
 use super::reference::Reference;
 use framepath::axes::{Axes, AxisLimits};
-use framepath::cycle::{Demand, Executor, Step};
+use framepath::cycle::{Demand, Executor, ExecutorStep};
 
 /// A machine that runs one reference.
 pub struct Player<'a> {
@@ -33,7 +33,7 @@ impl<'a> Player<'a> {
     }
 
     /// One servo period; the position behind it.
-    pub fn cycle(&mut self, demand: &Demand) -> (Step, Axes) {
+    pub fn cycle(&mut self, demand: &Demand) -> (ExecutorStep, Axes) {
         for _ in 0..8 {
             if self.closed || self.executor.cells_ahead() >= self.executor.cells_wanted() {
                 break;

@@ -1,9 +1,10 @@
 //! Motion, played for the kinematics: what motmod and the subroutines do.
 
 use framepath::axes::Axes;
-use framepath::frame::check::check_sum;
-use framepath::frame::control::{FrameControl, FrameInputs, FrameOutputs};
-use framepath::frame::{Refusal, ToolLength};
+use framepath::frame::ToolLength;
+use framepath::kinematics::FrameRefusal;
+use framepath::kinematics::check::check_sum;
+use framepath::kinematics::control::{FrameControl, FrameInputs, FrameOutputs};
 use framepath::machine::{Machine, TableTiltingParameters};
 
 const IDENTITY: [f64; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
@@ -83,7 +84,7 @@ impl Motion {
     }
 
     /// Hands over a command and waits for the answer.
-    pub fn send(&mut self, code: i32, value: [f64; 3]) -> Option<Refusal> {
+    pub fn send(&mut self, code: i32, value: [f64; 3]) -> Option<FrameRefusal> {
         self.put(code, value);
         for _ in 0..200 {
             self.period();

@@ -7,6 +7,8 @@ A scenario is a list of steps, each a list of a name and its arguments; the name
 
 import json
 import os
+import platform
+import random
 import signal
 import subprocess
 import sys
@@ -22,8 +24,41 @@ TIMEOUT = float(os.environ.get("FRAMEPATH_TIMEOUT", "120"))
 ERRORS = (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR)
 
 
+#: numbers of the system calls in which a process sleeps: nanosleep, clock_nanosleep, select, pselect6, poll, ppoll
+ASLEEP = {"x86_64": ("35", "230", "23", "270", "7", "271"), "aarch64": ("101", "115", "72", "73")}[platform.machine()]
+
+
 class Failure(Exception):
     """A step that did not do what it was asked to."""
+
+
+def send(process, way):
+    """Sends a process a signal; one that stops or ends it reaches it asleep. LinuxCNC's status has a lock, and who is
+    stopped while he holds it leaves task and every screen waiting, whatever our modules do."""
+    limit = time.monotonic() + 10
+    while way != signal.SIGCONT and process != os.getpid():
+        os.kill(process, signal.SIGSTOP)
+        while read(f"/proc/{process}/stat").rpartition(")")[2].split()[0] != "T":
+            if time.monotonic() > limit:
+                raise Failure(f"process {process} does not stop")
+        if read(f"/proc/{process}/syscall").split()[0] in ASLEEP:
+            break
+        os.kill(process, signal.SIGCONT)
+        if time.monotonic() > limit:
+            raise Failure(f"process {process} is never asleep")
+        time.sleep(random.uniform(0.0005, 0.002))
+    os.kill(process, way)
+
+
+def guard_process():
+    shown = subprocess.run(["halcmd", "-s", "show", "comp"], check=True, capture_output=True, text=True).stdout
+    words = next(line.split() for line in shown.splitlines() if "frame-guard" in line.split())
+    return next(int(word) for word in words[words.index("frame-guard") + 1:] if word.isdigit())
+
+
+def read(path):
+    with open(path, encoding="ascii", errors="replace") as file:
+        return file.read()
 
 
 class Operator:
@@ -275,17 +310,27 @@ class Operator:
 
     def guard(self, name):
         """Sends frame_guard a signal: KILL, STOP, CONT."""
-        shown = subprocess.run(["halcmd", "-s", "show", "comp"], check=True, capture_output=True, text=True).stdout
-        words = next(line.split() for line in shown.splitlines() if "frame-guard" in line.split())
-        process = next(int(word) for word in words[words.index("frame-guard") + 1:] if word.isdigit())
-        os.kill(process, getattr(signal, f"SIG{name}"))
+        send(guard_process(), getattr(signal, f"SIG{name}"))
+
+    def stop_guard_often(self, times):
+        """Stops frame_guard at any moment; each time HAL has to answer others meanwhile."""
+        process = guard_process()
+        for _ in range(times):
+            time.sleep(random.uniform(0, 0.007))
+            os.kill(process, signal.SIGSTOP)
+            try:
+                subprocess.run(["halcmd", "getp", "framekins.active"], check=True, capture_output=True, timeout=1)
+            except subprocess.TimeoutExpired as error:
+                raise Failure("HAL does not answer while frame_guard is stopped") from error
+            finally:
+                os.kill(process, signal.SIGCONT)
 
     def task(self, name):
         """Sends the task controller a signal; here it is the only one."""
         for process in (folder for folder in os.listdir("/proc") if folder.isdigit()):
             with open(f"/proc/{process}/comm", encoding="ascii", errors="replace") as file:
                 if file.read().strip() == "milltask":
-                    os.kill(int(process), getattr(signal, f"SIG{name}"))
+                    send(int(process), getattr(signal, f"SIG{name}"))
 
     def expect(self, pin, value, timeout=5):
         """Waits until a pin reads as this text."""

@@ -8,14 +8,14 @@ what LinuxCNC's interpreter makes of the translation is compared with the same p
 import unittest
 
 from canon import canonical_shapes, compare
-from manuals import fagor, isg, linuxcnc, mefi, sinumerik
+from manuals import fagor, fanuc, isg, linuxcnc, mefi, sinumerik
 from part_programs import convert, deviations, filtered, quick, run
 
 #: mm; the filter writes six decimals
 NEAR = 1e-6
 
 TABLES = {"sinumerik": (sinumerik, "framepath-sim"), "fagor": (fagor, "framepath-fagor"),
-          "mefi": (mefi, "framepath-mefi"), "isg": (isg, "framepath-isg")}
+          "mefi": (mefi, "framepath-mefi"), "isg": (isg, "framepath-isg"), "fanuc": (fanuc, "framepath-sim")}
 LETTERS = "xyzabcuvw"
 
 

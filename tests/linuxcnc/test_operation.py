@@ -294,6 +294,12 @@ class SettingsOfTheIni(unittest.TestCase):
                           settings.tool_length, settings.rots_convention, settings.analog_output),
                          (False, False, True, "machine", "k2", 55))
         self.assertAlmostEqual(self.read("", self.BASE.replace("mm", "inch")).units_per_mm, 1 / 25.4)
+        self.assertEqual((self.read("").tolerance, self.read("").retract_z), (0.01, None))
+        settings = self.read("[FRAMEPATH]\nTOLERANCE = 0.05\nRETRACT_Z = -12.5\n")
+        self.assertEqual((settings.tolerance, settings.retract_z), (0.05, -12.5))
+        for letters, joint in (("XYZAC", 2), ("XYYZ", 3), ("XY", -1)):
+            kinematics = f"[KINS]\nKINEMATICS = framekins coordinates={letters}\n"
+            self.assertEqual(self.read(kinematics).z_joint, joint)
 
     def test_every_mistake_is_named(self):
         self.refused("[FRAMEPATH]\nCLEAR_AT_STRAT = 1\n", ".ini:7: [FRAMEPATH]CLEAR_AT_STRAT", "CLEAR_AT_START",
@@ -304,6 +310,9 @@ class SettingsOfTheIni(unittest.TestCase):
         self.refused("[FRAMEPATH]\nCLEAR_AT_END = 1 # always\n", "comments on a line of their own")
         for value in ("56", "-1", "1.5", "x"):
             self.refused(f"[FRAMEPATH]\nANALOG_OUTPUT = {value}\n", "from 0 to 55")
+        for value in ("0", "11", "fine"):
+            self.refused(f"[FRAMEPATH]\nTOLERANCE = {value}\n", "from 0.001 to 10 mm")
+        self.refused("[FRAMEPATH]\nRETRACT_Z = top\n", "a place of the machine")
         self.refused("[FRAMEPATH]\nCLEAR_AT_END = 1\nCLEAR_AT_END = 0\n", "twice")
         self.refused("[framepath]\nCLEAR_AT_END = 1\n", "[framepath]", "capitals")
         self.refused("", "[RS274NGC]OWORD_NARGS = 1", base=self.BASE.replace("OWORD_NARGS = 1\n", ""))

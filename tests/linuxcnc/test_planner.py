@@ -196,7 +196,7 @@ class Refused(Case):
     def test_a_tolerance_that_makes_no_sense(self):
         for pin, value, words in (("millimetre", "0", "length of a millimetre"),
                                   ("rotary-tolerance", "-0.1", "number of degrees"),
-                                  ("default-tolerance", "nan", "0 or a positive number")):
+                                  ("default-tolerance", "nan", "a number of machine units from 0")):
             result = harness.run([["mdi", "G0 X10"], ["note", "end"]], hal=f"setp blendtp.{pin} {value}\n")
             self.assertIn(f"blendtp.{pin} is", result.log)
             self.assertIn(words, result.log)

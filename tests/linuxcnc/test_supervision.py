@@ -235,6 +235,11 @@ class Dead(Case):
         self.assertFalse(rows[gone - 1][1])
         self.at(result, "dead", (11, 22, 0), (11, 22, 0))
 
+    def test_others_never_wait_for_it(self):
+        # killed with HAL's lock, it would leave halcmd, screens and LinuxCNC's own end waiting for ever
+        result = watched([["start", "PROGRAMS/long.ngc"], ON, ["stop_guard_often", 1200], ["abort"], OFF], self.LONG)
+        self.fine(result)
+
     def test_stopped_and_resumed(self):
         result = watched([["start", "PROGRAMS/long.ngc"], ON, ["wait_place", 0, 30], ["forget"], ["guard", "STOP"],
                           ["expect", "framekins.hold", "TRUE"], ["guard", "CONT"], ["recall", "late"],

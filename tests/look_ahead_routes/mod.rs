@@ -4,8 +4,8 @@
 pub mod run;
 
 use framepath::axes::Axes;
-use framepath::path::PathPoint;
-use framepath::speed::look_ahead::{MOST_BREAKPOINTS, Route, SpeedCap, Vertex};
+use framepath::moves::shape::PathPoint;
+use framepath::speed::look_ahead::{MOST_BREAKPOINTS, Route, RouteVertex, SpeedCap};
 
 /// A polyline in XYZ whose corners are blended by the kernel 15/16 (1 - x^2)^2.
 #[derive(Clone, Debug)]
@@ -90,8 +90,8 @@ impl Polyline {
         behind.saturating_sub(1).min(self.legs() - 1)
     }
 
-    fn vertex(&self, i: usize) -> Vertex {
-        Vertex {
+    fn vertex(&self, i: usize) -> RouteVertex {
+        RouteVertex {
             position: self.positions[i],
             reach: self.reaches[i],
             core: 0.0,
@@ -204,7 +204,7 @@ impl Route for Polyline {
         }
     }
 
-    fn vertex_after(&self, s: f64) -> Option<Vertex> {
+    fn vertex_after(&self, s: f64) -> Option<RouteVertex> {
         let i = self
             .positions
             .partition_point(|position| *position <= s)
@@ -212,7 +212,7 @@ impl Route for Polyline {
         (i < self.legs()).then(|| self.vertex(i))
     }
 
-    fn vertex_before(&self, s: f64) -> Option<Vertex> {
+    fn vertex_before(&self, s: f64) -> Option<RouteVertex> {
         let i = self.positions.partition_point(|position| *position < s);
         (i > 1).then(|| self.vertex(i - 1))
     }
@@ -259,10 +259,10 @@ impl<F: Fn(f64) -> PathPoint> Route for Curve<F> {
             greatest: 10.0 * speed,
         }
     }
-    fn vertex_after(&self, _: f64) -> Option<Vertex> {
+    fn vertex_after(&self, _: f64) -> Option<RouteVertex> {
         None
     }
-    fn vertex_before(&self, _: f64) -> Option<Vertex> {
+    fn vertex_before(&self, _: f64) -> Option<RouteVertex> {
         None
     }
     fn greatest_reach(&self) -> f64 {

@@ -1,7 +1,7 @@
 //! Runs a look-ahead to its end and watches what the axes do.
 
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
-use framepath::speed::look_ahead::{LookAhead, Piece, Progress, Route};
+use framepath::speed::look_ahead::{LookAhead, PlanProgress, PlannedSegment, Route};
 
 /// Servo period, seconds.
 pub const PERIOD: f64 = 1e-3;
@@ -85,7 +85,7 @@ impl Monitor {
 
 /// Makes a plan of a route that is known as a whole, with `slices` slices before it starts, and
 /// freezes it as a machine would that is told of everything in advance.
-pub fn offline<R: Route>(planner: &mut LookAhead, route: &R, slices: usize) -> Vec<Piece> {
+pub fn offline<R: Route>(planner: &mut LookAhead, route: &R, slices: usize) -> Vec<PlannedSegment> {
     for _ in 0..slices {
         planner.slice(route, 2000);
     }
@@ -101,7 +101,7 @@ pub fn offline<R: Route>(planner: &mut LookAhead, route: &R, slices: usize) -> V
 
 /// What a machine has seen that ran a plan while it was made.
 pub struct LiveRun {
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<PlannedSegment>,
     /// Rests before the end.
     pub rests: usize,
     /// Seconds in total, from the first call.
@@ -132,11 +132,11 @@ pub fn live<R: Route>(
         arrive(route, now, origin.is_some() && planner.brakes_within(0.08));
         let progress = planner.slice(route, budget);
         assert!(
-            !matches!(progress, Progress::Refused(_)),
+            !matches!(progress, PlanProgress::Refused(_)),
             "{progress:?} at {}",
             planner.end()
         );
-        if progress != Progress::Ready {
+        if progress != PlanProgress::Ready {
             continue;
         }
         let origin_time = *origin.get_or_insert(now);
@@ -162,12 +162,12 @@ pub fn live<R: Route>(
 }
 
 /// Seconds of motion.
-pub fn duration(pieces: &[Piece]) -> f64 {
+pub fn duration(pieces: &[PlannedSegment]) -> f64 {
     pieces.iter().map(|piece| piece.duration).sum()
 }
 
 /// The pieces join without a jump in s, v and a, and end at rest at `end`.
-pub fn check_continuity(pieces: &[Piece], end: f64) {
+pub fn check_continuity(pieces: &[PlannedSegment], end: f64) {
     for (piece, next) in pieces.iter().zip(&pieces[1..]) {
         assert!(piece.duration > 0.0 && piece.duration.is_finite());
         let (before, behind) = (piece.at(piece.duration), next.at(0.0));
@@ -192,7 +192,12 @@ pub fn check_continuity(pieces: &[Piece], end: f64) {
 }
 
 /// Samples the pieces once a period.
-pub fn peaks<R: Route>(pieces: &[Piece], route: &R, limits: &AxisLimits, period: f64) -> Peaks {
+pub fn peaks<R: Route>(
+    pieces: &[PlannedSegment],
+    route: &R,
+    limits: &AxisLimits,
+    period: f64,
+) -> Peaks {
     let mut monitor = Monitor::new(limits, period);
     let mut piece = 0;
     let last = pieces.len() - 1;

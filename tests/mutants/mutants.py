@@ -1,70 +1,32 @@
 #!/usr/bin/python3
 """Puts faults into the core, one at a time, and counts how many of them the Rust tests catch.
 
-Faults (mutants) are drawn at random from those that cargo-mutants knows for the folders of TESTS; the seed is printed
-and can be given. They are put in here, since cargo-mutants cannot be asked for just these: its option --re lets all of
-one kind pass. Each is tested in a copy of the source with the tests of its folder only, in stages: what the first tests
-do not catch meets the next ones. Caught and timed out count as caught; what cannot be built, or is known to change
-nothing (equivalent.txt), counts for nothing.
+Faults (mutants) are drawn at random from those that cargo-mutants knows for the folders of FOLDERS; the seed is printed
+and can be given. All of them are put into one copy of the source, each behind a switch (source.py), so that the tests
+are built once. Each test is run once without a fault, which shows what it takes and which faults it comes to; then each
+fault meets the tests that come to it, quick ones first, until one of them fails (runs.py). Caught and timed out count
+as caught; what cannot be built, or is known to change nothing (equivalent.txt), counts for nothing.
 """
 
 import argparse
 import collections
+import concurrent.futures
+import hashlib
 import json
 import os
-import random
 import re
 import shutil
-import signal
-import subprocess
 import sys
+import threading
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(os.path.dirname(HERE))
-WORK = os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(ROOT, "target")), "mutants")
-TREE = os.path.join(WORK, "tree")
+import runs
+from source import HERE, WORK, Copy, copy, listed
 
-# The tests that belong to each folder of src, in stages: quick ones that catch most first.
-TESTS = {
-    "abi": [
-        "--lib --test abi_found --test abi_answers --test abi_random",
-    ],
-    "frame": [
-        "--lib --test frames_control --test frames_tool --test frames_sinumerik",
-        "--test frames_properties --test machine_control --test abi_found --test abi_answers --test abi_random",
-    ],
-    "planner": [
-        "--lib --test planner_operator --test planner_queue --test planner_spindle --test planner_spindle_events",
-        "--test planner_moves --test planner_holds --test planner_reverse --test planner_behind_frame --test abi_answers",
-        "--test planner_found_limits --test planner_found_rests --test planner_found_between --test planner_found_standstill"
-        " --test planner_invariance --test planner_history --test planner_programs --test abi_random",
-    ],
-    "cycle": [
-        "--lib --test executor_edges --test executor_demand --test executor_limits",
-        "--test executor_holds --test executor_without_jerk_limit --test planner_operator --test planner_holds",
-        "--test planner_found_limits --test planner_programs",
-    ],
-    "speed": [
-        "--lib --test look_ahead_limits --test look_ahead_time --test look_ahead_jumps",
-        "--test planner_found_limits --test planner_found_rests --test planner_found_between --test planner_invariance",
-        "--test planner_programs --test planner_holds --test planner_behind_frame",
-    ],
-}
+# Of src.
+FOLDERS = ["planner", "cycle", "speed", "frame", "kinematics", "abi"]
 
-# Few cases of each property, the same each time; no names and lines of what panics, which take long to link.
-ENVIRONMENT = {
-    "FRAMEPATH_CASES": "8",
-    "PROPTEST_CASES": "32",
-    "PROPTEST_RNG_SEED": "1",
-    "RUST_BACKTRACE": "0",
-    "CARGO_INCREMENTAL": "1",
-    "CARGO_PROFILE_DEV_DEBUG": "0",
-}
-
-# Tests that take so many times as long as without the fault, and so many seconds, do not end.
-TIMEOUT_MULTIPLIER = 6
-LEAST_TIMEOUT = 60
+RESULTS = os.path.join(WORK, "results.json")
 
 
 def folder_of(mutant):
@@ -75,6 +37,27 @@ def described(mutant):
     """What the mutant does, without its line, which changes with every edit above it."""
     description = re.sub(r"^[^:]*:\d+:\d+: ", "", mutant["name"])
     return mutant["file"] + ": " + description
+
+
+def digest(text):
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def identified(mutants):
+    """The mutants by a name that stays the same when other lines of a file change."""
+    counts, found = collections.Counter(), {}
+    for mutant in sorted(mutants, key=lambda mutant: (mutant["file"], mutant["span"]["start"]["line"],
+                                                      mutant["span"]["start"]["column"], mutant["name"])):
+        changed = "\n".join(line for line in mutant["diff"].splitlines()[2:] if not line.startswith("@@"))
+        name = described(mutant) + " #" + digest(changed)[:8]
+        counts[name] += 1
+        found[f"{name}.{counts[name]}"] = mutant
+    return found
+
+
+def drawn(found, seed, count):
+    """So many of the mutants at random; an edit changes the draw by no more than what it edits."""
+    return sorted(found, key=lambda name: digest(f"{seed} {name}"))[:count]
 
 
 def equivalents():
@@ -88,147 +71,120 @@ def equivalents():
     return known
 
 
-def copy_source():
-    """The files of the repository as they are now; what has not changed keeps its time, so that builds are incremental."""
-    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-                            cwd=ROOT, check=True, capture_output=True).stdout.decode().split("\0")
-    wanted = {name for name in listed if name and os.path.isfile(os.path.join(ROOT, name))}
-    for name in wanted:
-        source, target = os.path.join(ROOT, name), os.path.join(TREE, name)
-        with open(source, "rb") as file:
-            content = file.read()
-        if name == "Cargo.toml":
-            # What a fault leaves unused is no error here.
-            content = content.replace(b'"deny"', b'"allow"')
-        if os.path.isfile(target):
-            with open(target, "rb") as file:
-                if file.read() == content:
-                    continue
-        os.makedirs(os.path.dirname(target), exist_ok=True)
-        with open(target, "wb") as file:
-            file.write(content)
-    for folder, _, names in os.walk(os.path.join(TREE, "src")):
-        for name in names:
-            if os.path.relpath(os.path.join(folder, name), TREE) not in wanted:
-                os.remove(os.path.join(folder, name))
+class Results:
+    """What is known of each mutant, in a file: what has been found stays when the run is cut."""
+
+    def __init__(self, resumed):
+        self.known = {}
+        self.lock = threading.Lock()
+        if resumed and os.path.isfile(RESULTS):
+            with open(RESULTS, encoding="utf-8") as file:
+                self.known = json.load(file)
+
+    def word(self, name):
+        return self.known.get(name, [None])[0]
+
+    def note(self, name, word, by, seconds, shown):
+        with self.lock:
+            self.known[name] = [word, by]
+            print(f"{word:9}{seconds:5.0f} s  {shown}  ({by})", flush=True)
+            with open(RESULTS + ".new", "w", encoding="utf-8") as file:
+                json.dump(self.known, file, indent=1)
+            os.replace(RESULTS + ".new", RESULTS)
 
 
-def listed(folders):
-    command = ["cargo", "mutants", "--list", "--json"]
-    for folder in folders:
-        command += ["--file", f"src/{folder}/**"]
-    answer = subprocess.run(command, cwd=TREE, check=True, capture_output=True)
-    return sorted(json.loads(answer.stdout), key=lambda mutant: mutant["name"])
+def together(source, mutants):
+    """Puts in as many as can be built at once. Returns the numbers of the others."""
+    left = dict(mutants)
+    for _ in range(20):
+        for number in source.put_in(left):
+            del left[number]
+        refused = set()
+        for places in runs.errors():
+            guilty = next((numbers for numbers in (source.at(*place) for place in places) if numbers), None)
+            if guilty is None:
+                sys.exit(f"a compiler error that no mutant makes, at {places}")
+            refused.update(guilty)
+        if not refused:
+            return [number for number in mutants if number not in left]
+        for number in refused:
+            del left[number]
+    sys.exit("the compiler refuses something each time")
 
 
-def cargo(arguments, log, seconds=None):
-    """Whether a cargo command succeeds; None where it takes longer than so many seconds.
-
-    One test that fails is enough: others may go on for ever."""
-    environment = dict(os.environ, CARGO_TARGET_DIR=os.path.join(WORK, "build"), **ENVIRONMENT)
-    command = ["cargo", "test", "--locked", "--package", "framepath", *arguments]
-    begun, read = time.monotonic(), os.path.getsize(log.name)
-    with subprocess.Popen(command, cwd=TREE, env=environment, stdout=log, stderr=log, start_new_session=True) as process:
-        while True:
-            try:
-                return process.wait(0.5) == 0
-            except subprocess.TimeoutExpired:
-                late = seconds is not None and time.monotonic() - begun > seconds
-                with open(log.name, "rb") as written:
-                    written.seek(read)
-                    failed = b" ... FAILED\n" in written.read()
-                if late or failed:
-                    os.killpg(process.pid, signal.SIGKILL)
-                    return False if failed else None
-
-
-def patch(mutant, *options):
-    """Puts the mutant into the copy, or takes it out again."""
-    subprocess.run(["patch", "--quiet", "--no-backup-if-mismatch", *options, mutant["file"]], cwd=TREE, check=True,
-                   input=mutant["diff"].encode())
-
-
-def outcome(mutant, tests, seconds, log):
-    """What becomes of a mutant with these tests."""
-    patch(mutant)
-    try:
-        if not cargo(["--no-run", *tests], log):
-            return "unviable"
-        passed = cargo(tests, log, seconds)
-        return {True: "missed", False: "caught", None: "timeout"}[passed]
-    finally:
-        patch(mutant, "--reverse")
-
-
-def seconds_without_fault(tests, log):
-    """How long these tests may take; they have to pass without a fault."""
-    if not cargo(["--no-run", *tests], log):
-        # A run that was killed while it compiled leaves halves behind.
-        shutil.rmtree(os.path.join(WORK, "build", "debug", "incremental"), ignore_errors=True)
-        subprocess.run(["touch", "src/lib.rs"], cwd=TREE, check=True)
-    if not cargo(["--no-run", *tests], log):
-        sys.exit(f"cannot be built: {tests}; see {log.name}")
+def run_alone(source, name, mutant, results, wanted):
+    """A mutant that cannot be built with others: most of them cannot be built at all."""
     begun = time.monotonic()
-    if not cargo(tests, log):
-        sys.exit(f"fail without any fault: {tests}; see {log.name}")
-    return LEAST_TIMEOUT + TIMEOUT_MULTIPLIER * (time.monotonic() - begun)
+    source.put_in_alone(mutant)
+    if runs.errors():
+        word, by = "unviable", "the compiler"
+    else:
+        tests = [test for program, path in runs.programs(wanted).items() for test in runs.tests_of(program, path)]
+        source.put_in({})
+        runs.programs(wanted)
+        tests = runs.all_probed(tests)
+        source.put_in_alone(mutant)
+        runs.programs(wanted)
+        word, by = runs.outcome(tests)
+    results.note(name, word, by, time.monotonic() - begun, mutant["name"])
 
 
-def run_folder(folder, mutants, results):
-    left = mutants
-    for stage, tests in enumerate(TESTS[folder], 1):
-        if not left:
-            return
-        print(f"\n{folder}, stage {stage} of {len(TESTS[folder])}: {len(left)} mutants, cargo test {tests}", flush=True)
-        with open(os.path.join(WORK, f"{folder}-{stage}.log"), "w", encoding="utf-8") as log:
-            seconds = seconds_without_fault(tests.split(), log)
-            for mutant in left:
-                print(mutant["name"], file=log, flush=True)
-                begun = time.monotonic()
-                results[mutant["name"]] = outcome(mutant, tests.split(), seconds, log)
-                print(f"{results[mutant['name']]:9}{time.monotonic() - begun:5.0f} s  {mutant['name']}", flush=True)
-                keep(results)
-        left = [mutant for mutant in left if results[mutant["name"]] == "missed"]
+def run_switched(numbers, mutants, names, results, tests):
+    def one(number):
+        begun = time.monotonic()
+        reaching = [test for test in tests if number in test.reached]
+        word, by = runs.outcome(reaching, FRAMEPATH_MUTANT=str(number))
+        results.note(names[number], word, by, time.monotonic() - begun, mutants[number]["name"])
+
+    with concurrent.futures.ThreadPoolExecutor(runs.WORKERS) as pool:
+        for answer in [pool.submit(one, number) for number in numbers]:
+            answer.result()
 
 
-def keep(results):
-    with open(os.path.join(WORK, "results.json"), "w", encoding="utf-8") as file:
-        json.dump(results, file, indent=1)
+def run_all(source, names, found, results, wanted):
+    """Tests the mutants with these names."""
+    mutants = {number: found[name] for number, name in enumerate(names)}
+    alone = together(source, mutants)
+    switched = [number for number in mutants if number not in alone]
+    print(f"{len(switched)} mutants are put in together; building the tests", flush=True)
+    built = runs.programs(wanted)
+    tests = [test for program, path in built.items() for test in runs.tests_of(program, path)]
+    print(f"{len(tests)} tests of {len(built)} programs run without a fault", flush=True)
+    tests = runs.all_probed(tests)
+    print(f"they take {sum(test.seconds for test in tests):.0f} s of the processor", flush=True)
+    run_switched(switched, mutants, names, results, tests)
+    for number in alone:
+        run_alone(source, names[number], mutants[number], results, wanted)
 
 
-def kept():
-    with open(os.path.join(WORK, "results.json"), encoding="utf-8") as file:
-        return json.load(file)
-
-
-def report(drawn, results, known, seed):
+def report(names, found, results, known):
     """The table, and each survivor. Returns the share that was caught."""
     counts = collections.defaultdict(collections.Counter)
     survivors, same = [], []
-    for mutant in drawn:
-        if mutant["name"] not in results:
+    for name in names:
+        word, mutant = results.word(name), found[name]
+        if word is None:
             continue
-        word = results[mutant["name"]]
         if word == "missed" and described(mutant) in known:
             word = "equivalent"
             same.append(mutant)
         elif word == "missed":
-            survivors.append(mutant)
+            survivors.append(name)
         for row in (folder_of(mutant), "all"):
             counts[row][word] += 1
     columns = ["caught", "timeout", "missed", "equivalent", "unviable"]
-    print(f"\nseed {seed}, {len(drawn)} mutants drawn, {sum(counts['all'].values())} tested\n")
+    print(f"\n{len(names)} mutants drawn, {sum(counts['all'].values())} tested\n")
     print(f"{'':10}" + "".join(f"{column:>12}" for column in columns) + f"{'share':>12}")
     share = 0.0
-    for row in [*TESTS, "all"]:
+    for row in [*FOLDERS, "all"]:
         count = counts[row]
         caught = count["caught"] + count["timeout"]
         total = caught + count["missed"]
         share = caught / total if total else 1.0
         if count:
             print(f"{row:10}" + "".join(f"{count[column]:12}" for column in columns) + f"{share:12.1%}")
-    for mutant in survivors:
-        print("missed:", mutant["name"])
+    for name in survivors:
+        print(f"missed: {found[name]['name']} ({results.known[name][1]})")
     for mutant in same:
         print("equivalent:", mutant["name"], "--", known[described(mutant)])
     return share
@@ -238,31 +194,33 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=120, help="how many mutants are drawn")
     parser.add_argument("--seed", type=int, default=int(time.time()), help="the same seed draws the same mutants")
-    parser.add_argument("--folders", default=",".join(TESTS),
+    parser.add_argument("--folders", default=",".join(FOLDERS),
                         help="of src, with commas between them: what is drawn from others is left out")
     parser.add_argument("--least", type=float, default=0.85, help="the share that has to be caught")
-    parser.add_argument("--resume", action="store_true", help="what the last run has found is not tested again")
+    parser.add_argument("--resume", action="store_true",
+                        help="what an earlier run has found is not tested again, but for what it missed")
     parser.add_argument("--match", help="instead of drawing, all mutants whose names have this")
+    parser.add_argument("--tests", help="only these test programs, with commas between them; lib: those in src")
     options = parser.parse_args()
-    folders = options.folders.split(",")
     if not shutil.which("cargo-mutants"):
         sys.exit("cargo-mutants is missing: cargo install cargo-mutants --locked")
     print(f"seed {options.seed}", flush=True)
-    copy_source()
-    mutants = listed(TESTS)
-    known = equivalents()
+    found = identified(listed(FOLDERS))
+    source = Copy(copy())
     if options.match:
-        drawn = [mutant for mutant in mutants if options.match in mutant["name"]]
+        names = [name for name, mutant in found.items() if options.match in mutant["name"]]
     else:
-        drawn = random.Random(options.seed).sample(mutants, min(options.count, len(mutants)))
-    print(f"{len(drawn)} of {len(mutants)} mutants", flush=True)
-    results = kept() if options.resume else {}
-    for folder in folders:
-        in_folder = [mutant for mutant in drawn
-                     if folder_of(mutant) == folder and results.get(mutant["name"], "missed") == "missed"]
-        if in_folder:
-            run_folder(folder, in_folder, results)
-    share = report(drawn, results, known, options.seed)
+        names = drawn(found, options.seed, options.count)
+    names = [name for name in names if folder_of(found[name]) in options.folders.split(",")]
+    print(f"{len(names)} of {len(found)} mutants", flush=True)
+    results = Results(options.resume)
+    known = equivalents()
+    left = [name for name in names
+            if results.word(name) is None
+            or results.word(name) == "missed" and described(found[name]) not in known]
+    if left:
+        run_all(source, left, found, results, options.tests.split(",") if options.tests else [])
+    share = report(names, found, results, known)
     sys.exit(share < options.least)
 
 

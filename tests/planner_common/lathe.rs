@@ -36,6 +36,8 @@ pub struct Lathe<'a> {
     /// Where the encoder's count was 0.
     pub zero: f64,
     pub awaits_index: bool,
+    /// Whether the encoder has an index.
+    pub has_index: bool,
     /// Counts of the encoder in a turn, 0: as fine as can be.
     pub counts: f64,
     /// For each cycle: the encoder's turns, as measured before it, and Z after it.
@@ -54,6 +56,7 @@ impl<'a> Lathe<'a> {
             acceleration: 20.0,
             zero: 0.1,
             awaits_index: false,
+            has_index: true,
             counts: 0.0,
             record: Vec::new(),
             errors: Vec::new(),
@@ -71,7 +74,7 @@ impl<'a> Lathe<'a> {
         let before = self.turns;
         self.turns += self.speed * PERIOD;
         // The index is at whole turns.
-        if self.awaits_index && before.floor() != self.turns.floor() {
+        if self.has_index && self.awaits_index && before.floor() != self.turns.floor() {
             self.zero = before.floor().max(self.turns.floor());
             self.awaits_index = false;
         }

@@ -6,8 +6,8 @@ pub mod path_check;
 
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::machine::JOINT_COUNT;
+use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, StateTag, TerminationCondition};
-use framepath::path::Circle;
 use framepath::planner::range::Joints;
 use framepath::planner::{AddError, Added, CycleInputs, MoveRequest, Planner, Status};
 use proptest::test_runner::{Config as ProptestConfig, RngSeed, TestRunner};
@@ -171,6 +171,7 @@ impl Machine {
         let limits = &self.limits;
         let mut extremes = Extremes::default();
         for window in positions.windows(4) {
+            extremes.periods += usize::from(window[3] != window[2]);
             let first = (window[3] - window[2]) / PERIOD;
             let second = (window[3] - window[2] * 2.0 + window[1]) / PERIOD.powi(2);
             let third =
@@ -194,6 +195,8 @@ pub struct Extremes {
     pub velocity: f64,
     pub acceleration: f64,
     pub jerk: f64,
+    /// Servo periods with motion that this is about, in sum.
+    pub periods: usize,
 }
 
 impl Extremes {
@@ -201,5 +204,6 @@ impl Extremes {
         self.velocity = self.velocity.max(other.velocity);
         self.acceleration = self.acceleration.max(other.acceleration);
         self.jerk = self.jerk.max(other.jerk);
+        self.periods += other.periods;
     }
 }

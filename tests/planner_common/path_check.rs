@@ -2,7 +2,7 @@
 
 use framepath::axes::Axes;
 use framepath::moves::TerminationCondition;
-use framepath::path::Shape;
+use framepath::moves::shape::Shape;
 
 /// What is left to rounding, and to G61 where only the curvature jumps.
 const MICROMETRE: f64 = 1e-3;

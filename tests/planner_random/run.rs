@@ -2,7 +2,7 @@
 
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::moves::TerminationCondition;
-use framepath::path::{self, Circle, ShapeError};
+use framepath::moves::shape::{self, Circle, ShapeError};
 use framepath::planner::{Added, MoveRequest};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -28,7 +28,7 @@ fn queue(
     if let Some(mode) = programmed.mode {
         machine.planner.set_termination(mode);
     }
-    let mut want = |shape: Result<path::Shape, ShapeError>, machine: &Machine| {
+    let mut want = |shape: Result<shape::Shape, ShapeError>, machine: &Machine| {
         wanted.extend(shape.ok().map(|shape| Wanted {
             id,
             shape,

@@ -2,8 +2,8 @@
 #![allow(dead_code, reason = "each test uses its own part")]
 
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
+use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, TerminationCondition};
-use framepath::path::Circle;
 use framepath::planner::MoveRequest;
 use nalgebra::Vector3;
 use proptest::prelude::*;

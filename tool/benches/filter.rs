@@ -3,6 +3,7 @@
 
 use clap::Parser;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use framepath_tool::dialects::Dialect;
 use framepath_tool::filter::{FilterArguments, filter};
 use std::fmt::Write as _;
 use std::io::{BufWriter, Write};
@@ -64,7 +65,7 @@ fn plain_programs(criterion: &mut Criterion) {
     group.sample_size(10);
     group.warm_up_time(Duration::from_millis(100));
     group.measurement_time(Duration::from_secs(10));
-    for dialect in ["sinumerik", "fagor", "mefi", "isg"] {
+    for dialect in Dialect::ALL.iter().map(|dialect| dialect.name()) {
         let arguments = arguments(dialect, &path);
         group.bench_function(dialect, |bencher| {
             bencher.iter(|| {

@@ -19,6 +19,7 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
 }
 
 /// A servo period, s.
+#[cfg(feature = "linuxcnc")]
 pub(crate) fn period(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if (1e-5..=0.1).contains(&number) => Ok(number),

@@ -3,9 +3,9 @@
 use crate::encoding::Encoding;
 use crate::source::{Excerpt, Sources, Span};
 use codespan_reporting::diagnostic::{Diagnostic as Report, Label};
-use codespan_reporting::files::{Error, Files, line_starts};
+use codespan_reporting::files::{Error, Files, column_index, line_starts};
 use codespan_reporting::term;
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 /// How many are shown before the rest is only counted.
 const SHOWN: usize = 50;
@@ -22,9 +22,14 @@ pub enum Severity {
     Warning,
 }
 
-/// One thing that is wrong, or that a user could have meant otherwise.
+/// One thing that is wrong, or that a user could have meant otherwise. No larger than a pointer, because every result that
+/// can be an error carries one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Diagnostic {
+pub struct Diagnostic(Box<Details>);
+
+/// What a [`Diagnostic`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Details {
     /// Whether it stops the translation.
     pub severity: Severity,
     /// The word that is marked.
@@ -37,24 +42,33 @@ pub struct Diagnostic {
     pub help: Option<String>,
 }
 
+impl Deref for Diagnostic {
+    type Target = Details;
+
+    fn deref(&self) -> &Details {
+        &self.0
+    }
+}
+
 impl Diagnostic {
     /// An error at `span`.
     pub fn error(span: Span, message: impl Into<String>) -> Diagnostic {
-        Diagnostic {
-            severity: Severity::Error,
-            span,
-            message: message.into(),
-            label: String::new(),
-            help: None,
-        }
+        Diagnostic::new(Severity::Error, span, message.into())
     }
 
     /// A warning at `span`.
     pub fn warning(span: Span, message: impl Into<String>) -> Diagnostic {
-        Diagnostic {
-            severity: Severity::Warning,
-            ..Diagnostic::error(span, message)
-        }
+        Diagnostic::new(Severity::Warning, span, message.into())
+    }
+
+    fn new(severity: Severity, span: Span, message: String) -> Diagnostic {
+        Diagnostic(Box::new(Details {
+            severity,
+            span,
+            message,
+            label: String::new(),
+            help: None,
+        }))
     }
 
     /// Whether nothing is written.
@@ -64,13 +78,13 @@ impl Diagnostic {
 
     /// The short text beside the mark.
     pub fn label(mut self, label: impl Into<String>) -> Diagnostic {
-        self.label = label.into();
+        self.0.label = label.into();
         self
     }
 
     /// What to write instead.
     pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
-        self.help = Some(help.into());
+        self.0.help = Some(help.into());
         self
     }
 }
@@ -152,9 +166,9 @@ impl Diagnostics {
         let mut ordered: Vec<&Diagnostic> = self.list.iter().collect();
         ordered.sort_by_key(|diagnostic| (diagnostic.span.file, diagnostic.span.start));
         ordered.truncate(SHOWN);
-        let spans: Vec<Span> = ordered.iter().map(|diagnostic| diagnostic.span).collect();
         let mut text = String::new();
-        for (diagnostic, excerpt) in ordered.into_iter().zip(sources.excerpts(&spans)) {
+        for diagnostic in ordered {
+            let excerpt = sources.excerpt(diagnostic.span);
             let mut report = match diagnostic.severity {
                 Severity::Error => Report::error(),
                 Severity::Warning => Report::warning(),
@@ -220,6 +234,12 @@ impl<'a> Files<'a> for Shown<'_> {
 
     fn line_number(&'a self, (): (), index: usize) -> Result<usize, Error> {
         Ok(self.excerpt.line as usize + index)
+    }
+
+    fn column_number(&'a self, (): (), index: usize, byte: usize) -> Result<usize, Error> {
+        let line = self.line_range((), index)?;
+        let column = column_index(&self.excerpt.text, line, byte);
+        Ok(self.excerpt.left_out + column + 1)
     }
 
     fn line_range(&'a self, (): (), line: usize) -> Result<Range<usize>, Error> {

@@ -7,7 +7,7 @@ mod guess;
 mod pieces;
 
 pub use guess::Words;
-pub use pieces::Pieces;
+pub use pieces::{Piece, Pieces};
 
 use oem_cp::code_table::{DECODING_TABLE_CP850, DECODING_TABLE_CP852};
 use std::fmt;
@@ -63,6 +63,33 @@ impl Encoding {
             [0xEF, 0xBB, 0xBF, ..] => Some(Encoding::Utf8),
             _ => None,
         }
+    }
+
+    /// The encoding that the beginning of a file shows: by a byte order mark, or because every second byte of it
+    /// is 0, as in UTF-16 without one.
+    pub fn of_beginning(bytes: &[u8]) -> Option<Encoding> {
+        Encoding::of_mark(bytes).or_else(|| {
+            let beginning = bytes.get(..bytes.len().min(4096) & !1)?;
+            let low = |pair: &&[u8]| matches!(pair, [low, 0] if *low != 0);
+            let high = |pair: &&[u8]| matches!(pair, [0, low] if *low != 0);
+            let pairs = || beginning.chunks_exact(2);
+            let most = pairs().count() * 9 / 10;
+            let is = |count: usize| count > most.max(1);
+            match (
+                is(pairs().filter(low).count()),
+                is(pairs().filter(high).count()),
+            ) {
+                (true, _) => Some(Encoding::Utf16Low),
+                (_, true) => Some(Encoding::Utf16High),
+                _ => None,
+            }
+        })
+    }
+
+    /// Decodes a file of an encoding with two bytes a character piece by piece.
+    pub fn decoder(self) -> encoding_rs::Decoder {
+        let standard = self.standard().unwrap_or(encoding_rs::UTF_8);
+        standard.new_decoder_with_bom_removal()
     }
 
     /// The byte order mark that a file may begin with.
@@ -144,10 +171,10 @@ impl fmt::Display for Encoding {
     }
 }
 
-/// The likeliest encoding of `bytes`: what a byte order mark says, UTF-8 where they are that, else the
+/// The likeliest encoding of `bytes`: what their beginning shows, UTF-8 where they are that, else the
 /// encoding with one byte a character that makes the best words of them.
 pub fn likeliest(bytes: &[u8]) -> Encoding {
-    if let Some(encoding) = Encoding::of_mark(bytes) {
+    if let Some(encoding) = Encoding::of_beginning(bytes) {
         return encoding;
     }
     if std::str::from_utf8(bytes).is_ok() {
@@ -214,6 +241,14 @@ mod tests {
     fn utf_16_is_told_by_its_mark() {
         assert_eq!(text(b"\xff\xfeG\x000\x00"), "G0");
         assert_eq!(text(b"\xfe\xff\x00G\x000"), "G0");
+    }
+
+    #[test]
+    fn utf_16_without_a_mark_is_told_by_its_zeros() {
+        assert_eq!(text(b"G\x000\x00 \x00X\x001\x00"), "G0 X1");
+        assert_eq!(text(b"\x00G\x000\x00 \x00X\x001"), "G0 X1");
+        // Fillers of a serial line are no letters.
+        assert_eq!(text(b"\0\0\0\0G0 X1\n"), "\0\0\0\0G0 X1\n");
     }
 
     #[test]

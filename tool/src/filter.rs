@@ -3,39 +3,24 @@
 //! Fits into LinuxCNC's `[FILTER]`: the program goes to standard output, and only when all of it
 //! could be translated; progress and errors go to standard error.
 
-mod open;
+mod ini;
 mod options;
 
-pub use options::{Backend, EncodingChoice, FilterArguments};
+pub use options::{Backend, EncodingChoice, FilterArguments, PathMode};
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::control::About;
+use crate::dialects::run_program;
 use crate::dialects::settings::Settings;
-use crate::dialects::{Dialect, evaluate, run_program};
-use crate::program::contour::ContourMove;
-use crate::program::trace::{self, Setup, TraceError};
+use crate::part_program::{Opened, Refused, open, refusal};
 use crate::program::{Block, FrameScope, Sink};
-use crate::source::{Sources, Span};
+use crate::source::Sources;
 use crate::write::{self, WriteSettings, Writer};
-use open::{Opened, open};
 use std::io::{self, Seek, SeekFrom, Write};
-use std::path::Path;
 use tempfile::SpooledTempFile;
 
 /// How much of the output is held in memory, bytes; what is longer waits in a temporary file.
 const HELD: usize = 8 << 20;
-
-/// Why nothing was written: the text for standard error.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refused(pub String);
-
-impl std::fmt::Display for Refused {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for Refused {}
 
 /// What is told while a program is translated.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,10 +61,13 @@ pub fn filter(
     tell: &mut dyn FnMut(Told),
 ) -> Result<Translated, Refused> {
     tell(Told::Progress(0));
-    let opened = open(arguments)?;
+    let settings = arguments
+        .settings()
+        .map_err(|error| Refused(format!("error: {error}\n")))?;
+    let opened = open(arguments.dialect, &arguments.file, &settings.reading)?;
     let mut job = Job {
         arguments,
-        settings: arguments.settings(),
+        settings,
         opened,
         told: 0,
         tell,
@@ -160,6 +148,7 @@ impl Job<'_> {
             dialect: self.opened.dialect.name(),
             machine_in_inch: self.arguments.machine_in_inch,
             path_mode: self.settings.path_mode,
+            tolerance: self.settings.tolerance,
             chord_tolerance: self.arguments.chord_tolerance,
             arc_tolerance: &self.settings.arc_tolerance,
         };
@@ -204,14 +193,12 @@ impl Job<'_> {
 
 /// The warnings as the operator is to see them when the program starts.
 fn operator_messages(diagnostics: &Diagnostics, sources: &Sources) -> Vec<String> {
-    let spans: Vec<Span> = diagnostics.warnings().map(|warning| warning.span).collect();
-    let lines = sources.excerpts(&spans).into_iter();
-    let lines = lines.map(|excerpt| excerpt.map_or(0, |excerpt| excerpt.line));
-    diagnostics
-        .warnings()
-        .zip(lines)
-        .map(|(warning, line)| format!("line {line}: {}", warning.message))
-        .collect()
+    let warnings = diagnostics.warnings();
+    let message = |warning: &Diagnostic| {
+        let line = sources.line(warning.span);
+        format!("line {line}: {}", warning.message)
+    };
+    warnings.map(message).collect()
 }
 
 /// Gives the blocks to a writer and tells how far it is.
@@ -225,7 +212,7 @@ struct Output<'a> {
 
 impl Output<'_> {
     fn progress(&mut self, share: f64) {
-        let percent = (100.0 * share) as u32;
+        let percent = (100.0 * share.min(1.0)) as u32;
         if percent > *self.told {
             *self.told = percent;
             (self.tell)(Told::Progress(percent));
@@ -237,8 +224,8 @@ impl Sink for Output<'_> {
     fn take(&mut self, blocks: Vec<Block>, scope: FrameScope, sources: &Sources) {
         // A program that is held as a whole has been evaluated by now.
         let pieces = sources.file(0).is_windowed();
-        if pieces {
-            self.progress(sources.bytes_read(0) as f64 / self.length.max(1) as f64);
+        if let Some(last) = blocks.last().filter(|last| pieces && last.origin.file == 0) {
+            self.progress(last.origin.span.end as f64 / self.length.max(1) as f64);
         }
         for (index, block) in blocks.iter().enumerate() {
             self.writer.block(block, scope, sources);
@@ -250,48 +237,4 @@ impl Sink for Output<'_> {
             self.progress(1.0);
         }
     }
-}
-
-/// The contour of a part program, machine coordinates; see [`trace::contour`].
-///
-/// # Errors
-///
-/// The text of all errors in the program, as `framepath filter` shows them.
-pub fn contour(
-    dialect: Dialect,
-    file: &Path,
-    settings: &Settings,
-    setup: &Setup,
-) -> Result<Vec<ContourMove>, Refused> {
-    let opened = Opened::whole(dialect, file, settings.encoding)?;
-    let mut sources = opened.sources()?;
-    let mut diagnostics = Diagnostics::default();
-    let program = evaluate(
-        opened.dialect,
-        file,
-        settings,
-        &mut sources,
-        &mut diagnostics,
-    );
-    if diagnostics.errors() > 0 {
-        return Err(refusal(&diagnostics, &sources));
-    }
-    trace::contour(&program, setup, &settings.arc_tolerance).map_err(|error| {
-        let (origin, message) = match error {
-            TraceError::Arc(origin, _) => (origin, "this arc does not reach its end"),
-            TraceError::Frame(origin, _) => (origin, "the frame of this move has no inverse"),
-        };
-        diagnostics.push(Diagnostic::error(origin.span, message));
-        refusal(&diagnostics, &sources)
-    })
-}
-
-fn refusal(diagnostics: &Diagnostics, sources: &Sources) -> Refused {
-    let mut text = diagnostics.render(sources);
-    let errors = match diagnostics.errors() {
-        1 => "1 error".to_string(),
-        count => format!("{count} errors"),
-    };
-    text.push_str(&format!("{errors}: nothing was written\n"));
-    Refused(text)
 }

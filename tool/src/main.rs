@@ -1,14 +1,14 @@
 //! The command line of the tool.
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
+#[cfg(feature = "linuxcnc")]
 use framepath_tool::compare::{self, CompareArguments};
-use framepath_tool::dialects::Dialect;
-use framepath_tool::dialects::settings::Settings;
-use framepath_tool::filter::{FilterArguments, Told, contour, filter};
+use framepath_tool::filter::{FilterArguments, Told, filter};
 use framepath_tool::generate::{self, GenerateArguments};
+#[cfg(feature = "linuxcnc")]
 use framepath_tool::plan::{self, PlanArguments};
-use framepath_tool::program::trace::Setup;
 use framepath_tool::report::{self, ReportArguments};
+use std::fmt::Display;
 use std::process::ExitCode;
 
 /// Frames and smooth motion for LinuxCNC.
@@ -26,28 +26,72 @@ enum Command {
     /// Show what the planner did with a program, from a recording
     Report(ReportArguments),
     /// Show what the planner will do with a program: time, limits, slow places
+    #[cfg(feature = "linuxcnc")]
     Plan(PlanArguments),
+    /// Not in this build: it needs LinuxCNC
+    #[cfg(not(feature = "linuxcnc"))]
+    #[command(disable_help_flag = true)]
+    Plan(NotBuilt),
     /// Drive planner modules with the same programs and compare what they do
+    #[cfg(feature = "linuxcnc")]
     Compare(CompareArguments),
+    /// Not in this build: it needs LinuxCNC
+    #[cfg(not(feature = "linuxcnc"))]
+    #[command(disable_help_flag = true)]
+    Compare(NotBuilt),
     /// Print a G-code program that shows what a planner does
     Generate(GenerateArguments),
     /// Drive a planner module in a process of its own
+    #[cfg(feature = "linuxcnc")]
     #[command(hide = true)]
     CompareHost,
+}
+
+/// Whatever follows the name of a command that this build does not have.
+#[cfg(not(feature = "linuxcnc"))]
+#[derive(Debug, clap::Args)]
+struct NotBuilt {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
+    arguments: Vec<std::ffi::OsString>,
+}
+
+#[cfg(not(feature = "linuxcnc"))]
+impl NotBuilt {
+    fn refuse(&self, command: &str) -> ExitCode {
+        let asked: Vec<_> = self
+            .arguments
+            .iter()
+            .map(|text| text.display().to_string())
+            .collect();
+        eprintln!(
+            "framepath {command}: this framepath was built without LinuxCNC, whose interpreter runs the program\n\
+             help: apt-get install linuxcnc-uspace linuxcnc-uspace-dev libclang-dev g++, build with \
+             `cargo install --locked --path tool`, then run: framepath {command} {}",
+            asked.join(" ")
+        );
+        ExitCode::FAILURE
+    }
 }
 
 fn main() -> ExitCode {
     match Arguments::parse().command {
         Command::Filter(arguments) => run_filter(&arguments),
-        Command::Report(arguments) => finish(run_report(&arguments)),
+        Command::Report(arguments) => finish(report::run(&arguments)),
+        #[cfg(feature = "linuxcnc")]
         Command::Plan(arguments) => finish(plan::run(&arguments)),
+        #[cfg(feature = "linuxcnc")]
         Command::Compare(arguments) => finish(compare::run(&arguments)),
-        Command::Generate(arguments) => finish(generate::run(&arguments).map_err(Into::into)),
+        #[cfg(not(feature = "linuxcnc"))]
+        Command::Plan(asked) => asked.refuse("plan"),
+        #[cfg(not(feature = "linuxcnc"))]
+        Command::Compare(asked) => asked.refuse("compare"),
+        Command::Generate(arguments) => finish(generate::run(&arguments)),
+        #[cfg(feature = "linuxcnc")]
         Command::CompareHost => compare::serve_as_host(),
     }
 }
 
-fn finish(result: Result<(), Box<dyn std::error::Error>>) -> ExitCode {
+fn finish<E: Display>(result: Result<(), E>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -74,19 +118,5 @@ fn run_filter(arguments: &FilterArguments) -> ExitCode {
             eprint!("{}", refused.0);
             ExitCode::FAILURE
         }
-    }
-}
-
-/// With a dialect, the recording is compared with the path of the program in that dialect. Where the
-/// work offsets are is not in the recording: the path is that without any.
-fn run_report(arguments: &ReportArguments) -> Result<(), Box<dyn std::error::Error>> {
-    let dialect = arguments.dialect.as_deref();
-    let dialect = dialect.and_then(|name| Dialect::from_str(name, true).ok());
-    match (dialect, &arguments.program) {
-        (Some(dialect), Some(program)) => {
-            let moves = contour(dialect, program, &Settings::default(), &Setup::default())?;
-            Ok(report::run_along(arguments, &moves)?)
-        }
-        _ => Ok(report::run(arguments)?),
     }
 }

@@ -1,7 +1,8 @@
 //! Files that the commands write: each is there whole, or as it was before.
 
-use std::fs::{File, Permissions};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
+#[cfg(unix)]
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use tempfile::TempPath;
@@ -50,11 +51,12 @@ impl OutputFile {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
-        let file = tempfile::Builder::new()
-            .prefix(".framepath-")
-            // As for any new file, less the umask; tempfile's own are for secrets.
-            .permissions(Permissions::from_mode(0o666))
-            .tempfile_in(folder)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".framepath-");
+        // As for any new file, less the umask; tempfile's own are for secrets.
+        #[cfg(unix)]
+        builder.permissions(PermissionsExt::from_mode(0o666));
+        let file = builder.tempfile_in(folder)?;
         if let Some(before) = before {
             // A file that is protected against writing is not replaced either.
             File::options().write(true).open(&place)?;
@@ -100,10 +102,10 @@ impl Write for OutputFile {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, unix))]
 mod tests {
     use super::*;
-    use std::fs;
+    use std::fs::{self, Permissions};
     use std::os::unix::fs::{FileTypeExt, symlink};
 
     fn names(folder: &Path) -> Vec<String> {

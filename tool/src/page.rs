@@ -6,8 +6,6 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
-use crate::report::decimation::Envelope;
-
 const FRAME: &str = include_str!("page/frame.html");
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPTS: [&str; 5] = [
@@ -56,7 +54,15 @@ impl Page<'_> {
     }
 }
 
-/// Least and greatest value in each bucket of time, 32-bit numbers in base64.
+/// Least and greatest value in each bucket of time.
+pub(crate) struct Envelope {
+    /// Shape (buckets).
+    pub low: Vec<f32>,
+    /// Shape (buckets).
+    pub high: Vec<f32>,
+}
+
+/// The same as 32-bit numbers in base64.
 #[derive(Serialize)]
 pub(crate) struct EnvelopeData {
     low: String,

@@ -1,7 +1,16 @@
 //! The texts of a program and its subprogram files, and places in them.
 //!
-//! A program may be longer than the memory: then only a window of its text is held, and places behind
-//! it are looked up in the file again when somebody is to see them.
+//! A program may be longer than the memory: then only some pages of its text are held, and the others are read
+//! again when a block of them runs, or somebody is to see them.
+
+mod excerpt;
+mod file;
+pub mod open;
+mod page;
+
+pub use excerpt::Excerpt;
+pub use file::SourceFile;
+pub use page::Page;
 
 use crate::encoding::Pieces;
 use std::io;
@@ -71,115 +80,6 @@ impl<'a> Text<'a> {
     }
 }
 
-/// One decoded file, or a window of it; its line ends are all `\n`.
-#[derive(Debug)]
-pub struct SourceFile {
-    /// What messages call it, usually its path.
-    pub name: String,
-    text: Rc<str>,
-    /// The position of the first byte of the text in the file, and its line, 1 for the first.
-    start: usize,
-    first_line: u32,
-    /// The positions at which the lines of the text begin.
-    line_starts: Vec<usize>,
-    /// Where the rest of the file comes from.
-    pieces: Option<Pieces>,
-}
-
-impl SourceFile {
-    fn new(name: String, text: String, pieces: Option<Pieces>) -> SourceFile {
-        let mut file = SourceFile {
-            name,
-            text: Rc::from(""),
-            start: 0,
-            first_line: 1,
-            line_starts: vec![0],
-            pieces,
-        };
-        file.show(text);
-        file
-    }
-
-    /// Makes `text`, which follows the present text in the file, the window.
-    fn show(&mut self, text: String) {
-        self.first_line = self.last_line();
-        self.start += self.text.len();
-        self.text = Rc::from(text);
-        self.line_starts.clear();
-        let ends = self.text.match_indices('\n');
-        self.line_starts.push(self.start);
-        let start = self.start;
-        self.line_starts.extend(ends.map(|(at, _)| start + at + 1));
-    }
-
-    fn last_line(&self) -> u32 {
-        let ends = self.line_starts.len().saturating_sub(1);
-        self.first_line
-            .saturating_add(u32::try_from(ends).unwrap_or(u32::MAX))
-    }
-
-    /// The text that is held.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// The text that is held, for one who changes the sources meanwhile, and where it begins.
-    pub fn shared_text(&self) -> (Rc<str>, usize) {
-        (Rc::clone(&self.text), self.start)
-    }
-
-    /// Whether only a window of the file is held.
-    pub fn is_windowed(&self) -> bool {
-        self.pieces.is_some()
-    }
-
-    /// How many line ends the file has, as far as it has been read.
-    pub fn lines(&self) -> usize {
-        (self.last_line() as usize).saturating_sub(1)
-    }
-
-    fn line_of(&self, position: usize) -> Option<u32> {
-        let ahead = self.line_starts.partition_point(|&start| start <= position);
-        let at = u32::try_from(ahead.checked_sub(1)?).ok()?;
-        (position <= self.start + self.text.len()).then(|| self.first_line.saturating_add(at))
-    }
-
-    /// The line or the lines of a span; `None` where they are not in the window.
-    fn excerpt(&self, span: Span) -> Option<Excerpt> {
-        let line = self.line_of(span.start)?;
-        let first = self
-            .line_starts
-            .partition_point(|&start| start <= span.start)
-            - 1;
-        let first = *self.line_starts.get(first)?;
-        let before = |next: &usize| *next <= span.start || *next < span.end;
-        let behind = self
-            .line_starts
-            .get(self.line_starts.partition_point(before));
-        let end = behind.map_or(self.start + self.text.len(), |next| next - 1);
-        let text = self.text.get(first - self.start..end - self.start)?;
-        Some(Excerpt {
-            name: self.name.clone(),
-            text: text.to_string(),
-            line,
-            marked: span.start - first..span.end.clamp(span.start, end) - first,
-        })
-    }
-}
-
-/// Lines of a file with a piece of them marked.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Excerpt {
-    /// What the file is called.
-    pub name: String,
-    /// The whole lines.
-    pub text: String,
-    /// The number of the first one.
-    pub line: u32,
-    /// The marked piece, byte positions in the text.
-    pub marked: Range<usize>,
-}
-
 /// All files that a program is made of; 0 is the program itself.
 #[derive(Debug, Default)]
 pub struct Sources {
@@ -189,14 +89,13 @@ pub struct Sources {
 impl Sources {
     /// Adds a decoded file and returns its index.
     pub fn add(&mut self, name: String, text: String) -> usize {
-        self.files.push(SourceFile::new(name, text, None));
+        self.files.push(SourceFile::whole(name, text));
         self.files.len() - 1
     }
 
-    /// Adds a file of which a window is held, empty at first, and returns its index.
+    /// Adds a file of which some pages are held, and returns its index.
     pub fn add_windowed(&mut self, name: String, pieces: Pieces) -> usize {
-        self.files
-            .push(SourceFile::new(name, String::new(), Some(pieces)));
+        self.files.push(SourceFile::windowed(name, pieces));
         self.files.len() - 1
     }
 
@@ -210,92 +109,77 @@ impl Sources {
         self.files.iter()
     }
 
-    /// The text that is held of a file.
-    pub fn text(&self, file: usize) -> Text<'_> {
-        let source = &self.files[file];
-        Text {
-            file,
-            text: &source.text,
-            start: source.start,
-        }
+    /// The page in which a span begins; `None` where it lies outside of its file, or that cannot be read again.
+    fn page_of(&self, span: Span) -> Option<Rc<Page>> {
+        let page = self.files.get(span.file)?.page_at(span.start);
+        page.ok().flatten()
     }
 
-    /// Moves the window of a file to the lines behind it; `false` at the end of the file.
+    /// A page with all lines of a span, as far as they can be read again.
+    fn page_with(&self, span: Span) -> Option<Rc<Page>> {
+        let page = self.page_of(span)?;
+        let end = span.end.saturating_sub(1);
+        if end < page.end() {
+            return Some(page);
+        }
+        let last = self.page_of(Span { start: end, ..span });
+        let Some(last) = last else {
+            return Some(page);
+        };
+        let lines = page.line_of(span.start)..last.line_of(end.min(last.end())) + 1;
+        self.lines(span.file, lines).ok().or(Some(page))
+    }
+
+    /// A page with all of these lines, which must be some of the file.
     ///
     /// # Errors
     ///
     /// Where the file cannot be read.
-    pub fn advance(&mut self, file: usize) -> io::Result<bool> {
-        let Some(source) = self.files.get_mut(file) else {
-            return Ok(false);
+    pub fn lines(&self, file: usize, lines: Range<usize>) -> io::Result<Rc<Page>> {
+        let nothing = || Rc::new(Page::new(String::new(), 0, lines.start));
+        let Some(source) = self.files.get(file) else {
+            return Ok(nothing());
         };
-        let next = match &mut source.pieces {
-            Some(pieces) => pieces.next_text()?,
-            None => None,
+        let Some(page) = source.page_of_line(lines.start)? else {
+            return Ok(nothing());
         };
-        let goes_on = next.is_some();
-        next.into_iter().for_each(|text| source.show(text));
-        Ok(goes_on)
-    }
-
-    /// How many bytes of a windowed file have been read.
-    pub fn bytes_read(&self, file: usize) -> u64 {
-        let pieces = self.files.get(file).and_then(|file| file.pieces.as_ref());
-        pieces.map_or(0, Pieces::bytes_read)
-    }
-
-    /// The line, 1 for the first, in which a span of the window begins.
-    pub fn line(&self, span: Span) -> u32 {
-        if let Some(line) = self.files[span.file].line_of(span.start) {
-            return line;
+        let end = |page: &Page| page.first_line() + page.lines();
+        if lines.end <= end(&page) {
+            return Ok(page);
         }
-        let again = self.excerpts(&[span]).into_iter().flatten().next();
-        again.map_or(u32::MAX, |excerpt| excerpt.line)
-    }
-
-    /// The lines of each span, wherever they are; `None` for a span outside of its file, or where the
-    /// file cannot be read again.
-    pub fn excerpts(&self, spans: &[Span]) -> Vec<Option<Excerpt>> {
-        let mut found: Vec<Option<Excerpt>> = spans
-            .iter()
-            .map(|span| self.files.get(span.file)?.excerpt(*span))
-            .collect();
-        for (index, file) in self.files.iter().enumerate() {
-            let missing = |(span, excerpt): (&Span, &Option<Excerpt>)| {
-                span.file == index && excerpt.is_none()
+        let (first, mut behind) = (page.first_line(), end(&page));
+        let mut text = page.text().to_string();
+        while behind < lines.end {
+            let Some(next) = source
+                .page_of_line(behind)?
+                .filter(|next| end(next) > behind)
+            else {
+                break;
             };
-            if spans.iter().zip(&found).any(missing) {
-                // A file that cannot be read a second time has its messages without their lines.
-                let _ = file.look_again(index, spans, &mut found);
-            }
+            text.push_str(next.text());
+            behind = end(&next);
         }
-        found
+        Ok(Rc::new(Page::new(text, page.start(), first)))
     }
-}
 
-impl SourceFile {
-    /// Finds the lines of spans that the window has left behind.
-    fn look_again(
-        &self,
-        index: usize,
-        spans: &[Span],
-        found: &mut [Option<Excerpt>],
-    ) -> io::Result<()> {
-        let Some(pieces) = &self.pieces else {
-            return Ok(());
-        };
-        let mut again = SourceFile::new(self.name.clone(), String::new(), None);
-        let mut pieces = pieces.again()?;
-        while let Some(text) = pieces.next_text()? {
-            again.show(text);
-            let end = again.start + again.text.len();
-            for (span, excerpt) in spans.iter().zip(found.iter_mut()) {
-                let here = span.file == index && (again.start..end).contains(&span.start);
-                if here && excerpt.is_none() {
-                    *excerpt = again.excerpt(*span);
-                }
-            }
-        }
-        Ok(())
+    /// The text of a span; empty where it cannot be read again.
+    pub fn slice(&self, span: Span) -> String {
+        let page = self.page_with(span);
+        page.map_or(String::new(), |page| {
+            page.slice(span.start, span.end).to_string()
+        })
+    }
+
+    /// The line, 1 for the first, in which a span begins.
+    pub fn line(&self, span: Span) -> u32 {
+        let page = self.page_of(span);
+        let line = page.map_or(usize::MAX, |page| page.line_of(span.start));
+        u32::try_from(line.saturating_add(1)).unwrap_or(u32::MAX)
+    }
+
+    /// The lines of a span; `None` where it lies outside of its file, or that cannot be read again.
+    pub fn excerpt(&self, span: Span) -> Option<Excerpt> {
+        let file = self.files.get(span.file)?;
+        self.page_with(span)?.excerpt(&file.name, span)
     }
 }

@@ -264,7 +264,7 @@ fn unusable_files_are_refused_with_file_line_and_remedy() {
     assert!(
         bench
             .refused(&["--dialect", "none", "run.csv"])
-            .contains("--dialect none")
+            .contains("'none' for '--dialect <DIALECT>'")
     );
     std::fs::remove_file(bench.path().join("bench.ini")).expect("removed");
     assert!(bench.refused(&[]).contains("bench.ini: cannot be read"));

@@ -70,12 +70,12 @@ mod tests {
     use super::*;
 
     /// motmod's side.
-    struct Status {
+    struct MotionStatus {
         command: AtomicI32,
         changes: AtomicU8,
     }
 
-    impl Status {
+    impl MotionStatus {
         fn new(command: i32) -> Self {
             Self {
                 command: command.into(),
@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn is_given_at_the_end_of_the_period() {
         for number in [7, 0, i32::MIN, i32::MAX] {
-            let (mut acknowledgement, status) = (Acknowledgement::NONE, Status::new(number));
+            let (mut acknowledgement, status) = (Acknowledgement::NONE, MotionStatus::new(number));
             acknowledgement.hold(&status.answer());
             assert_ne!(status.acknowledged(), number);
             for _ in 0..2 {
@@ -114,14 +114,14 @@ mod tests {
 
     #[test]
     fn spoils_the_copy_that_was_begun_before() {
-        let (mut acknowledgement, status) = (Acknowledgement::NONE, Status::new(7));
+        let (mut acknowledgement, status) = (Acknowledgement::NONE, MotionStatus::new(7));
         acknowledgement.hold(&status.answer());
         assert_eq!(status.changes.load(Ordering::Relaxed), 1);
     }
 
     #[test]
     fn knows_a_move_that_comes_again() {
-        let (mut acknowledgement, status) = (Acknowledgement::NONE, Status::new(7));
+        let (mut acknowledgement, status) = (Acknowledgement::NONE, MotionStatus::new(7));
         assert!(!acknowledgement.is_repeated(&status.answer()));
         acknowledgement.hold(&status.answer());
         status.take(7); // the next period, which takes the command for a new one
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn is_not_taken_back_twice_where_nobody_acknowledges() {
-        let (mut acknowledgement, status) = (Acknowledgement::NONE, Status::new(7));
+        let (mut acknowledgement, status) = (Acknowledgement::NONE, MotionStatus::new(7));
         for _ in 0..3 {
             assert!(!acknowledgement.is_repeated(&status.answer()));
             acknowledgement.hold(&status.answer());
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn of_another_command_is_left_alone() {
-        let (mut acknowledgement, status) = (Acknowledgement::NONE, Status::new(7));
+        let (mut acknowledgement, status) = (Acknowledgement::NONE, MotionStatus::new(7));
         acknowledgement.hold(&status.answer());
         status.take(8); // a command that is no move, in the same period
         acknowledgement.give(&status.answer());

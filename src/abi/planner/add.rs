@@ -5,12 +5,12 @@ use core::ffi::CStr;
 use libc::{c_char, c_double, c_int, c_uchar};
 use nalgebra::Vector3;
 
-use super::Handle;
+use super::handle::Handle;
 use crate::abi::linuxcnc::{EmcPose, PmCartesian, StateField, TP_STRUCT, state_tag_t, tp_err_t};
 use crate::abi::pose::axes_of;
 use crate::axes::AXIS_COUNT;
+use crate::moves::shape::{Circle, ShapeError};
 use crate::moves::{MotionType, STATE_TAG_SIZE, StateTag};
-use crate::path::{Circle, ShapeError};
 use crate::planner::{AddError, Added, MoveRequest};
 
 /// LinuxCNC's numbers of the codes that mean the machine itself: G28, G30, G53.
@@ -25,6 +25,11 @@ fn means_the_machine(tag: &state_tag_t) -> bool {
 impl Handle {
     /// What can be said against a move before its shape is known.
     fn objection(&self, tag: &state_tag_t) -> Option<&'static CStr> {
+        if !self.usable_map {
+            return Some(
+                c"the frame in force scales by more than ten thousand or by what is no number, so that no limits can be kept: remove it first",
+            );
+        }
         (self.framed && means_the_machine(tag)).then_some(
             c"G28, G30 and G53 mean the machine without its frame, which is in force: use o<machine_move> call, or remove the frame first",
         )
@@ -54,7 +59,7 @@ const WITHOUT_LIMITS: [&CStr; AXIS_COUNT] = {
         ($($letter:literal)*) => {
             [$(match CStr::from_bytes_with_nul(
                 concat!("a move needs axis ", $letter, ", which has no usable limits: [AXIS_", $letter,
-                        "]MAX_VELOCITY and MAX_ACCELERATION have to be positive\0").as_bytes(),
+                        "]MAX_VELOCITY has to be 1e-9 at least, MAX_ACCELERATION .001\0").as_bytes(),
             ) {
                 Ok(words) => words,
                 Err(_) => panic!("a zero within"),
@@ -80,13 +85,16 @@ fn words(error: AddError) -> &'static CStr {
         AddError::Shape(ShapeError::NotFinite) => {
             c"a move has a coordinate that is infinite or not a number"
         }
+        AddError::Shape(ShapeError::TooFar) => {
+            c"a move goes further than 1e7 units, or to a coordinate beyond 1e9: look at its coordinates and at the offsets in force"
+        }
         AddError::Shape(ShapeError::NoNormal) => {
             c"an arc has no plane: the vector perpendicular to it is zero"
         }
         AddError::Shape(ShapeError::RadiusTooSmall) => c"an arc starts or ends at its own centre",
         AddError::Shape(ShapeError::TooManyTurns) => c"an arc has more turns than can be counted",
         AddError::Feed { .. } => {
-            c"a move has no feed: F, or [TRAJ]MAX_LINEAR_VELOCITY and the [AXIS_L] limits, is zero"
+            c"a move has no feed: F, or [TRAJ]MAX_LINEAR_VELOCITY and the [AXIS_L] limits, is below 1e-9 units per second or infinite"
         }
         AddError::Spindle { .. } => c"a move is to follow a spindle that does not exist",
         AddError::PerTurn(_) => {

@@ -4,7 +4,7 @@ use core::ptr;
 
 use libc::{c_char, c_double, c_int};
 
-use super::{Handle, command};
+use super::handle::{Handle, command};
 use crate::abi::linuxcnc::{
     EMCMOT_MAX_AIO, EMCMOT_MAX_DIO, EMCMOT_MOTION_ERROR_BIT, EMCMOT_MOTION_INPOS_BIT, EmcPose,
     TP_STRUCT, cmd_code_t, emcmot_status_t, state_tag_t, tc_direction_t, tp_err_t,

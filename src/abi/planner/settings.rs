@@ -5,10 +5,10 @@ use core::ops::RangeInclusive;
 use libc::{c_double, c_int, c_uchar, c_uint};
 use nalgebra::Matrix3;
 
-use super::{Handle, command, with};
+use super::handle::{Handle, command, with};
 use crate::abi::linuxcnc::{EmcPose, TP_STRUCT, tc_direction_t, tp_err_t};
 use crate::abi::pose::axes_of;
-use crate::axes::{AXIS_COUNT, Axes};
+use crate::axes::{AXIS_COUNT, Axes, MachineMap};
 use crate::moves::TerminationCondition;
 use crate::planner::{Blending, BlendingError, DirectionError, JerkLimit};
 
@@ -97,7 +97,7 @@ pub unsafe extern "C" fn framepath_planner_set_blending(
 }
 
 /// Says whether a frame is in force, and how the axes of the program lie to those of the machine behind it: three rows
-/// of a 3x3 map of X Y Z. The map is taken while nothing is queued, since a frame changes only at standstill; otherwise, and if it is not finite, it is left as it is.
+/// of a 3x3 map of X Y Z. The map is taken while nothing is queued, since a frame changes only at standstill; otherwise it is left as it is. Behind one with an element that is not a number or greater than 1e4 no move is taken.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; `map` has nine numbers.
@@ -114,9 +114,9 @@ pub unsafe extern "C" fn framepath_planner_set_machine_map(
     };
     handle.framed = framed != 0;
     let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = *map;
-    handle
-        .planner
-        .set_machine_map(&Matrix3::new(xx, xy, xz, yx, yy, yz, zx, zy, zz));
+    let map = Matrix3::new(xx, xy, xz, yx, yy, yz, zx, zy, zz);
+    handle.usable_map = MachineMap::new(&map).is_some();
+    handle.planner.set_machine_map(&map);
 }
 
 /// Servo periods that motion can be planned for, seconds.

@@ -1,128 +1,12 @@
-//! The kinematics module as the planner asks it, for the soft limits of the joints on the way of a move.
+//! The soft limits of the joints on the way of a move.
 
 use libc::{c_double, c_int, c_uint, c_ulong};
 
-use super::{Handle, module};
-use crate::abi::linuxcnc::{EmcPose, KINEMATICS_TYPE, emcmot_config_t, emcmot_status_t};
-use crate::abi::pose::pose_of;
-use crate::axes::Axes;
+use super::handle::{Handle, module};
+use super::kinematics_module::KinematicsModule;
+use crate::abi::linuxcnc::{EmcPose, emcmot_config_t, emcmot_status_t};
 use crate::machine::JOINT_COUNT;
-use crate::planner::range::{Finding, JointRange, JointSolver, Joints};
-
-/// LinuxCNC's `kinematicsInverse`.
-type Inverse = Option<
-    unsafe extern "C" fn(*const EmcPose, *mut c_double, *const c_ulong, *mut c_ulong) -> c_int,
->;
-/// LinuxCNC's `kinematicsForward`.
-type Forward = Option<
-    unsafe extern "C" fn(*const c_double, *mut EmcPose, *const c_ulong, *mut c_ulong) -> c_int,
->;
-
-/// Positions that are asked for in a servo period.
-const CALLS_A_CYCLE: usize = 16;
-/// The same where each takes the forward kinematics too ..
-const ARMS_A_CYCLE: usize = 8;
-/// .. and where the kinematics iterate, which takes some microseconds for each. A short move needs as many.
-const ITERATIONS_A_CYCLE: usize = 4;
-
-/// What kinematics that iterate may be wrong by, machine units or degrees: genserkins ends a circle 2e-6 off.
-const CONVERGENCE: f64 = 1e-5;
-
-/// What the joints are moved by to see whether the answer depends on them.
-const NUDGE: f64 = 1e-3;
-
-/// The kinematics module.
-pub(super) struct Kinematics {
-    inverse: Inverse,
-    forward: Forward,
-    kind: c_uint,
-    /// Joints that are looked at.
-    count: usize,
-    /// Whether the forward kinematics choose the arm that the inverse kinematics take.
-    chooses_arm: bool,
-    /// Whether the inverse kinematics go on from the joints they are given.
-    iterates: bool,
-}
-
-impl Kinematics {
-    pub(super) const NONE: Self = Self {
-        inverse: None,
-        forward: None,
-        kind: KINEMATICS_TYPE::KINEMATICS_IDENTITY,
-        count: 0,
-        chooses_arm: false,
-        iterates: false,
-    };
-
-    /// The flags of the arm that the machine has with these joints, `before` where the forward kinematics leave them.
-    fn flags(&self, position: &Axes, joints: &Joints, before: c_ulong) -> c_ulong {
-        let (mut pose, forward_flags, mut flags) = (pose_of(position), 0, before);
-        if let Some(forward) = self.forward {
-            // SAFETY: the kinematics module's own function, with as many joints as it may read.
-            unsafe { forward(joints.as_ptr(), &mut pose, &forward_flags, &mut flags) };
-        }
-        flags
-    }
-
-    /// The joints for a position with this arm, from those of before.
-    fn joints(&self, position: &Axes, near: &Joints, flags: c_ulong) -> Option<Joints> {
-        let inverse = self.inverse?;
-        let (pose, mut joints, mut forward_flags) = (pose_of(position), *near, 0);
-        // SAFETY: the kinematics module's own function, with as many joints as it may write.
-        let result = unsafe { inverse(&pose, joints.as_mut_ptr(), &flags, &mut forward_flags) };
-        (result == 0).then_some(joints)
-    }
-}
-
-impl JointSolver for Kinematics {
-    fn begin(&mut self, position: &Axes, joints: &Joints) {
-        // Motion calls the forward kinematics of such a module only.
-        self.chooses_arm = self.kind == KINEMATICS_TYPE::KINEMATICS_BOTH
-            && (self.flags(position, joints, 0) != 0
-                || self.flags(position, joints, c_ulong::MAX) != c_ulong::MAX);
-        let nudged = joints.map(|joint| joint + NUDGE);
-        let answers = [joints, &nudged].map(|near| self.solve(position, near));
-        self.iterates = match answers {
-            [Some(one), Some(other)] => {
-                // Joints that are left as they are do not count.
-                let mut answers = one.iter().zip(&other).zip(joints).take(self.count);
-                answers.any(|((one, other), joint)| one != other && one != joint)
-            }
-            _ => true,
-        };
-    }
-
-    fn solve(&mut self, position: &Axes, near: &Joints) -> Option<Joints> {
-        let flags = if self.chooses_arm {
-            self.flags(position, near, 0)
-        } else {
-            0
-        };
-        self.joints(position, near, flags)
-    }
-
-    fn precision(&self) -> f64 {
-        if self.iterates {
-            CONVERGENCE
-        } else {
-            Self::ROUNDING
-        }
-    }
-
-    fn calls_a_cycle(&self) -> usize {
-        if self.iterates {
-            ITERATIONS_A_CYCLE
-        } else if self.chooses_arm {
-            ARMS_A_CYCLE
-        } else {
-            CALLS_A_CYCLE
-        }
-    }
-
-    fn keeps_lines(&self) -> bool {
-        self.kind == KINEMATICS_TYPE::KINEMATICS_IDENTITY
-    }
-}
+use crate::planner::range::{Finding, JointRange};
 
 /// The soft limits as motmod has them now.
 fn range_of(status: &emcmot_status_t, config: &emcmot_config_t) -> JointRange {
@@ -142,7 +26,7 @@ impl Handle {
     /// Looks at more of what is queued, and stops for a move that leaves the soft limits.
     pub(super) fn check_range(&mut self) {
         self.finding = None;
-        if self.kinematics.inverse.is_none() {
+        if !self.kinematics.is_known() {
             return;
         }
         // SAFETY: null, or motmod's own structures for as long as the module is loaded.
@@ -176,12 +60,7 @@ pub extern "C" fn framepath_planner_kinematics(
     kinematics_type: c_uint,
 ) {
     let handle = module();
-    handle.kinematics = Kinematics {
-        inverse,
-        forward,
-        kind: kinematics_type,
-        ..Kinematics::NONE
-    };
+    handle.kinematics = KinematicsModule::new(inverse, forward, kinematics_type);
     handle.planner.wait_for_range_check(inverse.is_some());
 }
 

@@ -1,9 +1,10 @@
 //! The look along the queued moves, one behind the other.
 
-use super::{Finding, JointRange, JointSolver, Joints, OutOfRange, Sweep, Verdict};
+use super::joints::{Finding, JointRange, JointSolver, Joints, OutOfRange};
+use super::sweep::{RangeVerdict, Sweep};
 use crate::machine::JOINT_COUNT;
 use crate::moves::MoveQueue;
-use crate::path::Shape;
+use crate::moves::shape::Shape;
 
 /// Moves that need no look inside are passed over, so many in a servo period.
 const MOVES_A_CYCLE: usize = 16;
@@ -128,12 +129,12 @@ impl RangeCheck {
             *calls -= 1;
             match sweep.step(shape, solver) {
                 None => {}
-                Some(Verdict::Stays(joints)) => {
+                Some(RangeVerdict::Stays(joints)) => {
                     (self.near, self.at_start) = (joints, true);
                     return Some(Passed::Stays);
                 }
-                Some(Verdict::Leaves(found)) => return Some(Passed::Leaves(found)),
-                Some(Verdict::Unknown) => {
+                Some(RangeVerdict::Leaves(found)) => return Some(Passed::Leaves(found)),
+                Some(RangeVerdict::Unknown) => {
                     self.at_start = false;
                     return Some(Passed::Unknown);
                 }

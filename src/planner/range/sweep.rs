@@ -13,9 +13,9 @@
 //! next all rotary axes and the arc itself turn by [`TURN`] / 4 at most. Joints of robots turn
 //! where the program does not; what a joint moves by in between is limited too.
 
-use super::{JointRange, JointSolver, Joints, OutOfRange};
+use super::joints::{JointRange, JointSolver, Joints, OutOfRange};
 use crate::machine::JOINT_COUNT;
-use crate::path::Shape;
+use crate::moves::shape::Shape;
 
 /// Places of a span, both ends included.
 const PLACES: usize = 5;
@@ -46,7 +46,7 @@ const FURTHER_CALLS: f64 = 4000.0;
 
 /// What a look along a move came to.
 #[derive(Clone, Copy, Debug)]
-pub enum Verdict {
+pub enum RangeVerdict {
     /// All joints stay within their ranges; they end here.
     Stays(Joints),
     /// A joint would leave its range.
@@ -105,7 +105,7 @@ impl Sweep {
     }
 
     /// Asks for one more place; the verdict, if that was the last one.
-    pub fn step(&mut self, shape: &Shape, solver: &mut impl JointSolver) -> Option<Verdict> {
+    pub fn step(&mut self, shape: &Shape, solver: &mut impl JointSolver) -> Option<RangeVerdict> {
         self.calls -= 1.0;
         self.precision = solver.precision();
         let share = self.begin + self.width * (self.filled as f64 / INTERVALS);
@@ -146,7 +146,7 @@ impl Sweep {
     }
 
     /// All places of the span are known.
-    fn judge(&mut self) -> Option<Verdict> {
+    fn judge(&mut self) -> Option<RangeVerdict> {
         let spent = self.calls <= 0.0;
         let bends = self.bends();
         let known = bends.iter().take(self.allowed.count);
@@ -172,8 +172,8 @@ impl Sweep {
     }
 
     /// How each joint runs through the span.
-    fn bends(&self) -> [Bend; JOINT_COUNT] {
-        let mut bends = [Bend::NONE; JOINT_COUNT];
+    fn bends(&self) -> [BentKinematics; JOINT_COUNT] {
+        let mut bends = [BentKinematics::NONE; JOINT_COUNT];
         let [first, others @ ..] = &self.places;
         for (bend, joint) in bends.iter_mut().zip(first) {
             bend.begin(*joint);
@@ -187,7 +187,7 @@ impl Sweep {
     }
 
     /// Keeps the furthest place beyond a limit, of the first joint that goes beyond one.
-    fn look_beyond(&mut self, joint: usize, bend: &Bend) {
+    fn look_beyond(&mut self, joint: usize, bend: &BentKinematics) {
         let (Some(least), Some(greatest)) = (
             self.allowed.least.get(joint),
             self.allowed.greatest.get(joint),
@@ -217,7 +217,7 @@ impl Sweep {
 
     /// Whether a joint may pass what is allowed between the places of the span; where one is beyond
     /// its limit, only how far it goes is of interest.
-    fn may_pass(&self, joint: usize, bend: &Bend) -> bool {
+    fn may_pass(&self, joint: usize, bend: &BentKinematics) -> bool {
         let least = self.allowed.least.get(joint).copied();
         let greatest = self.allowed.greatest.get(joint).copied();
         let (Some(mut least), Some(mut greatest)) = (least, greatest) else {
@@ -245,7 +245,7 @@ impl Sweep {
     }
 
     /// Behind the span. The next one is as wide as possible.
-    fn go_on(&mut self) -> Option<Verdict> {
+    fn go_on(&mut self) -> Option<RangeVerdict> {
         self.begin += self.width;
         if self.begin >= self.spans {
             return Some(self.ended());
@@ -260,12 +260,12 @@ impl Sweep {
     }
 
     /// What is known at the end.
-    fn ended(&self) -> Verdict {
+    fn ended(&self) -> RangeVerdict {
         let [.., last] = &self.places;
         match self.found {
-            Some(found) => Verdict::Leaves(found),
-            None if self.begin >= self.spans => Verdict::Stays(*last),
-            None => Verdict::Unknown,
+            Some(found) => RangeVerdict::Leaves(found),
+            None if self.begin >= self.spans => RangeVerdict::Stays(*last),
+            None => RangeVerdict::Unknown,
         }
     }
 }
@@ -282,7 +282,7 @@ fn turn(shape: &Shape) -> f64 {
 
 /// How a joint runs through a span.
 #[derive(Clone, Copy, Debug)]
-struct Bend {
+struct BentKinematics {
     least: f64,
     greatest: f64,
     /// Greatest second difference.
@@ -294,7 +294,7 @@ struct Bend {
     step: Option<f64>,
 }
 
-impl Bend {
+impl BentKinematics {
     const NONE: Self = Self {
         least: 0.0,
         greatest: 0.0,

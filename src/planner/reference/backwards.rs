@@ -1,12 +1,6 @@
 //! Back along the path: the same path, run through from where the machine is to what it remembers.
 
 use super::reference::Reference;
-use super::run::{speed_cap, vertex};
-use crate::axes::Axes;
-use crate::moves::{MotionType, MoveQueue};
-use crate::path::PathPoint;
-use crate::path::blend::{BlendedPath, LegView, VertexView};
-use crate::speed::look_ahead::{MOST_BREAKPOINTS, Route, SpeedCap, Vertex};
 
 impl Reference {
     /// Whether the machine goes back along the path.
@@ -17,10 +11,10 @@ impl Reference {
     /// From now on the machine goes back along the path, or forward again, from where it is. What
     /// was handed out behind that place is dropped: only at rest, with a path.
     pub fn turn(&mut self, backwards: bool) {
-        let s = match self.pieces.front() {
-            Some(piece) => {
-                let state = piece.state(self.elapsed, self.elapsed);
-                piece.path_distance(state.distance)
+        let s = match self.segments.front() {
+            Some(segment) => {
+                let state = segment.state(self.elapsed, self.elapsed);
+                segment.path_distance(state.distance)
             }
             None => self.rest,
         };
@@ -29,88 +23,5 @@ impl Reference {
         }
         self.backwards = backwards;
         self.rested(s);
-    }
-}
-
-/// The leg that leads to `s`, if the machine may go back over it.
-///
-/// Not over what is forgotten, nor over moves that belong to something else than the path: those
-/// that follow a spindle, that probe, and that turn an unlocked indexer.
-pub(super) fn may_go_back(path: &BlendedPath, queue: &MoveQueue, s: f64) -> Option<LegView> {
-    let leg = path.leg_before(s)?;
-    queue.get(leg.first)?;
-    // Merged moves are of one kind.
-    let last = queue.get(leg.serial)?;
-    let coupled = last.synchronisation.is_some()
-        || last.indexer_joint.is_some()
-        || last.motion_type == MotionType::Probing;
-    (!coupled).then_some(leg)
-}
-
-/// The path as the look-ahead sees it on the way back: its distance is path distance with the other
-/// sign.
-pub(super) struct Backwards<'a> {
-    pub path: &'a BlendedPath,
-    /// How far back the machine may go as far as is known, path distance.
-    pub end: f64,
-    /// Whether it comes to rest there.
-    pub complete: bool,
-}
-
-impl Route for Backwards<'_> {
-    fn point(&self, distance: f64) -> PathPoint {
-        let s = -distance;
-        let point = if s <= self.end {
-            self.path.point(s)
-        } else {
-            self.path.point_before(s)
-        };
-        point.backwards()
-    }
-
-    fn known_end(&self) -> f64 {
-        -self.end
-    }
-
-    fn is_complete(&self) -> bool {
-        self.complete
-    }
-
-    fn speed_cap(&self, distance: f64, first: &Axes) -> SpeedCap {
-        speed_cap(self.path, -distance, first)
-    }
-
-    fn vertex_after(&self, distance: f64) -> Option<Vertex> {
-        self.path.vertex_before(-distance).map(mirrored)
-    }
-
-    fn vertex_before(&self, distance: f64) -> Option<Vertex> {
-        self.path.vertex_after(-distance).map(mirrored)
-    }
-
-    fn greatest_reach(&self) -> f64 {
-        self.path.greatest_reach()
-    }
-
-    fn turning(&self, distance: f64) -> f64 {
-        self.path
-            .leg_before(-distance)
-            .map_or(0.0, |leg| leg.turning)
-    }
-
-    fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
-        let count = self.path.breakpoints(-to, -from, places);
-        for place in places {
-            *place = -*place;
-        }
-        count
-    }
-}
-
-fn mirrored(view: VertexView) -> Vertex {
-    let vertex = vertex(view);
-    Vertex {
-        position: -vertex.position,
-        ..vertex
     }
 }

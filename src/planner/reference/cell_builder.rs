@@ -1,11 +1,11 @@
-//! One servo period of the reference, put together from stretches of pieces.
+//! One servo period of the reference, put together from stretches of segments.
 
-use super::piece::{Law, Piece};
+use super::reference_segment::{ReferenceSegment, SegmentMotion};
 use crate::axes::{Axes, MachineMap};
 use crate::cycle::Cell;
 use crate::moves::MoveQueue;
-use crate::path::PathPoint;
-use crate::path::blend::BlendedPath;
+use crate::moves::shape::PathPoint;
+use crate::path::BlendedPath;
 use crate::speed::ProfileState;
 
 /// A profile has seven phases at most, so a stretch is cut at most this often.
@@ -55,12 +55,12 @@ impl CellBuilder {
         self.cell.take()
     }
 
-    /// Adds the time from `from` to `to` of a piece, as the axes of the machine see it.
-    pub fn add(&mut self, piece: &Piece, ground: &Ground, from: f64, to: f64) {
+    /// Adds the time from `from` to `to` of a segment, as the axes of the machine see it.
+    pub fn add(&mut self, segment: &ReferenceSegment, ground: &Ground, from: f64, to: f64) {
         let mut start = from;
         for _ in 0..MOST_PHASES {
-            let end = piece.next_jump(start).min(to);
-            self.add_phase(piece, ground, start, end);
+            let end = segment.next_jump(start).min(to);
+            self.add_phase(segment, ground, start, end);
             start = end;
             if start >= to {
                 break;
@@ -70,9 +70,11 @@ impl CellBuilder {
     }
 
     /// Adds a stretch without jumps of acceleration or jerk.
-    fn add_phase(&mut self, piece: &Piece, ground: &Ground, from: f64, to: f64) {
+    fn add_phase(&mut self, segment: &ReferenceSegment, ground: &Ground, from: f64, to: f64) {
         let middle = 0.5 * (from + to);
-        let at = |t, back| Derivatives::at(piece, ground.path, t, middle, back).behind(ground.map);
+        let at = |t, back| {
+            MotionDerivatives::at(segment, ground.path, t, middle, back).behind(ground.map)
+        };
         let first = at(from, 0.0);
         let second = at(middle, 0.0);
         // Where the stretch ends with a leg, the third derivative of the path may jump.
@@ -81,7 +83,7 @@ impl CellBuilder {
         let start_velocity = &mut self.start_velocity;
         let cell = self.cell.get_or_insert_with(|| {
             *start_velocity = first.along.velocity;
-            first.cell(piece, ground, &second)
+            first.cell(segment, ground, &second)
         });
         // A parabola through three values exceeds its ends by no more than the middle value
         // exceeds their mean; a smooth curve over a small angle hardly differs from it.
@@ -125,7 +127,7 @@ fn widen(
 }
 
 /// Derivatives of a reference by its time.
-struct Derivatives {
+struct MotionDerivatives {
     velocity: Axes,
     acceleration: Axes,
     jerk: Axes,
@@ -134,16 +136,16 @@ struct Derivatives {
     slope: f64,
 }
 
-impl Derivatives {
-    /// At time `t` of a piece, in the phase at `within`; the path is taken `back` before.
-    fn at(piece: &Piece, path: &BlendedPath, t: f64, within: f64, back: f64) -> Self {
-        let along = piece.state(t, within);
+impl MotionDerivatives {
+    /// At time `t` of a segment, in the phase at `within`; the path is taken `back` before.
+    fn at(segment: &ReferenceSegment, path: &BlendedPath, t: f64, within: f64, back: f64) -> Self {
+        let along = segment.state(t, within);
         let PathPoint {
             first,
             second,
             third,
             ..
-        } = piece.point(path, along.distance - back);
+        } = segment.point(path, along.distance - back);
         let (v, a, j) = (along.velocity, along.acceleration, along.jerk);
         Self {
             velocity: first * v,
@@ -165,12 +167,14 @@ impl Derivatives {
     }
 
     /// A cell that starts here; `inside` lies in its first stretch.
-    fn cell(&self, piece: &Piece, ground: &Ground, inside: &Self) -> Cell {
+    fn cell(&self, segment: &ReferenceSegment, ground: &Ground, inside: &Self) -> Cell {
         // In the first stretch, since at its start the move before may end.
-        let leg = ground.path.leg(piece.path_distance(inside.along.distance));
+        let leg = ground
+            .path
+            .leg(segment.path_distance(inside.along.distance));
         let rate = leg.map_or(1.0, |leg| leg.measure_rate);
-        let serial = match &piece.law {
-            Law::Move(law) => Some(law.serial),
+        let serial = match &segment.motion {
+            SegmentMotion::Move(motion) => Some(motion.serial),
             _ => leg.map(|leg| leg.serial),
         };
         let queued = serial.and_then(|serial| ground.queue.get(serial));
@@ -201,11 +205,11 @@ mod tests {
     use nalgebra::Vector3;
     use proptest::prelude::*;
 
-    use super::super::piece::MoveLaw;
+    use super::super::reference_segment::ProfiledMotion;
     use super::*;
     use crate::moves::TerminationCondition;
-    use crate::path::blend::{BlendSettings, ProgrammedMove};
-    use crate::path::{Arc9, Circle, Shape};
+    use crate::moves::shape::{Arc9, Circle, Shape};
+    use crate::path::{BlendSettings, ProgrammedMove};
     use crate::speed::{JerkLimitedProfile, PathLimits};
 
     /// The path of a circle from rest to rest, on the heap since it is larger than a stack.
@@ -262,17 +266,17 @@ mod tests {
                 let profile = JerkLimitedProfile::rest_to_rest(shape.length(), &limits);
                 let duration = profile.duration();
                 let end = path.final_end();
-                let law = MoveLaw { serial: 0, start: 0.0, end, rate: end / shape.length(), profile, cap: feed };
-                let piece = Piece { law: Law::Move(law), duration };
+                let motion = ProfiledMotion { serial: 0, start: 0.0, end, rate: end / shape.length(), profile, cap: feed };
+                let segment = ReferenceSegment { motion: SegmentMotion::Move(motion), duration };
                 let begin = from * duration;
                 let finish = (begin + 1e-3 * share.max(0.01)).min(duration);
                 let mut builder = CellBuilder::new();
                 let queue = MoveQueue::new();
-                builder.add(&piece, &Ground { path, queue: &queue, map: &MachineMap::IDENTITY }, begin, finish);
+                builder.add(&segment, &Ground { path, queue: &queue, map: &MachineMap::IDENTITY }, begin, finish);
                 prop_assert!((builder.filled() - (finish - begin)).abs() < 1e-15);
                 let cell = builder.take().expect("a cell");
                 let t = begin + inside * (finish - begin);
-                let here = Derivatives::at(&piece, path, t, t, 0.0);
+                let here = MotionDerivatives::at(&segment, path, t, t, 0.0);
                 for axis in 0..9 {
                     // A parabola stands for the curve: a thousandth of the limits is left to it.
                     let (a, j) = (here.acceleration[axis], here.jerk[axis]);

@@ -1,25 +1,19 @@
 //! Where nothing more can be handed out although the machine moves: on along the path at the speed it has,
 //! for as long as it takes to come to rest.
 
-use super::outlook::Outlook;
-use super::piece::{Law, Piece};
-use super::reference::Reference;
-use crate::axes::{AXIS_COUNT, Axes};
-use crate::path::PathPoint;
-use crate::path::blend::BlendedPath;
+use crate::axes::Axes;
+use crate::moves::shape::PathPoint;
+use crate::path::BlendedPath;
 use crate::speed::ProfileState;
-
-/// The share of the jerk that an acceleration is released with: the rest is left for braking.
-const RELEASE_SHARE: f64 = 0.5;
 
 /// On along the path at a speed that stays as it is once the acceleration has been released.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coast {
-    start: ProfileState,
+    pub start: ProfileState,
     /// Seconds until the acceleration is 0.
-    release: f64,
+    pub release: f64,
     /// Where the path may still change or ends: from there on straight ahead.
-    end: f64,
+    pub end: f64,
     pub backwards: bool,
 }
 
@@ -86,67 +80,13 @@ impl Coast {
     }
 }
 
-impl Reference {
-    /// Whether it goes on along the path without an end.
-    pub fn is_coasting(&self) -> bool {
-        let last = self.pieces.back();
-        last.is_some_and(|last| matches!(last.law, Law::Coast(_)))
-    }
-
-    /// Goes on along the path from what was handed out last, without an end: the machine has to be held.
-    /// `false` if nothing was handed out, or it does so already.
-    pub fn coast(&mut self, outlook: &Outlook) -> bool {
-        if self.is_coasting() {
-            return false;
-        }
-        let Some(last) = self.pieces.back_mut() else {
-            return false;
-        };
-        let start = last.state(self.frontier, self.frontier);
-        let first = outlook
-            .map
-            .apply(&last.point(&self.path, start.distance).first);
-        let jerk = outlook.axis_limits().jerk;
-        // Seconds for a unit of acceleration with all of the jerk; braking ends at rest, and no later.
-        let seconds = (0..AXIS_COUNT)
-            .map(|axis| first[axis].abs() / jerk[axis])
-            .fold(0.0, f64::max);
-        let share = if start.acceleration > 0.0 {
-            RELEASE_SHARE
-        } else {
-            1.0
-        };
-        let backwards = matches!(last.law, Law::Return(_) | Law::CreepBack(_));
-        let end = if backwards {
-            -self.current().end()
-        } else {
-            self.path.final_end()
-        };
-        let coast = Coast {
-            start,
-            release: (seconds * start.acceleration.abs() / share).max(outlook.now.period),
-            end: end.max(start.distance),
-            backwards,
-        };
-        if let Some(last) = self.pieces.back_mut() {
-            last.duration = self.frontier;
-        }
-        self.pieces.push_last(Piece {
-            law: Law::Coast(coast),
-            duration: f64::INFINITY,
-        });
-        self.frontier = 0.0;
-        true
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
 
     use crate::axes::{Axes, AxisLimits};
+    use crate::moves::shape::Circle;
     use crate::moves::{MotionType, StateTag, TerminationCondition};
-    use crate::path::Circle;
     use crate::planner::reference::Reference;
     use crate::planner::status::Fault;
     use crate::planner::{CycleInputs, MoveRequest, Planner};

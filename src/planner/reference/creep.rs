@@ -5,8 +5,7 @@
 //! axes together.
 
 use super::outlook::Outlook;
-use super::piece::{Law, MoveLaw, Piece};
-use super::reference::Reference;
+use super::reference_segment::ProfiledMotion;
 use crate::axes::Axes;
 use crate::speed::look_ahead::Route;
 use crate::speed::{JerkLimitedProfile, PathLimits};
@@ -26,29 +25,9 @@ const NEIGHBOURS: usize = 16;
 /// Changes of shape nearer than this are no end of a stretch, share of the path distance.
 const NEAREST: f64 = 1e-9;
 
-impl Reference {
-    /// Plans to creep where no plan was found for what comes next. `false` if one was, or is still sought.
-    pub(super) fn creep(&mut self, outlook: &Outlook) -> bool {
-        let Some(law) = self.current().creep(&self.path, outlook) else {
-            return false;
-        };
-        let duration = law.profile.duration();
-        let (end, law) = if self.backwards {
-            (-law.end, Law::CreepBack(law))
-        } else {
-            (law.end, Law::Creep(law))
-        };
-        self.pieces.push(Piece { law, duration });
-        // From there on another plan is sought.
-        self.current_mut().clear();
-        self.rest = end;
-        true
-    }
-}
-
 /// The profile of a stretch of the route from `start` on; `None` if nothing of it is known for good, or
 /// the path is not a number.
-pub(super) fn law<R: Route>(route: &R, start: f64, outlook: &Outlook) -> Option<MoveLaw> {
+pub(super) fn motion<R: Route>(route: &R, start: f64, outlook: &Outlook) -> Option<ProfiledMotion> {
     let end = stretch_end(route, start);
     let length = end - start;
     if length.is_nan() || length <= 0.0 {
@@ -57,7 +36,7 @@ pub(super) fn law<R: Route>(route: &R, start: f64, outlook: &Outlook) -> Option<
     let limits = path_limits(route, start, end, outlook);
     let profile = JerkLimitedProfile::rest_to_rest(length, &limits);
     let sound = profile.duration() > 0.0 && profile.duration().is_finite();
-    sound.then_some(MoveLaw {
+    sound.then_some(ProfiledMotion {
         serial: 0,
         start,
         end,

@@ -1,9 +1,9 @@
-//! What is handed out: servo periods, made of the pieces of the plan.
+//! What is handed out: servo periods, made of the segments of the plan.
 
 use super::cell_builder::Ground;
 use super::outlook::Outlook;
-use super::piece::{Law, Piece};
 use super::reference::{Ahead, Reference};
+use super::reference_segment::{ReferenceSegment, SegmentMotion};
 
 /// The servo periods that the executor is given where the plan is about to be continued: what it
 /// asks for while it runs the reference as it is, and a little more.
@@ -17,19 +17,19 @@ impl Reference {
         loop {
             self.raise(outlook);
             let left = outlook.now.period - self.cell.filled();
-            match self.pieces.back() {
-                Some(piece) if self.frontier < piece.duration => {
+            match self.segments.back() {
+                Some(segment) if self.frontier < segment.duration => {
                     if self.cell.filled() == 0.0 {
-                        self.cell_start = (self.pieces.last(), self.frontier);
+                        self.cell_start = (self.segments.last(), self.frontier);
                     }
-                    let to = piece.duration.min(self.frontier + left);
-                    let completes = self.frontier + left <= piece.duration;
+                    let to = segment.duration.min(self.frontier + left);
+                    let completes = self.frontier + left <= segment.duration;
                     let ground = Ground {
                         path: &self.path,
                         queue: outlook.queue,
                         map: outlook.map,
                     };
-                    self.cell.add(piece, &ground, self.frontier, to);
+                    self.cell.add(segment, &ground, self.frontier, to);
                     self.frontier = to;
                     if completes && let Some(cell) = self.cell.take() {
                         #[cfg(test)]
@@ -45,7 +45,7 @@ impl Reference {
                     if self.waits_for_continuation(outlook, needed) {
                         return Ahead::Later;
                     }
-                    if *budget == 0 || self.pieces.is_full() || !self.next_piece(outlook) {
+                    if *budget == 0 || self.segments.is_full() || !self.next_piece(outlook) {
                         return if self.is_at_end() {
                             self.end_here()
                         } else {
@@ -61,17 +61,17 @@ impl Reference {
 
     /// Takes back the servo period that was handed out last: what lies before it stays.
     pub fn take_back(&mut self) {
-        let (piece, from) = self.cell_start;
+        let (segment, from) = self.cell_start;
         if from > 0.0 {
-            self.pieces.truncate(piece);
+            self.segments.truncate(segment);
             self.frontier = from;
         } else {
-            // The piece that it begins with may be what is wrong.
-            self.pieces.truncate(piece.wrapping_sub(1));
-            self.frontier = self.pieces.back().map_or(0.0, |last| last.duration);
+            // The segment that it begins with may be what is wrong.
+            self.segments.truncate(segment.wrapping_sub(1));
+            self.frontier = self.segments.back().map_or(0.0, |last| last.duration);
         }
         self.cell.clear();
-        self.resting = self.pieces.front().is_none();
+        self.resting = self.segments.front().is_none();
     }
 
     /// A cell that the executor refuses, unless the machine already coasts.
@@ -94,7 +94,7 @@ impl Reference {
         let periods = PERIODS_AHEAD.max(needed as f64);
         !self.resting
             && self
-                .pieces
+                .segments
                 .lasts(self.elapsed + periods * outlook.now.period)
             && self.current().brakes_for_now(&self.path)
     }
@@ -107,7 +107,7 @@ impl Reference {
             && self.rest >= self.path.programmed_end()
     }
 
-    /// Takes the next piece of the plan. `false` if there is none yet.
+    /// Takes the next segment of the plan. `false` if there is none yet.
     pub(super) fn next_piece(&mut self, outlook: &Outlook) -> bool {
         if !self.resting {
             if self.push_frozen() {
@@ -119,7 +119,7 @@ impl Reference {
         }
         // The motion ends with this rest.
         let ends = outlook.now.stepping || outlook.now.limits_changed;
-        if ends && self.pieces.front().is_some() {
+        if ends && self.segments.front().is_some() {
             return false;
         }
         if self.next_move(outlook) {
@@ -139,19 +139,19 @@ impl Reference {
         false
     }
 
-    /// Freezes the next piece of the current run. `false` at its end.
+    /// Freezes the next segment of the current run. `false` at its end.
     pub(super) fn push_frozen(&mut self) -> bool {
-        let Some(piece) = self.current_mut().freeze() else {
+        let Some(segment) = self.current_mut().freeze() else {
             return false;
         };
-        let law = if self.backwards {
-            Law::Return(piece)
+        let motion = if self.backwards {
+            SegmentMotion::Return(segment)
         } else {
-            Law::Run(piece)
+            SegmentMotion::Run(segment)
         };
-        self.pieces.push(Piece {
-            law,
-            duration: piece.duration,
+        self.segments.push(ReferenceSegment {
+            motion,
+            duration: segment.duration,
         });
         true
     }

@@ -1,7 +1,7 @@
 //! The reference: a trajectory through the queued moves, in a time of its own that starts at 0.
 //!
 //! ```text
-//! queue -> supply -> blended path -> run (look-ahead, or a single move) -> pieces -> cells
+//! queue -> feeder -> blended path -> run (look-ahead, or a single move) -> segments -> cells
 //! ```
 //!
 //! What is always true of it: it keeps the limits of the axes; what it has handed out as cells
@@ -13,15 +13,18 @@ mod cell_builder;
 mod coast;
 mod creep;
 mod handing_out;
+mod last_resort;
+mod move_feeder;
 mod outlook;
-mod piece;
+mod path_route;
 mod progress;
 #[allow(clippy::module_inception, reason = "the type that the folder is about")]
 mod reference;
-mod run;
+mod reference_segment;
+mod rest_to_rest;
+mod return_route;
 mod runs;
 mod single_move;
-mod supply;
 
 pub use outlook::{Conditions, Outlook};
 pub use reference::{Ahead, Reference, ReferencePoint, Rest};

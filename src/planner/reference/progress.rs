@@ -11,17 +11,17 @@ impl Reference {
     /// `None` if nothing was handed out.
     pub fn advance(&mut self, queue: &MoveQueue, duration: f64) -> Option<ReferencePoint> {
         self.elapsed += duration;
-        while let Some(front) = self.pieces.front()
-            && self.pieces.len() > 1
+        while let Some(front) = self.segments.front()
+            && self.segments.len() > 1
             && self.elapsed >= front.duration
         {
             self.elapsed -= front.duration;
-            self.pieces.pop();
+            self.segments.pop();
         }
-        let piece = self.pieces.front()?;
-        let state = piece.state(self.elapsed, self.elapsed);
-        let point = piece.point(&self.path, state.distance);
-        let s = piece.path_distance(state.distance);
+        let segment = self.segments.front()?;
+        let state = segment.state(self.elapsed, self.elapsed);
+        let point = segment.point(&self.path, state.distance);
+        let s = segment.path_distance(state.distance);
         self.path.discard_before(s);
         let leg = self.path.leg(s)?;
         let velocity = leg.measure_rate * self.path.distance(&point.first) * state.velocity;
@@ -78,12 +78,12 @@ impl Reference {
                 // Of merged moves the one at the rest, not the last one.
                 next: self
                     .running(queue, s)
-                    .map_or(self.supply.next(), |(serial, _)| serial),
+                    .map_or(self.feeder.next(), |(serial, _)| serial),
                 position: before.position,
             },
         };
         self.rested(s);
-        if rest.next >= self.supply.next() && !self.backwards {
+        if rest.next >= self.feeder.next() && !self.backwards {
             self.active = false;
         }
         rest

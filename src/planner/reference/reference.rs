@@ -1,12 +1,12 @@
 //! The trajectory through the queued moves.
 
 use super::cell_builder::CellBuilder;
-use super::piece::Pieces;
-use super::run::Run;
-use super::supply::Supply;
+use super::move_feeder::MoveFeeder;
+use super::reference_segment::ReferenceSegments;
+use super::rest_to_rest::RestToRest;
 use crate::axes::Axes;
 use crate::cycle::Cell;
-use crate::path::blend::{BlendSettings, BlendedPath};
+use crate::path::{BlendSettings, BlendedPath};
 
 /// What a reference has to offer when the executor asks for more of it.
 #[derive(Clone, Copy, Debug)]
@@ -53,9 +53,9 @@ pub struct Rest {
 #[derive(Debug)]
 pub struct Reference {
     pub(super) path: BlendedPath,
-    pub(super) supply: Supply,
+    pub(super) feeder: MoveFeeder,
     /// The run that is handed out or comes next, and the one behind it.
-    pub(super) runs: [Run; 2],
+    pub(super) runs: [RestToRest; 2],
     /// Whether the second of [`Self::runs`] is the current one.
     pub(super) swapped: bool,
     /// Whether the other run is worked on in this period.
@@ -69,13 +69,13 @@ pub struct Reference {
     /// Path distance.
     pub(super) rest: f64,
     /// From where the machine is to what was handed out last.
-    pub(super) pieces: Pieces,
-    /// Seconds that the machine has gone into the first piece.
+    pub(super) segments: ReferenceSegments,
+    /// Seconds that the machine has gone into the first segment.
     pub(super) elapsed: f64,
-    /// Seconds of the last piece that have been handed out.
+    /// Seconds of the last segment that have been handed out.
     pub(super) frontier: f64,
     pub(super) cell: CellBuilder,
-    /// Where the servo period began that was handed out last: the number of its first piece, and how many
+    /// Where the servo period began that was handed out last: the number of its first segment, and how many
     /// seconds of it had been handed out before.
     pub(super) cell_start: (u32, f64),
     /// Hands out nothing more.
@@ -91,15 +91,15 @@ impl Reference {
     pub const fn new() -> Self {
         Self {
             path: BlendedPath::new(),
-            supply: Supply::new(),
-            runs: [Run::new(), Run::new()],
+            feeder: MoveFeeder::new(),
+            runs: [RestToRest::new(), RestToRest::new()],
             swapped: false,
             turn: false,
             backwards: false,
             active: false,
             resting: true,
             rest: 0.0,
-            pieces: Pieces::new(),
+            segments: ReferenceSegments::new(),
             elapsed: 0.0,
             frontier: 0.0,
             cell: CellBuilder::new(),
@@ -122,7 +122,7 @@ impl Reference {
     /// `first`. `single`: comes to rest at the end of this move.
     pub fn restart(&mut self, first: u64, single: bool, position: &Axes, settings: &BlendSettings) {
         self.path.restart(settings, position);
-        self.supply.restart(first, single);
+        self.feeder.restart(first, single);
         for run in &mut self.runs {
             run.clear();
         }
@@ -134,7 +134,7 @@ impl Reference {
 
     /// The machine is at rest at path distance `s`; what was handed out is behind it.
     pub(super) fn rested(&mut self, s: f64) {
-        self.pieces.clear();
+        self.segments.clear();
         self.cell.clear();
         self.elapsed = 0.0;
         self.frontier = 0.0;
@@ -149,17 +149,17 @@ impl Reference {
 
     /// Whether the reference ends with its first move.
     pub fn is_single(&self) -> bool {
-        self.supply.is_single()
+        self.feeder.is_single()
     }
 
     /// Serial number of the first move that the reference has not taken.
     pub fn end(&self) -> u64 {
-        self.supply.next()
+        self.feeder.next()
     }
 
     /// Whether the machine may start. Only asked at rest.
     pub fn is_ready(&self) -> bool {
-        let begun = |run: &Run| {
+        let begun = |run: &RestToRest| {
             run.starts_at(self.rest) && (run.may_start(&self.path) || run.may_creep(&self.path))
         };
         self.active && (self.stands_alone(self.rest) || self.runs.iter().any(begun))
@@ -167,7 +167,7 @@ impl Reference {
 
     /// Whether there is no plan for what comes next, not even to creep: the path is not a number.
     pub fn is_refused(&self) -> bool {
-        self.active && self.runs.iter().any(Run::is_unsound)
+        self.active && self.runs.iter().any(RestToRest::is_unsound)
     }
 
     /// Refuses all plans that there are, as if none had been found.

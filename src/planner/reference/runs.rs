@@ -1,10 +1,10 @@
 //! The work of a servo period: the path, and the runs along it.
 
-use super::backwards::may_go_back;
 use super::outlook::Outlook;
 use super::reference::Reference;
-use super::run::Run;
-use crate::path::blend::BlendError;
+use super::rest_to_rest::RestToRest;
+use super::return_route::may_go_back;
+use crate::path::BlendError;
 
 /// Work on the path in [`BUDGET_PERIOD`], kernel terms of 5 ns or so.
 const PATH_BUDGET: f64 = 1600.0;
@@ -42,7 +42,7 @@ impl Reference {
         if !self.active {
             return Ok(());
         }
-        self.supply.feed(&mut self.path, outlook)?;
+        self.feeder.feed(&mut self.path, outlook)?;
         if !self.backwards {
             self.end_path();
         }
@@ -75,7 +75,7 @@ impl Reference {
     pub(super) fn end_path(&mut self) {
         // A line may still wait to be merged with the next one, behind what is known to end at rest.
         let last = self.path.leg_ending_at(self.path.programmed_end());
-        let complete = last.is_some_and(|(serial, _)| serial + 1 >= self.supply.next());
+        let complete = last.is_some_and(|(serial, _)| serial + 1 >= self.feeder.next());
         if self.path.rests_at_end() && complete {
             return;
         }
@@ -85,10 +85,10 @@ impl Reference {
             self.current()
         };
         let last_moment =
-            self.supply.is_late(LAST_MOMENT) && last.is_ready() && last.brakes_within(LAST_MOMENT);
-        if self.supply.is_barred() || last_moment {
+            self.feeder.is_late(LAST_MOMENT) && last.is_ready() && last.brakes_within(LAST_MOMENT);
+        if self.feeder.is_barred() || last_moment {
             self.path.finish();
-        } else if self.supply.is_silent() {
+        } else if self.feeder.is_silent() {
             if last.brakes_within(LAST_CALL) {
                 self.path.finish();
             } else {
@@ -124,23 +124,23 @@ impl Reference {
         due.begin(s, self.backwards, outlook);
     }
 
-    pub(super) fn current(&self) -> &Run {
+    pub(super) fn current(&self) -> &RestToRest {
         let [first, second] = &self.runs;
         if self.swapped { second } else { first }
     }
 
-    pub(super) fn current_mut(&mut self) -> &mut Run {
+    pub(super) fn current_mut(&mut self) -> &mut RestToRest {
         both(&mut self.runs, self.swapped).0
     }
 
-    pub(super) fn other(&self) -> &Run {
+    pub(super) fn other(&self) -> &RestToRest {
         let [first, second] = &self.runs;
         if self.swapped { first } else { second }
     }
 }
 
 /// The current run, and the other one.
-fn both(runs: &mut [Run; 2], swapped: bool) -> (&mut Run, &mut Run) {
+fn both(runs: &mut [RestToRest; 2], swapped: bool) -> (&mut RestToRest, &mut RestToRest) {
     let [first, second] = runs;
     if swapped {
         (second, first)

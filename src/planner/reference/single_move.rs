@@ -1,8 +1,8 @@
 //! A move that stands alone between two rests, run by one profile.
 
 use super::outlook::Outlook;
-use super::piece::{Law, MoveLaw, Piece};
 use super::reference::Reference;
+use super::reference_segment::{ProfiledMotion, ReferenceSegment, SegmentMotion};
 use crate::speed::{JerkLimitedProfile, PathLimits};
 
 /// A cap on the velocity has to rise by more than this factor before a move is planned anew.
@@ -32,8 +32,8 @@ impl Reference {
         if !(profile.duration() > 0.0 && profile.duration().is_finite()) {
             return false;
         }
-        self.pieces.push(Piece {
-            law: Law::Move(MoveLaw {
+        self.segments.push(ReferenceSegment {
+            motion: SegmentMotion::Move(ProfiledMotion {
                 serial: leg.serial,
                 start: leg.start,
                 end: leg.end,
@@ -57,41 +57,43 @@ impl Reference {
     /// steady there.
     pub(super) fn raise(&mut self, outlook: &Outlook) {
         let frontier = self.frontier;
-        if self.pieces.is_full() {
+        if self.segments.is_full() {
             return;
         }
-        let Some(piece) = self.pieces.back_mut() else {
+        let Some(segment) = self.segments.back_mut() else {
             return;
         };
-        let Law::Move(law) = &mut piece.law else {
+        let SegmentMotion::Move(motion) = &mut segment.motion else {
             return;
         };
-        let Some(queued) = outlook.queue.get(law.serial) else {
+        let Some(queued) = outlook.queue.get(motion.serial) else {
             return;
         };
         // Of merged lines, what the machine runs along and no single one of them.
-        let Some(shape) = self.path.shape(law.start) else {
+        let Some(shape) = self.path.shape(motion.start) else {
             return;
         };
         let cap = outlook.velocity_cap(queued);
-        if cap <= law.cap * NOTICEABLE_RAISE || law.profile.steady_time_left(frontier).is_none() {
+        if cap <= motion.cap * NOTICEABLE_RAISE
+            || motion.profile.steady_time_left(frontier).is_none()
+        {
             return;
         }
         // Asked once for each cap, whatever the answer.
-        law.cap = cap;
-        let state = law.profile.state(frontier, frontier);
-        let start = law.start + law.rate * state.distance;
+        motion.cap = cap;
+        let state = motion.profile.state(frontier, frontier);
+        let start = motion.start + motion.rate * state.distance;
         let limits = PathLimits::of(&shape, outlook.map, &outlook.axis_limits(), cap);
-        let left = (law.end - start) / law.rate;
+        let left = (motion.end - start) / motion.rate;
         if let Some(profile) = JerkLimitedProfile::raised(left, state.velocity, &limits) {
-            let law = MoveLaw {
+            let motion = ProfiledMotion {
                 start,
                 profile,
-                ..*law
+                ..*motion
             };
-            piece.duration = frontier;
-            self.pieces.push(Piece {
-                law: Law::Move(law),
+            segment.duration = frontier;
+            self.segments.push(ReferenceSegment {
+                motion: SegmentMotion::Move(motion),
                 duration: profile.duration(),
             });
             self.frontier = 0.0;

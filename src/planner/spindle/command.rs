@@ -2,20 +2,13 @@
 
 use super::super::planner::Planner;
 use super::super::request::{AddError, Added, MoveRequest};
+use super::spindle_command::SpindleCommand;
 use super::tap::way_down;
 use crate::axes::Axes;
 use crate::moves::{SPINDLE_COUNT, Synchronisation, SynchronisationMode};
 
 /// What feed per turn is planned for, over what the spindle is expected to do.
 const RESERVE: f64 = 2.2;
-
-/// What tells the moves to come to follow a spindle, as it was given.
-#[derive(Clone, Copy, Debug)]
-pub struct SpindleCommand {
-    spindle: i32,
-    per_turn: f64,
-    speed_only: bool,
-}
 
 impl Planner {
     /// Which spindle the moves to come follow: by `per_turn` units a turn of it, its speed only

@@ -2,11 +2,12 @@
 
 use super::super::inputs::CycleInputs;
 use super::super::planner::Planner;
+use super::error::SpindleError;
 use super::lead_in::LeadIn;
-use super::thread::{SpindleError, Stage, Thread};
+use super::thread::{Stage, Thread};
 use crate::cycle::Follow;
+use crate::moves::shape::Line9;
 use crate::moves::{Move, Synchronisation, SynchronisationMode};
-use crate::path::Line9;
 use crate::speed::PathLimits;
 
 /// A spindle slower than this part of its speed at the start of the thread stands.

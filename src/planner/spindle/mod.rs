@@ -5,13 +5,16 @@
 //! no faster than the spindle turns, with what is missing in position made up for.
 
 mod command;
+mod error;
 mod following;
 mod lead_in;
+mod spindle_command;
 mod tap;
+mod tapping;
 mod thread;
 mod tracker;
 
-pub(super) use command::SpindleCommand;
-pub use thread::SpindleError;
+pub use error::SpindleError;
+pub(super) use spindle_command::SpindleCommand;
 pub(super) use thread::Thread;
 pub(super) use tracker::Tracker;

@@ -1,4 +1,4 @@
-//! What the polish minimises in one interval: its duration, and a barrier at its limits.
+//! What the refinement minimises in one interval: its duration, and a barrier at its limits.
 //!
 //! The duration is Simpson's rule for the integral of ds / sqrt(b). The barrier is the logarithm
 //! of what is left of the cap, of the acceleration and of the jerk of each axis at start, middle
@@ -9,11 +9,12 @@
 use super::interval::Parabola;
 use super::interval_samples::{Departure, IntervalSamples};
 use super::quads::{LANES, QUADS, Quad};
-use super::rows::{AxisRows, Sample, THIRD};
+use super::rows::{AxisRows, THIRD};
+use super::sample::Sample;
 
 /// Derivatives by the three coefficients that an interval depends on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Derivatives {
+pub(super) struct BarrierDerivatives {
     /// Gradient, shape (3).
     pub gradient: [f64; 3],
     /// Second derivatives, positive semidefinite, upper triangle by rows: 00 01 02 11 12 22.
@@ -53,7 +54,7 @@ impl Barrier {
         parabola: &Parabola,
         interval: &IntervalSamples,
         lengths: [f64; 3],
-    ) -> Derivatives {
+    ) -> BarrierDerivatives {
         let h = parabola.length;
         let (b_middle, _) = parabola.at(0.5 * h);
         let weight = self.weight * h / b_middle.sqrt();
@@ -62,7 +63,7 @@ impl Barrier {
         for ((share, part, simpson), sample) in places.into_iter().zip(interval.places()) {
             let x = share * h;
             let (b, a) = parabola.at(x);
-            let place = Place {
+            let place = BarrierPlace {
                 b,
                 a,
                 u: parabola.u,
@@ -88,12 +89,12 @@ impl Barrier {
         &self,
         sum: &mut Local,
         rows: &AxisRows,
-        place: &Place,
+        place: &BarrierPlace,
         sample: &Sample,
         departure: &Departure,
         weight: f64,
     ) {
-        let Place {
+        let BarrierPlace {
             b, a, u, inverse, ..
         } = *place;
         let left = sample.cap.raised(self.raise_squared) - b;
@@ -109,7 +110,7 @@ impl Barrier {
         let bound_slope = -0.5 * whole * inverse - third;
         // The departure takes so little of the acceleration that how it changes with b does not matter.
         let margin = self.margin - f64::from(departure.second) * b;
-        let mut limits = Limits::default();
+        let mut limits = BarrierLimits::default();
         let mut lanes = 0;
         for quad in (0..QUADS).filter(|quad| sample.axes.in_quad(*quad)) {
             lanes += LANES;
@@ -138,7 +139,7 @@ impl Barrier {
 
 /// What the limits of the axes add, by lanes, for a weight of 1.
 #[derive(Default)]
-struct Limits {
+struct BarrierLimits {
     b: Quad,
     a: Quad,
     u: Quad,
@@ -154,7 +155,7 @@ struct Limits {
     even: Quad,
 }
 
-impl Limits {
+impl BarrierLimits {
     /// Adds four axes: their rows by u, a and b, and the times J / A.
     ///
     /// `1 / (bound - y) - 1 / (bound + y)` is called slope, the sum of both jumps, that of their
@@ -201,7 +202,7 @@ fn total([first, second, third, fourth]: Quad) -> f64 {
 }
 
 /// b, a and u somewhere in an interval.
-struct Place {
+struct BarrierPlace {
     b: f64,
     a: f64,
     u: f64,
@@ -211,7 +212,7 @@ struct Place {
     root: f64,
 }
 
-impl Place {
+impl BarrierPlace {
     /// `weight / sqrt(b)`.
     fn duration(&self, weight: f64) -> Local {
         let cubed = weight * self.root * self.inverse * self.inverse;
@@ -247,7 +248,7 @@ impl Local {
     }
 
     /// The same by the coefficients before, in and behind the interval.
-    fn by_coefficients(&self, lengths: [f64; 3]) -> Derivatives {
+    fn by_coefficients(&self, lengths: [f64; 3]) -> BarrierDerivatives {
         let [before, here, after] = lengths;
         let left = 1.0 / (before + here);
         let right = 1.0 / (here + after);
@@ -269,7 +270,7 @@ impl Local {
         let product = |[b, a, u]: [f64; 3], [x, y, z]: [f64; 3]| b * x + a * y + u * z;
         let [unit_0, unit_1, unit_2] = units;
         let [image_0, image_1, image_2] = images;
-        Derivatives {
+        BarrierDerivatives {
             gradient,
             hessian: [
                 product(unit_0, image_0),
@@ -287,13 +288,13 @@ impl Local {
 mod tests {
     use super::*;
     use crate::axes::{Axes, AxisLimits, MachineMap};
-    use crate::path::PathPoint;
-    use crate::speed::look_ahead::{MOST_BREAKPOINTS, Route, SpeedCap, Vertex};
+    use crate::moves::shape::PathPoint;
+    use crate::speed::look_ahead::{MOST_BREAKPOINTS, Route, RouteVertex, SpeedCap};
 
     /// A curve whose derivatives are all different from 0.
-    struct Bend;
+    struct BentRoute;
 
-    impl Route for Bend {
+    impl Route for BentRoute {
         fn point(&self, s: f64) -> PathPoint {
             let along = |x: f64, y: f64| Axes::from([x, y, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
             PathPoint {
@@ -315,10 +316,10 @@ mod tests {
                 greatest: 60.0,
             }
         }
-        fn vertex_after(&self, _: f64) -> Option<Vertex> {
+        fn vertex_after(&self, _: f64) -> Option<RouteVertex> {
             None
         }
-        fn vertex_before(&self, _: f64) -> Option<Vertex> {
+        fn vertex_before(&self, _: f64) -> Option<RouteVertex> {
             None
         }
         fn greatest_reach(&self) -> f64 {
@@ -361,7 +362,7 @@ mod tests {
             jerk: Axes::repeat(20_000.0),
         };
         let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
-        let [start, middle, end] = [0.0, 0.2, 0.4].map(|s| rows.sample(&Bend, s, 0.0));
+        let [start, middle, end] = [0.0, 0.2, 0.4].map(|s| rows.sample(&BentRoute, s, 0.0));
         let departure = Departure {
             second: 0.0,
             third: 2e-6,

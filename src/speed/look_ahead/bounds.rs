@@ -4,7 +4,8 @@
 //! of J in advance, so that speed, acceleration and jerk along the path are limited one by one.
 
 use super::interval_samples::IntervalSamples;
-use super::rows::{AxisRows, MovingAxes};
+use super::rows::AxisRows;
+use super::sample::MovingAxes;
 use crate::axes::AXIS_COUNT;
 use crate::cube_root::cube_root;
 
@@ -49,7 +50,7 @@ impl AxisBounds {
 /// falling straight lines, over b of the acceleration and over b^1.5 of the jerk, and so nowhere less
 /// than on the straight line from what it leaves at rest to what it leaves at the cap.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
+pub(super) struct PathBounds {
     /// Of b = v^2.
     pub cap: f64,
     /// Of a^2 v^2.
@@ -68,7 +69,7 @@ pub(super) struct Bounds {
     jerk_fall: f64,
 }
 
-impl Bounds {
+impl PathBounds {
     /// An interval that limits nothing: what is beyond the ends of a plan.
     pub const NONE: Self = Self {
         cap: 1e30,
@@ -199,5 +200,119 @@ impl Bounds {
         // 0.7 of the jerk over 0.9^1.5 of the way.
         self.jerk_fall *= 0.82;
         self.across *= 0.5;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::interval_samples::Departure;
+    use super::super::sample::{Cap, Sample};
+    use super::*;
+    use crate::axes::{Axes, AxisLimits, MachineMap};
+
+    fn any_axes(size: f64) -> impl Strategy<Value = Axes> {
+        let amount = move || prop_oneof![0.01 * size..size, -size..-0.01 * size];
+        [amount(), amount(), amount()]
+            .prop_map(|[x, y, z]| Axes::from([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]))
+    }
+
+    fn any_sample() -> impl Strategy<Value = Sample> {
+        (any_axes(1e-4), any_axes(1e-5), any_axes(1e-6), 10.0..1e4f64).prop_map(
+            |(first, second, third, cap)| {
+                let mut axes = MovingAxes::NONE;
+                (0..3).for_each(|axis| axes.add(axis));
+                Sample {
+                    first,
+                    second,
+                    third,
+                    axes,
+                    cap: Cap::of(cap, 2.0 * cap),
+                    ..Sample::NONE
+                }
+            },
+        )
+    }
+
+    fn any_interval() -> impl Strategy<Value = IntervalSamples> {
+        let departure = (0.0..1e-5f32, 0.0..1e-8f32);
+        ([any_sample(), any_sample(), any_sample()], departure).prop_map(
+            |([start, middle, end], (second, third))| IntervalSamples {
+                quarters: [middle.cap; 2],
+                start,
+                middle,
+                end,
+                departure: Departure { second, third },
+            },
+        )
+    }
+
+    /// Of an axis' rows in an interval and its departures: what acceleration and jerk take at most, over their limits.
+    fn taken(axis: &AxisBounds, departure: [f64; 2], across: f64, [b, a, u]: [f64; 3]) -> [f64; 2] {
+        let v = b.sqrt();
+        let acceleration = (axis.first * a + axis.second * b / 3.0) * axis.time + departure[0] * b;
+        let jerk = axis.first * u
+            + (axis.second * a * v).min(across)
+            + (axis.third + departure[1]) * b * v;
+        [acceleration, jerk]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// All terms together keep the limits, and those that limit are used up.
+        #[test]
+        fn what_is_left_of_the_limits_is_handed_out(
+            interval in any_interval(),
+            jerks in prop::array::uniform3(1e3..1e6f64),
+            (curve, twist, across) in (0.5..0.9f64, 0.4..0.6f64, 0.2..0.35f64),
+        ) {
+            let jerk = Axes::from_fn(|axis, _| jerks[axis % 3]);
+            let limits = AxisLimits {
+                velocity: Axes::repeat(100.0),
+                acceleration: Axes::repeat(1000.0),
+                jerk,
+            };
+            let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
+            let shares = Shares { margin: 0.97, curve, twist, across };
+            let bounds = PathBounds::of(&rows, &interval, 1.0, &shares);
+            let departure = [interval.departure.second, interval.departure.third].map(f64::from);
+            let greatest = |row: fn(&Sample) -> &Axes, axis: usize| {
+                interval.places().iter().map(|sample| row(sample)[axis].abs()).fold(0.0, f64::max)
+            };
+            let axes = [0, 1, 2].map(|axis| AxisBounds {
+                first: greatest(|sample| &sample.first, axis),
+                second: greatest(|sample| &sample.second, axis),
+                third: greatest(|sample| &sample.third, axis),
+                time: rows.jerk_time()[axis],
+            });
+            prop_assert!(bounds.cap <= interval.least_cap(1.0));
+            let at_cap = [bounds.cap, bounds.acceleration, bounds.jerk];
+            let at_rest = [0.0, bounds.acceleration_at_rest, bounds.jerk_at_rest];
+            for (state, v) in [(at_cap, bounds.cap.sqrt()), (at_rest, 0.0)] {
+                let taken = axes.map(|axis| taken(&axis, departure, across, state));
+                for kind in 0..2 {
+                    let most = taken.iter().map(|taken| taken[kind]).fold(0.0, f64::max);
+                    prop_assert!(most < 0.97 + 1e-9, "{kind} at {v}: {most}");
+                    // At rest what accelerating across will take is set aside already.
+                    let least = if kind == 1 && v == 0.0 { 0.97 - across } else { 0.97 };
+                    prop_assert!(most > least - 1e-9, "{kind} at {v}: {most}");
+                }
+            }
+            // On straight lines from rest to the cap.
+            for share in [0.0, 0.3, 0.8, 1.0] {
+                let between = |at_rest: f64, at_cap: f64| at_rest + share * (at_cap - at_rest);
+                let near = |one: f64, other: f64, at_rest: f64| (one - other).abs() < 1e-9 * at_rest;
+                let b = share * bounds.cap;
+                let acceleration = between(bounds.acceleration_at_rest, bounds.acceleration);
+                let at_rest = bounds.acceleration_at_rest;
+                prop_assert!(near(bounds.acceleration(b, 0.0), acceleration, at_rest));
+                let v = bounds.cap.sqrt() * share.cbrt();
+                let jerk = between(bounds.jerk_at_rest.max(bounds.jerk), bounds.jerk);
+                let bend = bounds.bend(v * v) * v;
+                prop_assert!(v == 0.0 || near(bend, jerk, bounds.jerk_at_rest.max(bounds.jerk)));
+            }
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! What a draft works with.
+//! What a candidate works with.
 
 use super::rest_arc::{LASTING, PROVISIONAL, RestArcSearch};
 use super::route::Route;
@@ -8,8 +8,8 @@ use super::spline::Spline;
 /// How many vertices tell how dense the path is.
 const VERTICES_COUNTED: usize = 12;
 
-/// The path, the limits, and the plan that a draft continues.
-pub(super) struct DraftContext<'a, R: Route> {
+/// The path, the limits, and the plan that a candidate continues.
+pub(super) struct PlanContext<'a, R: Route> {
     pub route: &'a R,
     pub rows: &'a AxisRows,
     pub plan: &'a Spline,
@@ -19,7 +19,7 @@ pub(super) struct DraftContext<'a, R: Route> {
     pub oldest: usize,
 }
 
-impl<R: Route> DraftContext<'_, R> {
+impl<R: Route> PlanContext<'_, R> {
     /// The search for an arc between the spline and a rest, see [`RestArcSearch::new`].
     pub fn search(&self, place: f64, direction: f64, most: f64, share: f64) -> RestArcSearch {
         let raise = self.raise_squared;

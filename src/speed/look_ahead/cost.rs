@@ -8,10 +8,10 @@ pub(super) fn evaluation(kernels: f64) -> u32 {
 }
 /// More never overlap.
 const MOST_KERNELS: f64 = 64.0;
-/// Choosing where a draft begins and ends.
-pub(super) const BEGIN_DRAFT: u32 = 60;
-/// Choosing a window of the polish.
-pub(super) const BEGIN_POLISH: u32 = 10;
+/// Choosing where a candidate begins and ends.
+pub(super) const BEGIN_CANDIDATE: u32 = 60;
+/// Choosing a window of the refinement.
+pub(super) const BEGIN_REFINEMENT: u32 = 10;
 /// A try of an arc at rest, besides ..
 pub(super) const REST_ARC: u32 = 20;
 /// .. so many evaluations.
@@ -32,5 +32,5 @@ pub(super) const CHECK: u32 = 2;
 pub(super) const ASSEMBLE: u32 = 8;
 /// A coefficient of a step.
 pub(super) const SUBSTITUTE: u32 = 1;
-/// Plan and draft changing places, per plan.
+/// Plan and candidate changing places, per plan.
 pub(super) const ADOPT: u32 = 60;

@@ -1,9 +1,12 @@
 //! What the grid has to resolve: a vertex with the spacing that it asks for.
 
-use super::grid::GROWTH;
-use super::route::{Route, Vertex};
+use super::route::{Route, RouteVertex};
 use super::rows::AxisRows;
 use crate::axes::Axes;
+
+/// How much the spacing grows with the distance from what asked for a small one. Also the spacing
+/// beside a rest over the length of its arc.
+pub(super) const GROWTH: f64 = 0.35;
 
 /// Seconds between nodes in a change of shape, at its limit speed.
 const SHAPE_TIME: f64 = 2.5e-3;
@@ -70,8 +73,8 @@ impl Feature {
     };
 
     /// Of a vertex, with three evaluations of the path.
-    pub fn of<R: Route>(vertex: &Vertex, path: &mut Look<R>) -> Self {
-        let Vertex {
+    pub fn of<R: Route>(vertex: &RouteVertex, path: &mut Look<R>) -> Self {
+        let RouteVertex {
             position,
             reach,
             cap_changes,
@@ -140,7 +143,7 @@ impl Feature {
 
 /// What a feature has to know of a place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct RoutePlace {
     s: f64,
     /// The speed cap.
     cap_speed: f64,
@@ -159,11 +162,11 @@ pub(super) struct Look<'a, R: Route> {
     /// How far the path is known.
     pub longest: f64,
     /// The end, which stands for many places.
-    pub end: &'a mut Option<Place>,
+    pub end: &'a mut Option<RoutePlace>,
 }
 
 impl<R: Route> Look<'_, R> {
-    fn at(&mut self, s: f64) -> Place {
+    fn at(&mut self, s: f64) -> RoutePlace {
         if s < self.longest {
             return self.evaluate(s);
         }
@@ -173,13 +176,13 @@ impl<R: Route> Look<'_, R> {
         }
     }
 
-    fn evaluate(&self, s: f64) -> Place {
+    fn evaluate(&self, s: f64) -> RoutePlace {
         let sample = self.rows.sample(self.route, s, 0.0);
         let cap_speed = sample.cap.raised(self.raise_squared).sqrt();
-        Place {
+        RoutePlace {
             s,
             cap_speed,
-            speed: sample.curve_speed(self.rows).min(cap_speed),
+            speed: self.rows.curve_speed(&sample).min(cap_speed),
             third: sample.third,
         }
     }

@@ -3,9 +3,8 @@
 //! There may be hundreds of them within the reach of the largest spacing, but few say anything about
 //! a place: what is farther away than the spacing that was found so far is left out.
 
-use super::feature::{Feature, Look, Place, TWIST_AT};
-use super::grid::GROWTH;
-use super::route::{Route, Vertex};
+use super::feature::{Feature, GROWTH, Look, RoutePlace, TWIST_AT};
+use super::route::{Route, RouteVertex};
 use super::rows::AxisRows;
 
 /// A power of two, so that a masked index is in range for the compiler too.
@@ -16,7 +15,7 @@ const NEAREST_NODE: f64 = 1e-3;
 
 /// Features in the order of the path, around the place where the grid is being made.
 ///
-/// What lies within the known path never changes, so that it is kept for the drafts to come. Places
+/// What lies within the known path never changes, so that it is kept for the candidates to come. Places
 /// in the ring are counted on without end.
 #[derive(Debug)]
 pub(super) struct Features {
@@ -43,8 +42,8 @@ pub(super) struct Features {
     before: f64,
     /// .. or ends farther behind it.
     behind: f64,
-    /// The end of the known path, in this draft.
-    end: Option<Place>,
+    /// The end of the known path, in this candidate.
+    end: Option<RoutePlace>,
 }
 
 impl Features {
@@ -135,7 +134,7 @@ impl Features {
     /// Adds a vertex that asks for nodes, or lets the last feature stand for it too.
     fn take<R: Route>(
         &mut self,
-        vertex: &Vertex,
+        vertex: &RouteVertex,
         lasting: bool,
         rows: &AxisRows,
         route: &R,
@@ -149,21 +148,21 @@ impl Features {
             end: &mut self.end,
         };
         // A change of the cap asks for nodes where it is, not all over a wide change of shape there.
-        let point = Vertex {
+        let point = RouteVertex {
             reach: 0.0,
             core: 0.0,
             ..*vertex
         };
         let cap_change =
             (vertex.cap_changes && vertex.reach > 0.0).then(|| Feature::of(&point, &mut path));
-        let shape = Vertex {
+        let shape = RouteVertex {
             cap_changes: vertex.cap_changes && cap_change.is_none(),
             ..*vertex
         };
         let feature = Feature::of(&shape, &mut path);
         let core = (vertex.core > 0.0).then(|| {
             let reach = vertex.core;
-            Feature::of(&Vertex { reach, ..shape }, &mut path)
+            Feature::of(&RouteVertex { reach, ..shape }, &mut path)
         });
         // What never changes is not joined with what may.
         let may_join = lasting || self.next > self.lasting;

@@ -3,18 +3,15 @@
 //! The spacing is what a change of shape or of the speed cap asks for, grows by [`GROWTH`] of the
 //! distance from it, and is at most what is run in [`FREE_TIME`] at the cap.
 
-use super::feature::before;
+use super::feature::{GROWTH, before};
 use super::features::Features;
 use super::interval_samples::IntervalSamples;
 use super::rest_arc::RestArc;
 use super::route::Route;
-use super::rows::{AxisRows, Sample};
-use super::spline::{CAPACITY, Interval, SampleBanks, Spline};
-use crate::path::PathPoint;
-
-/// How much the spacing grows with the distance from what asked for a small one. Also the spacing
-/// beside a rest over the length of its arc.
-pub(super) const GROWTH: f64 = 0.35;
+use super::rows::AxisRows;
+use super::sample::Sample;
+use super::spline::{CAPACITY, SampleBanks, Spline, SplineInterval};
+use crate::moves::shape::PathPoint;
 
 /// Seconds between nodes where nothing happens.
 const FREE_TIME: f64 = 8e-3;
@@ -42,7 +39,7 @@ pub(super) enum GridStep {
     Unsound,
 }
 
-/// The grid of a draft while it is being made.
+/// The grid of a candidate while it is being made.
 #[derive(Debug)]
 pub(super) struct Grid {
     features: Features,
@@ -69,13 +66,19 @@ impl Grid {
         self.features.forget();
     }
 
-    /// Begins at the start of interval `cut`, whose place and sample the draft has.
-    pub fn restart<R: Route>(&mut self, draft: &Spline, cut: usize, route: &R, raise_squared: f64) {
-        let RestArc { length, .. } = draft.end_arc;
+    /// Begins at the start of interval `cut`, whose place and sample the candidate has.
+    pub fn restart<R: Route>(
+        &mut self,
+        candidate: &Spline,
+        cut: usize,
+        route: &R,
+        raise_squared: f64,
+    ) {
+        let RestArc { length, .. } = candidate.end_arc;
         self.k = cut;
-        self.end = draft.end - length;
+        self.end = candidate.end - length;
         self.end_spacing = GROWTH * length;
-        let start = draft.at(cut).start;
+        let start = candidate.at(cut).start;
         self.point = route.point(start);
         let back = route.greatest_reach() * 1.01 + 1e-9 * start.abs();
         self.features.restart(start - back, raise_squared);
@@ -94,7 +97,7 @@ impl Grid {
     )]
     pub fn advance<R: Route>(
         &mut self,
-        draft: &mut Spline,
+        candidate: &mut Spline,
         plan: &Spline,
         samples: &mut SampleBanks,
         rows: &AxisRows,
@@ -106,8 +109,8 @@ impl Grid {
         if k + 3 - oldest >= CAPACITY {
             return GridStep::TooLong;
         }
-        let s = draft.at(k).start;
-        let left = *samples.start(draft, k);
+        let s = candidate.at(k).start;
+        let left = *samples.start(candidate, k);
         let free = FREE_TIME * left.cap.raised(raise_squared).sqrt();
         let window = free / GROWTH + route.greatest_reach();
         if !self.features.covers(s + window) {
@@ -116,7 +119,7 @@ impl Grid {
         }
         self.features.drop_before(s, free);
 
-        let previous = draft.at(k - 1).length;
+        let previous = candidate.at(k - 1).length;
         let step = self.step(route, s, previous, free, &left);
         let (length, end) = (step.length, step.end);
         if !(length > 0.0 && end > s) {
@@ -128,15 +131,15 @@ impl Grid {
             return GridStep::Unsound;
         }
 
-        let interval = draft.at_mut(k);
-        *interval = Interval {
+        let interval = candidate.at_mut(k);
+        *interval = SplineInterval {
             start: s,
             length,
             near_end: step.near_end,
             bank: interval.bank,
-            ..Interval::NONE
+            ..SplineInterval::NONE
         };
-        let samples_here = samples.place_mut(draft, k);
+        let samples_here = samples.place_mut(candidate, k);
         samples_here.middle = middle.sample;
         samples_here.end = right.sample;
         let points = [&self.point, &middle.point, &right.point];
@@ -153,19 +156,19 @@ impl Grid {
         };
         self.point = right.point;
         let right = right.sample;
-        *draft.at_mut(k + 1) = Interval {
+        *candidate.at_mut(k + 1) = SplineInterval {
             start: end,
             length,
             near_end: true,
             bank: plan.at(k + 1).bank ^ 1,
-            ..Interval::NONE
+            ..SplineInterval::NONE
         };
-        *samples.place_mut(draft, k + 1) = IntervalSamples {
+        *samples.place_mut(candidate, k + 1) = IntervalSamples {
             start: right,
             ..IntervalSamples::NONE
         };
         if end >= self.end {
-            draft.last = k;
+            candidate.last = k;
             return GridStep::Done;
         }
         self.k = k + 1;
@@ -173,7 +176,14 @@ impl Grid {
     }
 
     /// The length of the interval from `s` on, by features and neighbours.
-    fn step<R: Route>(&self, route: &R, s: f64, previous: f64, free: f64, left: &Sample) -> Step {
+    fn step<R: Route>(
+        &self,
+        route: &R,
+        s: f64,
+        previous: f64,
+        free: f64,
+        left: &Sample,
+    ) -> NextNode {
         let most = free.min(previous * (1.0 + 2.0 * GROWTH));
         let (mut length, within) = self.features.spacing(s, most);
         if !within {
@@ -201,7 +211,7 @@ impl Grid {
             length = 0.5 * left_over;
             end = s + length;
         }
-        Step {
+        NextNode {
             length,
             end,
             near_end,
@@ -279,7 +289,7 @@ impl Seen {
     }
 }
 
-struct Step {
+struct NextNode {
     length: f64,
     end: f64,
     near_end: bool,

@@ -126,6 +126,7 @@ mod tests {
             let base = 1000;
             let count = values.len();
             hull.restart(base, values[0].0);
+            prop_assert_eq!(hull.value(base, base), values[0].0);
             for (i, (value, distance, fall)) in values.iter().enumerate().skip(1) {
                 hull.append(base + i, *value, *distance, *fall);
             }

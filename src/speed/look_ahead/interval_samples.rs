@@ -12,8 +12,9 @@
 
 use super::feature::before;
 use super::route::{MOST_BREAKPOINTS, Route};
-use super::rows::{AxisRows, Cap, Sample};
-use crate::path::PathPoint;
+use super::rows::AxisRows;
+use super::sample::{Cap, Sample};
+use crate::moves::shape::PathPoint;
 
 /// Of the second difference of three places, how far what is smooth may leave the parabola through them.
 const SMOOTH_SHARE: f64 = 0.125;

@@ -1,11 +1,11 @@
 //! The planner: what is worked on next, and what the executor takes.
 
-use super::context::DraftContext;
+use super::candidate_plan::{self, CandidatePlan, CandidateStep};
+use super::context::PlanContext;
 use super::cost;
-use super::draft::{self, Draft, DraftStep};
 use super::newton::{MOST_INTERVALS, NewtonStep};
-use super::piece::Piece;
-use super::refusal::Refusal;
+use super::planned_segment::PlannedSegment;
+use super::refusal::PlanRefusal;
 use super::route::{Route, SpeedCap};
 use super::rows::AxisRows;
 use super::run_state::{RunState, SHORTEST_LEAD};
@@ -21,7 +21,7 @@ const MOST_COMMITTED: usize = 128;
 
 /// Intervals ahead of the machine beyond which the plan is not extended: room is left for one
 /// extension.
-const HORIZON: usize = CAPACITY - draft::MOST_INTERVALS - 16;
+const HORIZON: usize = CAPACITY - candidate_plan::MOST_INTERVALS - 16;
 
 /// Intervals that an extension is meant to add.
 const EXTENSION: f64 = 64.0;
@@ -34,7 +34,7 @@ const PATIENCE: u32 = 8;
 /// Seconds to the final braking that are looked at.
 const BRAKING_SEEN: f64 = 0.15;
 
-/// Seconds to the final braking, below which an extension comes before the polish.
+/// Seconds to the final braking, below which an extension comes before the refinement.
 const URGENT: f64 = 0.1;
 
 /// Seconds at the programmed speed that the first plan covers. It is short, so that the motion
@@ -54,7 +54,7 @@ const SHORTER_FIRST_PLANS: u32 = 6;
 const SLOWER_FIRST_PLANS: u32 = 4;
 const SLOWER: f64 = 0.4;
 
-/// Steps of the polish for what is new ..
+/// Steps of the refinement for what is new ..
 const FRESH_STEPS: u32 = 24;
 /// .. and then one more each time that the machine has come on by so many intervals: more gain nothing.
 const PACE: usize = 2;
@@ -64,7 +64,7 @@ const RAISED_BARRIER: f64 = 0.05;
 
 /// How a planner stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Progress {
+pub enum PlanProgress {
     /// [`LookAhead::start`] has not been called.
     Idle,
     /// The path known so far is too short, or the first plan is not finished.
@@ -72,7 +72,7 @@ pub enum Progress {
     /// There is a plan that keeps all limits and ends at rest.
     Ready,
     /// No first plan was found.
-    Refused(Refusal),
+    Refused(PlanRefusal),
 }
 
 /// The speed reference of one run from rest to rest along a [`Route`].
@@ -83,9 +83,9 @@ pub struct LookAhead {
     rows: AxisRows,
     plan: Spline,
     samples: SampleBanks,
-    draft: Draft,
+    candidate: CandidatePlan,
     newton: NewtonStep,
-    progress: Progress,
+    progress: PlanProgress,
     state: RunState,
 }
 
@@ -96,9 +96,9 @@ impl LookAhead {
             rows: AxisRows::NONE,
             plan: Spline::NONE,
             samples: SampleBanks::NONE,
-            draft: Draft::NONE,
+            candidate: CandidatePlan::NONE,
             newton: NewtonStep::NONE,
-            progress: Progress::Idle,
+            progress: PlanProgress::Idle,
             state: RunState::AT_REST,
         }
     }
@@ -110,12 +110,12 @@ impl LookAhead {
         self.plan.start = s;
         self.plan.end = s;
         self.newton.cancel();
-        self.progress = Progress::Starting;
+        self.progress = PlanProgress::Starting;
         self.state = RunState::AT_REST;
     }
 
     /// Whether there is a plan.
-    pub fn progress(&self) -> Progress {
+    pub fn progress(&self) -> PlanProgress {
         self.progress
     }
 
@@ -131,7 +131,7 @@ impl LookAhead {
 
     /// Whether the whole plan is frozen: the reference ends at rest.
     pub fn is_frozen(&self) -> bool {
-        self.progress == Progress::Ready && self.state.next > self.plan.last + 1
+        self.progress == PlanProgress::Ready && self.state.next > self.plan.last + 1
     }
 
     /// Whether the final braking begins less than `seconds`, at most 0.1, behind the
@@ -155,21 +155,21 @@ impl LookAhead {
         self.look_for_braking();
     }
 
-    /// The next piece, which stays as it is from now on. `None` if there is no plan, or the
+    /// The next segment, which stays as it is from now on. `None` if there is no plan, or the
     /// reference has ended at rest.
-    pub fn freeze(&mut self) -> Option<Piece> {
-        if self.progress != Progress::Ready || self.is_frozen() {
+    pub fn freeze(&mut self) -> Option<PlannedSegment> {
+        if self.progress != PlanProgress::Ready || self.is_frozen() {
             return None;
         }
-        let piece = Piece::of(&self.plan, self.state.next, self.state.frozen_time);
+        let segment = PlannedSegment::of(&self.plan, self.state.next, self.state.frozen_time);
         self.state.next += 1;
-        self.state.frozen_time += piece.duration;
+        self.state.frozen_time += segment.duration;
         if self.state.next < self.state.counted {
-            self.state.braking_in -= piece.duration;
+            self.state.braking_in -= segment.duration;
         } else {
             self.look_anew_for_braking();
         }
-        Some(piece)
+        Some(segment)
     }
 
     /// Multiplies the programmed speeds by `factor` from now on, up to the greatest ones; a factor
@@ -183,20 +183,20 @@ impl LookAhead {
 
     /// Works on the plan for at most `budget` units of 20 to 40 ns, give or take one step of a few
     /// microseconds.
-    pub fn slice<R: Route>(&mut self, route: &R, budget: u32) -> Progress {
+    pub fn slice<R: Route>(&mut self, route: &R, budget: u32) -> PlanProgress {
         self.state.pause = self.state.pause.saturating_sub(1);
         self.state.waited = self.state.waited.saturating_add(1);
         let mut left = budget;
         while left > 0 {
-            if self.state.drafting {
-                self.continue_draft(route, &mut left);
+            if self.state.candidate_begun {
+                self.continue_candidate(route, &mut left);
             } else if !self.newton.is_idle() {
-                self.continue_polish(&mut left);
+                self.continue_refinement(&mut left);
             } else if self.begin_work(route) {
-                let price = if self.state.drafting {
-                    cost::BEGIN_DRAFT
+                let price = if self.state.candidate_begun {
+                    cost::BEGIN_CANDIDATE
                 } else {
-                    cost::BEGIN_POLISH
+                    cost::BEGIN_REFINEMENT
                 };
                 left = left.saturating_sub(price);
             } else {
@@ -210,9 +210,9 @@ impl LookAhead {
 
     fn begin_work<R: Route>(&mut self, route: &R) -> bool {
         match self.progress {
-            Progress::Idle | Progress::Refused(_) => false,
-            Progress::Starting => self.begin_first(route),
-            Progress::Ready => self.state.next <= self.plan.last && self.begin_next(route),
+            PlanProgress::Idle | PlanProgress::Refused(_) => false,
+            PlanProgress::Starting => self.begin_first(route),
+            PlanProgress::Ready => self.state.next <= self.plan.last && self.begin_next(route),
         }
     }
 
@@ -243,9 +243,9 @@ impl LookAhead {
         } else {
             route.known_end()
         };
-        let (context, draft) = self.context(route);
-        draft.begin_first(&context, start, end, halvings & 3);
-        self.state.drafting = true;
+        let (context, candidate) = self.context(route);
+        candidate.begin_first(&context, start, end);
+        self.state.candidate_begun = true;
         true
     }
 
@@ -262,7 +262,7 @@ impl LookAhead {
             self.begin_extension(route, committed, gain);
             return true;
         }
-        if self.begin_polish(committed, complete && gain <= 0.0) {
+        if self.begin_refinement(committed, complete && gain <= 0.0) {
             return true;
         }
         if wanted {
@@ -271,7 +271,7 @@ impl LookAhead {
         wanted
     }
 
-    /// How many steps of the polish are due between two extensions: few while the machine is near
+    /// How many steps of the refinement are due between two extensions: few while the machine is near
     /// to what is not settled, since a longer plan gains more than a smoother one.
     fn steps_between(&self, committed: usize) -> u32 {
         let ahead = self.state.settled.saturating_sub(committed);
@@ -291,62 +291,53 @@ impl LookAhead {
         self.state.waited = 0;
         // The less time there is, the shorter: what is short is found soon.
         let (hurry, most) = if self.brakes_within(URGENT) {
-            (0.5, draft::MOST_URGENT_INTERVALS)
+            (0.5, candidate_plan::MOST_URGENT_INTERVALS)
         } else {
-            (1.0, draft::MOST_INTERVALS)
+            (1.0, candidate_plan::MOST_INTERVALS)
         };
-        let share = hurry * EXTENSION / f64::from(1 + self.state.failures % 3);
-        let step = share * self.state.spacing;
+        let step = hurry * EXTENSION * self.state.spacing;
         let end = if gain > 1.5 * step {
             self.plan.end + step
         } else {
             route.known_end()
         };
-        // Where it is left at what was polished last, the plan keeps all of that; if this was
-        // refused, it is left earlier.
-        let latest = self.state.polished.min(self.plan.last.saturating_sub(4));
-        let spare = latest.saturating_sub(committed + 1);
-        let base = match self.state.failures & 3 {
-            0 => latest,
-            1 => latest - spare / 3,
-            2 => latest - 2 * (spare / 3),
-            _ => latest - spare,
-        }
-        .max(
-            self.interval_behind(self.state.lead)
-                .min(self.state.braking),
-        )
-        .max(committed + 1);
-        let failures = self.state.failures;
-        let (context, draft) = self.context(route);
-        draft.begin_extension(&context, base, end, most, failures);
-        self.state.drafting = true;
+        // It is left at what was refined last: the plan keeps all of that.
+        let latest = self.state.refined.min(self.plan.last.saturating_sub(4));
+        let base = latest
+            .max(
+                self.interval_behind(self.state.lead)
+                    .min(self.state.braking),
+            )
+            .max(committed + 1);
+        let (context, candidate) = self.context(route);
+        candidate.begin_extension(&context, base, end, most);
+        self.state.candidate_begun = true;
     }
 
-    /// Whether a step of the polish is worth its time.
-    fn is_polish_due(&self, committed: usize) -> bool {
+    /// Whether a step of the refinement is worth its time.
+    fn is_refinement_due(&self, committed: usize) -> bool {
         self.state.fresh_steps < FRESH_STEPS || committed >= self.state.paced + PACE
     }
 
-    /// Begins a step of the polish behind the committed part; up to the end if nothing follows.
-    fn begin_polish(&mut self, committed: usize, to_the_end: bool) -> bool {
+    /// Begins a step of the refinement behind the committed part; up to the end if nothing follows.
+    fn begin_refinement(&mut self, committed: usize, to_the_end: bool) -> bool {
         let limit = if to_the_end {
             self.plan.last + 1
         } else {
             self.state.settled.max(self.state.braking.saturating_sub(3))
         };
         let end = limit.min(committed + MOST_INTERVALS);
-        if end < committed + 4 || !self.is_polish_due(committed) {
+        if end < committed + 4 || !self.is_refinement_due(committed) {
             return false;
         }
         self.newton.begin(committed, end);
         if !to_the_end {
-            self.state.polished = self.state.polished.max(end);
+            self.state.refined = self.state.refined.max(end);
         }
         true
     }
 
-    fn continue_polish(&mut self, left: &mut u32) {
+    fn continue_refinement(&mut self, left: &mut u32) {
         if self.state.next > self.newton.first() {
             self.newton.cancel();
             return;
@@ -362,41 +353,41 @@ impl LookAhead {
         }
     }
 
-    fn continue_draft<R: Route>(&mut self, route: &R, left: &mut u32) {
+    fn continue_candidate<R: Route>(&mut self, route: &R, left: &mut u32) {
         // Interval `base` depends on the first coefficient that is changed.
-        if self.state.next > self.draft.base {
-            self.state.drafting = false;
+        if self.state.next > self.candidate.base {
+            self.state.candidate_begun = false;
             self.state.lead = (2.0 * self.state.lead).min(LONGEST_LEAD);
             return;
         }
-        let context = DraftContext {
+        let context = PlanContext {
             route,
             rows: &self.rows,
             plan: &self.plan,
             raise_squared: self.raise_squared(),
             oldest: self.state.next.saturating_sub(1),
         };
-        match self.draft.advance(&context, &mut self.samples, left) {
-            DraftStep::More => {}
-            DraftStep::Ready => {
+        match self.candidate.advance(&context, &mut self.samples, left) {
+            CandidateStep::More => {}
+            CandidateStep::Ready => {
                 self.adopt();
                 *left = left.saturating_sub(cost::ADOPT);
             }
-            DraftStep::Refused(refusal) => self.note_refusal(refusal),
+            CandidateStep::Refused(refusal) => self.note_refusal(refusal),
         }
     }
 
     fn adopt(&mut self) {
-        self.state.drafting = false;
-        let base = self.draft.base;
-        let added = self.draft.added();
+        self.state.candidate_begun = false;
+        let base = self.candidate.base;
+        let added = self.candidate.added();
         self.state.spacing = added;
         self.plan
-            .copy_from(&self.draft.spline, self.draft.changed());
-        self.state.polished = base;
+            .copy_from(&self.candidate.spline, self.candidate.changed());
+        self.state.refined = base;
         self.state.fresh_steps = 0;
         self.state.settled = self
-            .draft
+            .candidate
             .settled()
             .max(self.state.settled.min(base))
             .min(self.plan.last - 1);
@@ -404,8 +395,8 @@ impl LookAhead {
         self.look_anew_for_braking();
         self.state.failures = 0;
         self.state.lead = SHORTEST_LEAD;
-        if self.progress == Progress::Starting {
-            self.progress = Progress::Ready;
+        if self.progress == PlanProgress::Starting {
+            self.progress = PlanProgress::Ready;
             if self.state.slower < 1.0 {
                 self.state.slower = 1.0;
                 self.soften();
@@ -413,16 +404,16 @@ impl LookAhead {
         }
     }
 
-    fn note_refusal(&mut self, refusal: Refusal) {
-        self.state.drafting = false;
-        self.state.failures += 1;
-        if self.progress != Progress::Starting {
+    fn note_refusal(&mut self, refusal: PlanRefusal) {
+        self.state.candidate_begun = false;
+        if self.progress != PlanProgress::Starting {
             self.state.pause = PATIENCE;
             return;
         }
+        self.state.failures += 1;
         let over = self.state.failures > SHORTER_FIRST_PLANS + SLOWER_FIRST_PLANS;
-        if over || refusal == Refusal::Unsound {
-            self.progress = Progress::Refused(refusal);
+        if over || refusal == PlanRefusal::Unsound {
+            self.progress = PlanProgress::Refused(refusal);
         } else if self.state.failures > SHORTER_FIRST_PLANS {
             self.state.slower *= SLOWER;
         }
@@ -432,7 +423,7 @@ impl LookAhead {
     #[cfg(test)]
     pub fn refuse(&mut self) {
         if self.state.next == 0 {
-            self.progress = Progress::Refused(Refusal::NotFound);
+            self.progress = PlanProgress::Refused(PlanRefusal::NotFound);
         }
     }
 
@@ -474,16 +465,19 @@ impl LookAhead {
         factor * factor
     }
 
-    fn context<'a, R: Route>(&'a mut self, route: &'a R) -> (DraftContext<'a, R>, &'a mut Draft) {
+    fn context<'a, R: Route>(
+        &'a mut self,
+        route: &'a R,
+    ) -> (PlanContext<'a, R>, &'a mut CandidatePlan) {
         let raise_squared = self.raise_squared();
-        let context = DraftContext {
+        let context = PlanContext {
             route,
             rows: &self.rows,
             plan: &self.plan,
             raise_squared,
             oldest: self.state.next.saturating_sub(1),
         };
-        (context, &mut self.draft)
+        (context, &mut self.candidate)
     }
 }
 

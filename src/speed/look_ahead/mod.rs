@@ -4,42 +4,44 @@
 //! construction, and the limits of the axes ([`rows`]) are linear in three coefficients. It is made
 //! in two stages.
 //!
-//! 1. A [`draft`] places nodes ([`grid`]), sweeps forward and backward ([`sweep`]) with scalar
+//! 1. A candidate ([`candidate_plan`]) places nodes ([`grid`]), sweeps forward and backward ([`sweep`]) with scalar
 //!    [`bounds`] and takes the [`hull`]. What comes out is not the fastest (1.1 to 1.4 times the
 //!    optimum), but it is checked against all rows and ends at rest inside what is known. It then
 //!    replaces the plan; where it fails, the plan stands.
-//! 2. Steps of Newton's method ([`newton`]) on duration and [`barrier`] polish the part that the
+//! 2. Steps of Newton's method ([`newton`]) on duration and [`barrier`] refine the part that the
 //!    end of what is known hardly influences, to 1 or 2 % above the optimum.
 //!
-//! Both are done in slices of bounded work. What the executor takes is frozen as [`Piece`]s;
+//! Both are done in slices of bounded work. What the executor takes is frozen as [`PlannedSegment`]s;
 //! everything else works behind them.
 
 mod barrier;
 mod bounds;
+mod candidate_plan;
 mod context;
 mod cost;
-mod draft;
 mod feature;
 mod features;
 mod grid;
 mod hull;
 mod interval;
+mod interval_check;
 mod interval_samples;
 #[allow(clippy::module_inception, reason = "the type that the folder is about")]
 mod look_ahead;
 mod newton;
-mod piece;
+mod planned_segment;
 mod quads;
 mod refusal;
 mod rest_arc;
 mod route;
 mod rows;
 mod run_state;
+mod sample;
 mod spline;
 mod sweep;
 mod sweeps;
 
-pub use look_ahead::{LookAhead, Progress};
-pub use piece::Piece;
-pub use refusal::Refusal;
-pub use route::{MOST_BREAKPOINTS, Route, SpeedCap, Vertex};
+pub use look_ahead::{LookAhead, PlanProgress};
+pub use planned_segment::PlannedSegment;
+pub use refusal::PlanRefusal;
+pub use route::{MOST_BREAKPOINTS, Route, RouteVertex, SpeedCap};

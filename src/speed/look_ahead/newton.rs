@@ -1,4 +1,4 @@
-//! The polish: a step of Newton's method over a window of the plan, a little at a time.
+//! The refinement: a step of Newton's method over a window of the plan, a little at a time.
 //!
 //! Each interval joins three coefficients, so the second derivatives form a matrix with five
 //! diagonals. It is factorised as L D L' (Golub and Van Loan, Matrix Computations, section 4.3)
@@ -7,8 +7,8 @@
 //! derivatives are multiplied by a growing resistance.
 
 use super::barrier::Barrier;
+use super::candidate_plan::MARGIN;
 use super::cost;
-use super::draft::MARGIN;
 use super::rows::AxisRows;
 use super::spline::{SampleBanks, Spline};
 
@@ -36,7 +36,7 @@ const LEAST_BARRIER: f64 = 0.0015;
 const GOOD_STEP: f64 = 0.3;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
+enum NewtonPhase {
     Idle,
     Assemble,
     Substitute,
@@ -46,7 +46,7 @@ enum Phase {
 
 /// One coefficient of the window.
 #[derive(Clone, Copy, Debug)]
-struct Row {
+struct SystemRow {
     /// The diagonal; when eliminated, its reciprocal.
     diagonal: f64,
     /// The first diagonal beside it; when eliminated, of L.
@@ -59,7 +59,7 @@ struct Row {
     refusals: f64,
 }
 
-impl Row {
+impl SystemRow {
     const NONE: Self = Self {
         diagonal: 0.0,
         next: 0.0,
@@ -72,7 +72,7 @@ impl Row {
 /// A step of Newton's method that is under way.
 #[derive(Debug)]
 pub(super) struct NewtonStep {
-    phase: Phase,
+    phase: NewtonPhase,
     /// The first interval of the window; its coefficient and those before it are not changed.
     first: usize,
     /// The interval behind the window; its coefficient and the one before are not changed.
@@ -81,30 +81,30 @@ pub(super) struct NewtonStep {
     share: f64,
     shortenings: u32,
     clean: bool,
-    rows: [Row; SLOTS],
+    rows: [SystemRow; SLOTS],
 }
 
 impl NewtonStep {
     pub const NONE: Self = Self {
-        phase: Phase::Idle,
+        phase: NewtonPhase::Idle,
         first: 0,
         end: 0,
         k: 0,
         share: 1.0,
         shortenings: 0,
         clean: true,
-        rows: [Row::NONE; SLOTS],
+        rows: [SystemRow::NONE; SLOTS],
     };
 
     /// Begins a step on intervals `first` to `end - 1`, at most [`MOST_INTERVALS`] of them.
     pub fn begin(&mut self, first: usize, end: usize) {
         let end = end.min(first + MOST_INTERVALS);
         if end < first + 4 {
-            self.phase = Phase::Idle;
+            self.phase = NewtonPhase::Idle;
             return;
         }
         *self = Self {
-            phase: Phase::Assemble,
+            phase: NewtonPhase::Assemble,
             first,
             end,
             k: first,
@@ -114,11 +114,11 @@ impl NewtonStep {
 
     /// Whether there is nothing under way.
     pub fn is_idle(&self) -> bool {
-        self.phase == Phase::Idle
+        self.phase == NewtonPhase::Idle
     }
 
     pub fn cancel(&mut self) {
-        self.phase = Phase::Idle;
+        self.phase = NewtonPhase::Idle;
     }
 
     /// The first interval that the step changes.
@@ -135,19 +135,19 @@ impl NewtonStep {
         raise_squared: f64,
         budget: &mut u32,
     ) {
-        while *budget > 0 && self.phase != Phase::Idle {
+        while *budget > 0 && self.phase != NewtonPhase::Idle {
             let price = match self.phase {
-                Phase::Assemble => cost::ASSEMBLE,
-                Phase::Check => cost::CHECK,
+                NewtonPhase::Assemble => cost::ASSEMBLE,
+                NewtonPhase::Check => cost::CHECK,
                 _ => cost::SUBSTITUTE,
             };
             *budget = budget.saturating_sub(price);
             match self.phase {
-                Phase::Assemble => self.assemble(plan, samples, axes, raise_squared),
-                Phase::Substitute => self.substitute(),
-                Phase::Check => self.check(plan, samples, axes, raise_squared),
-                Phase::Apply => self.apply(plan),
-                Phase::Idle => {}
+                NewtonPhase::Assemble => self.assemble(plan, samples, axes, raise_squared),
+                NewtonPhase::Substitute => self.substitute(),
+                NewtonPhase::Check => self.check(plan, samples, axes, raise_squared),
+                NewtonPhase::Apply => self.apply(plan),
+                NewtonPhase::Idle => {}
             }
         }
     }
@@ -157,11 +157,11 @@ impl NewtonStep {
         (self.first + 1, self.end - 2)
     }
 
-    fn row(&self, k: usize) -> &Row {
+    fn row(&self, k: usize) -> &SystemRow {
         &self.rows[(k + 1 - self.first) & MASK]
     }
 
-    fn row_mut(&mut self, k: usize) -> &mut Row {
+    fn row_mut(&mut self, k: usize) -> &mut SystemRow {
         &mut self.rows[(k + 1 - self.first) & MASK]
     }
 
@@ -209,7 +209,7 @@ impl NewtonStep {
         if k + 1 < self.end {
             self.k = k + 1;
         } else {
-            self.phase = Phase::Substitute;
+            self.phase = NewtonPhase::Substitute;
             self.k = last_free;
         }
     }
@@ -231,7 +231,7 @@ impl NewtonStep {
             second.diagonal -= l2 * row.second;
             second.step -= l2 * row.step;
         }
-        *self.row_mut(k) = Row {
+        *self.row_mut(k) = SystemRow {
             diagonal: inverse,
             next: l1,
             second: l2,
@@ -258,7 +258,7 @@ impl NewtonStep {
         for fixed in [self.first - 1, self.first, self.end - 1, self.end] {
             self.row_mut(fixed).step = 0.0;
         }
-        self.phase = Phase::Check;
+        self.phase = NewtonPhase::Check;
         self.k = self.first;
     }
 
@@ -291,7 +291,7 @@ impl NewtonStep {
     }
 
     fn begin_apply(&mut self) {
-        self.phase = Phase::Apply;
+        self.phase = NewtonPhase::Apply;
         self.k = self.first;
     }
 
@@ -320,6 +320,6 @@ impl NewtonStep {
                 interval.resistance = (interval.resistance * RESISTANCE_DECAY).max(1.0);
             }
         }
-        self.phase = Phase::Idle;
+        self.phase = NewtonPhase::Idle;
     }
 }

@@ -2,7 +2,7 @@
 
 /// Why there is no plan to the place that was asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
+pub enum PlanRefusal {
     /// The path is infinite or not a number, or a speed cap is not positive.
     Unsound,
     /// No motion from or to rest fits the limits there.

@@ -3,8 +3,9 @@
 //! At rest b = v^2 has no bounded derivatives by s, so the spline begins and ends a little beside
 //! it, and one phase of constant jerk does the rest: `a = j t`, `v = j t^2 / 2`, `s = j t^3 / 6`.
 
-use super::route::{Route, Vertex};
-use super::rows::{AxisRows, Sample};
+use super::route::{Route, RouteVertex};
+use super::rows::AxisRows;
+use super::sample::Sample;
 use crate::axes::AXIS_COUNT;
 use crate::cube_root::cube_root;
 
@@ -184,7 +185,7 @@ impl RestArcSearch {
             } else {
                 route.vertex_before(s)
             };
-            let away = |vertex: &Vertex| (vertex.position - self.place) * self.direction;
+            let away = |vertex: &RouteVertex| (vertex.position - self.place) * self.direction;
             let Some(vertex) = next.filter(|vertex| away(vertex) < length) else {
                 let end = self.place + self.direction * length;
                 return s == self.place || square <= CAP_SHARE * cap(end);
@@ -206,7 +207,7 @@ impl RestArcSearch {
 pub(super) fn free_length<R: Route>(route: &R, place: f64, total: f64) -> f64 {
     let mut free = 0.1 * total;
     let known = route.known_end();
-    let mut consider = |vertex: &Vertex| {
+    let mut consider = |vertex: &RouteVertex| {
         if vertex.reach > 0.0 && vertex.position - vertex.reach <= known {
             let gap = (vertex.position - place).abs() - vertex.reach;
             free = free.min((0.15 * gap).max(vertex.reach / 24.0));

@@ -1,7 +1,7 @@
 //! What the look-ahead has to know of a path.
 
 use crate::axes::Axes;
-use crate::path::PathPoint;
+use crate::moves::shape::PathPoint;
 
 /// Room for places where the third derivative of the path may jump in an interval.
 pub const MOST_BREAKPOINTS: usize = 16;
@@ -17,7 +17,7 @@ pub struct SpeedCap {
 
 /// A place where the path or the program changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex {
+pub struct RouteVertex {
     /// Where it is, as s.
     pub position: f64,
     /// How far the change of shape extends to both sides, 0 if there is none.
@@ -28,7 +28,7 @@ pub struct Vertex {
     pub cap_changes: bool,
 }
 
-/// A path that becomes known piece by piece.
+/// A path that becomes known segment by segment.
 ///
 /// What has been known once never changes: not the shape up to [`Self::known_end`], not the caps,
 /// not the vertices before it. Derivatives are by s, continuous up to the second; s grows along
@@ -48,10 +48,10 @@ pub trait Route {
     fn speed_cap(&self, s: f64, first: &Axes) -> SpeedCap;
 
     /// The first vertex with a position greater than `s`.
-    fn vertex_after(&self, s: f64) -> Option<Vertex>;
+    fn vertex_after(&self, s: f64) -> Option<RouteVertex>;
 
     /// The last vertex with a position less than `s`.
-    fn vertex_before(&self, s: f64) -> Option<Vertex>;
+    fn vertex_before(&self, s: f64) -> Option<RouteVertex>;
 
     /// The greatest reach of all vertices.
     fn greatest_reach(&self) -> f64;

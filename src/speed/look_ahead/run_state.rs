@@ -1,23 +1,23 @@
 //! How far a run from rest to rest has come.
 
-/// Seconds behind the frozen part at which a draft leaves the plan: more after each one that the
+/// Seconds behind the frozen part at which a candidate leaves the plan: more after each one that the
 /// machine has overtaken.
 pub(super) const SHORTEST_LEAD: f64 = 16e-3;
 
 /// What the planner keeps in mind besides the plan.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RunState {
-    /// Whether a draft is being made.
-    pub drafting: bool,
+    /// Whether a candidate is being made.
+    pub candidate_begun: bool,
     /// The next interval to be frozen.
     pub next: usize,
     /// The time at which it starts.
     pub frozen_time: f64,
-    /// Intervals before this one have been polished.
-    pub polished: usize,
-    /// The first interval that the last step of the polish might change.
+    /// Intervals before this one have been refined.
+    pub refined: usize,
+    /// The first interval that the last step of the refinement might change.
     pub paced: usize,
-    /// Steps of the polish since the plan or its caps changed.
+    /// Steps of the refinement since the plan or its caps changed.
     pub fresh_steps: u32,
     /// What the end of the plan hardly influences any more.
     pub settled: usize,
@@ -31,31 +31,31 @@ pub(super) struct RunState {
     pub raise: f64,
     /// Share of them for a first plan that was refused otherwise.
     pub slower: f64,
-    /// The length of the intervals of the last draft, in the mean.
+    /// The length of the intervals of the last candidate, in the mean.
     pub spacing: f64,
     /// The length that was known in the slice before the first plan.
     pub seen: f64,
     /// Slices since more of it became known.
     pub quiet: u32,
-    /// Seconds behind the frozen part at which a draft leaves the plan at the earliest.
+    /// Seconds behind the frozen part at which a candidate leaves the plan at the earliest.
     pub lead: f64,
-    /// Drafts refused since the last success.
+    /// How often a first plan was refused.
     pub failures: u32,
     /// Slices until the next extension may be tried.
     pub pause: u32,
     /// Slices since the last extension.
     pub waited: u32,
-    /// Steps of the polish since the last extension.
+    /// Steps of the refinement since the last extension.
     pub steps: u32,
 }
 
 impl RunState {
     /// At rest, nothing planned.
     pub const AT_REST: Self = Self {
-        drafting: false,
+        candidate_begun: false,
         next: 0,
         frozen_time: 0.0,
-        polished: 1,
+        refined: 1,
         paced: 0,
         fresh_steps: 0,
         settled: 1,

@@ -13,7 +13,7 @@
 use super::interval::Parabola;
 use super::interval_samples::IntervalSamples;
 use super::rest_arc::RestArc;
-use super::rows::Sample;
+use super::sample::Sample;
 
 /// How many intervals there are from the oldest one that is needed. A power of two, so that a
 /// masked index is in range for the compiler too.
@@ -21,12 +21,12 @@ pub(super) const CAPACITY: usize = 512;
 
 const MASK: usize = CAPACITY - 1;
 
-/// The barrier's weight in a part that no polish has seen.
+/// The barrier's weight in a part that no refinement has seen.
 pub(super) const FIRST_BARRIER: f64 = 0.06;
 
 /// An interval of the spline.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Interval {
+pub(super) struct SplineInterval {
     /// s at its start.
     pub start: f64,
     /// Length in s, greater than 0.
@@ -43,7 +43,7 @@ pub(super) struct Interval {
     pub near_end: bool,
 }
 
-impl Interval {
+impl SplineInterval {
     pub const NONE: Self = Self {
         start: 0.0,
         length: 1.0,
@@ -58,7 +58,7 @@ impl Interval {
 /// A plan from rest to rest.
 #[derive(Debug)]
 pub(super) struct Spline {
-    intervals: [Interval; CAPACITY],
+    intervals: [SplineInterval; CAPACITY],
     /// Number of the last interval that is run.
     pub last: usize,
     /// How it starts from rest, before interval 1.
@@ -73,7 +73,7 @@ pub(super) struct Spline {
 
 impl Spline {
     pub const NONE: Self = Self {
-        intervals: [Interval::NONE; CAPACITY],
+        intervals: [SplineInterval::NONE; CAPACITY],
         last: 0,
         start_arc: RestArc::NONE,
         end_arc: RestArc::NONE,
@@ -94,12 +94,12 @@ impl Spline {
     }
 
     #[inline]
-    pub fn at(&self, k: usize) -> &Interval {
+    pub fn at(&self, k: usize) -> &SplineInterval {
         &self.intervals[k & MASK]
     }
 
     #[inline]
-    pub fn at_mut(&mut self, k: usize) -> &mut Interval {
+    pub fn at_mut(&mut self, k: usize) -> &mut SplineInterval {
         &mut self.intervals[k & MASK]
     }
 
@@ -153,10 +153,10 @@ impl Spline {
     }
 }
 
-/// The samples of the path for all intervals of a plan and of the draft of its continuation.
+/// The samples of the path for all intervals of a plan and of the candidate of its continuation.
 ///
-/// Each interval has two places; a draft writes to the one that the plan does not use, so that the
-/// plan stays whole until the draft replaces it.
+/// Each interval has two places; a candidate writes to the one that the plan does not use, so that the
+/// plan stays whole until the candidate replaces it.
 #[derive(Debug)]
 pub(super) struct SampleBanks {
     banks: [[IntervalSamples; CAPACITY]; 2],

@@ -5,7 +5,7 @@
 //! control of robotic manipulators along specified paths, IJRR 4(3), 1985) with a third order:
 //! the slope of the coefficients is an acceleration, its change over an interval a jerk.
 
-use super::bounds::Bounds;
+use super::bounds::PathBounds;
 use super::interval::GREATEST_BEND;
 
 /// A sweep at one coefficient.
@@ -22,9 +22,9 @@ pub(super) struct Front {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch<'a> {
     /// Where the sweep is.
-    pub here: &'a Bounds,
+    pub here: &'a PathBounds,
     /// Where it goes.
-    pub next: &'a Bounds,
+    pub next: &'a PathBounds,
     /// Length of the interval where it is.
     pub length: f64,
     /// Length of the interval where it goes.
@@ -99,7 +99,7 @@ fn greatest_turn(b: f64, length: f64) -> f64 {
 
 /// The greatest change u of slope with `u sqrt(b)` within the jerk wherever an interval of this length
 /// takes b, from three rounds of a fixed point that stays below it.
-fn bend(bounds: &Bounds, b: f64, slope: f64, length: f64) -> f64 {
+fn bend(bounds: &PathBounds, b: f64, slope: f64, length: f64) -> f64 {
     if b <= 0.0 {
         return 0.0;
     }

@@ -1,6 +1,6 @@
-//! The swept coefficients of a draft: bounds, both sweeps, the hull, one coefficient at a time.
+//! The swept coefficients of a candidate: bounds, both sweeps, the hull, one coefficient at a time.
 
-use super::bounds::Bounds;
+use super::bounds::PathBounds;
 use super::hull::Hull;
 use super::spline::{CAPACITY, Spline};
 use super::sweep::{Front, Stretch};
@@ -23,7 +23,7 @@ pub(super) enum SweepFault {
 
 #[derive(Clone, Copy, Debug)]
 struct Swept {
-    bounds: Bounds,
+    bounds: PathBounds,
     forward: Front,
     backward: Front,
     lower: f64,
@@ -48,7 +48,7 @@ impl Sweeps {
         base: 1,
         leaves: 1,
         swept: [Swept {
-            bounds: Bounds::NONE,
+            bounds: PathBounds::NONE,
             forward: Front::NONE,
             backward: Front::NONE,
             lower: 0.0,
@@ -60,7 +60,7 @@ impl Sweeps {
     };
 
     /// Sets the bounds of interval k.
-    pub fn bound(&mut self, k: usize, bounds: Bounds) {
+    pub fn bound(&mut self, k: usize, bounds: PathBounds) {
         self.at_mut(k).bounds = bounds;
     }
 
@@ -223,7 +223,7 @@ impl Sweeps {
     fn cap(&self, spline: &Spline, k: usize) -> f64 {
         let last = spline.last;
         if k > last {
-            return Bounds::NONE.cap;
+            return PathBounds::NONE.cap;
         }
         let cap = |k: usize| self.at(k).bounds.cap;
         let least = cap(k).min(cap(k - 1)).min(cap(k + 1));

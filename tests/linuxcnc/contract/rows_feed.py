@@ -113,7 +113,8 @@ class MaskedOverrides(Row):
     def check(self, seen):
         for line, wanted in ((4, 40), (6, 20), (8, 10)):
             speeds = sorted(seen.during(line).speed("x"))
-            seen.near(speeds[len(speeds) // 2], wanted, wanted * 0.02, f"mm/s in line {line}")
+            # gathering speed and braking take half of a line
+            seen.near(speeds[3 * len(speeds) // 4], wanted, wanted * 0.01, f"mm/s in line {line}")
 
 
 class FeedHold(Row):

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Stands where the screen stands, and does to LinuxCNC what must not harm it."""
 
+import contextlib
 import os
 import random
 import signal
@@ -9,7 +10,7 @@ import time
 
 import hal
 import linuxcnc
-from driver import ERRORS, Failure, Operator, main, write_result
+from driver import ERRORS, Failure, Operator, main, send, write_result
 
 #: What the processes are called on their command lines.
 PROCESSES = {"task": "milltask", "io": "io", "frame_guard": "frame_guard.py", "GUI": "operate_faults.py"}
@@ -48,7 +49,9 @@ class FaultOperator(Operator):
             self.poll()
             write_result(self, None)
         for process in processes(name):
-            os.kill(process, signal.SIGKILL)
+            # that of the heartbeat ends with frame_guard
+            with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+                send(process, signal.SIGKILL)
 
     def suspend(self, name, seconds):
         """Stops a process for a while. A process of its own lets it go on: the GUI stops itself."""
@@ -57,7 +60,7 @@ class FaultOperator(Operator):
             time.sleep(0.05)
             for way, pause in ((signal.SIGSTOP, seconds), (signal.SIGCONT, 0)):
                 for process in found:
-                    os.kill(process, way)
+                    send(process, way)
                 time.sleep(pause)
             os._exit(0)
         time.sleep(0.1)

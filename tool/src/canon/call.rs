@@ -1,7 +1,7 @@
 //! The canonical calls of a program: what the interpreter asks of the machine.
 
-/// Position of the nine axes x y z a b c u v w, in millimetres and degrees of the machine.
-pub type Position = [f64; 9];
+use crate::path::Position;
+use serde::{Deserialize, Serialize};
 
 /// The plane of an arc (G17, G19, G18).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,7 @@ impl Plane {
 }
 
 /// How moves end (G61.1, G61, G64).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PathMode {
     /// Stop at the end of each move.
     ExactStop,
@@ -37,7 +37,7 @@ pub enum PathMode {
 }
 
 /// The state of the interpreter that travels with a move, as LinuxCNC's `state_tag_t` has it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tag {
     /// G64 P, program units.
     pub path_tolerance: f64,

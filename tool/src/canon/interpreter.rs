@@ -2,13 +2,15 @@
 
 use super::call::Call;
 use super::surroundings::Surroundings;
-use crate::compare::host::memory_file::MemoryFile;
+use super::timed::Timed;
+use crate::memory_file::MemoryFile;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdout, Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// The interpreter program, compiled by the build script.
@@ -36,6 +38,18 @@ pub enum CanonError {
         message: String,
         /// The line itself.
         text: String,
+    },
+    /// The program does not end, or takes too long.
+    #[error(
+        "{}: the program has not ended after {seconds} s: check the conditions of its loops; --most-seconds \
+         raises the limit",
+        file.display()
+    )]
+    Slow {
+        /// The file.
+        file: PathBuf,
+        /// How long was waited, s.
+        seconds: u64,
     },
     /// The interpreter could not be run to its end.
     #[error("{}: LinuxCNC's interpreter does not run: {problem}", file.display())]
@@ -111,7 +125,9 @@ pub struct CallStream {
     /// What messages call the program.
     file: PathBuf,
     child: Child,
-    output: BufReader<ChildStdout>,
+    output: BufReader<Timed>,
+    /// How long the program may take.
+    most_time: Duration,
     complaints: Option<JoinHandle<String>>,
     line: Vec<u8>,
     ended: bool,
@@ -165,12 +181,20 @@ impl CallStream {
         Ok(CallStream {
             file: file.to_owned(),
             child,
-            output: BufReader::with_capacity(1 << 16, output),
+            output: BufReader::with_capacity(1 << 16, Timed::new(output)),
+            most_time: Duration::MAX,
             complaints: Some(complaints),
             line: Vec::new(),
             ended: false,
             _home: home,
         })
+    }
+
+    /// Ends with an error when the program has taken this time, counted from now.
+    pub fn within(mut self, most_time: Duration) -> CallStream {
+        self.most_time = most_time;
+        self.output.get_mut().deadline = Instant::now().checked_add(most_time);
+        self
     }
 
     /// The next line that the interpreter prints, `None` at the end of its output.
@@ -187,6 +211,12 @@ impl CallStream {
         let line = match self.read_line() {
             Ok(Some(line)) => line,
             Ok(None) => return Err(self.broken("")),
+            Err(error) if error.kind() == io::ErrorKind::TimedOut => {
+                return Err(CanonError::Slow {
+                    file: self.file.clone(),
+                    seconds: self.most_time.as_secs(),
+                });
+            }
             Err(error) => return Err(failure(&self.file, error.to_string())),
         };
         if let Some(call) = Call::parse(&line) {

@@ -14,6 +14,7 @@
 pub mod call;
 pub mod interpreter;
 pub mod surroundings;
+mod timed;
 pub mod tool_table;
 
 pub use call::Call;

@@ -1,7 +1,7 @@
 //! What the interpreter finds around it: INI file, numbered parameters, tools, position.
 
-use super::call::Position;
 use super::tool_table::Tool;
+use crate::path::Position;
 use std::io;
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,7 @@
 //! What LinuxCNC 2.9 reads without finding a tool in it, or skips with no more than a line in a
 //! terminal, is refused here: the plan would be for another machine than the one that runs.
 
-use super::call::Position;
+use crate::path::Position;
 use std::path::{Path, PathBuf};
 
 /// A tool, in machine units and degrees.

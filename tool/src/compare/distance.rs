@@ -1,11 +1,10 @@
 //! Distance between the executed and the programmed path, both ways, and against the tolerance.
 
 use super::figures::EXCEEDED;
-use super::kinematics::{moves, step};
-use super::program::{Piece, Program};
-use super::recording::Sample;
-use super::segment::{Segment, largest_difference};
 use crate::canon::call::PathMode;
+use crate::host::recording::{Sample, moves, step};
+use crate::layer::program::{Piece, Program};
+use crate::path::segment::{Segment, largest_difference};
 use serde::Serialize;
 
 /// Moves on each side of the one that runs in which the path is looked for.

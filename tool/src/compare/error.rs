@@ -7,6 +7,15 @@ use std::path::PathBuf;
 /// Why there is no comparison.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
+    /// An option cannot be used: its name, and why.
+    #[error("--{0}: {1}")]
+    Option(&'static str, String),
+    /// --optimum or --holds in a build that has no solver.
+    #[error(
+        "framepath compare --optimum and --holds: this framepath was built without its feature optimum: \
+         cargo install --locked --path tool --features optimum"
+    )]
+    NoOptimum,
     /// Neither a file nor --generated was given.
     #[error(
         "nothing to compare with: name a program, or one of the generated ones with --generated ({0})"

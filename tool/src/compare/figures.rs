@@ -1,17 +1,18 @@
 //! All figures of one run of a module.
 
+use super::against_optimum::{Holds, LeastTime};
 use super::cost::Cost;
 use super::distance::{Distance, Path, executed_to_path, path_to_executed};
-use super::holds::{Holds, holds};
-use super::job::Job;
+#[cfg(feature = "optimum")]
+use super::holds::holds;
 use super::kinematics::{Motion, motion};
-use super::least_time::LeastTime;
-use super::limits::Jerk;
-use super::program::Program;
-use super::recording::{ABORTED, Ending, Recording};
 use super::rests::{Rests, rests};
-use super::segment::largest_difference;
-use super::supervise::Outcome;
+use crate::host::job::Job;
+use crate::host::recording::{ABORTED, Ending, Recording};
+use crate::host::supervise::Outcome;
+use crate::layer::program::Program;
+use crate::machine::limits::Jerk;
+use crate::path::segment::largest_difference;
 use serde::Serialize;
 
 /// Beyond this ratio a limit or a tolerance counts as exceeded.
@@ -93,6 +94,8 @@ pub(crate) struct Figures {
     /// Distance of the last position from the programmed end, mm or degrees.
     pub final_error: f64,
     pub rests: Rests,
+    /// Measured with the feature `optimum`.
+    #[cfg_attr(not(feature = "optimum"), serde(skip))]
     pub holds: Holds,
     /// Measured when it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -194,6 +197,9 @@ impl Figures {
                 job.period,
                 motion.range,
             ),
+            #[cfg(not(feature = "optimum"))]
+            holds: Holds::default(),
+            #[cfg(feature = "optimum")]
             holds: holds(
                 recording,
                 &job.limits,

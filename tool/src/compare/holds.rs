@@ -1,39 +1,10 @@
 //! How the machine comes to rest when it is held: by a pause or by a feed override of 0.
 
-use super::kinematics::{moves, step};
-use super::limits::Limits;
-use super::recording::{HELD, Recording, Sample, WAITING};
+use super::against_optimum::Holds;
 use super::shortest_stop::State;
+use crate::host::recording::{HELD, Recording, Sample, WAITING, moves, step};
+use crate::machine::limits::Limits;
 use crate::optimum::{AxisLimits, ExecutedPath, PathSample, SpeedCap, shortest_stop};
-use serde::Serialize;
-
-/// The holds of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub(crate) struct Holds {
-    /// How often a moving machine was held until it stood.
-    pub count: usize,
-    /// How often it did not stand at the end of the hold.
-    pub not_at_rest: usize,
-    /// How often it was held in a thread, which it follows to its end.
-    pub in_threads: usize,
-    /// Longest time to rest, s.
-    pub longest: f64,
-    /// Mean of the time to rest over that of the shortest stop from the same speed and acceleration
-    /// along the path.
-    pub mean_ratio: f64,
-    pub worst_ratio: f64,
-    /// How much longer than that it took at worst, s.
-    pub latest: f64,
-    /// Largest travel of an axis while it was held and had been at rest, mm or degrees.
-    pub drift: f64,
-}
-
-impl Holds {
-    /// How often it was held in motion.
-    pub(crate) fn all(&self) -> usize {
-        self.count + self.not_at_rest + self.in_threads
-    }
-}
 
 /// Measures all holds; `jerk` are the limits of the axes, 0 = none. `in_thread`: whether each move, by its
 /// number, follows the angle of a spindle.
@@ -189,7 +160,7 @@ impl Stop<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::recording::Sample;
+    use crate::host::recording::Sample;
 
     /// 100 mm/s in X; from 0.1 s on held, slowing down with `deceleration`.
     fn held_run(deceleration: f64) -> Recording {

@@ -1,12 +1,9 @@
 //! Velocity, acceleration and jerk of each axis by finite differences of the positions, and the time
 //! from the first to the last motion.
 
-use super::limits::Limits;
-use super::recording::{Recording, Sample};
+use crate::host::recording::{Recording, moves, step};
+use crate::machine::limits::Limits;
 use serde::Serialize;
-
-/// Less travel in a cycle is standstill, mm or degrees.
-const AT_REST: f64 = 1e-9;
 
 /// The worst of an axis, or of all axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -38,27 +35,6 @@ pub(crate) struct Motion {
     /// First and last sample with motion.
     #[serde(skip)]
     pub range: Option<(usize, usize)>,
-}
-
-/// Travel of each axis in cycle `k`; the machine stood at zero before.
-pub(crate) fn step(samples: &[Sample], k: usize) -> [f64; 9] {
-    let before = match k.checked_sub(1).and_then(|k| samples.get(k)) {
-        Some(sample) => sample.position,
-        None => [0.0; 9],
-    };
-    let mut step = [0.0; 9];
-    if let Some(sample) = samples.get(k) {
-        for (axis, travel) in step.iter_mut().enumerate() {
-            *travel = sample.position[axis] - before[axis];
-        }
-    }
-    step
-}
-
-/// Whether an axis moves.
-pub(crate) fn moves(step: &[f64; 9]) -> bool {
-    step.iter()
-        .any(|travel| travel.is_nan() || travel.abs() > AT_REST)
 }
 
 /// Measures a run; `jerk` are the limits of the axes, 0 = none.
@@ -129,6 +105,7 @@ fn keep_worse(worst: &mut Peak, candidate: Peak) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::host::recording::Sample;
 
     #[test]
     fn a_jump_is_seen_as_such() {

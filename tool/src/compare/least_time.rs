@@ -1,47 +1,19 @@
 //! The least time on the path that a module executed.
 
-use super::job::Job;
-use super::kinematics::{moves, step};
-use super::program::{Operation, Piece, Program};
+use super::against_optimum::LeastTime;
 use super::progress::Progress;
-use super::recording::{DONE, Recording, Sample, WAITING};
 use super::rests::{exact_stop_near, is_slow};
+use crate::host::job::Job;
+use crate::host::recording::{DONE, Recording, Sample, WAITING, moves, step};
+use crate::layer::program::{Operation, Piece, Program};
 use crate::optimum::{
     AxisLimits, Boundary, ExecutedPath, Grid, PathSample, SpeedCap, corners, least_time, spacing,
     topp_ra,
 };
-use serde::Serialize;
 use std::ops::Range;
 
 /// Less travel than this does not count, mm or degrees (LinuxCNC's own limit).
 const LEAST_TRAVEL: f64 = 1e-7;
-
-/// The optimum of a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub(crate) struct LeastTime {
-    /// With the limits of velocity, acceleration and jerk, s.
-    pub time: f64,
-    /// Without the limit of jerk (TOPP-RA), s.
-    pub without_jerk_limit: f64,
-    /// From the first motion to the last move that is handed over, at the earliest, s: no planner ends
-    /// before it.
-    pub supply: f64,
-    /// Time of the module without what it waited for the program, s.
-    pub executed: f64,
-    /// Executed over the greater one of optimum and supply.
-    pub ratio: f64,
-    /// The ratio is to the supply.
-    pub limited_by_supply: bool,
-    /// Stretches between standstills that the program asks for.
-    pub stretches: usize,
-    /// Those of them with moves that follow the spindle, which says how fast they are: they count as
-    /// they were run.
-    pub with_spindle: usize,
-    /// Those of them for which there is no optimum: they count as they were run.
-    pub not_solved: usize,
-    /// The first reason for one.
-    pub problem: Option<String>,
-}
 
 impl LeastTime {
     /// Measures a run that came to its end, between the samples `range`.

@@ -2,48 +2,43 @@
 //! tabulates time, peaks over the limits, distance from the program, cost of the calls.
 //!
 //! The files in the order of the work: [`crate::canon`] reads the program through LinuxCNC's own
-//! interpreter; [`layer`] does with it what the canonical layer does, the result is a [`program`] made
-//! of [`segment`]s; [`runner`] and [`job`] tell it to a process of its own ([`supervise`]), which drives
-//! the module ([`host`]) and sends a [`recording`]; [`kinematics`], [`distance`], [`rests`], [`holds`]
-//! and [`cost`] measure it, and [`least_time`] if it is asked for; [`figures`] holds all of it;
-//! [`table`], [`ratios`], [`s_curve`] and [`summary`] show it.
+//! interpreter; [`crate::layer`] does with it what the canonical layer does; [`runner`] has
+//! [`crate::host`] drive the modules with it; [`kinematics`], [`distance`], [`rests`], [`holds`]
+//! and [`cost`] measure what they recorded, and [`least_time`] if it is asked for; both are
+//! figures [`against_optimum`]; [`figures`] holds all of it; [`mod@table`], [`mod@ratios`], [`s_curve`] and [`summary`] show it.
 
+mod against_optimum;
 mod cost;
 mod distance;
 mod error;
 mod figures;
+#[cfg(feature = "optimum")]
 mod holds;
-pub(crate) mod host;
-mod job;
 mod kinematics;
-pub(crate) mod layer;
+#[cfg(feature = "optimum")]
 mod least_time;
-pub(crate) mod limits;
-mod operator;
-pub(crate) mod program;
 mod progress;
 mod ratios;
-mod recording;
 mod rests;
 mod runner;
 mod s_curve;
-pub(crate) mod segment;
+#[cfg(feature = "optimum")]
 mod shortest_stop;
 mod summary;
-mod supervise;
 mod table;
 
 pub use error::CompareError;
 
 use crate::arguments::{file_name, not_negative, period, positive};
 use crate::canon::{read_program, read_text};
-use crate::generate;
-use crate::report::format::significant;
+use crate::format::significant;
+use crate::generated;
+use crate::host;
+use crate::host::operator::{Action, Event, at_time, random_events};
+use crate::layer::program::Program;
+use crate::layer::{LayerSettings, lay};
+use crate::machine::limits::{Jerk, Limits};
 use figures::Figures;
-use layer::{LayerSettings, lay};
-use limits::{Jerk, Limits};
-use operator::{Action, Event, at_time, random_events};
-use program::Program;
 use progress::Progress;
 use ratios::{ProgramRuns, ratios};
 use runner::Runner;
@@ -176,15 +171,18 @@ struct Report<'a> {
 /// # Errors
 /// Programs that cannot be read, modules that do not exist; behind the results, programs that a planner
 /// refused or gave up. A module that crashes, hangs or is none is no error but a result.
-pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error>> {
+pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
+    if cfg!(not(feature = "optimum")) && (arguments.optimum || arguments.holds.is_some()) {
+        return Err(CompareError::NoOptimum);
+    }
     let mut limits = Limits::default();
     limits
         .apply(&arguments.limits)
-        .map_err(|problem| format!("--limits: {problem}"))?;
+        .map_err(|problem| CompareError::Option("limits", problem))?;
     let jerks = arguments
         .jerk
         .iter()
-        .map(|text| Jerk::parse(text).map_err(|problem| format!("--jerk: {problem}")))
+        .map(|text| Jerk::parse(text).map_err(|problem| CompareError::Option("jerk", problem)))
         .collect::<Result<Vec<_>, _>>()?;
     let programs = programs(arguments, limits)?;
     let events = events(arguments);
@@ -243,7 +241,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Box<dyn std::error::Error
     if not_done.is_empty() {
         Ok(())
     } else {
-        Err(CompareError::NotDone(not_done).into())
+        Err(CompareError::NotDone(not_done))
     }
 }
 
@@ -312,7 +310,7 @@ fn programs(
     };
     let names = generated_names(&arguments.generated)?;
     if arguments.files.is_empty() && names.is_empty() {
-        return Err(CompareError::NoProgram(generate::names().join(", ")));
+        return Err(CompareError::NoProgram(generated::names().join(", ")));
     }
     let mut programs = Vec::new();
     for file in &arguments.files {
@@ -320,7 +318,7 @@ fn programs(
         programs.push((name, lay(&read_program(file)?, &settings)));
     }
     for name in names {
-        let text = generate::program(&name).unwrap_or_default();
+        let text = generated::program(&name).unwrap_or_default();
         programs.push((name.clone(), lay(&read_text(&name, &text)?, &settings)));
     }
     for (name, program) in &programs {
@@ -332,7 +330,7 @@ fn programs(
 }
 
 fn generated_names(asked: &[String]) -> Result<Vec<String>, CompareError> {
-    let known = generate::names();
+    let known = generated::names();
     let mut names = Vec::new();
     for name in asked {
         if name == "all" {

@@ -40,6 +40,7 @@ impl Progress {
     }
 
     /// The optimum of this run is found for a share of it.
+    #[cfg(feature = "optimum")]
     pub(super) fn optimum_done(&self, share: f64) {
         let start = self.0.position() / STEPS * STEPS;
         let within = 0.5 + 0.49 * share.clamp(0.0, 1.0);

@@ -1,7 +1,7 @@
 //! Times of the modules over that of the first, over all programs.
 
 use super::figures::Figures;
-use super::limits::Jerk;
+use crate::machine::limits::Jerk;
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -1,12 +1,11 @@
 //! Rests in the middle of a program that neither the program nor the operator nor the supply of moves
 //! explains.
 
-use super::kinematics::step;
-use super::limits::Limits;
-use super::program::{Piece, Program};
-use super::recording::{ABORTED, DONE, HELD, Recording, STARVED, WAITING};
-use super::segment::{Segment, largest_difference};
 use crate::canon::call::PathMode;
+use crate::host::recording::{ABORTED, DONE, HELD, Recording, STARVED, WAITING, step};
+use crate::layer::program::{Piece, Program};
+use crate::machine::limits::Limits;
+use crate::path::segment::{Segment, largest_difference};
 use nalgebra::SVector;
 use serde::Serialize;
 
@@ -106,6 +105,7 @@ pub(crate) fn is_slow(travel: &[f64; 9], limits: &Limits, period: f64) -> bool {
 
 /// Whether the program asks for a standstill at this position: an exact stop, or a corner in exact
 /// path mode, near the end of the move `id` or of one of its neighbours.
+#[cfg(feature = "optimum")]
 pub(crate) fn exact_stop_near(program: &Program, id: i32, position: &[f64; 9]) -> bool {
     /// At rest the machine is at the point itself.
     const NEAR: f64 = 1e-3;
@@ -206,8 +206,8 @@ fn direction(segment: &Segment, u: f64) -> SVector<f64, 9> {
 mod tests {
     use super::*;
     use crate::canon::Call;
-    use crate::compare::layer::{LayerSettings, lay};
-    use crate::compare::recording::Sample;
+    use crate::host::recording::Sample;
+    use crate::layer::{LayerSettings, lay};
 
     /// Goes to X1 in 10 ms, stands for 5 ms, and goes on to the second point in 10 ms.
     fn stop_between(mode: &str, second: [f64; 9]) -> (Recording, Program) {

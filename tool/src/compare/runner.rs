@@ -1,17 +1,23 @@
 //! Runs every module with every limit of jerk and every length of the queue.
 
 use super::CompareArguments;
+#[cfg(feature = "optimum")]
+use super::against_optimum::LeastTime;
 use super::error::CompareError;
 use super::figures::Figures;
+#[cfg(feature = "optimum")]
 use super::holds::holds;
-use super::job::Job;
-use super::least_time::LeastTime;
-use super::limits::{Jerk, Limits};
-use super::operator::{Event, random_holds};
-use super::program::Program;
 use super::progress::Progress;
-use super::supervise;
 use crate::arguments::file_name;
+use crate::host::job::Job;
+use crate::host::operator::Event;
+#[cfg(feature = "optimum")]
+use crate::host::operator::random_holds;
+#[cfg(feature = "optimum")]
+use crate::host::recording::Recording;
+use crate::host::supervise;
+use crate::layer::program::Program;
+use crate::machine::limits::{Jerk, Limits};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -104,7 +110,7 @@ impl<'a> Runner<'a> {
         let arguments = self.arguments;
         let mut runs = Vec::new();
         for (index, &jerk) in self.jerks.iter().enumerate() {
-            let mut job = Job {
+            let job = Job {
                 module: module.file.to_owned(),
                 period: arguments.period,
                 limits: self.limits,
@@ -118,7 +124,7 @@ impl<'a> Runner<'a> {
                 events: self.events.to_vec(),
                 operations: program.operations.clone(),
             };
-            let patience = Duration::from_secs_f64(arguments.patience.min(1e6));
+            let patience = self.patience();
             let (outcome, mut recording) =
                 supervise::run(&job, patience).map_err(CompareError::Run)?;
             for _ in 1..arguments.repeat {
@@ -127,23 +133,9 @@ impl<'a> Runner<'a> {
                     return Err(CompareError::NotRepeatable(module.file.into()));
                 }
             }
-            let mut figures =
-                Figures::measure(&module.label, jerk, &job, program, outcome, &recording);
-            if let Some(range) = figures.motion.range
-                && arguments.optimum
-                && figures.came_through()
-            {
-                let optimum = LeastTime::of(&recording, program, &job, range, progress);
-                figures.optimum = Some(optimum);
-            }
-            if let Some(count) = arguments.holds
-                && figures.came_through()
-            {
-                job.events = random_holds(usize::from(count), figures.motion.time, hold_time(&job));
-                let (_, recording) = supervise::run(&job, patience).map_err(CompareError::Run)?;
-                let jerk = job.jerk_limits(recording.takes_jerk);
-                figures.holds = holds(&recording, &job.limits, &jerk, job.period, &job.in_thread());
-            }
+            let figures = Figures::measure(&module.label, jerk, &job, program, outcome, &recording);
+            #[cfg(feature = "optimum")]
+            let figures = self.against_optimum(figures, &recording, (program, job), progress)?;
             let takes_jerk = figures.takes_jerk;
             runs.push(figures);
             progress.run_done();
@@ -154,10 +146,43 @@ impl<'a> Runner<'a> {
         }
         Ok(runs)
     }
+    /// What was asked for that takes the optimum: the least time, and the holds of one more run.
+    #[cfg(feature = "optimum")]
+    fn against_optimum(
+        &self,
+        mut figures: Figures,
+        recording: &Recording,
+        (program, mut job): (&Program, Job),
+        progress: &Progress,
+    ) -> Result<Figures, CompareError> {
+        if !figures.came_through() {
+            return Ok(figures);
+        }
+        if let Some(range) = figures.motion.range
+            && self.arguments.optimum
+        {
+            let optimum = LeastTime::of(recording, program, &job, range, progress);
+            figures.optimum = Some(optimum);
+        }
+        if let Some(count) = self.arguments.holds {
+            job.events = random_holds(usize::from(count), figures.motion.time, hold_time(&job));
+            let (_, recording) =
+                supervise::run(&job, self.patience()).map_err(CompareError::Run)?;
+            let jerk = job.jerk_limits(recording.takes_jerk);
+            figures.holds = holds(&recording, &job.limits, &jerk, job.period, &job.in_thread());
+        }
+        Ok(figures)
+    }
+
+    /// How long a call of a module may take.
+    fn patience(&self) -> Duration {
+        Duration::from_secs_f64(self.arguments.patience.min(1e6))
+    }
 }
 
 /// Long enough for every planner to come to rest, s: three times what the slowest axis needs from its
 /// greatest velocity.
+#[cfg(feature = "optimum")]
 fn hold_time(job: &Job) -> f64 {
     let axes = job.limits.velocity.iter().zip(&job.limits.acceleration);
     axes.zip(&job.jerk)

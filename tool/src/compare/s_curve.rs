@@ -3,8 +3,8 @@
 //! both.
 
 use super::figures::Figures;
-use super::limits::{Jerk, Limits};
 use super::ratios::{ProgramRuns, Ratio};
+use crate::machine::limits::{Jerk, Limits};
 
 /// Jerk limit of those runs, in accelerations per second; velocity and acceleration were
 /// [`Limits::default`].

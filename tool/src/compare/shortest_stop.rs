@@ -1,8 +1,7 @@
 //! No stop is shorter than that of each axis by itself.
 
-use super::kinematics::step;
-use super::limits::Limits;
-use super::recording::Sample;
+use crate::host::recording::{Sample, step};
+use crate::machine::limits::Limits;
 
 /// A moment of motion, and what no stop from there undercuts.
 #[derive(Clone, Copy, Debug, PartialEq)]

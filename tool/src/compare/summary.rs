@@ -2,8 +2,8 @@
 //! come to rest.
 
 use super::figures::Figures;
-use super::limits::Jerk;
 use super::ratios::{ProgramRuns, kinds};
+use crate::machine::limits::Jerk;
 use std::fmt::Write;
 
 /// Programs are taken together that move at most so many axes.

@@ -1,10 +1,9 @@
 //! The figures as a table for people.
 
+use super::against_optimum::{Holds, LeastTime};
 use super::distance::Distance;
 use super::figures::{EXCEEDED, Figures, State};
-use super::holds::Holds;
-use super::least_time::LeastTime;
-use super::program::Program;
+use crate::layer::program::Program;
 use std::fmt::Write;
 
 const HEAD: [&str; 18] = [

@@ -5,7 +5,7 @@ use crate::diagnostics::Diagnostic;
 use crate::source::Span;
 
 /// The outcome of parsing a part of a block.
-pub type Parsed<T> = Result<T, Box<Diagnostic>>;
+pub type Parsed<T> = Result<T, Diagnostic>;
 
 /// The tokens of one block, without its comment and its end.
 #[derive(Clone, Debug)]
@@ -111,8 +111,8 @@ impl<'a, S: Copy + PartialEq, P> Cursor<'a, S, P> {
     }
 
     /// An error at the next token.
-    pub fn error(&self, message: impl Into<String>) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.span(), message))
+    pub fn error(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(self.span(), message)
     }
 
     /// An error at the next token, with advice.
@@ -120,7 +120,7 @@ impl<'a, S: Copy + PartialEq, P> Cursor<'a, S, P> {
         &self,
         message: impl Into<String>,
         help: impl Into<String>,
-    ) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.span(), message).help(help))
+    ) -> Diagnostic {
+        Diagnostic::error(self.span(), message).help(help)
     }
 }

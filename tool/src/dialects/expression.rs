@@ -39,6 +39,8 @@ pub enum Unary {
     Negate,
     /// NOT.
     Not,
+    /// All bits of a whole number of 32 bits.
+    BitNot,
 }
 
 /// Operators with two operands.
@@ -55,6 +57,9 @@ pub enum Binary {
     And,
     Or,
     ExclusiveOr,
+    BitAnd,
+    BitOr,
+    BitExclusiveOr,
     Concatenate,
     Equal,
     NotEqual,
@@ -110,6 +115,21 @@ pub enum Function {
     Bound,
 }
 
+/// Functions that several dialects call by these names.
+pub const FUNCTIONS: [(&str, Function); 11] = [
+    ("SIN", Function::Sin),
+    ("COS", Function::Cos),
+    ("TAN", Function::Tan),
+    ("ASIN", Function::Asin),
+    ("ACOS", Function::Acos),
+    ("ATAN", Function::Atan),
+    ("SQRT", Function::SquareRoot),
+    ("ABS", Function::Absolute),
+    ("ROUND", Function::Round),
+    ("LN", Function::NaturalLogarithm),
+    ("LOG", Function::DecimalLogarithm),
+];
+
 impl Function {
     /// How many arguments it takes.
     pub fn arguments(self) -> usize {
@@ -133,12 +153,12 @@ pub enum Value {
 /// Where the values of variables come from.
 pub trait Variables {
     /// The value of a variable, or of an element of an array; an error at `span` if there is none.
-    fn value(&self, name: &str, index: &[f64], span: Span) -> Result<Value, Box<Diagnostic>>;
+    fn value(&self, name: &str, index: &[f64], span: Span) -> Result<Value, Diagnostic>;
 }
 
 impl Expression {
     /// The value of the expression; never an infinite number or NaN.
-    pub fn evaluate(&self, variables: &dyn Variables) -> Result<Value, Box<Diagnostic>> {
+    pub fn evaluate(&self, variables: &dyn Variables) -> Result<Value, Diagnostic> {
         let value =
             match &self.kind {
                 ExpressionKind::Number(number) => Value::Number(*number),
@@ -153,6 +173,7 @@ impl Expression {
                     Value::Number(match operator {
                         Unary::Negate => -operand,
                         Unary::Not => truth(operand == 0.0),
+                        Unary::BitNot => f64::from(!self.bits(operand)?),
                     })
                 }
                 ExpressionKind::Binary(operator, left, right) => {
@@ -174,7 +195,7 @@ impl Expression {
     }
 
     /// The value, which must be a number.
-    pub fn number(&self, variables: &dyn Variables) -> Result<f64, Box<Diagnostic>> {
+    pub fn number(&self, variables: &dyn Variables) -> Result<f64, Diagnostic> {
         match self.evaluate(variables)? {
             Value::Number(number) => Ok(number),
             Value::Text(_) => Err(self.error("a number is needed here, this is a text")),
@@ -182,7 +203,7 @@ impl Expression {
     }
 
     /// The value, which must be a whole number of at least `least`.
-    pub fn whole(&self, variables: &dyn Variables, least: u32) -> Result<u32, Box<Diagnostic>> {
+    pub fn whole(&self, variables: &dyn Variables, least: u32) -> Result<u32, Diagnostic> {
         let number = self.number(variables)?;
         if number.fract() != 0.0 || number < f64::from(least) || number > f64::from(u32::MAX) {
             return Err(self.error(format!(
@@ -198,7 +219,7 @@ impl Expression {
         left: &Expression,
         right: &Expression,
         variables: &dyn Variables,
-    ) -> Result<Value, Box<Diagnostic>> {
+    ) -> Result<Value, Diagnostic> {
         let (left_value, right_value) = (left.evaluate(variables)?, right.evaluate(variables)?);
         if operator == Binary::Concatenate {
             return Ok(Value::Text(text(&left_value) + &text(&right_value)));
@@ -218,10 +239,7 @@ impl Expression {
             Binary::Divide | Binary::WholeDivide | Binary::Remainder
         );
         if divides && b == 0.0 {
-            return Err(Box::new(Diagnostic::error(
-                right.span,
-                "division by zero: this is 0",
-            )));
+            return Err(Diagnostic::error(right.span, "division by zero: this is 0"));
         }
         let same = equal(a, b);
         Ok(Value::Number(match operator {
@@ -235,6 +253,9 @@ impl Expression {
             Binary::And => truth(a != 0.0 && b != 0.0),
             Binary::Or => truth(a != 0.0 || b != 0.0),
             Binary::ExclusiveOr => truth((a != 0.0) != (b != 0.0)),
+            Binary::BitAnd => f64::from(left.bits(a)? & right.bits(b)?),
+            Binary::BitOr => f64::from(left.bits(a)? | right.bits(b)?),
+            Binary::BitExclusiveOr => f64::from(left.bits(a)? ^ right.bits(b)?),
             Binary::Equal => truth(same),
             Binary::NotEqual => truth(!same),
             Binary::Less => truth(a < b && !same),
@@ -245,8 +266,20 @@ impl Expression {
         }))
     }
 
-    fn error(&self, message: impl Into<String>) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.span, message))
+    /// The bits of a value of this expression.
+    fn bits(&self, value: f64) -> Result<i32, Diagnostic> {
+        let fits =
+            value.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&value);
+        match fits {
+            true => Ok(value as i32),
+            false => Err(self.error(format!(
+                "{value} has no bits: a whole number of 32 bits is needed here"
+            ))),
+        }
+    }
+
+    fn error(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(self.span, message)
     }
 }
 
@@ -258,7 +291,7 @@ pub fn text(value: &Value) -> String {
     }
 }
 
-fn numbers(list: &[Expression], variables: &dyn Variables) -> Result<Vec<f64>, Box<Diagnostic>> {
+fn numbers(list: &[Expression], variables: &dyn Variables) -> Result<Vec<f64>, Diagnostic> {
     list.iter().map(|item| item.number(variables)).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Which language a part program is written in: by the ending of its file and by words that only one
 //! language has.
 
-use super::{Dialect, fagor, isg, mefi, sinumerik};
+use super::Dialect;
 use crate::diagnostics::Diagnostic;
 use crate::source::Span;
 use std::path::Path;
@@ -45,18 +45,8 @@ impl Evidence {
     }
 }
 
-/// Looks at the lines of a program, in upper case and without blanks at their ends, and at the ending of
-/// its file in lower case.
-type Look = fn(&[String], &str) -> Evidence;
-
 /// The dialect that most speaks for; `None` where nothing speaks for one, or as much for two.
 pub fn guess(path: &Path, text: &str) -> Option<Guess> {
-    const LOOKS: [(Dialect, Look); 4] = [
-        (Dialect::Sinumerik, sinumerik::evidence),
-        (Dialect::Fagor, fagor::evidence),
-        (Dialect::Mefi, mefi::evidence),
-        (Dialect::Isg, isg::evidence),
-    ];
     let lines: Vec<String> = text
         .lines()
         .take(LINES)
@@ -64,10 +54,11 @@ pub fn guess(path: &Path, text: &str) -> Option<Guess> {
         .collect();
     let extension = path.extension().unwrap_or_default();
     let extension = extension.to_string_lossy().to_ascii_lowercase();
-    let mut found: Vec<(Evidence, Dialect)> = LOOKS
-        .iter()
-        .map(|(dialect, look)| (look(&lines, &extension), *dialect))
-        .collect();
+    let look = |dialect: &Dialect| {
+        let language = dialect.language()?;
+        Some((language.evidence(&lines, &extension), *dialect))
+    };
+    let mut found: Vec<(Evidence, Dialect)> = Dialect::ALL.iter().filter_map(look).collect();
     found.sort_by_key(|(evidence, _)| std::cmp::Reverse(evidence.score));
     match found[..] {
         [(first, _), (second, _), ..] if first.score == second.score => None,
@@ -82,11 +73,12 @@ pub fn guess(path: &Path, text: &str) -> Option<Guess> {
 /// The error where no guess can be made.
 pub fn undecided() -> Diagnostic {
     let start = Span::start_of(0);
+    let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
     Diagnostic::error(
         start,
         "nothing in this program tells in which language it is written",
     )
-    .help("give --dialect sinumerik, fagor, mefi or isg")
+    .help(format!("give --dialect {}", names.join(" or ")))
 }
 
 #[cfg(test)]

@@ -1,10 +1,13 @@
 //! Where programs and subprograms come from: sections of the file itself, files beside it, files in
 //! the folders of the settings.
 
+use super::fillers;
 use super::settings::Settings;
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::encoding::{Encoding, decode_as};
-use crate::source::{Sources, Span, Text};
+use crate::encoding::Encoding;
+use crate::source::open::{Content, OpenError, Reading, open};
+use crate::source::{Sources, Span};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -22,11 +25,17 @@ pub trait Routine {
     fn title(&self) -> &str {
         self.name()
     }
+    /// Parses what did not run, for the errors in it.
+    ///
+    /// # Errors
+    ///
+    /// Where its file cannot be read any more.
+    fn check_rest(&self, sources: &Sources, diagnostics: &mut Diagnostics) -> io::Result<()>;
 }
 
-/// Parses lines of a file of the sources, whose name without its ending, in upper case, is the second
-/// argument.
-pub type Parse<R> = fn(Text, &str, &Sources, &mut Diagnostics) -> Vec<R>;
+/// Looks for the programs and subprograms of the file of the sources with an index. The second argument is its
+/// name without its ending, in upper case.
+pub type Read<R> = fn(usize, &str, &Sources, &mut Diagnostics) -> Vec<R>;
 
 /// All programs that are known so far.
 #[derive(Debug)]
@@ -37,14 +46,18 @@ pub struct Library<R> {
     /// Files that were read, and names that were looked for in vain.
     read: Vec<PathBuf>,
     missing: Vec<String>,
+    /// The first routine of each file that was read.
+    firsts: Vec<(PathBuf, Rc<R>)>,
+    /// Those that only calls by the path of their file mean.
+    unnamed: Vec<Rc<R>>,
     extensions: &'static [&'static str],
-    encoding: Option<Encoding>,
+    reading: Reading,
     stem: String,
-    parse: Parse<R>,
+    read_routines: Read<R>,
 }
 
 impl<R: Routine> Library<R> {
-    /// Parses file 0 of `sources`, which lies at `path`, if all of it is held. Subprogram files have one of the
+    /// Looks through file 0 of `sources`, which lies at `path`. Subprogram files have one of the
     /// `extensions`; where several have the same name, the earlier ending counts.
     pub fn new(
         path: &Path,
@@ -52,7 +65,7 @@ impl<R: Routine> Library<R> {
         settings: &Settings,
         sources: &Sources,
         diagnostics: &mut Diagnostics,
-        parse: Parse<R>,
+        read_routines: Read<R>,
     ) -> Library<R> {
         let folder = path.parent().unwrap_or(Path::new("."));
         let folder = match folder.as_os_str().is_empty() {
@@ -67,14 +80,13 @@ impl<R: Routine> Library<R> {
                 .collect(),
             read: vec![folder.join(path.file_name().unwrap_or_default())],
             missing: Vec::new(),
+            firsts: Vec::new(),
+            unnamed: Vec::new(),
             extensions,
-            encoding: settings.encoding,
+            reading: settings.reading,
             stem: stem(path),
-            parse,
+            read_routines,
         };
-        if sources.file(0).is_windowed() {
-            return library;
-        }
         library.add_file(0, path, sources, diagnostics);
         let main = |routine: &&Rc<R>| routine.is_main() && !routine.is_empty();
         let mut candidates = library.routines.iter().filter(main);
@@ -97,9 +109,14 @@ impl<R: Routine> Library<R> {
         &self.stem
     }
 
-    /// How files are parsed.
-    pub fn parser(&self) -> Parse<R> {
-        self.parse
+    /// Parses what did not run of all files that were read.
+    ///
+    /// # Errors
+    ///
+    /// Where a file cannot be read any more.
+    pub fn check_rest(&self, sources: &Sources, diagnostics: &mut Diagnostics) -> io::Result<()> {
+        let mut routines = self.routines.iter().chain(&self.unnamed);
+        routines.try_for_each(|routine| routine.check_rest(sources, diagnostics))
     }
 
     /// The main program.
@@ -123,22 +140,46 @@ impl<R: Routine> Library<R> {
             .find_map(|folder| in_folder(folder, name, self.extensions))?;
         // A file that holds something else than its name says is not read at every call.
         if self.read.contains(&path) {
-            return None;
+            let mut firsts = self.firsts.iter();
+            let first = firsts.find(|(known, first)| *known == path && first.name() == name);
+            return first.map(|(_, first)| Rc::clone(first));
         }
         self.read.push(path.clone());
-        let bytes = match std::fs::read(&path) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                let span = Span::start_of(0);
-                diagnostics.push(Diagnostic::error(
-                    span,
-                    format!("{} cannot be read: {error}", path.display()),
-                ));
-                return None;
-            }
-        };
-        self.take_in(&path, &bytes, sources, diagnostics)?;
+        self.take_in(&path, sources, diagnostics)?;
         self.known(name)
+    }
+
+    /// The first program of the file with this name, with this ending or one of those of subprograms. `folders`
+    /// are looked for inside the known ones, the outermost first, which may be missing there.
+    pub fn find_file(
+        &mut self,
+        folders: &[String],
+        name: &str,
+        extension: Option<&str>,
+        sources: &mut Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Rc<R>> {
+        let wanted = extension.map(|extension| [extension]);
+        let extensions = wanted
+            .as_ref()
+            .map_or(self.extensions, |one| one.as_slice());
+        let inside = (0..=folders.len()).filter_map(|first| folders.get(first..));
+        let places = inside.flat_map(|inside| {
+            let below = |folder: &PathBuf| subfolder(folder, inside);
+            self.folders.iter().filter_map(below)
+        });
+        let path = { places }.find_map(|folder| in_folder(&folder, name, extensions))?;
+        if !self.read.contains(&path) {
+            self.read.push(path.clone());
+            let known = self.routines.len();
+            self.take_in(&path, sources, diagnostics)?;
+            // Another file may have the name that calls without a path mean.
+            if known < self.routines.len() {
+                self.unnamed.push(self.routines.remove(known));
+            }
+        }
+        let first = self.firsts.iter().find(|(known, _)| *known == path);
+        first.map(|(_, routine)| Rc::clone(routine))
     }
 
     /// The subprogram with this name, wherever it is defined: in the file itself or in any program file
@@ -155,32 +196,28 @@ impl<R: Routine> Library<R> {
         if known.is_some() || self.missing.iter().any(|missing| missing == name) {
             return known;
         }
-        let mut found: Option<(PathBuf, Vec<u8>)> = None;
+        let mut found: Option<PathBuf> = None;
         for path in self.folders.iter().flat_map(|folder| files(folder)) {
             let extension = path.extension().unwrap_or_default().to_string_lossy();
             let is_program = |wanted: &&str| extension.eq_ignore_ascii_case(wanted);
             if !self.extensions.iter().any(is_program) || self.read.contains(&path) {
                 continue;
             }
-            let bytes = match std::fs::read(&path) {
-                Ok(bytes) => bytes,
+            let seems_to = match self.look_through(&path, |text| defines(text, name)) {
+                Ok(seems_to) => seems_to,
                 Err(error) => {
                     let path = path.display();
-                    let message =
-                        format!("{path} cannot be read, whether it defines {name}: {error}");
-                    diagnostics.push(Diagnostic::warning(Span::start_of(0), message));
+                    diagnostics.push(Diagnostic::warning(
+                        Span::start_of(0),
+                        format!("{path} cannot be read, whether it defines {name}: {error}"),
+                    ));
                     continue;
                 }
             };
-            // What is wrong with the encoding of a file counts only if the file is wanted.
-            let text = decode_as(&bytes, self.encoding).map_or_else(
-                |_| String::from_utf8_lossy(&bytes).into_owned(),
-                |decoded| decoded.text,
-            );
-            if !defines(&text, name) {
+            if !seems_to {
                 continue;
             }
-            if let Some((first, _)) = &found {
+            if let Some(first) = &found {
                 let span = Span::start_of(0);
                 diagnostics.push(
                     Diagnostic::error(
@@ -195,48 +232,78 @@ impl<R: Routine> Library<R> {
                 );
                 break;
             }
-            found = Some((path, bytes));
+            found = Some(path);
         }
-        let Some((path, bytes)) = found else {
+        let Some(path) = found else {
             self.missing.push(name.to_string());
             return None;
         };
         self.read.push(path.clone());
-        self.take_in(&path, &bytes, sources, diagnostics)?;
+        self.take_in(&path, sources, diagnostics)?;
         self.known(name)
     }
 
-    /// Parses a file; `None` where it is not in its encoding, which is said.
+    /// Whether something holds for the whole text of a file, or for one of its pieces.
+    fn look_through(&self, path: &Path, holds: impl Fn(&str) -> bool) -> Result<bool, OpenError> {
+        if std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+            return Err(OpenError::System(io::Error::other("it is no file")));
+        }
+        let opened = match open(path, &self.reading) {
+            // What is wrong with the encoding of a file counts only if the file is wanted.
+            Err(OpenError::NotUtf8(_)) => {
+                let any = Reading {
+                    encoding: Some(Encoding::Windows1252),
+                    ..self.reading
+                };
+                open(path, &any)?
+            }
+            opened => opened?,
+        };
+        let pieces = match &opened.content {
+            Content::Whole(text) => return Ok(holds(text)),
+            Content::Pieces(pieces) => pieces,
+        };
+        let (mut pieces, mut place) = (pieces.again()?, 0);
+        while let Some(piece) = pieces.text_at(place)? {
+            if holds(&piece.lines) {
+                return Ok(true);
+            }
+            place = piece.next;
+        }
+        Ok(false)
+    }
+
+    /// Looks through a file; `None` where it cannot be read, which is said.
     fn take_in(
         &mut self,
         path: &Path,
-        bytes: &[u8],
         sources: &mut Sources,
         diagnostics: &mut Diagnostics,
     ) -> Option<()> {
-        let text = self.decode(bytes, path, diagnostics)?;
-        let file = sources.add(path.display().to_string(), text);
-        self.add_file(file, path, sources, diagnostics);
-        Some(())
-    }
-
-    fn decode(&self, bytes: &[u8], path: &Path, diagnostics: &mut Diagnostics) -> Option<String> {
-        let decoded = match decode_as(bytes, self.encoding) {
-            Ok(decoded) => decoded,
-            Err(at) => {
-                let path = path.display();
-                let message = format!("{path} is not UTF-8: byte {} is not", at + 1);
-                diagnostics.push(
-                    Diagnostic::error(Span::start_of(0), message)
-                        .help("leave --encoding out, or name the encoding of all files"),
-                );
+        let name = path.display().to_string();
+        let opened = open(path, &self.reading).and_then(|opened| {
+            let file = opened.content.add_to(sources, name.clone())?;
+            Ok((opened, file))
+        });
+        let (opened, file) = match opened {
+            Ok(opened) => opened,
+            Err(error) => {
+                let message = format!("{name} cannot be read: {error}");
+                let unreadable = Diagnostic::error(Span::start_of(0), message);
+                diagnostics.push(match error {
+                    OpenError::NotUtf8(_) => {
+                        unreadable.help("leave --encoding out, or name the encoding of all files")
+                    }
+                    _ => unreadable,
+                });
                 return None;
             }
         };
-        if let Some(guessed) = decoded.guessed {
-            diagnostics.note_encoding(&path.display().to_string(), guessed);
+        if let Some(guessed) = opened.guessed {
+            diagnostics.note_encoding(&name, guessed);
         }
-        Some(decoded.text)
+        self.add_file(file, path, sources, diagnostics);
+        Some(())
     }
 
     fn known(&self, name: &str) -> Option<Rc<R>> {
@@ -251,8 +318,16 @@ impl<R: Routine> Library<R> {
         sources: &Sources,
         diagnostics: &mut Diagnostics,
     ) {
-        let routines = (self.parse)(sources.text(file), &stem(path), sources, diagnostics);
+        // What cannot be read is said by those who read it.
+        if fillers::is_nul(sources.file(file)).unwrap_or(false) {
+            diagnostics.push(fillers::nothing_but_nul(file));
+        }
+        let routines = (self.read_routines)(file, &stem(path), sources, diagnostics);
+        let known = self.routines.len();
         self.routines.extend(routines.into_iter().map(Rc::new));
+        if let Some(first) = self.routines.get(known) {
+            self.firsts.push((path.to_path_buf(), Rc::clone(first)));
+        }
     }
 }
 
@@ -266,7 +341,7 @@ fn stem(path: &Path) -> String {
 /// system.
 fn in_folder(folder: &Path, name: &str, extensions: &[&str]) -> Option<PathBuf> {
     let rank = |path: &PathBuf| {
-        let extension = path.extension()?.to_string_lossy();
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
         extensions
             .iter()
             .position(|wanted| extension.eq_ignore_ascii_case(wanted))
@@ -281,6 +356,23 @@ fn in_folder(folder: &Path, name: &str, extensions: &[&str]) -> Option<PathBuf> 
         .collect();
     found.sort_by_key(|path| (rank(path), path.clone()));
     found.into_iter().next()
+}
+
+/// The folder inside of others, upper or lower case in any mixture; `_N_JOB_WPD` of the control may be called JOB or
+/// JOB.WPD.
+fn subfolder(folder: &Path, inside: &[String]) -> Option<PathBuf> {
+    let mut folder = folder.to_path_buf();
+    for name in inside {
+        let entries = std::fs::read_dir(&folder).into_iter().flatten();
+        let is_wanted = |path: &PathBuf| {
+            let found = path.file_name().unwrap_or_default().to_string_lossy();
+            let found = found.to_ascii_uppercase();
+            path.is_dir() && found.strip_suffix(".WPD").unwrap_or(&found) == name
+        };
+        let entries = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
+        folder = entries.filter(is_wanted).min()?;
+    }
+    Some(folder)
 }
 
 /// The files of a folder, in alphabetical order.

@@ -22,26 +22,78 @@ pub struct Grammar<S, P> {
     pub operand: fn(&mut Cursor<S, P>, u32) -> Parsed<Expression>,
 }
 
+/// What precedence climbing reads from.
+pub trait Arithmetic {
+    /// How many levels of operators there are; level 0 binds weakest.
+    fn levels(&self) -> usize;
+
+    /// Takes an operator of this level if it comes next.
+    fn take_operator(&mut self, level: usize) -> Option<Binary>;
+
+    /// Refuses operands that the operator does not take.
+    fn check(&self, operator: Binary, left: &Expression, right: &Expression) -> Parsed<()>;
+
+    /// Parses an operand with its signs.
+    fn operand(&mut self) -> Parsed<Expression>;
+}
+
+/// Parses operators of `level` and all that bind stronger, from left to right.
+pub fn climb(source: &mut impl Arithmetic, level: usize) -> Parsed<Expression> {
+    if level == source.levels() {
+        return source.operand();
+    }
+    let mut left = climb(source, level + 1)?;
+    while let Some(binary) = source.take_operator(level) {
+        let right = climb(source, level + 1)?;
+        source.check(binary, &left, &right)?;
+        left = Expression {
+            span: left.span.to(right.span),
+            kind: ExpressionKind::Binary(binary, Box::new(left), Box::new(right)),
+        };
+    }
+    Ok(left)
+}
+
 impl<S: Copy + PartialEq, P> Grammar<S, P> {
     /// Parses operators of `level` and all that bind stronger, from left to right.
     pub fn parse(&self, cursor: &mut Cursor<S, P>, level: usize, depth: u32) -> Parsed<Expression> {
         if depth > DEPTH_LIMIT {
             return Err(cursor.error("parentheses are nested too deep"));
         }
-        if level == self.levels {
-            return (self.operand)(cursor, depth);
-        }
-        let mut left = self.parse(cursor, level + 1, depth)?;
-        while let Some(binary) = (self.operator)(cursor.peek(), level) {
-            cursor.advance();
-            let right = self.parse(cursor, level + 1, depth)?;
-            (self.check)(binary, &left)?;
-            (self.check)(binary, &right)?;
-            left = Expression {
-                span: left.span.to(right.span),
-                kind: ExpressionKind::Binary(binary, Box::new(left), Box::new(right)),
-            };
-        }
-        Ok(left)
+        let grammar = self;
+        let mut tokens = Tokens {
+            grammar,
+            cursor,
+            depth,
+        };
+        climb(&mut tokens, level)
+    }
+}
+
+/// The tokens of a block under the grammar of its dialect, so deep in parentheses.
+struct Tokens<'g, 'c, 't, S, P> {
+    grammar: &'g Grammar<S, P>,
+    cursor: &'c mut Cursor<'t, S, P>,
+    depth: u32,
+}
+
+impl<S: Copy + PartialEq, P> Arithmetic for Tokens<'_, '_, '_, S, P> {
+    fn levels(&self) -> usize {
+        self.grammar.levels
+    }
+
+    fn take_operator(&mut self, level: usize) -> Option<Binary> {
+        let operator = (self.grammar.operator)(self.cursor.peek(), level)?;
+        self.cursor.advance();
+        Some(operator)
+    }
+
+    fn check(&self, operator: Binary, left: &Expression, right: &Expression) -> Parsed<()> {
+        (self.grammar.check)(operator, left)?;
+        (self.grammar.check)(operator, right)
+    }
+
+    fn operand(&mut self) -> Parsed<Expression> {
+        (self.grammar.operand)(self.cursor, self.depth)
     }
 }

@@ -1,15 +1,17 @@
-//! Running the main program, as a whole or piece by piece.
+//! Running the main program.
 //!
-//! A program without jumps, loops and subprograms of its own can be run while it is read. Its text,
-//! its blocks and what they do are then held for a window of the file only, so that a program may be
-//! longer than the memory.
+//! Of a long one, the text, the blocks and what they do are held for a few pages of the file only, so that it may
+//! be longer than the memory.
 
+use super::blocks::{Block, Blocks, unreadable};
 use super::control::plain::PlainBlock;
-use super::control::{Control, Done};
-use super::library::{Library, Parse, Routine};
+use super::control::{About, Control};
+use super::library::{Library, Read, Routine};
+use super::settings::Settings;
 use crate::diagnostics::Diagnostic;
-use crate::source::{Span, Text};
-use std::ops::Range;
+use crate::source::Span;
+use std::io;
+use std::path::Path;
 use std::rc::Rc;
 
 /// Where the flow goes after a block.
@@ -36,11 +38,14 @@ pub trait Interpret<'a> {
     /// The programs that it knows.
     fn library(&self) -> &Library<Self::Routine>;
 
-    /// Runs the blocks of the main program, or of a piece of it; `false` when nothing can follow.
+    /// Both.
+    fn parts(&mut self) -> (&Library<Self::Routine>, &mut Control<'a>);
+
+    /// Runs the blocks of the main program; `false` when nothing can follow.
     fn run_main(&mut self, main: &Rc<Self::Routine>) -> bool;
 
-    /// The main program has come to its end without M30. `last`: the program or its last piece.
-    fn end_is_missing(&mut self, last: &Rc<Self::Routine>);
+    /// The main program has come to its end without M30.
+    fn end_is_missing(&mut self, main: &Rc<Self::Routine>);
 
     /// Whether a straight motion means to this dialect, in its present state, what it means to all.
     fn takes(&self, block: &PlainBlock) -> bool;
@@ -52,155 +57,150 @@ pub fn jump_out_of_repetition(span: Span) -> Diagnostic {
         .help("let the repetition end before the jump")
 }
 
+/// How a dialect reads its programs: the endings of their files, and what finds the routines in them.
+pub struct Files<R> {
+    /// Endings of subprogram files; where several files have the same name, the earlier ending counts.
+    pub extensions: &'static [&'static str],
+    /// Finds the routines of a file.
+    pub read: Read<R>,
+}
+
+/// Runs the program in file 0 of the sources, which lies at `path`, by an interpreter that `new` makes.
+pub fn run_file<'a, I: Interpret<'a>>(
+    path: &Path,
+    files: Files<I::Routine>,
+    settings: &'a Settings,
+    about: About<'a>,
+    new: fn(&'a Settings, Library<I::Routine>, About<'a>) -> I,
+) {
+    let Files { extensions, read } = files;
+    let (sources, diagnostics) = (&*about.sources, &mut *about.diagnostics);
+    let library = Library::new(path, extensions, settings, sources, diagnostics, read);
+    run(&mut new(settings, library, about));
+}
+
 /// Runs the main program to its end.
-pub fn run<'a, I: Interpret<'a>>(interpreter: &mut I) {
-    if interpreter.control().sources.file(0).is_windowed() {
-        if let Err(diagnostic) = run_pieces(interpreter) {
-            interpreter.control().diagnostics.push(*diagnostic);
-        }
-    } else if let Some(main) = interpreter.library().main() {
+fn run<'a, I: Interpret<'a>>(interpreter: &mut I) {
+    if let Some(main) = interpreter.library().main() {
         interpreter.control().begin_main(main.title());
         if interpreter.run_main(&main) {
             interpreter.end_is_missing(&main);
         }
     }
-    interpreter.control().finish();
-}
-
-fn run_pieces<'a, I: Interpret<'a>>(interpreter: &mut I) -> Done {
-    let stem = interpreter.library().stem().to_string();
-    interpreter.control().begin_main(&stem);
-    let mut last = None;
-    let mut goes_on = true;
-    while advance(interpreter.control())? {
-        let (text, start) = interpreter.control().sources.file(0).shared_text();
-        let window = Window { text, start };
-        // What stands behind the end of the program is parsed all the same: it may be its rest, and the
-        // end a slip.
-        goes_on = window.run(interpreter, goes_on);
-        if let Some(line) = window.last_line() {
-            last = Some((
-                window.part(line.clone()).to_string(),
-                window.start + line.start,
-            ));
-        }
+    // What stands behind the end of the program is parsed all the same: it may be its rest, and the end a slip.
+    let (library, control) = interpreter.parts();
+    if let Err(error) = library.check_rest(control.sources, control.diagnostics) {
+        control.diagnostics.push(unreadable(0, &error));
     }
-    if !goes_on {
-        return Ok(());
-    }
-    let (last, start) = last.unwrap_or_default();
-    let text = Text {
-        file: 0,
-        text: &last,
-        start,
-    };
-    for piece in parse(interpreter, text) {
-        interpreter.end_is_missing(&piece);
-    }
-    Ok(())
+    control.finish();
 }
 
-fn advance(control: &mut Control) -> Result<bool, Box<Diagnostic>> {
-    control.sources.advance(0).map_err(|error| {
-        let message = format!("the program cannot be read: {error}");
-        Box::new(Diagnostic::error(Span::start_of(0), message))
-    })
+/// What comes next in a routine.
+pub enum Reached<B> {
+    /// A block.
+    Block(Rc<B>),
+    /// Its end, or that of the part that runs.
+    End,
+    /// Nothing: the program must not go on.
+    Abort,
 }
 
-/// The main program in some of its lines.
-fn parse<'a, I: Interpret<'a>>(interpreter: &mut I, text: Text) -> Vec<Rc<I::Routine>> {
-    let parse: Parse<I::Routine> = interpreter.library().parser();
-    let stem = interpreter.library().stem().to_string();
-    let control = interpreter.control();
-    let pieces = parse(text, &stem, control.sources, control.diagnostics);
-    let main = pieces.into_iter().filter(Routine::is_main);
-    main.map(Rc::new).collect()
-}
-
-/// The lines of the program that are held.
-struct Window {
-    text: Rc<str>,
-    start: usize,
-}
-
-impl Window {
-    fn part(&self, lines: Range<usize>) -> &str {
-        self.text.get(lines).unwrap_or("")
-    }
-
-    /// Runs all blocks, or only parses them where the program does not go on so far; whether it goes on
-    /// behind them.
-    fn run<'a, I: Interpret<'a>>(&self, interpreter: &mut I, mut goes_on: bool) -> bool {
-        let bytes = self.text.as_bytes();
-        // Lines from `waiting` on are left to the parser of the dialect.
-        let (mut waiting, mut at) = (0, 0);
-        while at < bytes.len() {
-            let rest = bytes.get(at..).unwrap_or(&[]);
-            let length = rest
-                .iter()
-                .position(|byte| *byte == b'\n')
-                .unwrap_or(rest.len());
-            let line = rest.get(..length).unwrap_or(&[]);
-            let next = at + length + 1;
-            let plain = PlainBlock::read(line).filter(|block| interpreter.takes(block));
-            if let Some(block) = plain {
-                if waiting < at {
-                    goes_on = self.run_lines(interpreter, waiting..at, goes_on);
+/// The block at an index before `end`, or the first one behind it that is more than a straight motion: those of a
+/// long program are run here.
+pub fn reach<'a, I: Interpret<'a>, B: Block>(
+    interpreter: &mut I,
+    blocks: &Blocks<B>,
+    at: &mut usize,
+    end: usize,
+) -> Reached<B> {
+    let windowed = interpreter
+        .control()
+        .sources
+        .file(blocks.file())
+        .is_windowed();
+    while *at < end {
+        if windowed && !blocks.is_parsed(*at) {
+            match run_motions(interpreter, blocks, *at, end) {
+                Ok(Some(next)) if next > *at => {
+                    *at = next;
+                    continue;
                 }
-                waiting = at;
-                // What the lines before have changed may ask for the parser after all.
-                let [first, end] = block.range.map(|place| self.start + at + place);
-                let span = Span {
-                    file: 0,
-                    start: first,
-                    end,
+                Ok(Some(_)) => {}
+                Ok(None) => return Reached::Abort,
+                Err(error) => return unread(interpreter, blocks.file(), &error),
+            }
+        }
+        let control = interpreter.control();
+        match blocks.read(*at, control.sources, control.diagnostics) {
+            Ok(Some(block)) => {
+                return match control.count_block(block.place().span) {
+                    true => Reached::Block(block),
+                    false => Reached::Abort,
                 };
-                let taken = goes_on
-                    && interpreter.takes(&block)
-                    && interpreter.control().plain_motion(&block, span);
-                if taken {
-                    goes_on = interpreter.control().count_block(span);
-                    waiting = next;
-                }
             }
-            at = next;
-        }
-        match waiting < bytes.len() {
-            true => self.run_lines(interpreter, waiting..bytes.len(), goes_on),
-            false => goes_on,
+            Ok(None) => *at += 1,
+            Err(error) => return unread(interpreter, blocks.file(), &error),
         }
     }
+    Reached::End
+}
 
-    fn run_lines<'a, I: Interpret<'a>>(
-        &self,
-        interpreter: &mut I,
-        lines: Range<usize>,
-        goes_on: bool,
-    ) -> bool {
-        let text = Text {
-            file: 0,
-            start: self.start + lines.start,
-            text: self.part(lines),
+fn unread<'a, I: Interpret<'a>, B>(
+    interpreter: &mut I,
+    file: usize,
+    error: &io::Error,
+) -> Reached<B> {
+    interpreter
+        .control()
+        .diagnostics
+        .push(unreadable(file, error));
+    Reached::Abort
+}
+
+/// Runs the lines of a page from an index on that are straight motions; the index behind them, or `None` where the
+/// program must not go on.
+fn run_motions<'a, I: Interpret<'a>, B: Block>(
+    interpreter: &mut I,
+    blocks: &Blocks<B>,
+    at: usize,
+    end: usize,
+) -> io::Result<Option<usize>> {
+    let Some(stretch) = blocks.stretch(at).filter(|_| !blocks.is_joined(at)) else {
+        return Ok(Some(at));
+    };
+    let line = stretch.start;
+    let page = interpreter
+        .control()
+        .sources
+        .lines(blocks.file(), line..line + 1)?;
+    let last = stretch
+        .end
+        .min(page.first_line() + page.lines())
+        .min(line + (end - at));
+    let mut next = line;
+    while next < last {
+        let Some([start, end]) = page.line_range(next) else {
+            break;
         };
-        let pieces = parse(interpreter, text);
-        goes_on && pieces.iter().all(|piece| interpreter.run_main(piece))
-    }
-
-    /// The last line that holds something and is not the mark of an end.
-    fn last_line(&self) -> Option<Range<usize>> {
-        let mut end = self.text.len();
-        loop {
-            end = self.text.get(..end)?.trim_end().len();
-            let start = self
-                .text
-                .get(..end)?
-                .rfind('\n')
-                .map_or(0, |before| before + 1);
-            match self.text.get(start..end)?.trim_start() {
-                "" => return None,
-                line if line.starts_with('%') => end = start,
-                _ => return Some(start..end),
-            }
+        let text = page.slice(start, end).as_bytes();
+        let Some(block) = PlainBlock::read(text).filter(|block| interpreter.takes(block)) else {
+            break;
+        };
+        let [first, end] = block.range.map(|place| start + place);
+        let span = Span {
+            file: blocks.file(),
+            start: first,
+            end,
+        };
+        let control = interpreter.control();
+        if !control.plain_motion(&block, span) {
+            break;
         }
+        if !control.count_block(span) {
+            return Ok(None);
+        }
+        next += 1;
     }
+    blocks.saw(at..at + (next - line));
+    Ok(Some(at + (next - line)))
 }

@@ -100,7 +100,7 @@ impl<'a> Scanner<'a> {
 
 impl<'a> Scanner<'a> {
     /// Takes a decimal number; a point without digits is an error.
-    pub fn digits(&mut self) -> Result<&'a str, Box<Diagnostic>> {
+    pub fn digits(&mut self) -> Result<&'a str, Diagnostic> {
         let start = self.position();
         self.decimal().ok_or_else(|| {
             self.advance();
@@ -109,7 +109,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The value of the number `text` that began at `start` and ends here; another point is an error.
-    pub fn number(&mut self, start: usize, text: &str) -> Result<f64, Box<Diagnostic>> {
+    pub fn number(&mut self, start: usize, text: &str) -> Result<f64, Diagnostic> {
         if self.peek() == Some('.') {
             self.take_while(|c| c.is_ascii_digit() || c == '.');
             return Err(self.error(start, "a number with two decimal points"));
@@ -121,29 +121,34 @@ impl<'a> Scanner<'a> {
     }
 
     /// Takes a text between double quotes, which must end on its line.
-    pub fn quoted(&mut self) -> Result<&'a str, Box<Diagnostic>> {
+    pub fn quoted(&mut self) -> Result<&'a str, Diagnostic> {
         let start = self.position();
         self.advance();
         let text = self.take_while(|c| c != '"' && c != '\n');
         if self.take("\"") {
             return Ok(text);
         }
-        Err(Box::new(
+        Err(
             Diagnostic::error(self.span_from(start), "this text does not end")
                 .help("put a \" at its end, on the same line"),
-        ))
+        )
     }
 
     /// An error about what stands from a byte position to here.
-    pub fn error(&self, start: usize, message: impl Into<String>) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.span_from(start), message))
+    pub fn error(&self, start: usize, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(self.span_from(start), message)
     }
 }
 
-/// Whether a character says nothing. Programs that were sent over a serial line begin and end with NULs
-/// and other fillers.
+/// Whether a character says nothing: the blanks of all keyboards and word processors, and the fillers
+/// with which programs that were sent over a serial line begin and end. What an editor may show as the
+/// end of a line (vertical tab, form feed, line separators) is none of them.
 pub fn is_blank(c: char) -> bool {
-    matches!(c, ' ' | '\t' | '\0' | '\u{1a}' | '\u{11}' | '\u{13}')
+    matches!(
+        c,
+        ' ' | '\t' | '\0' | '\u{1a}' | '\u{11}' | '\u{13}' | '\u{a0}' | '\u{1680}' | '\u{2000}'
+            ..='\u{200a}' | '\u{202f}' | '\u{205f}' | '\u{3000}' | '\u{feff}'
+    )
 }
 
 #[cfg(test)]

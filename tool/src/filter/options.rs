@@ -1,19 +1,19 @@
 //! The options of `framepath filter`.
 
+use super::ini;
 use crate::dialects::Dialect;
+use crate::dialects::control::own_m::linuxcnc_m;
 use crate::dialects::settings::{
-    IncrementBase, MOST_BLOCKS, MirrorOutsideXy, MirroredCircle, Settings,
+    DecimalPoint, IncrementBase, MOST_BLOCKS, MirrorOutsideXy, MirroredCircle, Settings, TOLERANCE,
 };
+use crate::dialects::tools::ToolFiles;
 use crate::encoding::Encoding;
+use crate::machine::IniError;
 use crate::program::PathControl;
+use crate::source::open::{LONGEST_WHOLE, MOST_BYTES, MOST_SECONDS, PIECE, Reading};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-
-/// Programs up to this length, bytes, are held as a whole.
-const LONGEST_WHOLE: u64 = 4 << 20;
-
-/// How much of a longer one is read at once, bytes.
-const PIECE: usize = 1 << 18;
+use std::time::Duration;
 
 /// How frames are carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -47,10 +47,10 @@ pub struct FilterArguments {
     /// Leave out blocks that begin with /
     #[arg(long)]
     pub skip_blocks: bool,
-    /// M function that is passed on to LinuxCNC; may be given several times
-    #[arg(long, value_name = "NUMBER", value_delimiter = ',')]
+    /// M function that is passed on to LinuxCNC, none of its own; may be given several times
+    #[arg(long, value_name = "NUMBER", value_delimiter = ',', value_parser = passed_m)]
     pub pass_m: Vec<u32>,
-    /// Value of a variable (R5, P5, V.P.NAME) before the program begins; may be given several times
+    /// Value of a variable (R5, P5, #500, V.P.NAME) before the program begins; may be given several times
     #[arg(long, value_name = "R5=VALUE", value_parser = variable)]
     pub set: Vec<(String, f64)>,
     /// Row of the tool table that holds a further edge (D2 to D9) of a tool; may be given several times
@@ -60,17 +60,40 @@ pub struct FilterArguments {
     #[arg(long, value_name = "FEED", value_parser = feed)]
     pub feed: Option<f64>,
     /// How corners are passed until the program changes it: exactly (G61, with stops at corners only),
-    /// with a stop at the end of every move (G61.1), rounded as the machine has it (G64), or rounded by
+    /// with a stop at the end of every move (G61.1), rounded by at most --tolerance (G64), or rounded by
     /// at most so many mm (a number: G64 with that P)
     #[arg(long, value_name = "G61|G61.1|G64|P", default_value = "G61", value_parser = path_mode)]
-    pub path_mode: PathControl,
+    pub path_mode: PathMode,
+    /// By how much corners may be rounded where the program asks for that and names no tolerance, mm;
+    /// without this option [FRAMEPATH]TOLERANCE of the INI file of the LinuxCNC that runs the filter, else
+    /// 0.01
+    #[arg(long, value_name = "MM", value_parser = corner_tolerance)]
+    pub tolerance: Option<f64>,
+    /// Where CYCLE800 with FR = 1 retracts to: Z of the machine itself, mm; without this option
+    /// [FRAMEPATH]RETRACT_Z of the INI file of the LinuxCNC that runs the filter
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = place)]
+    pub retract_z: Option<f64>,
     /// How many blocks the program may run, besides twice the lines that it has, before it is taken
     /// for one that never ends
     #[arg(long, value_name = "NUMBER", default_value_t = MOST_BLOCKS, value_parser = most_blocks)]
     pub most_blocks: usize,
+    /// The longest file that is read as a program or subprogram, bytes
+    #[arg(long, value_name = "BYTES", default_value_t = MOST_BYTES, value_parser = clap::value_parser!(u64).range(1..))]
+    pub most_bytes: u64,
+    /// How long the translation may take, and how long may be waited for a program that comes through a pipe,
+    /// seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = MOST_SECONDS, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    pub most_seconds: u64,
     /// Number of a tool that the program calls by name; may be given several times
     #[arg(long, value_name = "NAME=NUMBER", value_parser = tool_name)]
     pub tool: Vec<(String, u32)>,
+    /// INI file of the machine, for the names and diameters in its tool table; INI_FILE_NAME of the
+    /// environment if it is not given, which LinuxCNC sets
+    #[arg(long, value_name = "FILE")]
+    pub ini: Option<PathBuf>,
+    /// What X100, without a decimal point, is in Fanuc-like programs
+    #[arg(long, value_enum, default_value = "calculator")]
+    pub decimal_point: DecimalPoint,
     /// What G21, G22 and G23 of ISG programs mirror outside of G17
     #[arg(long, value_enum, default_value = "refuse")]
     pub mirror_outside_xy: MirrorOutsideXy,
@@ -97,37 +120,80 @@ pub struct FilterArguments {
 
 impl FilterArguments {
     /// The settings of the control that is imitated.
-    pub fn settings(&self) -> Settings {
-        Settings {
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the INI file that LinuxCNC names.
+    pub fn settings(&self) -> Result<Settings, IniError> {
+        let millimetre = match self.machine_in_inch {
+            true => 1.0 / 25.4,
+            false => 1.0,
+        };
+        let ini_file = self.ini_file();
+        let tolerance = match (self.tolerance, &ini_file) {
+            (Some(tolerance), _) => tolerance,
+            (None, Some(file)) => ini::tolerance(file)?.unwrap_or(TOLERANCE),
+            (None, None) => TOLERANCE,
+        };
+        let retract_z = match (self.retract_z, &ini_file) {
+            (None, Some(file)) => ini::retract_z(file)?,
+            (place, _) => place,
+        };
+        let path_mode = match self.path_mode {
+            PathMode::Exact(control) => control,
+            PathMode::Rounded(own) => PathControl::Continuous {
+                tolerance: own.unwrap_or(tolerance) * millimetre,
+            },
+        };
+        Ok(Settings {
             subprogram_folders: self.subprograms.clone(),
-            encoding: self.encoding.0,
+            reading: self.reading(),
             machine_in_inch: self.machine_in_inch,
             increment_after_frame: self.increment_after_frame,
             skip_blocks: self.skip_blocks,
             passed_m: self.pass_m.clone(),
             variables: self.set.iter().cloned().collect(),
             feed: self.feed,
-            path_mode: self.path_mode_of_machine(),
+            path_mode,
+            tolerance: tolerance * millimetre,
+            retract_z: retract_z.map(|place| place * millimetre),
             most_blocks: self.most_blocks,
             tool_edges: self.edge.iter().copied().collect(),
             tool_names: self.tool.iter().cloned().collect(),
+            tool_files: ToolFiles::beside(&self.file, ini_file),
+            decimal_point: self.decimal_point,
             mirror_outside_xy: self.mirror_outside_xy,
             mirrored_circle: self.mirrored_circle,
             ..Settings::default()
-        }
+        })
     }
 
-    /// The path mode with its tolerance in machine units.
-    fn path_mode_of_machine(&self) -> PathControl {
-        match self.path_mode {
-            PathControl::Continuous {
-                tolerance: Some(tolerance),
-            } if self.machine_in_inch => PathControl::Continuous {
-                tolerance: Some(tolerance / 25.4),
-            },
-            mode => mode,
+    /// The INI file of the LinuxCNC that runs the filter: the script that starts it names the file to all that it
+    /// runs.
+    fn ini_file(&self) -> Option<PathBuf> {
+        let set = || std::env::var_os("INI_FILE_NAME").filter(|name| !name.is_empty());
+        self.ini.clone().or_else(|| set().map(PathBuf::from))
+    }
+
+    /// How files are read.
+    fn reading(&self) -> Reading {
+        Reading {
+            encoding: self.encoding.0,
+            longest_whole: self.longest_whole,
+            piece: self.piece,
+            most_bytes: self.most_bytes,
+            most_time: Duration::from_secs(self.most_seconds),
         }
     }
+}
+
+/// How corners are passed from the first line on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PathMode {
+    /// G61 or G61.1.
+    Exact(PathControl),
+    /// G64, with this P in mm if it is given.
+    Rounded(Option<f64>),
 }
 
 /// An encoding, or `None` for the likeliest.
@@ -141,13 +207,21 @@ fn encoding(text: &str) -> Result<EncodingChoice, String> {
     }
 }
 
+fn passed_m(text: &str) -> Result<u32, String> {
+    let number = text.parse().map_err(|_| "write a number: 101")?;
+    match linuxcnc_m(number) {
+        None => Ok(number),
+        Some(meaning) => Err(format!("M{number} is LinuxCNC's own: {meaning}")),
+    }
+}
+
 fn variable(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("write R5=12.5")?;
     let name = name.trim().to_ascii_uppercase();
-    let is_name = name.starts_with(|c: char| c.is_ascii_alphabetic())
+    let is_name = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '#')
         && name
             .chars()
-            .all(|c| c.is_ascii_alphanumeric() || "._[]".contains(c));
+            .all(|c| c.is_ascii_alphanumeric() || "._[]#".contains(c));
     let value: Option<f64> = value
         .trim()
         .parse()
@@ -186,18 +260,29 @@ fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-fn path_mode(text: &str) -> Result<PathControl, String> {
-    match text.to_ascii_uppercase().as_str() {
-        "G61" => return Ok(PathControl::ExactPath),
-        "G61.1" => return Ok(PathControl::ExactStop),
-        "G64" => return Ok(PathControl::Continuous { tolerance: None }),
-        _ => {}
-    }
+fn path_mode(text: &str) -> Result<PathMode, String> {
+    Ok(match text.to_ascii_uppercase().as_str() {
+        "G61" => PathMode::Exact(PathControl::ExactPath),
+        "G61.1" => PathMode::Exact(PathControl::ExactStop),
+        "G64" => PathMode::Rounded(None),
+        _ => PathMode::Rounded(Some(corner_tolerance(text).map_err(|_| {
+            "write G61, G61.1, G64 or a tolerance from 0.001 to 10 mm".to_string()
+        })?)),
+    })
+}
+
+fn corner_tolerance(text: &str) -> Result<f64, String> {
     match text.parse() {
-        Ok(value) if (0.001..=10.0).contains(&value) => Ok(PathControl::Continuous {
-            tolerance: Some(value),
-        }),
-        _ => Err("write G61, G61.1, G64 or a tolerance from 0.001 to 10 mm".to_string()),
+        // LinuxCNC takes G64 P0 for no limit at all.
+        Ok(value) if ini::TOLERANCES.contains(&value) => Ok(value),
+        _ => Err("a tolerance from 0.001 to 10 mm is needed".to_string()),
+    }
+}
+
+fn place(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if ini::PLACES.contains(&value) => Ok(value),
+        _ => Err("a place from -100000 to 100000 mm is needed".to_string()),
     }
 }
 
@@ -211,5 +296,5 @@ fn most_blocks(text: &str) -> Result<usize, String> {
 fn tool_name(text: &str) -> Result<(String, u32), String> {
     let (name, number) = text.rsplit_once('=').ok_or("write NAME=NUMBER")?;
     let number = number.trim().parse().map_err(|_| "write NAME=NUMBER")?;
-    Ok((name.to_string(), number))
+    Ok((name.trim().to_uppercase(), number))
 }

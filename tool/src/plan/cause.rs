@@ -1,9 +1,9 @@
 //! What the machine does in a servo cycle, and what keeps it from being faster.
 
 use super::drive::{Activity, Sample};
-use super::rates::Rates;
-use crate::canon::call::Position;
-use crate::report::differences::Quantity;
+use crate::path::Position;
+use crate::path::differences::Rates;
+use crate::path::rates::Quantity;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
 
 /// From this share of the feed on the machine is at feed.

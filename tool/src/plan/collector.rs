@@ -7,9 +7,9 @@ use super::drive::{Handed, Sample};
 use super::places::{Pace, Place, Places};
 use super::polyline::{PathPoint, Polyline};
 use super::profile::Profiles;
-use super::rates::{Differences, Rates};
 use super::setup::Setup;
-use crate::canon::call::Position;
+use crate::path::Position;
+use crate::path::differences::{Differences, Rates};
 use framepath::axes::AXIS_COUNT;
 use std::collections::VecDeque;
 

@@ -1,9 +1,10 @@
 //! Distance between the planned and the programmed path, both ways, while both go by.
 
 use super::drive::Handed;
-use crate::canon::call::{PathMode, Position};
-use crate::compare::program::Piece;
-use crate::compare::segment::Segment;
+use crate::canon::call::PathMode;
+use crate::layer::program::Piece;
+use crate::path::Position;
+use crate::path::segment::Segment;
 use std::collections::VecDeque;
 
 /// Pieces behind and ahead of the nearest one that are looked at in each cycle.

@@ -6,11 +6,12 @@ use super::error::{PlanError, refusal, spindle_error};
 use super::setup::Setup;
 use super::source::Source;
 use super::spindle::Spindle;
-use crate::canon::call::{PathMode, Position};
-use crate::compare::program::{self, Move, Operation, Piece, Shape};
+use crate::canon::call::PathMode;
+use crate::layer::program::{self, Move, Operation, Piece, Shape};
+use crate::path::Position;
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
+use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, STATE_TAG_SIZE, StateTag, TerminationCondition};
-use framepath::path::Circle;
 use framepath::planner::{CycleInputs, MoveRequest, Planner, Status};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -287,7 +288,7 @@ impl<'a> Drive<'a> {
         self.last_line = a_move.line;
         let length = 1.0 / self.setup.millimetres;
         let linear = (0..AXIS_COUNT).any(|axis| {
-            !crate::compare::limits::is_rotary(axis)
+            !crate::machine::limits::is_rotary(axis)
                 && (a_move.end[axis] - self.program_position(axis)).abs() > NO_TRAVEL
         });
         let rate = if linear { length } else { 1.0 };

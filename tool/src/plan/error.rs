@@ -2,9 +2,9 @@
 
 use crate::canon::CanonError;
 use crate::canon::tool_table::ToolTableError;
-use crate::report::ReportError;
+use crate::machine::IniError;
 use framepath::axes::AXIS_LETTERS;
-use framepath::path::ShapeError;
+use framepath::moves::shape::ShapeError;
 use framepath::planner::{AddError, SpindleError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub enum PlanError {
     Program(#[from] CanonError),
     /// The INI file cannot be used.
     #[error(transparent)]
-    Ini(#[from] ReportError),
+    Ini(#[from] IniError),
     /// The tool table cannot be used.
     #[error(transparent)]
     ToolTable(#[from] ToolTableError),
@@ -76,6 +76,28 @@ pub enum PlanError {
         /// How long, s.
         seconds: f64,
     },
+    /// A file that cannot be a program, or is too long.
+    #[error("{}: cannot be read: {problem}", file.display())]
+    Unfit {
+        /// The program.
+        file: PathBuf,
+        /// Why.
+        problem: String,
+    },
+    /// The plan takes too long.
+    #[error(
+        "{}:{line}: the plan has not come to its end after {seconds} s: check the feeds and loops of the \
+         program; --most-seconds raises the limit",
+        file.display()
+    )]
+    Slow {
+        /// The program.
+        file: PathBuf,
+        /// The line that runs.
+        line: i32,
+        /// How long was waited, s.
+        seconds: u64,
+    },
     /// A file cannot be written.
     #[error("{}: cannot be written: {source}", file.display())]
     Write {
@@ -108,7 +130,7 @@ pub(super) fn refusal(error: &AddError) -> String {
         ),
         AddError::Shape(shape) => match shape {
             ShapeError::ZeroLength => "it goes nowhere",
-            ShapeError::NotFinite => "its coordinates are too large",
+            ShapeError::NotFinite | ShapeError::TooFar => "its coordinates are too large",
             ShapeError::NoNormal => "its plane has no direction",
             ShapeError::RadiusTooSmall => "an end of the arc lies on its axis",
             ShapeError::TooManyTurns => "it has too many turns",

@@ -5,7 +5,7 @@ use super::collector::{Collected, Peak};
 use super::deviation::Farthest;
 use super::places::Place;
 use super::setup::Setup;
-use crate::report::differences::Quantity;
+use crate::path::rates::Quantity;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
 use serde::Serialize;
 

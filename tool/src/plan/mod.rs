@@ -3,7 +3,7 @@
 //! The files in the order of the work: [`setup`] is the machine, [`source`] the program as the task
 //! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with a
 //! [`spindle`], moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
-//! cycle: [`rates`] and [`cause`] say what limits the machine, [`places`] where time is lost,
+//! cycle: [`cause`] says what limits the machine, [`places`] where time is lost,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
 //! drawings; [`figures`] holds all of it; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
 //! [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
@@ -16,13 +16,13 @@ mod deviation;
 mod drive;
 mod error;
 mod figures;
+mod limit;
 mod listing;
 mod page;
 mod places;
 mod polyline;
 mod profile;
 mod progress;
-mod rates;
 mod setup;
 mod source;
 mod spindle;
@@ -32,14 +32,15 @@ mod text;
 pub use error::PlanError;
 
 use crate::arguments::{file_name, period, positive};
-use crate::compare::layer::LayerSettings;
-use crate::compare::layer::stream::LayerStream;
+use crate::layer::LayerSettings;
+use crate::layer::stream::LayerStream;
 use crate::output::{OutputFile, named_twice};
 use arrivals::Arrivals;
 use collector::Collector;
 use csv::Table;
 use drive::{Drive, Supply};
 use figures::Figures;
+use limit::Limit;
 use progress::Progress;
 use setup::Setup;
 use source::Source;
@@ -92,6 +93,12 @@ pub struct PlanArguments {
     /// [default: 0.02]
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub default_tolerance: Option<f64>,
+    /// The longest program, bytes
+    #[arg(long, value_name = "BYTES", default_value_t = 1_000_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub most_bytes: u64,
+    /// How long the plan of a program may take, seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 3600, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    pub most_seconds: u64,
     /// All figures as JSON in place of the text
     #[arg(long)]
     pub json: bool,
@@ -110,20 +117,19 @@ pub struct PlanArguments {
 ///
 /// # Errors
 /// See [`PlanError`]. Then nothing is on standard output, and files are as they were before.
-pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> {
+pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
     let files = [&arguments.html, &arguments.svg, &arguments.csv];
     let single = files.iter().any(|file| file.is_some()) || arguments.arrivals.is_some();
     if arguments.files.len() > 1 && single {
         let problem =
             "--html, --svg, --csv and --arrivals are for one program: plan them one by one";
-        return Err(PlanError::Option(problem.to_owned()).into());
+        return Err(PlanError::Option(problem.to_owned()));
     }
     if let Some(file) = named_twice(&files) {
         return Err(PlanError::Option(format!(
             "{}: two of --html, --svg and --csv would be written there: give each a file of its own",
             file.display()
-        ))
-        .into());
+        )));
     }
     let setup = Setup::new(arguments)?;
     let mut all = Vec::new();
@@ -139,7 +145,8 @@ pub fn run(arguments: &PlanArguments) -> Result<(), Box<dyn std::error::Error>> 
         writeln!(output).map_err(unwritable)?;
     } else {
         let texts = all.iter().map(text::render);
-        let texts = texts.collect::<Result<Vec<_>, _>>()?;
+        let texts = texts.collect::<Result<Vec<_>, _>>();
+        let texts = texts.map_err(|error| unwritable(io::Error::other(error)))?;
         write!(output, "{}", texts.join("\n\n")).map_err(unwritable)?;
         for file in files.into_iter().flatten() {
             writeln!(output, "\nWritten: {}", file.display()).map_err(unwritable)?;
@@ -179,7 +186,8 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
         feed_at_least: arguments.feed_at_least,
     };
     let layer = LayerStream::new(&settings, setup.surroundings.start);
-    let mut source = Source::open(file, setup, layer)?;
+    let mut limit = Limit::check(file, arguments)?;
+    let mut source = Source::open(file, setup, layer, limit.most_time())?;
     let name = file_name(file);
     let mut progress = Progress::new(&name, listing::count_lines(file));
     // Now: that a file cannot be written should not turn out behind a long plan.
@@ -201,6 +209,7 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
             table.note(&shown)?;
         }
         progress.note(shown.line, shown.time);
+        limit.note(shown.line)?;
     }
     progress.finish();
     let collected = collector.finish();

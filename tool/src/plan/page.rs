@@ -4,9 +4,9 @@ use super::cause::Cause;
 use super::collector::{Collected, DISTANCE, SPEED};
 use super::figures::Figures;
 use super::listing::Listing;
+use crate::page::Envelope;
 use crate::page::{EnvelopeData, Page, distance_factor, floats, integers};
-use crate::report::decimation::Envelope;
-use crate::report::differences::Quantity;
+use crate::path::rates::Quantity;
 use serde::Serialize;
 
 #[derive(Serialize)]

@@ -1,7 +1,7 @@
 //! The places where most time is lost: stretches between two places where the machine is fast.
 
 use super::cause::{Cause, Phase};
-use crate::canon::call::Position;
+use crate::path::Position;
 
 /// Speed over feed has to rise and fall by this factor between two places.
 const HYSTERESIS: f64 = 1.3;

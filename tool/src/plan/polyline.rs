@@ -1,6 +1,6 @@
 //! The planned path as a polyline of limited length, made while the path goes by.
 
-use crate::report::pieces::{Point, distance_to_segment};
+use crate::path::pieces::{Point, distance_to_segment};
 
 /// Points that a drawing gets, at most.
 const MOST_POINTS: usize = 60_000;

@@ -4,9 +4,9 @@ use super::PlanArguments;
 use super::error::PlanError;
 use crate::canon::Surroundings;
 use crate::canon::tool_table::{Tool, read_tool_table};
-use crate::compare::limits::{Jerk, Limits, is_rotary};
-use crate::report::ini::Ini;
-use crate::report::machine::{AXIS_LETTERS, Machine};
+use crate::machine::configuration::{AXIS_LETTERS, Machine};
+use crate::machine::ini::Ini;
+use crate::machine::limits::{Jerk, Limits, is_rotary};
 use framepath::axes::AXIS_COUNT;
 use std::path::{Path, PathBuf};
 
@@ -188,7 +188,7 @@ fn surroundings(
     unit: f64,
 ) -> Result<Surroundings, PlanError> {
     let absolute =
-        std::fs::canonicalize(file).map_err(|source| crate::report::ReportError::Read {
+        std::fs::canonicalize(file).map_err(|source| crate::machine::IniError::Read {
             file: file.to_owned(),
             source,
         })?;

@@ -4,10 +4,11 @@
 use super::error::PlanError;
 use super::setup::Setup;
 use crate::canon::{CallStream, stream_program};
-use crate::compare::layer::stream::{Laid, LayerStream};
-use crate::compare::program::{Operation, Piece, Shape};
+use crate::layer::program::{Operation, Piece, Shape};
+use crate::layer::stream::{Laid, LayerStream};
 use std::collections::VecDeque;
 use std::path::Path;
+use std::time::Duration;
 
 /// Millimetres (degrees): travel of an axis below it counts as none.
 const NO_TRAVEL: f64 = 1e-9;
@@ -25,17 +26,20 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
+    /// `most_time` is how long the program may take.
+    ///
     /// # Errors
     /// A program that cannot be opened.
     pub fn open(
         file: &'a Path,
         setup: &'a Setup,
         layer: LayerStream<'a>,
+        most_time: Duration,
     ) -> Result<Self, PlanError> {
         Ok(Source {
             file,
             setup,
-            calls: stream_program(file, &setup.surroundings)?,
+            calls: stream_program(file, &setup.surroundings)?.within(most_time),
             layer,
             waiting: VecDeque::new(),
             ended: false,

@@ -2,8 +2,8 @@
 
 use super::collector::{Collected, SPEED};
 use super::figures::Figures;
+use crate::format::{duration, significant};
 use crate::page::escape;
-use crate::report::format::{duration, significant};
 use std::fmt::{self, Write};
 
 const WIDTH: f64 = 1200.0;

@@ -1,8 +1,8 @@
 //! The plan as text for a terminal: plain ASCII, aligned.
 
 use super::figures::{DistanceFigure, Figures};
-use crate::report::differences::Quantity;
-use crate::report::format::{duration, greatest_speed, grouped, length, significant, unit};
+use crate::format::{duration, greatest_speed, grouped, length, significant, unit};
+use crate::path::rates::Quantity;
 use std::fmt::{self, Write};
 
 /// Places that the text lists; all are in the JSON.

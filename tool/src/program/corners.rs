@@ -3,7 +3,7 @@
 
 use super::fillet::{Element, Joint, JointError, chamfer_from, chamfer_of, enter, leave, round};
 use super::moves::{Arc, Centre, Coordinate, Corner, Move, MoveKind};
-use super::{Action, Block, Plane};
+use super::{Action, Block, Compensation, Plane};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::Span;
 
@@ -79,6 +79,24 @@ impl Corners {
         finished
     }
 
+    /// Whether the open corner is a tangential exit.
+    fn leaves_contour(&self) -> bool {
+        let Some([block, index]) = self.open else {
+            return false;
+        };
+        let action = self
+            .waiting
+            .get(block)
+            .and_then(|block| block.actions.get(index));
+        matches!(
+            action,
+            Some(Action::Move(Move {
+                corner: Some(Corner::TangentialExit(_)),
+                ..
+            }))
+        )
+    }
+
     fn look_at(&mut self, block: usize, diagnostics: &mut Diagnostics) {
         let mut index = 0;
         while let Some(action) = self.waiting[block].actions.get(index) {
@@ -86,7 +104,12 @@ impl Corners {
                 self.plane = *next;
             }
             let is_move = matches!(action, Action::Move(_));
-            let ends = self.open.is_some() && !is_move && interrupts(action);
+            let ends = self.open.is_some() && !is_move && {
+                // A tangential exit leads to the line on which the compensation ends.
+                let leaves = matches!(action, Action::Compensation(Compensation::Off))
+                    && self.leaves_contour();
+                interrupts(action) && !leaves
+            };
             let has_corner = matches!(action, Action::Move(motion) if motion.corner.is_some());
             if ends && let Some(first) = self.open.take() {
                 let span = self.waiting[first[0]].origin.span;
@@ -100,7 +123,7 @@ impl Corners {
                     let second = [block, index];
                     let span = self.waiting[first[0]].origin.span;
                     match join(&mut self.waiting, first, second, self.plane, span) {
-                        Err(diagnostic) => diagnostics.push(*diagnostic),
+                        Err(diagnostic) => diagnostics.push(diagnostic),
                         // The joint stands in the block of the first motion, which may be this one.
                         Ok(true) if first[0] == block => index += 1,
                         Ok(_) => {}
@@ -138,7 +161,7 @@ fn join(
     second_place: Place,
     plane: Plane,
     span: Span,
-) -> Result<bool, Box<Diagnostic>> {
+) -> Result<bool, Diagnostic> {
     let (Some(first), Some(second)) = (
         move_at(blocks, first_place).cloned(),
         move_at(blocks, second_place).cloned(),
@@ -150,12 +173,12 @@ fn join(
     };
     let elements = [&first, &second].map(|motion| element(motion, plane));
     let [Some(a), Some(b)] = elements else {
-        return Err(Box::new(
-            Diagnostic::error(
-                span,
-                "a corner is made between two motions with feed in the plane, with known coordinates",
-            )
-            .help("program both axes of the plane absolute before, and no other axis in these blocks"),
+        return Err(Diagnostic::error(
+            span,
+            "a corner is made between two motions with feed in the plane, with known coordinates",
+        )
+        .help(
+            "program both axes of the plane absolute before, and no other axis in these blocks",
         ));
     };
     let joint = match corner {
@@ -256,7 +279,7 @@ fn joint_move(before: &Move, joint: &Joint, plane: Plane) -> Move {
     motion
 }
 
-fn joint_error(error: JointError, span: Span) -> Box<Diagnostic> {
+fn joint_error(error: JointError, span: Span) -> Diagnostic {
     let (message, help) = match error {
         JointError::DoesNotFit => (
             "the rounding or chamfer does not fit between these two motions",
@@ -271,5 +294,5 @@ fn joint_error(error: JointError, span: Span) -> Box<Diagnostic> {
             "round the corner instead",
         ),
     };
-    Box::new(Diagnostic::error(span, message).help(help))
+    Diagnostic::error(span, message).help(help)
 }

@@ -88,6 +88,8 @@ pub enum Action {
     Plane(Plane),
     /// Work offset 1 to 9: G54 to G59.3.
     WorkOffset(u8),
+    /// Values for a work offset, whether it is in force or not; they are kept.
+    SystemValues(Box<SystemValues>),
     /// How feeds are given.
     FeedMode(FeedMode),
     /// Feed in the unit of the feed mode.
@@ -111,8 +113,12 @@ pub enum Action {
     ToolLength(bool),
     /// Length and radius compensation by this row of the tool table, whatever tool is in the spindle.
     ToolOffset(u32),
+    /// Radius compensation by this row of the tool table from here on.
+    RadiusRow(u32),
     /// Coolant on or off.
     Coolant(Coolant),
+    /// The diameter that cutter compensation takes from here on; `None`: that in the tool table.
+    CutterDiameter(Option<f64>),
     /// Cutter radius compensation.
     Compensation(Compensation),
     /// How corners are passed.
@@ -129,6 +135,10 @@ pub enum Action {
     LocalOffset([Option<f64>; 9]),
     /// The rotary axes turn so that the tool stands normal to the plane of the frame.
     ToolNormal,
+    /// The rotary axes turn to zero of the machine, as far as they are not there.
+    RotaryZero,
+    /// Rapid along the tool until Z of the machine itself is at this place, machine units.
+    Retract(f64),
     /// The end of G92: coordinates are those of the work offset again.
     PresetOff,
     /// M0, or M1 where the operator decides.
@@ -196,6 +206,17 @@ pub enum FeedMode {
     PerRevolution,
 }
 
+/// Values for a work offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SystemValues {
+    /// 1 to 9: G54 to G59.3.
+    pub system: u8,
+    /// X Y Z A B C U V W, as far as they change.
+    pub axes: [Option<f64>; 9],
+    /// The turn about Z, degrees, if it changes.
+    pub rotation: Option<f64>,
+}
+
 /// Constant surface speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceSpeed {
@@ -245,9 +266,10 @@ pub enum PathControl {
     ExactStop,
     /// Corners are not rounded; where two blocks meet tangentially there is no stop.
     ExactPath,
-    /// Corners may be rounded; by how much at most, in machine units, or as the machine has it set.
+    /// Corners may be rounded.
     Continuous {
-        /// Largest distance from the programmed path; `None`: the default of the machine.
-        tolerance: Option<f64>,
+        /// Largest distance from the programmed path, machine units: without one LinuxCNC cuts a corner
+        /// by as much as the feed asks for.
+        tolerance: f64,
     },
 }

@@ -1,15 +1,8 @@
 //! Makes long recordings short enough to draw, without losing peaks or corners.
 
-use super::differences::{Quantity, crosses};
-use super::pieces::{Point, distance_to_segment};
-
-/// Least and greatest value in each bucket of time.
-pub struct Envelope {
-    /// Shape (buckets).
-    pub low: Vec<f32>,
-    /// Shape (buckets).
-    pub high: Vec<f32>,
-}
+use crate::page::Envelope;
+use crate::path::pieces::{Point, distance_to_segment};
+use crate::path::rates::{Quantity, crosses};
 
 /// The first row of each bucket: at most `greatest_count` buckets of equal size.
 pub fn bucket_starts(rows: usize, greatest_count: usize) -> Vec<usize> {

@@ -1,73 +1,9 @@
-//! Velocity, acceleration and jerk from a recording: finite differences at the servo period.
+//! The peaks of velocity, acceleration and jerk in a recording, and how they compare with the limits.
 
-use serde::Serialize;
-
-use super::machine::Limits;
 use super::recording::Recording;
-
-/// Velocity, acceleration or jerk: the first, second or third difference of the position.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Quantity {
-    /// Units per second.
-    Velocity,
-    /// Units per second squared.
-    Acceleration,
-    /// Units per second cubed.
-    Jerk,
-}
-
-impl Quantity {
-    /// All three, in the order of their differences.
-    pub const ALL: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Jerk];
-
-    /// How many rows before a row its difference reaches back: 1, 2 or 3.
-    pub fn order(self) -> usize {
-        match self {
-            Quantity::Velocity => 1,
-            Quantity::Acceleration => 2,
-            Quantity::Jerk => 3,
-        }
-    }
-
-    /// The name in plain English.
-    pub fn name(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "velocity",
-            Quantity::Acceleration => "acceleration",
-            Quantity::Jerk => "jerk",
-        }
-    }
-
-    /// The limit for this quantity, if there is one.
-    pub fn limit(self, limits: &Limits) -> Option<f64> {
-        match self {
-            Quantity::Velocity => Some(limits.velocity),
-            Quantity::Acceleration => Some(limits.acceleration),
-            Quantity::Jerk => limits.jerk,
-        }
-    }
-
-    /// The difference that ends at `row`, divided by the period (seconds) to its order.
-    ///
-    /// `None` where there are not enough rows before.
-    pub fn at(self, positions: &[f64], row: usize, period: f64) -> Option<f64> {
-        let window = positions.get(row.checked_sub(self.order())?..=row)?;
-        Some(match *window {
-            [a, b] => (b - a) / period,
-            [a, b, c] => ((c - b) - (b - a)) / (period * period),
-            [a, b, c, d] => (((d - c) - (c - b)) - ((c - b) - (b - a))) / period.powi(3),
-            _ => return None,
-        })
-    }
-
-    /// How far a difference can be off because positions are known to `half_digit` only:
-    /// the binomial coefficients of the difference add up to 2 to the power of its order.
-    pub fn uncertainty(self, half_digit: f64, period: f64) -> f64 {
-        let order = self.order() as i32;
-        half_digit * (2.0 / period).powi(order)
-    }
-}
+use crate::machine::configuration::MemberLimits;
+use crate::path::rates::{Quantity, crosses};
+use serde::Serialize;
 
 /// How a peak compares with its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -133,7 +69,7 @@ pub fn find_peak(
     positions: &[f64],
     breaks: &[usize],
     quantity: Quantity,
-    limits: &Limits,
+    limits: &MemberLimits,
     period: f64,
 ) -> Peak {
     let order = quantity.order();
@@ -165,19 +101,13 @@ pub fn find_peak(
     }
 }
 
-/// Whether the difference that ends at `row` reaches back across a break.
-pub fn crosses(breaks: &[usize], row: usize, order: usize) -> bool {
-    let next = breaks.partition_point(|at| *at + order <= row);
-    breaks.get(next).is_some_and(|at| *at <= row)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::recording::tests::recording_of;
     use super::*;
     use proptest::prelude::*;
 
-    const LIMITS: Limits = Limits {
+    const LIMITS: MemberLimits = MemberLimits {
         velocity: 100.0,
         acceleration: 1000.0,
         jerk: Some(20000.0),

@@ -1,8 +1,8 @@
 //! The conclusions of a report in words.
 
 use super::differences::Judgement;
-use super::format::{length, significant};
 use super::summary::{FarthestReport, MemberReport, PathReport, Report, Verdict};
+use crate::format::{length, significant, unit};
 
 /// The verdict over all parts of a report, and one sentence for each reason against `Pass`.
 pub fn conclude(report: &Report) -> (Verdict, Vec<String>) {
@@ -55,7 +55,7 @@ fn member_findings(member: &MemberReport) -> Vec<String> {
                 significant(peak.peak / limit, 4),
                 significant(peak.peak, 6),
                 significant(limit, 6),
-                super::format::unit(member.member.unit, peak.quantity),
+                unit(member.member.unit, peak.quantity),
                 peak.time,
                 peak.line
             )),
@@ -125,12 +125,12 @@ fn path_conclusion(path: &PathReport, unit: &'static str) -> (Verdict, Vec<Strin
 
 #[cfg(test)]
 mod tests {
-    use super::super::machine::tests::{MILL, machine};
     use super::super::recording::Recording;
     use super::super::recording::tests::recording_of;
     use super::super::summary::tests::circle_run;
     use super::super::summary::{Report, analyse};
     use super::*;
+    use crate::machine::configuration::tests::{MILL, machine};
 
     fn standing() -> Recording {
         recording_of(&[[0.0; 3]; 40], |_| 1)

@@ -10,7 +10,7 @@
 
 use serde::Serialize;
 
-use super::pieces::{Piece, Point, cut, distance, distance_to_segment, length_bound};
+use crate::path::pieces::{Piece, Point, cut, distance, distance_to_segment, length_bound};
 use crate::program::contour::ContourMove;
 
 /// Pieces are at most this many search radii long.
@@ -271,8 +271,8 @@ fn farthest_sample(pieces: &[Piece], samples: &[[Nearest; 3]], unfinished: bool)
 
 #[cfg(test)]
 mod tests {
-    use super::super::pieces::tests::{arc, line};
     use super::*;
+    use crate::path::pieces::tests::{arc, line};
 
     /// Points along a contour, `step` apart at most, moved by `shift(arc length)`.
     fn executed(

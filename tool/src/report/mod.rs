@@ -1,22 +1,18 @@
 //! `framepath report`: what the planner did with a program, from a recording of every servo cycle.
 //!
-//! The files in the order of the work: [`recording`] and [`ini`] read, [`machine`] holds the
-//! limits; [`differences`] finds the peaks of velocity, acceleration and jerk, [`frame_changes`]
-//! the changes of the frame; [`pieces`] and [`following`] compare the executed path with the
-//! programmed path; [`summary`] holds all figures and [`findings`] draws the conclusions;
-//! [`text`] and [`page`] show them.
+//! The files in the order of the work: [`recording`] reads, [`differences`] finds the peaks of velocity,
+//! acceleration and jerk, [`frame_changes`] the changes of the frame; [`following`] compares the
+//! executed path with the programmed path; [`summary`] holds all figures and [`findings`] draws the
+//! conclusions; [`text`] and [`mod@page`] show them, the latter with the few points that [`decimation`]
+//! leaves.
 
-pub(crate) mod decimation;
-pub(crate) mod differences;
+mod decimation;
+mod differences;
 mod error;
 mod findings;
 mod following;
-pub(crate) mod format;
 mod frame_changes;
-pub(crate) mod ini;
-pub(crate) mod machine;
 mod page;
-pub(crate) mod pieces;
 mod recording;
 mod summary;
 mod text;
@@ -27,11 +23,15 @@ use std::path::{Path, PathBuf};
 pub use error::ReportError;
 
 use crate::arguments::{file_name, positive};
+use crate::dialects::Dialect;
+use crate::dialects::settings::Settings;
 use crate::encoding::decode;
+use crate::format::significant;
+use crate::machine::configuration::{AXIS_LETTERS, Machine};
+use crate::machine::ini::Ini;
 use crate::output::{OutputFile, named_twice};
-use crate::program::contour::ContourMove;
-use ini::Ini;
-use machine::{AXIS_LETTERS, Machine};
+use crate::part_program::contour;
+use crate::program::trace::Setup;
 use page::Listing;
 use recording::Recording;
 
@@ -59,33 +59,26 @@ pub struct ReportArguments {
     pub html: Option<PathBuf>,
     /// Dialect of PROGRAM, for example sinumerik: compare with the path that it programs.
     /// Without it PROGRAM is what LinuxCNC ran, and is only listed
-    #[arg(long, value_name = "DIALECT", requires = "program")]
-    pub dialect: Option<String>,
+    #[arg(long, value_enum, value_name = "DIALECT", requires = "program")]
+    pub dialect: Option<Dialect>,
     /// Program that was recorded
     #[arg(value_name = "PROGRAM")]
     pub program: Option<PathBuf>,
 }
 
-/// Makes the report: the text on standard output, JSON and HTML into files where asked for.
+/// Makes the report: the text on standard output, JSON and HTML into files where asked for. With a
+/// dialect, the recording is compared with the path of the program in that dialect. Where the work
+/// offsets are is not in the recording: the path is that without any.
 ///
 /// # Errors
 /// Unreadable or unusable files; then there is no output at all.
 pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
-    match (&arguments.dialect, &arguments.program) {
-        (Some(dialect), Some(program)) => Err(ReportError::Program {
-            file: program.clone(),
-            problem: format!("--dialect {dialect}: no such dialect is known here; leave it out"),
-        }),
-        _ => run_along(arguments, &[]),
-    }
-}
-
-/// The same with the path that the program describes, in machine coordinates, in the order of the
-/// moves. Without moves nothing is compared.
-///
-/// # Errors
-/// Those of [`run`].
-pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result<(), ReportError> {
+    let contour = match (arguments.dialect, &arguments.program) {
+        (Some(dialect), Some(program)) => {
+            contour(dialect, program, &Settings::default(), &Setup::default())?
+        }
+        _ => Vec::new(),
+    };
     if let Some(file) = named_twice(&[&arguments.html, &arguments.json]) {
         return Err(ReportError::SameFile(file.to_owned()));
     }
@@ -116,7 +109,7 @@ pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result
             |stem| stem.to_string_lossy().into_owned(),
         )
     });
-    let analysis = summary::analyse(&title, &machine, &recording, contour, arguments.tolerance);
+    let analysis = summary::analyse(&title, &machine, &recording, &contour, arguments.tolerance);
 
     let unwritable = |file: &Path| {
         let file = file.to_owned();
@@ -138,7 +131,7 @@ pub fn run_along(arguments: &ReportArguments, contour: &[ContourMove]) -> Result
             &recording,
             &recording_name,
             &text,
-            contour,
+            &contour,
             listing.as_ref(),
         )
         .map_err(|error| unwritable(file)(error.into()))?;
@@ -203,8 +196,8 @@ fn check_match(
         return fail(format!(
             "the rows are {} ms apart, [EMCMOT]SERVO_PERIOD is {} ms; record every servo cycle, \
              and give the INI file that was used",
-            format::significant(period * 1e3, 6),
-            format::significant(machine.servo_period * 1e3, 6)
+            significant(period * 1e3, 6),
+            significant(machine.servo_period * 1e3, 6)
         ));
     }
     Ok(())

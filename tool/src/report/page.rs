@@ -3,11 +3,11 @@
 use serde::Serialize;
 
 use super::decimation::{bucket_starts, derivative_envelope, envelope, keep_rows};
-use super::differences::Quantity;
-use super::pieces::Point;
 use super::recording::Recording;
 use super::summary::{Analysis, Report};
 use crate::page::{EnvelopeData, Page, distance_factor, floats, integers};
+use crate::path::pieces::{Point, distance};
+use crate::path::rates::Quantity;
 use crate::program::contour::{ContourMove, Shape};
 
 /// Points of a drawn path at most. All these bounds together keep a page below 5 MB.
@@ -119,7 +119,7 @@ fn path_data(analysis: &Analysis, recording: &Recording, contour: &[ContourMove]
             if row == 0 || analysis.breaks.binary_search(&row).is_ok() {
                 return 0.0;
             }
-            super::pieces::distance(points[row - 1], points[row]) / period
+            distance(points[row - 1], points[row]) / period
         })
         .collect();
     // The line of the source where the comparison knows it: only of the program itself.
@@ -262,11 +262,11 @@ fn listing_data(listing: &Listing) -> ListingData<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::machine::tests::{MILL, machine};
     use super::super::recording::tests::recording_of;
     use super::super::summary::analyse;
     use super::super::summary::tests::circle_run;
     use super::*;
+    use crate::machine::configuration::tests::{MILL, machine};
     use base64::Engine;
     use base64::engine::general_purpose::STANDARD;
 

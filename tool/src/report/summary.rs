@@ -2,12 +2,13 @@
 
 use serde::Serialize;
 
-use super::differences::{Judgement, Peak, Quantity, find_peak};
+use super::differences::{Judgement, Peak, find_peak};
 use super::following::{Departure, Farthest, Following, compare};
 use super::frame_changes::{FrameChange, find_frame_changes};
-use super::machine::{Machine, Member, PathSource};
-use super::pieces::{Point, distance};
 use super::recording::Recording;
+use crate::machine::configuration::{Machine, Member, PathSource};
+use crate::path::pieces::{Point, distance};
+use crate::path::rates::Quantity;
 use crate::program::contour::ContourMove;
 
 /// Number of the JSON format; it changes when a field changes its meaning.
@@ -409,10 +410,10 @@ fn time_spent(recording: &Recording) -> TimeSpent {
 
 #[cfg(test)]
 pub mod tests {
-    use super::super::machine::tests::{MILL, machine};
-    use super::super::pieces::tests::{arc, line};
     use super::super::recording::tests::recording_of;
     use super::*;
+    use crate::machine::configuration::tests::{MILL, machine};
+    use crate::path::pieces::tests::{arc, line};
 
     /// A circle of radius 10 round (10, 0) from the origin at `speed` mm/s, `error` mm too large,
     /// with 0.1 s of rest before and after.

@@ -3,9 +3,9 @@
 use std::fmt::{self, Write};
 
 use super::differences::{Judgement, Peak};
-use super::format::{duration, greatest_speed, grouped, length, significant, unit};
-use super::machine::PathSource;
 use super::summary::{FarthestReport, MemberReport, PathReport, Report, Verdict};
+use crate::format::{duration, greatest_speed, grouped, length, significant, unit};
+use crate::machine::configuration::PathSource;
 
 /// Width of the column of labels.
 const LABEL: usize = 22;
@@ -229,11 +229,11 @@ fn verdict_line(verdict: Verdict) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::super::machine::tests::{MILL, machine};
     use super::super::recording::tests::recording_of;
     use super::super::summary::analyse;
     use super::super::summary::tests::circle_run;
     use super::*;
+    use crate::machine::configuration::tests::{MILL, machine};
 
     #[test]
     fn the_text_is_ascii_aligned_and_says_how_it_went() {

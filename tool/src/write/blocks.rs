@@ -3,6 +3,7 @@
 
 use super::comment::{comment, message};
 use super::line::Lines;
+use super::number::coordinate;
 use super::words::path_control_words;
 use super::{Backend, WriteSettings, file_name};
 use crate::program::{Action, Block};
@@ -33,8 +34,15 @@ pub fn header(
         "{source}: {dialect} program, written by framepath filter {purpose}"
     ));
     let messages = warnings.iter().map(|warning| message(warning));
+    let tolerance = comment(&format!(
+        "corners that the program rounds without a tolerance of its own: P{}, option --tolerance",
+        coordinate(settings.tolerance)
+    ));
     let modes = format!("{unit} G17 G40 G80 G90 G91.1 G94 {path_mode}");
-    let lines = std::iter::once(first).chain(messages).chain([modes]);
+    let lines = [first, tolerance]
+        .into_iter()
+        .chain(messages)
+        .chain([modes]);
     lines.map(|line| line + "\n").collect()
 }
 

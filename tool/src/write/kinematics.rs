@@ -42,6 +42,8 @@ pub struct KinematicsWriter<'a> {
     /// Which of X Y Z must be named in the next move.
     explicit: [bool; 3],
     scope: FrameScope,
+    /// Whether the length of the tool has changed since the kinematics was told.
+    length_changed: bool,
 }
 
 impl<'a> KinematicsWriter<'a> {
@@ -58,6 +60,7 @@ impl<'a> KinematicsWriter<'a> {
             suspended: false,
             explicit: [false; 3],
             scope: FrameScope::default(),
+            length_changed: false,
         }
     }
 }
@@ -90,6 +93,10 @@ impl Writer for KinematicsWriter<'_> {
 impl KinematicsWriter<'_> {
     fn action(&mut self, action: &Action, span: Span) {
         self.modes.follow(action);
+        self.length_changed |= matches!(
+            action,
+            Action::ToolLength(_) | Action::ToolOffset(_) | Action::ToolChange
+        );
         if common_action(action, &mut self.lines) {
             return;
         }
@@ -104,6 +111,22 @@ impl KinematicsWriter<'_> {
                 self.lines.line("o<tool_normal> call");
                 self.explicit = [true; 3];
             }
+            Action::RotaryZero => {
+                self.suspend();
+                self.tell_length();
+                self.lines.flush();
+                self.lines.line("o<rotary_zero> call");
+                self.explicit = [true; 3];
+            }
+            Action::Retract(place) => {
+                // The tool stands normal to the frame that is in force.
+                self.resume();
+                self.tell_length();
+                self.lines.flush();
+                let place = coordinate(*place);
+                self.lines.line(&format!("o<retract> call [{place}]"));
+                self.explicit = [true; 3];
+            }
             Action::End { rewind } => {
                 self.lines.flush();
                 if !self.frame_is_off() {
@@ -113,6 +136,15 @@ impl KinematicsWriter<'_> {
                     .add(Rank::Stop, if *rewind { "M30" } else { "M2" });
             }
             _ => {}
+        }
+    }
+
+    /// Kinematics that turn a table hold the machine until they are told of another length of the tool.
+    fn tell_length(&mut self) {
+        // The frames of other scopes need no table.
+        if std::mem::take(&mut self.length_changed) && self.scope == FrameScope::Machine {
+            self.lines.flush();
+            self.lines.line("o<frame_refresh> call");
         }
     }
 
@@ -144,7 +176,7 @@ impl KinematicsWriter<'_> {
         }
         self.lines.add(
             Rank::Compensation,
-            compensation_words(compensation, self.modes.radius_row),
+            compensation_words(compensation, &self.modes),
         );
     }
 
@@ -166,6 +198,7 @@ impl KinematicsWriter<'_> {
         }
         self.lines.flush();
         self.frame = frame;
+        self.length_changed = false;
         self.explicit = [true; 3];
         let call = match command {
             FrameCommand::Cancel => "o<frame_off> call".to_string(),
@@ -192,6 +225,7 @@ impl KinematicsWriter<'_> {
             return;
         }
         self.suspended = false;
+        self.length_changed = false;
         self.explicit = [true; 3];
         self.lines.flush();
         for (index, operation) in self.frame.operations().iter().enumerate() {
@@ -207,12 +241,14 @@ impl KinematicsWriter<'_> {
 
     fn motion(&mut self, motion: &Move, span: Span) {
         if let MoveKind::Machine { rapid, tool_length } = motion.kind {
+            self.tell_length();
             let tool_length = tool_length && self.modes.tool_length != Some(false);
             self.lines
                 .add(Rank::Motion, machine_move_words(motion, rapid, tool_length));
             return;
         }
         self.resume();
+        self.tell_length();
         if motion.exact_stop && self.modes.path_control != PathControl::ExactStop {
             self.lines.add(Rank::PathControl, "G61.1");
         }
@@ -304,6 +340,7 @@ fn needs_no_frame(action: &Action) -> bool {
         | Action::ToolLength(_)
         | Action::ToolOffset(_)
         | Action::WorkOffset(_)
+        | Action::SystemValues(_)
         | Action::Preset(_)
         | Action::LocalOffset(_)
         | Action::PresetOff => true,

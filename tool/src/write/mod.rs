@@ -37,6 +37,8 @@ pub struct WriteSettings<'a> {
     pub machine_in_inch: bool,
     /// How corners are passed until the program says otherwise.
     pub path_mode: PathControl,
+    /// By how much corners are rounded where the program names no tolerance, machine units.
+    pub tolerance: f64,
     /// Largest distance of the chords from the ellipse that unequal scales make of an arc, machine
     /// units.
     pub chord_tolerance: f64,

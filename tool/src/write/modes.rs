@@ -16,6 +16,8 @@ pub struct Modes {
     /// Row of the tool table that G41 and G42 take the radius from, if it is not that of the tool in the
     /// spindle.
     pub radius_row: Option<u32>,
+    /// The diameter for G41.1 and G42.1, instead of that of the tool.
+    pub cutter_diameter: Option<f64>,
 }
 
 impl Modes {
@@ -29,6 +31,7 @@ impl Modes {
             written_feed: None,
             tool_length: None,
             radius_row: None,
+            cutter_diameter: None,
         }
     }
 
@@ -50,6 +53,8 @@ impl Modes {
                 self.tool_length = Some(true);
                 self.radius_row = Some(*row);
             }
+            Action::CutterDiameter(diameter) => self.cutter_diameter = *diameter,
+            Action::RadiusRow(row) => self.radius_row = Some(*row),
             Action::ToolChange => self.radius_row = None,
             _ => {}
         }

@@ -8,7 +8,7 @@
 use super::blocks::begin;
 use super::line::{Lines, Rank};
 use super::modes::Modes;
-use super::number::push_coordinate;
+use super::number::{coordinate, push_coordinate};
 use super::words::{
     centre_words, common_action, compensation_words, machine_move_words, path_control_words,
     push_axis_words, push_spindle_motion, scaled_thread,
@@ -40,6 +40,8 @@ pub struct RewriteWriter<'a> {
     modes: Modes,
     compensation: Compensation,
     scope: FrameScope,
+    /// How many conditions are written; each needs a number of its own.
+    conditions: u32,
 }
 
 impl<'a> RewriteWriter<'a> {
@@ -53,6 +55,7 @@ impl<'a> RewriteWriter<'a> {
             modes: Modes::new(settings.path_mode),
             compensation: Compensation::Off,
             scope: FrameScope::default(),
+            conditions: 0,
         }
     }
 }
@@ -65,7 +68,7 @@ impl Writer for RewriteWriter<'_> {
         }
         for action in &block.actions {
             if let Err(diagnostic) = self.action(action, block.origin.span) {
-                self.diagnostics.push(*diagnostic);
+                self.diagnostics.push(diagnostic);
             }
         }
         self.lines.end_block();
@@ -82,7 +85,7 @@ impl Writer for RewriteWriter<'_> {
 }
 
 impl RewriteWriter<'_> {
-    fn action(&mut self, action: &Action, span: Span) -> Result<(), Box<Diagnostic>> {
+    fn action(&mut self, action: &Action, span: Span) -> Result<(), Diagnostic> {
         self.modes.follow(action);
         if common_action(action, &mut self.lines) {
             return Ok(());
@@ -105,11 +108,15 @@ impl RewriteWriter<'_> {
             }
             Action::Move(motion) => self.motion(motion, span)?,
             Action::ToolNormal => {
-                return Err(Box::new(
+                return Err(
                     Diagnostic::error(span, "the tool is set normal to a turned plane")
                         .help("use --backend kinematics on a machine with the frame kinematics"),
-                ));
+                );
             }
+            Action::RotaryZero => self.rotary_zero(),
+            Action::Retract(place) => self
+                .lines
+                .add(Rank::Motion, format!("G53 G0 Z{}", coordinate(*place))),
             Action::End { rewind } => self
                 .lines
                 .add(Rank::Stop, if *rewind { "M30" } else { "M2" }),
@@ -118,14 +125,29 @@ impl RewriteWriter<'_> {
         Ok(())
     }
 
-    fn check_tilt(&self, span: Span) -> Result<(), Box<Diagnostic>> {
+    /// Turns those rotary axes to zero of the machine that are not there: which ones the machine has, is
+    /// not known, and one that it does not have is at zero.
+    fn rotary_zero(&mut self) {
+        self.lines.flush();
+        for (axis, letter) in ["A", "B", "C"].into_iter().enumerate() {
+            self.conditions += 1;
+            let label = self.conditions;
+            // In coordinates of the program, and what work offset, G92 and tool offset add to them.
+            let [position, offset, preset, tool] = [5423, 5204, 5214, 5404].map(|row| row + axis);
+            let place = format!("#{position}+#[{offset}+20*#5220]+#5210*#{preset}+#{tool}");
+            self.lines
+                .line(&format!("o{label} if [ABS[{place}] GT 0.000001]"));
+            self.lines.line(&format!("G53 G0 {letter}0"));
+            self.lines.line(&format!("o{label} endif"));
+        }
+    }
+
+    fn check_tilt(&self, span: Span) -> Result<(), Diagnostic> {
         if self.scope == FrameScope::Block || self.frame.map().keeps_plane(Plane::Xy.into()) {
             return Ok(());
         }
-        Err(Box::new(
-            Diagnostic::error(span, "this frame tilts the tool axis")
-                .help("use --backend kinematics on a machine with the frame kinematics"),
-        ))
+        Err(Diagnostic::error(span, "this frame tilts the tool axis")
+            .help("use --backend kinematics on a machine with the frame kinematics"))
     }
 
     fn mirrors_plane(&self) -> bool {
@@ -145,7 +167,7 @@ impl RewriteWriter<'_> {
 
     /// Writes the feed of a move whose path the frame stretches together with its feed, or that of the
     /// first move that it no longer stretches.
-    fn stretched_feed(&mut self, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
+    fn stretched_feed(&mut self, motion: &Move, span: Span) -> Result<(), Diagnostic> {
         let mut delta = Vector3::zeros();
         let kinds = [0, 1, 2].map(|axis| (motion.target[axis], motion.start[axis]));
         for (delta, kind) in delta.iter_mut().zip(kinds) {
@@ -154,14 +176,12 @@ impl RewriteWriter<'_> {
                 (Coordinate::By(step), _) => step,
                 (Coordinate::At(end), Some(start)) => end - start,
                 (Coordinate::At(_), None) if self.frame.has_stretch() => {
-                    return Err(Box::new(
-                        Diagnostic::error(
-                            span,
-                            "the feed is scaled along this move, and its start is not known ahead \
+                    return Err(Diagnostic::error(
+                        span,
+                        "the feed is scaled along this move, and its start is not known ahead \
                              of time",
-                        )
-                        .help("program all axes with G0 before it"),
-                    ));
+                    )
+                    .help("program all axes with G0 before it"));
                 }
                 (Coordinate::At(_), None) => 0.0,
             };
@@ -194,38 +214,35 @@ impl RewriteWriter<'_> {
         &mut self,
         compensation: Compensation,
         span: Span,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Diagnostic> {
         self.compensation = compensation;
         if compensation != Compensation::Off && self.frame.has_stretch() {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "factors for the finished path act after cutter compensation",
-                )
-                .help("use --backend kinematics on a machine with the frame kinematics"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "factors for the finished path act after cutter compensation",
+            )
+            .help("use --backend kinematics on a machine with the frame kinematics"));
         }
         if compensation != Compensation::Off
             && !self.frame.map().keeps_plane(self.modes.plane.into())
         {
-            return Err(Box::new(
-                Diagnostic::error(span, "cutter compensation in a plane that the frame tilts")
-                    .help("use --backend kinematics on a machine with the frame kinematics"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "cutter compensation in a plane that the frame tilts",
+            )
+            .help("use --backend kinematics on a machine with the frame kinematics"));
         }
         let written = match (compensation, self.mirrors_plane()) {
             (Compensation::Left, true) => Compensation::Right,
             (Compensation::Right, true) => Compensation::Left,
             (other, _) => other,
         };
-        self.lines.add(
-            Rank::Compensation,
-            compensation_words(written, self.modes.radius_row),
-        );
+        self.lines
+            .add(Rank::Compensation, compensation_words(written, &self.modes));
         Ok(())
     }
 
-    fn motion(&mut self, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
+    fn motion(&mut self, motion: &Move, span: Span) -> Result<(), Diagnostic> {
         if let MoveKind::Machine { rapid, tool_length } = motion.kind {
             let tool_length = tool_length && self.modes.tool_length != Some(false);
             self.lines
@@ -243,7 +260,7 @@ impl RewriteWriter<'_> {
             MoveKind::Arc(arc) => self.arc(arc, motion, span)?,
             kind if motion.follows_spindle() => {
                 if self.frame.has_scale() || self.frame.has_stretch() {
-                    return Err(Box::new(scaled_thread(span)));
+                    return Err(scaled_thread(span));
                 }
                 let targets = self.targets(motion, span)?;
                 // LinuxCNC takes no other word that concerns the feed beside it.
@@ -267,7 +284,7 @@ impl RewriteWriter<'_> {
     }
 
     /// Where each axis goes in coordinates of the work offset.
-    fn targets(&self, motion: &Move, span: Span) -> Result<[Coordinate; 9], Box<Diagnostic>> {
+    fn targets(&self, motion: &Move, span: Span) -> Result<[Coordinate; 9], Diagnostic> {
         let mut targets = motion.target;
         if !self.frame.is_empty() {
             let linear = self.work_targets(motion, span)?;
@@ -288,7 +305,7 @@ impl RewriteWriter<'_> {
         });
     }
 
-    fn work_targets(&self, motion: &Move, span: Span) -> Result<[Coordinate; 3], Box<Diagnostic>> {
+    fn work_targets(&self, motion: &Move, span: Span) -> Result<[Coordinate; 3], Diagnostic> {
         let map = self.frame.map();
         let ends = [0, 1, 2].map(|axis| motion.reached(axis));
         let end = apply_partly(map, ends);
@@ -321,15 +338,13 @@ impl RewriteWriter<'_> {
                     let unknown = (0..3)
                         .find(|&column| motion.end(column).is_none())
                         .map_or("an axis", |column| super::words::LETTERS[column]);
-                    return Err(Box::new(
-                        Diagnostic::error(
-                            span,
-                            format!("where {unknown} is in this frame is not known ahead of time"),
-                        )
-                        .help(
-                            "program all axes that the frame turns into each other in the first \
+                    return Err(Diagnostic::error(
+                        span,
+                        format!("where {unknown} is in this frame is not known ahead of time"),
+                    )
+                    .help(
+                        "program all axes that the frame turns into each other in the first \
                              block after a change of frame, tool or work offset",
-                        ),
                     ));
                 }
             };
@@ -337,13 +352,13 @@ impl RewriteWriter<'_> {
         Ok(targets)
     }
 
-    fn arc(&mut self, arc: &Arc, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
+    fn arc(&mut self, arc: &Arc, motion: &Move, span: Span) -> Result<(), Diagnostic> {
         let map = self.frame.map();
         if !map.keeps_plane(self.modes.plane.into()) {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "an arc in a plane that the frame tilts")
                     .help("use --backend kinematics on a machine with the frame kinematics"),
-            ));
+            );
         }
         let Some(scale) = map.is_similarity_of_plane(self.modes.plane.into()) else {
             return self.chords(arc, motion, span);
@@ -360,10 +375,8 @@ impl RewriteWriter<'_> {
             Centre::Radius(radius) => Centre::Radius(radius * scale),
             Centre::Point(point) if self.frame.is_empty() => Centre::Point(point),
             Centre::Point(_) => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "an absolute centre, and the start of this arc is not known ahead of time")
-                        .help("program the start of the arc in a block of its own, or give I, J, K from the start"),
-                ));
+                return Err(Diagnostic::error(span, "an absolute centre, and the start of this arc is not known ahead of time")
+                        .help("program the start of the arc in a block of its own, or give I, J, K from the start"));
             }
         };
         let clockwise = arc.clockwise != self.mirrors_plane();
@@ -374,32 +387,29 @@ impl RewriteWriter<'_> {
     }
 
     /// An arc that the frame makes an ellipse.
-    fn chords(&mut self, arc: &Arc, motion: &Move, span: Span) -> Result<(), Box<Diagnostic>> {
+    fn chords(&mut self, arc: &Arc, motion: &Move, span: Span) -> Result<(), Diagnostic> {
         if self.compensation != Compensation::Off {
-            return Err(Box::new(
-                Diagnostic::error(span, "an arc under unequal scales with cutter compensation")
-                    .help(
-                        "use equal factors for the axes of the plane, or program the tool centre",
-                    ),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "an arc under unequal scales with cutter compensation",
+            )
+            .help("use equal factors for the axes of the plane, or program the tool centre"));
         }
         if self.modes.feed_mode == FeedMode::InverseTime {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "an arc under unequal scales with feed in inverse time",
-                )
-                .help("use G94"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "an arc under unequal scales with feed in inverse time",
+            )
+            .help("use G94"));
         }
         if motion.target[3..]
             .iter()
             .any(|target| *target != Coordinate::Keep)
         {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 "an arc under unequal scales together with further axes",
-            )));
+            ));
         }
         let known = |value: [Option<f64>; 3]| match value {
             [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
@@ -408,13 +418,11 @@ impl RewriteWriter<'_> {
         let start = known([0, 1, 2].map(|axis| motion.start[axis]));
         let end = known([0, 1, 2].map(|axis| motion.end(axis)));
         let (Some(start), Some(end)) = (start, end) else {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "an arc under unequal scales, and its start is not known ahead of time",
-                )
-                .help("program X, Y and Z before the arc"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "an arc under unequal scales, and its start is not known ahead of time",
+            )
+            .help("program X, Y and Z before the arc"));
         };
         let shape = frame_arc(
             arc,
@@ -423,7 +431,7 @@ impl RewriteWriter<'_> {
             self.modes.plane,
             self.settings.arc_tolerance,
         )
-        .map_err(|_| Box::new(Diagnostic::error(span, "this arc has no centre")))?;
+        .map_err(|_| Diagnostic::error(span, "this arc has no centre"))?;
         let map = *self.frame.map();
         // A chord over the angle a is off the ellipse by at most (1 - cos(a / 2)) times the larger
         // half axis, which is no longer than the longer of these two conjugate radii times sqrt 2.
@@ -435,13 +443,11 @@ impl RewriteWriter<'_> {
         let off = (self.settings.chord_tolerance / radius).min(1.0);
         let count = (shape.sweep / (2.0 * (1.0 - off).acos())).ceil().max(1.0);
         if count > CHORD_LIMIT {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    format!("this arc would need more than {CHORD_LIMIT} chords"),
-                )
-                .help("give a larger --chord-tolerance"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                format!("this arc would need more than {CHORD_LIMIT} chords"),
+            )
+            .help("give a larger --chord-tolerance"));
         }
         for index in 1..=count as u32 {
             let point = map.apply(&shape.point(f64::from(index) / count));

@@ -2,6 +2,7 @@
 
 use super::comment::message;
 use super::line::{Lines, Rank};
+use super::modes::Modes;
 use super::number::{coordinate, push_coordinate};
 use crate::diagnostics::Diagnostic;
 use crate::program::moves::{Centre, Coordinate, Move, MoveKind};
@@ -74,20 +75,37 @@ pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
             lines.raw(&message(text));
         }
         Action::Preset(values) | Action::LocalOffset(values) => {
-            let words = values.iter().enumerate().filter_map(|(axis, value)| {
-                value.map(|value| format!("{}{}", LETTERS[axis], coordinate(value)))
-            });
-            let words: Vec<String> = words.collect();
+            let words = axis_values(values);
             let code = match action {
                 Action::Preset(_) => "G92",
                 _ => "G52",
             };
             lines.add(Rank::Motion, format!("{code} {}", words.join(" ")));
         }
+        Action::SystemValues(values) => {
+            let mut words = axis_values(&values.axes);
+            if let Some(rotation) = values.rotation {
+                words.push(format!("R{}", coordinate(rotation)));
+            }
+            // Its axes must not stand beside those of a motion.
+            lines.flush();
+            let words = words.join(" ");
+            lines.add(
+                Rank::WorkOffset,
+                format!("G10 L2 P{} {words}", values.system),
+            );
+            lines.flush();
+        }
+        // It is written with the compensation.
+        Action::CutterDiameter(_) => {}
         Action::PresetOff => lines.add(Rank::Motion, "G92.1"),
+        // It is written with the compensation.
+        Action::RadiusRow(_) => {}
         Action::Feed(_)
         | Action::Compensation(_)
         | Action::ToolNormal
+        | Action::RotaryZero
+        | Action::Retract(_)
         | Action::Frame(_)
         | Action::Move(_)
         | Action::Enter { .. }
@@ -95,6 +113,14 @@ pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
         | Action::End { .. } => return false,
     }
     true
+}
+
+/// `X10`, for the axes that have a value.
+fn axis_values(values: &[Option<f64>; 9]) -> Vec<String> {
+    let words = values.iter().enumerate().filter_map(|(axis, value)| {
+        value.map(|value| format!("{}{}", LETTERS[axis], coordinate(value)))
+    });
+    words.collect()
 }
 
 fn plane_word(plane: Plane) -> &'static str {
@@ -113,16 +139,18 @@ fn feed_mode_word(mode: FeedMode) -> &'static str {
     }
 }
 
-/// G40, G41, G42; with the row of the tool table that has the radius, if it is not that of the tool.
-pub fn compensation_words(compensation: Compensation, row: Option<u32>) -> String {
+/// G40, G41, G42; with the row of the tool table that has the radius, if it is not that of the tool, or with
+/// a diameter of their own.
+pub fn compensation_words(compensation: Compensation, modes: &Modes) -> String {
     let word = match compensation {
         Compensation::Off => return "G40".to_string(),
         Compensation::Left => "G41",
         Compensation::Right => "G42",
     };
-    match row {
-        Some(row) => format!("{word} D{row}"),
-        None => word.to_string(),
+    match (modes.cutter_diameter, modes.radius_row) {
+        (Some(diameter), _) => format!("{word}.1 D{}", coordinate(diameter)),
+        (None, Some(row)) => format!("{word} D{row}"),
+        (None, None) => word.to_string(),
     }
 }
 
@@ -133,21 +161,14 @@ fn work_offset_word(system: u8) -> String {
     }
 }
 
-/// G61.1, G61 or G64.
+/// G61.1, G61 or G64 with its P.
 pub fn path_control_words(control: PathControl) -> String {
     match control {
         // LinuxCNC takes P0 for no limit at all.
-        PathControl::Continuous {
-            tolerance: Some(tolerance),
-        } if coordinate(tolerance) == "0" => "G61".to_string(),
+        PathControl::Continuous { tolerance } if coordinate(tolerance) == "0" => "G61".to_string(),
         PathControl::ExactStop => "G61.1".to_string(),
         PathControl::ExactPath => "G61".to_string(),
-        PathControl::Continuous { tolerance: None } => "G64".to_string(),
-        PathControl::Continuous {
-            tolerance: Some(tolerance),
-        } => {
-            format!("G64 P{}", coordinate(tolerance))
-        }
+        PathControl::Continuous { tolerance } => format!("G64 P{}", coordinate(tolerance)),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use framepath_tool::canon::call::{PathMode, Plane};
 use framepath_tool::canon::{Call, read_program, read_text};
-use framepath_tool::generate;
+use framepath_tool::generated;
 use std::path::Path;
 use std::process::Command;
 
@@ -96,7 +96,7 @@ fn generated_programs_as_rs274_reads_them() {
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["arcs", "polyline", "blade", "abc"] {
         let file = folder.path().join(format!("{name}.ngc"));
-        std::fs::write(&file, generate::program(name).expect("a program")).expect("written");
+        std::fs::write(&file, generated::program(name).expect("a program")).expect("written");
         assert!(assert_same(&file) >= 100);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{Bench, STOCK, json};
 use framepath_tool::canon::{Call, read_text};
-use framepath_tool::generate;
+use framepath_tool::generated;
 use std::process::Command;
 
 fn print(arguments: &[&str]) -> String {
@@ -22,10 +22,10 @@ fn print(arguments: &[&str]) -> String {
 #[test]
 fn are_listed_and_printed_the_same_every_time() {
     let list = print(&[]);
-    for name in generate::names() {
+    for name in generated::names() {
         assert!(list.contains(name));
         let text = print(&[name]);
-        assert_eq!(Some(&text), generate::program(name).as_ref());
+        assert_eq!(Some(&text), generated::program(name).as_ref());
         assert_eq!(text, print(&[name]));
         assert!(text.lines().all(|line| line.len() < 255));
     }
@@ -61,7 +61,7 @@ fn an_unknown_name_is_refused() {
 
 /// Moves of a program: straight ones, arcs.
 fn count(name: &str) -> (usize, usize) {
-    let text = generate::program(name).expect("a program");
+    let text = generated::program(name).expect("a program");
     let calls = read_text(name, &text).expect("the interpreter takes it");
     let straight = calls
         .iter()
@@ -89,7 +89,7 @@ fn the_stock_planner_comes_through_all_of_them() {
     let output = Bench::new().compare(&["--generated", "all", "--with", STOCK, "--json"]);
     let report = json(&output);
     let programs = report["programs"].as_array().expect("programs");
-    assert_eq!(programs.len(), generate::names().len());
+    assert_eq!(programs.len(), generated::names().len());
     for program in programs {
         let run = &program["runs"][0];
         assert_eq!(run["state"], "complete", "{}", program["program"]);

@@ -3,7 +3,7 @@
 use crate::shop::Shop;
 use framepath_tool::dialects::Dialect;
 use framepath_tool::dialects::settings::Settings;
-use framepath_tool::filter::contour;
+use framepath_tool::part_program::contour;
 use framepath_tool::program::contour::{ContourMove, Shape};
 use framepath_tool::program::trace::Setup;
 

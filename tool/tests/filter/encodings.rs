@@ -127,7 +127,7 @@ fn all_line_ends_and_marks_of_tapes_are_understood() {
     ] {
         for options in [&[][..], &["--longest-whole", "0", "--piece", "5"]] {
             let (output, _) = read(bytes, options);
-            let lines: Vec<&str> = output.lines().skip(2).map(|line| &line[..9]).collect();
+            let lines: Vec<&str> = output.lines().skip(3).map(|line| &line[..9]).collect();
             assert_eq!(lines, ["N10 G0 X1", "N20 M30 ("], "{output}");
         }
     }

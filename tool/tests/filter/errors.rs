@@ -130,8 +130,8 @@ fn motion() {
         "neither a centre nor a radius",
     );
     one_error(
-        "G2 X1 K1 I1 F100\nM30\n",
-        "1:7",
+        "G2 X1 Y1 K1 F100\nM30\n",
+        "1:10",
         "K is not in the plane that is active",
     );
     one_error(
@@ -151,11 +151,7 @@ fn motion() {
         "1:4",
         "only G0 and G1 can move in machine coordinates",
     );
-    one_error(
-        "T=\"MILL\" M6\nM30\n",
-        "1:1",
-        "the tool \"MILL\" has no number",
-    );
+    one_error("T=\"MILL\" M6\nM30\n", "1:1", "no tool is called \"MILL\"");
     one_error("D3\nM30\n", "1:1", "a tool has one offset");
 }
 
@@ -165,7 +161,7 @@ fn calls() {
     one_error(
         "N30 HOUSING\nM30\n",
         "1:5",
-        "the subprogram HOUSING was not found",
+        "`HOUSING` is neither a word of this dialect nor a subprogram that can be found",
     );
     one_error(
         "CALL 5\nM30\n",

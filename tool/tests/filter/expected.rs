@@ -4,7 +4,7 @@ use crate::shop::{Shop, accepted};
 use crate::simulator::{PARTS, Point, Step, distance, simulate};
 use framepath_tool::dialects::Dialect;
 use framepath_tool::dialects::settings::Settings;
-use framepath_tool::filter::contour;
+use framepath_tool::part_program::contour;
 use framepath_tool::program::trace::Setup;
 use std::f64::consts::TAU;
 
@@ -60,18 +60,27 @@ impl Path {
 
     /// A clockwise arc in the XY plane about a centre.
     pub fn cw(self, end: Point, centre: (f64, f64)) -> Path {
-        self.arc(end, centre, true)
+        self.arc_in([0, 1], end, centre.into(), true)
     }
 
     /// A counterclockwise arc in the XY plane about a centre.
     pub fn ccw(self, end: Point, centre: (f64, f64)) -> Path {
-        self.arc(end, centre, false)
+        self.arc_in([0, 1], end, centre.into(), false)
     }
 
-    fn arc(self, end: Point, (x, y): (f64, f64), clockwise: bool) -> Path {
+    /// An arc or a helix in the plane of two axes: 0 and 1 for G17, 2 and 0 for G18, 1 and 2 for G19. The
+    /// centre has its coordinates along these.
+    pub fn arc_in(
+        self,
+        [first, second]: [usize; 2],
+        end: Point,
+        [x, y]: [f64; 2],
+        clockwise: bool,
+    ) -> Path {
         let start = self.at;
-        let begin = (start[1] - y).atan2(start[0] - x);
-        let finish = (end[1] - y).atan2(end[0] - x);
+        let normal = 3 - first - second;
+        let begin = (start[second] - y).atan2(start[first] - x);
+        let finish = (end[second] - y).atan2(end[first] - x);
         let mut sweep = (finish - begin).rem_euclid(TAU);
         if clockwise {
             sweep -= TAU;
@@ -79,11 +88,14 @@ impl Path {
         if sweep.abs() < 1e-7 || (sweep.abs() - TAU).abs() < 1e-7 {
             sweep = if clockwise { -TAU } else { TAU };
         }
-        let radius = (start[0] - x).hypot(start[1] - y);
+        let radius = (start[first] - x).hypot(start[second] - y);
         self.add(false, end, |t| {
             let (sin, cos) = (begin + t * sweep).sin_cos();
-            let z = start[2] + t * (end[2] - start[2]);
-            [x + radius * cos, y + radius * sin, z]
+            let mut point = start;
+            point[first] = x + radius * cos;
+            point[second] = y + radius * sin;
+            point[normal] += t * (end[normal] - start[normal]);
+            point
         })
     }
 

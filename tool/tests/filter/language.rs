@@ -72,6 +72,15 @@ fn loops_and_conditions() {
             "R1=2\nIF R1==1\nR2=10\nELSE\nR2=20\nENDIF\nG0 X=R2\nM30\n",
             20.0,
         ),
+        // a line of letters that are words of motions too
+        (
+            "DEF BOOL FAST=TRUE\nIF FAST\nR2=10\nELSE\nIF FAST\nR2=5\nELSE\nR2=20\nENDIF\nENDIF\nG0 X=R2\nM30\n",
+            10.0,
+        ),
+        (
+            "DEF INT A_B=1, XY=0\nN1 if XY\nR2=10\nELSE\nR2=20\nENDIF\nG0 X=R2\nM30\n",
+            20.0,
+        ),
         (
             "R1=0\nAGAIN: R1=R1+1\nIF R1<4 GOTOB AGAIN\nG0 X=R1\nM30\n",
             4.0,
@@ -227,7 +236,7 @@ N31 M30
             "(MSG, line 22: CYCLE800[] tunes the other control and is left out)",
             "G54",
             "G94 G17",
-            "G64",
+            "G64 P0.01",
             "G53 G0 Z0 G49",
             "(MSG, 2D-Contour)",
             "T3",
@@ -240,7 +249,7 @@ N31 M30
             "G0 Z15",
             "G1 Z-2 F333",
             "G3 X-47 Y28.65 I4 J0",
-            "G64",
+            "G64 P0.01",
             "M9",
             "M5",
             "G53 G0 Z0 G49",

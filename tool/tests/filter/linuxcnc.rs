@@ -4,7 +4,7 @@ use crate::rs274::{self, numbers};
 use crate::shop::{Shop, accepted};
 use framepath_tool::dialects::Dialect;
 use framepath_tool::dialects::settings::Settings;
-use framepath_tool::filter::contour;
+use framepath_tool::part_program::contour;
 use framepath_tool::program::contour::{ContourMove, Shape};
 use framepath_tool::program::trace::Setup;
 

@@ -1,5 +1,6 @@
 //! Tests of `framepath filter` as a user runs it.
 
+mod blanks;
 mod contours;
 mod encodings;
 mod errors;
@@ -7,15 +8,29 @@ mod expected;
 mod fagor;
 mod front_end;
 mod language;
+mod limits;
 mod linuxcnc;
+mod numbers;
 mod one_error;
 mod output;
+mod pairs;
+mod path_modes;
 mod pieces;
+mod programmed_offsets;
 mod random;
 mod robustness;
 mod rs274;
 mod shop;
+mod silence;
 mod simulator;
+mod sinumerik_approach;
+mod sinumerik_arcs;
 mod sinumerik_cycles;
 mod sinumerik_forms;
+mod sinumerik_header;
+mod sinumerik_long_cycles;
+mod sinumerik_milling;
+mod sinumerik_values;
 mod spindle;
+mod swivel;
+mod tools;

@@ -50,6 +50,7 @@ G1 Y0 (line 6)
     let expected = format!(
         "\
 (part.mpf: sinumerik program, written by framepath filter for the frame kinematics)
+(corners that the program rounds without a tolerance of its own: P0.01, option --tolerance)
 G21 G17 G40 G80 G90 G91.1 G94 G61
 o<frame_off> call
 N10 G17 G54 (line 1: plane X/Y, work offset)
@@ -204,7 +205,9 @@ M30
             "o<arot> call [0] [0] [30]",
             "o<frame_off> call",
             "T3 M6 G43",
-            "G53 G0 Z0 G49",
+            "G49",
+            "o<frame_refresh> call",
+            "G53 G0 Z0",
             "G55",
             "G18",
             "o<trans> call [10] [0] [0]",
@@ -358,13 +361,13 @@ M2
     assert_eq!(
         commands(&translate(program, &[])),
         [
-            "G94 G17 G54 G64",
+            "G94 G17 G54 G64 P0.01",
             "T12 M6 G43",
             "S5000 M3 M8",
             "G4 P2.5",
             "G4 P6",
             "G61.1 G1 X1 F200",
-            "G64",
+            "G64 P0.01",
             "G61.1",
             "G59.2",
             "G95 F0.1",
@@ -389,55 +392,6 @@ fn inches_are_converted() {
             "M30"
         ]
     );
-}
-
-/// The mode of the header, and what comes back after a block with a stop of its own.
-#[test]
-fn the_path_mode_holds_until_the_program_changes_it() {
-    let program = "G0 X0 Y0 Z0\nG9 G1 X1 F200\nX2\nG64\nG9 X3\nX4\nM30\n";
-    for (arguments, header, mode) in [
-        (&[][..], "G94 G61\n", "G61"),
-        (&["--path-mode", "G61"], "G94 G61\n", "G61"),
-        (&["--path-mode", "g64"], "G94 G64\n", "G64"),
-        (&["--path-mode", "0.05"], "G94 G64 P0.05\n", "G64 P0.05"),
-        (
-            &["--machine-in-inch", "--path-mode", "0.0254"],
-            "G94 G64 P0.001\n",
-            "G64 P0.001",
-        ),
-    ] {
-        for backend in ["program", "kinematics"] {
-            let output = translate(program, &[&["--backend", backend], arguments].concat());
-            assert!(output.contains(header), "{output}");
-            let given: Vec<String> = commands(&output)
-                .into_iter()
-                .filter(|line| line.starts_with("G6"))
-                .collect();
-            let stop = |x: u32, feed: &str| format!("G61.1 G1 X{x}{feed}");
-            assert_eq!(
-                given,
-                [&stop(1, " F200"), mode, "G64", &stop(3, ""), "G64"],
-                "{arguments:?}"
-            );
-        }
-    }
-    // Where every move ends at rest anyway, G9 adds nothing.
-    let output = translate("G0 X0\nG9 G1 X1 F200\nM30\n", &["--path-mode", "G61.1"]);
-    assert_eq!(output.matches("G61.1").count(), 1, "{output}");
-    assert!(output.contains("G94 G61.1\n"), "{output}");
-}
-
-#[test]
-fn path_modes_that_are_none_are_refused() {
-    let shop = Shop::new(&[("part.mpf", b"M30\n")]);
-    // LinuxCNC would take G64 P0 for no limit at all.
-    for mode in [
-        "0", "-1", "0.0001", "11", "nan", "inf", "G62", "G64P0.1", "",
-    ] {
-        let output = shop.run("part.mpf", &[&format!("--path-mode={mode}")]);
-        assert_eq!(output.status.code(), Some(2), "{mode}");
-        assert!(output.stdout.is_empty(), "{mode}");
-    }
 }
 
 #[test]

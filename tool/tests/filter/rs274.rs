@@ -5,8 +5,9 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// The names of all subroutines that the kinematics backend calls.
-const SUBROUTINES: [&str; 19] = [
+const SUBROUTINES: [&str; 20] = [
     "frame_off",
+    "frame_refresh",
     "trans",
     "atrans",
     "rot",
@@ -34,6 +35,26 @@ pub fn interpret(folder: &Path, tools: &str, program: &str) -> Vec<String> {
         let text = format!("o<{name}> sub\n(MSG, called {name} #1 #2 #3)\no<{name}> endsub\nM2\n");
         std::fs::write(folder.join(format!("{name}.ngc")), text).expect("a file");
     }
+    run(folder, tools, program);
+    let read = |name| std::fs::read_to_string(folder.join(name)).expect("a file");
+    let errors: Vec<String> = read("errors.txt")
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.contains("executing"))
+        .map(String::from)
+        .collect();
+    assert!(errors.is_empty(), "rs274 says: {errors:?}\n{program}");
+    let canon: Vec<String> = read("canon.txt").lines().map(String::from).collect();
+    let ended = canon.iter().any(|line| line.contains("PROGRAM_END"));
+    assert!(
+        ended,
+        "the program did not reach its end: {:?}\n{program}",
+        canon.last()
+    );
+    canon
+}
+
+/// Runs a program; what the interpreter calls goes to `canon.txt`, what it says to `errors.txt`.
+pub fn run(folder: &Path, tools: &str, program: &str) {
     let ini = format!("[RS274NGC]\nSUBROUTINE_PATH={}\n", folder.display());
     std::fs::write(folder.join("machine.ini"), ini).expect("a file");
     std::fs::write(folder.join("tool.tbl"), tools).expect("a file");
@@ -73,21 +94,6 @@ pub fn interpret(folder: &Path, tools: &str, program: &str) -> Vec<String> {
             None => std::thread::sleep(Duration::from_millis(10)),
         }
     }
-    let read = |name| std::fs::read_to_string(folder.join(name)).expect("a file");
-    let errors: Vec<String> = read("errors.txt")
-        .lines()
-        .filter(|line| !line.trim().is_empty() && !line.contains("executing"))
-        .map(String::from)
-        .collect();
-    assert!(errors.is_empty(), "rs274 says: {errors:?}\n{program}");
-    let canon: Vec<String> = read("canon.txt").lines().map(String::from).collect();
-    let ended = canon.iter().any(|line| line.contains("PROGRAM_END"));
-    assert!(
-        ended,
-        "the program did not reach its end: {:?}\n{program}",
-        canon.last()
-    );
-    canon
 }
 
 /// The numbers of a canonical call with this name.

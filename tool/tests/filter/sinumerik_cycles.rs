@@ -92,9 +92,9 @@ M30
         ("CYCLE81(,0,2,-5)", "needs RTP"),
         (
             "CYCLE81(10,0,2,-5,,0,1)",
-            "value 7 of CYCLE81 is not supported",
+            "_GMODE = 1 of CYCLE81 is not supported",
         ),
-        ("CYCLE83(10,0,2,-5,,-2,,0,0,0,0.5,1)", "FRF"),
+        ("CYCLE83(10,0,2,-5,,-2,,0,0,0,1.5,1)", "FRF = 1.5"),
         ("CYCLE83(10,0,2,-5,,-2,,0,0,0,1,2)", "VARI = 2"),
         ("HOLES1(0,0,0,0,5,3)", "without a modal cycle"),
     ] {
@@ -133,7 +133,7 @@ fn boring_with_a_spindle_that_stops_at_an_angle() {
     check(&turned, &path);
     for (cycle, text) in [
         ("CYCLE86(10,0,2,-5,,0,0,0,0,0,0)", "needs SDIR"),
-        ("CYCLE86(10,0,2,-5,,0,3,0,0,0,0,1)", "value 12 of CYCLE86"),
+        ("CYCLE86(10,0,2,-5,,0,3,0,0,0,0,1)", "_GMODE = 1 of CYCLE86"),
     ] {
         let shown = errors(&format!("G0 X0 Y0 Z20 F100 S100\n{cycle}\nM30\n"));
         assert!(shown.contains(text), "{cycle}\n{shown}");

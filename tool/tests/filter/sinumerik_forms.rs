@@ -1,7 +1,7 @@
 //! Forms of motion and calls of the Sinumerik-like dialect, against paths written down by hand.
 
 use crate::expected::Path;
-use crate::shop::{Shop, accepted, commands, refused, translate};
+use crate::shop::{Shop, commands, refused, translate};
 use framepath_tool::dialects::Dialect;
 
 fn check(program: &str, expected: &Path) {
@@ -370,9 +370,4 @@ M30
     assert!(calls[2].starts_with("o<arot> call [30] [0] [0]"));
     assert!(!other.contains("tool_normal"));
     assert!(errors("CYCLE800(0,,0,192,0,0,0,10,0,0)\nM30\n").contains("MODE = 192"));
-    let shifted = "CYCLE800(1,,0,57,10,0,0,0,0,0,0,0,0,-1)\nG0 X0 Y0 Z0\nM30\n";
-    let shop = Shop::new(&[("part.mpf", shifted.as_bytes())]);
-    let output = accepted(&shop.run("part.mpf", &["--backend", "program"]));
-    assert!(output.contains("the retraction FR = 1 is left to the program"));
-    assert!(output.contains("G0 X10 Y0 Z0"));
 }

@@ -209,7 +209,7 @@ fn rotary_axes_turn_the_way_that_is_meant() {
     assert_eq!(lines(program)[..7], angles);
     for (program, words) in [
         (
-            "G0 A=DC(10)\nM30\n",
+            "G1 A=DC(10) F9\nM30\n",
             "which way this axis turns is not known",
         ),
         ("G0 X=DC(10)\nM30\n", "belong to rotary axes"),

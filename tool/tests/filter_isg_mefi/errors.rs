@@ -27,6 +27,18 @@ fn mefi() {
             "comments begin with a quotation mark",
         ),
         ("G1 E5\nM30\n", "1:4", "the address E is not supported"),
+        (
+            "TRANS X10\nM30\n",
+            "1:1",
+            "`TRANS` is not a word of this dialect",
+        ),
+        ("G71 L9 P0\nM30\n", "1:8", "a whole number from 1"),
+        ("G71 L9 P2 Q2\nM30\n", "1:11", "is in this block twice"),
+        (
+            "G1 X1 P2\nM30\n",
+            "1:7",
+            "belong to the call of a subprogram",
+        ),
         ("G1 X1 ?\nM30\n", "1:7", "the character `?` has no meaning"),
         ("G1.5 X1\nM30\n", "1:1", "is not the number of a function"),
         ("G20\nM30\n", "1:1", "G20 is not supported"),
@@ -146,8 +158,14 @@ fn isg() {
         ("G00 X=-2**2\nM30\n", "1:7", "a sign before a power"),
         ("G00 X=\"NAME\"\nM30\n", "1:7", "macros are not supported"),
         ("G00 X1 ?\nM30\n", "1:8", "an address is missing here"),
-        ("G33 X1\nM30\n", "1:1", "G33 is not supported"),
+        ("G331 Z1 K1\nM30\n", "1:1", "write G63 Z-20 F300 S200"),
         ("G80\nM30\n", "1:1", "G80 is not supported"),
+        (
+            "G805[1,2]\nM30\n",
+            "1:1",
+            "a subprogram of the other control",
+        ),
+        ("G803\nM30\n", "1:1", "cycles are subprograms"),
         (
             "G00 G01 X1 F1\nM30\n",
             "1:5",
@@ -188,6 +206,10 @@ fn isg() {
         ("#RTCP ON\nM30\n", "1:1", "#RTCP is not supported"),
         ("#KIN ID [9]\nM30\n", "1:1", "#KIN is not supported"),
         ("#MSSG [\"a\"]\nM30\n", "1:1", "did you mean #MSG?"),
+        ("MSG [\"a\"]\nM30\n", "1:1", "did you mean #MSG?"),
+        ("IF P1 > 3\nM30\n", "1:1", "did you mean $IF?"),
+        ("$FRO P1=1,2\nM30\n", "1:1", "did you mean $FOR?"),
+        ("G00 X=CSO[3]\nM30\n", "1:7", "did you mean COS?"),
         ("#MSG [\"a %d\"]\nM30\n", "1:1", "as many values are needed"),
         ("#MSG [\"a]\nM30\n", "1:7", "this text does not end"),
         (
@@ -300,9 +322,16 @@ fn isg() {
 
 #[test]
 fn several_errors_in_one_run() {
-    let program = "G01 X F100\nG33\nFOO\nG00 X1\nM30\n";
+    let program = "G01 X F100\nG80\nFOO\nG00 X1\nM30\n";
     let shown = Shop::with(Dialect::Isg, program).refused(&[]);
     assert!(shown.contains("\n3 errors: nothing was written"), "{shown}");
+}
+
+#[test]
+fn the_mark_ends_with_the_word() {
+    let shown = Shop::with(Dialect::Isg, "N10 G00 M77   (a)\nM30\n").refused(&[]);
+    assert!(shown.contains("^^^\n"), "{shown}");
+    assert!(!shown.contains("^^^^"), "{shown}");
 }
 
 #[test]

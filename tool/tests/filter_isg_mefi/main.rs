@@ -17,3 +17,4 @@ mod robustness;
 mod rs274;
 mod shop;
 mod silence;
+mod spindle;

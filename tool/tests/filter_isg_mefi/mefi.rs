@@ -61,6 +61,10 @@ fn subprograms_are_found_in_the_file_and_beside_it() {
     assert_eq!(ends, [1.0, 2.0, 3.0, 4.0]);
     assert!(output.contains("(MSG, line 3: Q is taken as the number of passes: 2)"));
     assert!(output.contains("(--- L7 in L7.NC, pass 2 of 2 ---)"));
+    let with_p = [("part.nc", "G71 L7 P2\nM30\n"), files[1]];
+    let output = Shop::new(Dialect::Mefi, &with_p).accepted(&["--backend", "program"]);
+    assert!(output.contains("(--- L7 in L7.NC, pass 2 of 2 ---)"));
+    assert!(!output.contains("(MSG"), "{output}");
     let shop = Shop::new(
         Dialect::Mefi,
         &[

@@ -191,6 +191,22 @@ fn what_is_nested_too_deep_is_an_error() {
     run_all(Dialect::Isg, b"#VAR\nV.L.A[100000][100000]\n#ENDVAR\nM30\n");
 }
 
+/// Lines that belong together may go on where another program begins.
+#[test]
+fn declarations_and_comments_without_an_end() {
+    for begin in ["#VAR", "#COMMENT BEGIN", "G0 X0 \\"] {
+        for rest in [
+            "%L UP\nG1 X1\nM29\n%MAIN\nG1 X2\n",
+            "%A\nG1 X1 ?\nM30\n%L B\n$IF 1\n",
+        ] {
+            run_all(
+                Dialect::Isg,
+                format!("{rest}{begin}\n{rest}{rest}").as_bytes(),
+            );
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 

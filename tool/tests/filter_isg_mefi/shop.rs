@@ -2,7 +2,7 @@
 
 use framepath_tool::dialects::Dialect;
 use framepath_tool::dialects::settings::Settings;
-use framepath_tool::filter::contour;
+use framepath_tool::part_program::contour;
 use framepath_tool::program::contour::ContourMove;
 use framepath_tool::program::trace::Setup;
 use std::path::PathBuf;

@@ -1,6 +1,7 @@
 //! What is refused, and how it is said.
 
 use crate::support::{Bench, MILL};
+use std::process::Command;
 
 #[test]
 fn ini_files_that_cannot_be_used() {
@@ -91,6 +92,37 @@ fn programs_that_cannot_be_planned() {
     assert!(code.contains("G61.1 G999"), "{code}");
     let missing = bench.refused(&["nothing.ngc"]);
     assert!(missing.contains("nothing.ngc: cannot be read"), "{missing}");
+}
+
+#[test]
+fn programs_without_an_end() {
+    let bench = Bench::new();
+    let made = Command::new("mkfifo")
+        .arg(bench.path().join("pipe.ngc"))
+        .status();
+    assert!(made.is_ok_and(|status| status.success()));
+    std::fs::create_dir(bench.path().join("folder.ngc")).expect("a folder");
+    bench.write("long.ngc", "G21 F100\nG1 X1\nM2\n");
+    bench.write("silent.ngc", "o1 while [1]\n#1=1\no1 endwhile\nM2\n");
+    bench.write(
+        "moving.ngc",
+        "F1000\no1 while [1]\nG1 X1\nG1 X0\no1 endwhile\nM2\n",
+    );
+    bench.write("slow.ngc", "G21 F.00001\nG1 X1000\nM2\n");
+    for (file, said) in [
+        ("/dev/zero", "it is a pipe or a device"),
+        ("pipe.ngc", "it is a pipe or a device"),
+        ("folder.ngc", "it is a folder"),
+        ("long.ngc", "more than 5 bytes; --most-bytes raises"),
+        ("silent.ngc", "--most-seconds raises"),
+        ("moving.ngc", "--most-seconds raises"),
+        ("slow.ngc", "--most-seconds raises"),
+    ] {
+        let bytes = if file == "long.ngc" { "5" } else { "1000" };
+        let options = [file, "--most-seconds", "1", "--most-bytes", bytes];
+        let shown = bench.refused(&options);
+        assert!(shown.starts_with(file) && shown.contains(said), "{shown}");
+    }
 }
 
 #[test]

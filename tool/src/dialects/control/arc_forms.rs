@@ -38,10 +38,10 @@ impl Control<'_> {
         }
         let chord = self.chord(&path, span)?;
         let Some((centre, clockwise)) = circle_through(over, chord) else {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "these three points do not lie on a circle")
                     .help("they must be different and not on a line"),
-            ));
+            );
         };
         path.kind = arc(centre, clockwise);
         self.add_move(path, span)
@@ -54,13 +54,11 @@ impl Control<'_> {
         let [first, second, _] = self.modal.plane.axes();
         let chord = self.chord(&path, span)?;
         let Some(tangent) = self.modal.tangent else {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "a tangent arc, and the direction before it is not known ahead of time",
-                )
-                .help("program a line or an arc with all axes of the plane before it"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "a tangent arc, and the direction before it is not known ahead of time",
+            )
+            .help("program a line or an arc with all axes of the plane before it"));
         };
         match tangent_centre([tangent[first], tangent[second]], chord) {
             Some((centre, clockwise)) => path.kind = arc(centre, clockwise),
@@ -68,17 +66,15 @@ impl Control<'_> {
                 path.kind = MoveKind::Line;
             }
             None => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "no arc leads straight back")
-                        .help("a tangent arc ends beside the direction of the last motion"),
-                ));
+                return Err(Diagnostic::error(span, "no arc leads straight back")
+                    .help("a tangent arc ends beside the direction of the last motion"));
             }
         }
         self.add_move(path, span)
     }
 
     /// A move to the targets of `words`, of no kind yet.
-    fn path(&mut self, words: &MotionWords) -> Result<Move, Box<Diagnostic>> {
+    fn path(&mut self, words: &MotionWords) -> Result<Move, Diagnostic> {
         Ok(Move {
             kind: MoveKind::Line,
             target: super::motion::targets(words, &self.modal, self.settings, self.diagnostics)?,
@@ -88,19 +84,17 @@ impl Control<'_> {
         })
     }
 
-    fn known_start(&self, path: &Move, axis: usize, span: Span) -> Result<f64, Box<Diagnostic>> {
+    fn known_start(&self, path: &Move, axis: usize, span: Span) -> Result<f64, Diagnostic> {
         path.start[axis].ok_or_else(|| {
-            Box::new(
-                Diagnostic::error(span, "where this arc begins is not known ahead of time")
-                    .help("program the axes of the plane absolute before the arc"),
-            )
+            Diagnostic::error(span, "where this arc begins is not known ahead of time")
+                .help("program the axes of the plane absolute before the arc")
         })
     }
 
     /// From the start of a move to its end, along the axes of the plane.
-    fn chord(&self, path: &Move, span: Span) -> Result<[f64; 2], Box<Diagnostic>> {
+    fn chord(&self, path: &Move, span: Span) -> Result<[f64; 2], Diagnostic> {
         let [first, second, _] = self.modal.plane.axes();
-        let along = |axis: usize| -> Result<f64, Box<Diagnostic>> {
+        let along = |axis: usize| -> Result<f64, Diagnostic> {
             Ok(match path.target[axis] {
                 Coordinate::Keep => 0.0,
                 Coordinate::By(step) => step,

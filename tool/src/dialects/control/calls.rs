@@ -52,7 +52,7 @@ impl Control<'_> {
         } else {
             return Ok(());
         };
-        Err(Box::new(error))
+        Err(error)
     }
 
     /// A subprogram of the file with this index begins, for the `pass`th of `passes` times. What the

@@ -16,7 +16,7 @@ impl Control<'_> {
             .modal
             .frame
             .after(command)
-            .map_err(|error| Box::new(frame_error(error, span)))?;
+            .map_err(|error| frame_error(error, span))?;
         if frame.rotates_after_unequal_scale() && !self.modal.frame.rotates_after_unequal_scale() {
             self.diagnostics.push(
                 Diagnostic::warning(
@@ -55,7 +55,7 @@ impl Control<'_> {
         for command in &commands {
             frame = frame
                 .after(*command)
-                .map_err(|error| Box::new(frame_error(error, span)))?;
+                .map_err(|error| frame_error(error, span))?;
         }
         self.modal.set_frame(frame);
         self.actions.extend(commands.into_iter().map(Action::Frame));

@@ -19,10 +19,10 @@ impl Groups {
     /// When another one of its group does too.
     pub fn claim(&mut self, group: u8, name: String, span: Span) -> Done {
         if let Some((_, other)) = self.used.iter().find(|(known, _)| *known == group) {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 format!("{other} and {name} exclude each other"),
-            )));
+            ));
         }
         self.used.push((group, name));
         Ok(())

@@ -1,7 +1,7 @@
 //! Motions in coordinates of the machine, and G92.
 
 use super::modal::Motion;
-use super::motion::targets;
+use super::motion::{length_factor, targets};
 use super::words::{Dimension, MotionWords};
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
@@ -29,10 +29,10 @@ impl Control<'_> {
                 .flatten()
                 .any(|axis| axis.value.1 != Dimension::Absolute)
         {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "an increment in machine coordinates")
                     .help("write G90 in this block"),
-            ));
+            );
         }
         let rapid = match self.modal.motion {
             Some(Motion::Rapid) => true,
@@ -41,10 +41,11 @@ impl Control<'_> {
                 false
             }
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "only G0 and G1 can move in machine coordinates")
-                        .help("write G0 or G1 in this block"),
-                ));
+                return Err(Diagnostic::error(
+                    span,
+                    "only G0 and G1 can move in machine coordinates",
+                )
+                .help("write G0 or G1 in this block"));
             }
         };
         let target = targets(words, &self.modal, self.settings, self.diagnostics)?;
@@ -75,14 +76,31 @@ impl Control<'_> {
         Ok(())
     }
 
+    /// G52: the zero of the work offset lies at these coordinates, for the axes that are named.
+    pub fn local_offset(&mut self, words: &MotionWords, span: Span) -> Done {
+        let mut values = [None; 9];
+        for (axis, word) in words.axes.iter().enumerate() {
+            if let Some(word) = word {
+                values[axis] = Some(word.value.0 * length_factor(axis, &self.modal));
+                self.modal.position.set(axis, None);
+            }
+        }
+        if values == [None; 9] {
+            return Err(Diagnostic::error(span, "G52 needs axes").help("G52 X0 Y0 Z0 ends it"));
+        }
+        self.modal.tangent = None;
+        self.actions.push(Action::LocalOffset(values));
+        Ok(())
+    }
+
     /// G92: the present place gets these coordinates of the work offset. Frames act inside of the
     /// work offset and are not seen by it: the values are neither mirrored, turned nor scaled.
     pub fn preset(&mut self, words: &MotionWords, span: Span) -> Done {
         self.refuse_compensation(span, "G92")?;
         if !words.names_an_axis() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G92 needs axes").help("G92 X0 makes this place X0"),
-            ));
+            return Err(
+                Diagnostic::error(span, "G92 needs axes").help("G92 X0 makes this place X0")
+            );
         }
         let factors = std::mem::replace(&mut self.modal.axis_factors, [1.0; 9]);
         let targets = targets(words, &self.modal, self.settings, self.diagnostics);
@@ -96,9 +114,9 @@ impl Control<'_> {
                 Coordinate::Keep => continue,
                 Coordinate::At(value) if !self.modal.incremental => values[axis] = Some(value),
                 _ => {
-                    return Err(Box::new(
-                        Diagnostic::error(span, "G92 with increments").help("write G90 before"),
-                    ));
+                    return Err(
+                        Diagnostic::error(span, "G92 with increments").help("write G90 before")
+                    );
                 }
             }
             position.set(axis, values[axis]);

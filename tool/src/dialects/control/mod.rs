@@ -3,6 +3,7 @@
 //! The interpreters of the dialects understand the words; what a feed, an offset, an arc or a frame
 //! then changes, and what LinuxCNC cannot do in which state, is the same for all and stands here.
 
+mod arc_fit;
 mod arc_forms;
 pub mod calls;
 pub mod frame;
@@ -13,10 +14,14 @@ mod modes;
 mod motion;
 pub mod offset_free;
 pub mod offset_row;
+pub mod own_m;
+mod path_modes;
 pub mod plain;
 pub mod spindle_motion;
+mod tool_book;
 pub mod words;
 
+use super::blocks::{Block, Blocks};
 use super::settings::Settings;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::program::corners::Corners;
@@ -25,12 +30,21 @@ use crate::program::{self, Action, Compensation, FrameScope, Origin, Sink};
 use crate::source::{SourceFile, Sources, Span};
 use modal::Modal;
 use std::collections::BTreeSet;
+use std::rc::Rc;
+use std::time::Instant;
+use tool_book::ToolState;
 
-/// How many blocks of a program that is run piece by piece are handed on at once.
+/// How many blocks of a long program are handed on at once.
 const BATCH: usize = 256;
 
+/// How many blocks of a short one may wait.
+const MOST_WAITING: usize = 20_000;
+
+/// After how many blocks the clock is looked at.
+const CLOCK: usize = 1024;
+
 /// The outcome of carrying out a part of a block.
-pub type Done = Result<(), Box<Diagnostic>>;
+pub type Done = Result<(), Diagnostic>;
 
 /// What a program is read from, and who hears of it.
 pub struct About<'a> {
@@ -69,12 +83,20 @@ pub struct Control<'a> {
     pub states: Vec<Action>,
     sink: &'a mut dyn Sink,
     scope: FrameScope,
+    /// How many cycles are running inside of each other, a modal one among them.
+    cycles: usize,
+    has_modal_cycle: bool,
     corners: Corners,
     finished: usize,
     running: Vec<String>,
     blocks_run: usize,
     block_limit: usize,
+    begun: Instant,
+    frames_handed_on: bool,
     noted: BTreeSet<String>,
+    /// What blocks do instead of becoming a part of the program.
+    recording: Option<Vec<Action>>,
+    tools: ToolState,
 }
 
 impl<'a> Control<'a> {
@@ -90,18 +112,26 @@ impl<'a> Control<'a> {
             states: Vec::new(),
             sink: about.sink,
             scope,
+            cycles: 0,
+            has_modal_cycle: false,
             corners: Corners::default(),
             finished: 0,
             running: Vec::new(),
             blocks_run: 0,
             block_limit: settings.most_blocks,
+            begun: Instant::now(),
+            frames_handed_on: false,
             noted: BTreeSet::new(),
+            recording: None,
+            tools: ToolState::default(),
         }
     }
 
-    /// Changes what the frames of the program turn.
-    pub fn set_frame_scope(&mut self, scope: FrameScope) {
+    /// Changes what the frames of the program turn; `false` where some have been handed on already.
+    pub fn set_frame_scope(&mut self, scope: FrameScope) -> bool {
+        let late = self.scope != scope && self.frames_handed_on;
         self.scope = scope;
+        !late
     }
 
     /// Counts a block, or a step of a cycle, that is about to run; `false` when the program must not go on, because it does
@@ -111,6 +141,9 @@ impl<'a> Control<'a> {
         if self.blocks_run > self.block_limit {
             let written: usize = self.sources.iter().map(SourceFile::lines).sum();
             self.block_limit = self.settings.most_blocks + 2 * written;
+        }
+        if self.blocks_run.is_multiple_of(CLOCK) && self.has_taken_too_long(block) {
+            return false;
         }
         if self.blocks_run > self.block_limit {
             self.diagnostics.push(
@@ -130,6 +163,34 @@ impl<'a> Control<'a> {
         !self.diagnostics.is_full()
     }
 
+    fn has_taken_too_long(&mut self, block: Span) -> bool {
+        let most = self.settings.reading.most_time;
+        let late = self.begun.elapsed() > most;
+        if late {
+            let seconds = most.as_secs();
+            self.diagnostics.push(
+                Diagnostic::error(
+                    block,
+                    format!("the program has not ended after {seconds} s"),
+                )
+                .help(
+                    "check the conditions of its loops and jumps; --most-seconds raises the limit",
+                ),
+            );
+        }
+        late
+    }
+
+    /// The block with an index; `None` where its line holds none, or cannot be read, which is said.
+    pub fn block<B: Block>(&mut self, blocks: &Blocks<B>, at: usize) -> Option<Rc<B>> {
+        blocks.get(at, self.sources, self.diagnostics)
+    }
+
+    /// The last block that holds something.
+    pub fn last_block<B: Block>(&mut self, blocks: &Blocks<B>) -> Option<Rc<B>> {
+        blocks.last(self.sources, self.diagnostics)
+    }
+
     /// Puts the collected actions into the program, with the place of the block.
     pub fn finish_block(&mut self, place: &Place) {
         let mut actions = std::mem::take(&mut self.actions);
@@ -142,10 +203,7 @@ impl<'a> Control<'a> {
         actions.shrink_to_fit();
         let is_frame = |action: &Action| matches!(action, Action::Frame(_));
         let frame = !actions.is_empty() && actions.iter().all(is_frame);
-        let frame_text = frame.then(|| {
-            let text = self.sources.text(place.span.file);
-            text.slice(place.span.start..place.span.end).to_string()
-        });
+        let frame_text = frame.then(|| self.sources.slice(place.span));
         self.add_block(program::Block {
             origin: Origin {
                 file: place.span.file,
@@ -159,7 +217,21 @@ impl<'a> Control<'a> {
         });
     }
 
+    /// What the blocks that follow do is kept, and not a part of the program.
+    pub fn begin_recording(&mut self) {
+        self.recording = Some(Vec::new());
+    }
+
+    /// What has been kept; blocks become parts of the program again.
+    pub fn end_recording(&mut self) -> Vec<Action> {
+        self.recording.take().unwrap_or_default()
+    }
+
     fn add_block(&mut self, block: program::Block) {
+        if let Some(recording) = &mut self.recording {
+            recording.extend(block.actions);
+            return;
+        }
         self.finished += 1;
         if self.diagnostics.errors() > 0 {
             // What follows an error may not be where it belongs, and is not written anyway.
@@ -167,8 +239,10 @@ impl<'a> Control<'a> {
             return;
         }
         self.corners.push(block);
-        // What the frames of a program turn may come to light at its end.
-        if self.corners.waiting() >= BATCH && self.sources.file(0).is_windowed() {
+        // What the frames of a program turn may come to light late.
+        let waiting = self.corners.waiting();
+        let is_long = || self.sources.iter().any(SourceFile::is_windowed);
+        if waiting >= MOST_WAITING || waiting >= BATCH && is_long() {
             let blocks = self.corners.take_finished(self.diagnostics);
             self.hand_on(blocks);
         }
@@ -176,6 +250,9 @@ impl<'a> Control<'a> {
 
     fn hand_on(&mut self, blocks: Vec<program::Block>) {
         if self.diagnostics.errors() == 0 {
+            let is_frame = |action: &Action| matches!(action, Action::Frame(_));
+            let mut actions = blocks.iter().flat_map(|block| &block.actions);
+            self.frames_handed_on = self.frames_handed_on || actions.any(is_frame);
             self.sink.take(blocks, self.scope, self.sources);
         }
     }
@@ -199,6 +276,13 @@ impl<'a> Control<'a> {
                 span,
                 format!("{name} tunes the other control and is left out"),
             ));
+        }
+    }
+
+    /// Says something once that the user should know; `kind` is what is not said again.
+    pub fn note_once(&mut self, kind: &str, message: &str, span: Span) {
+        if self.noted.insert(kind.to_string()) {
+            self.diagnostics.push(Diagnostic::warning(span, message));
         }
     }
 

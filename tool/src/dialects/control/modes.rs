@@ -1,9 +1,10 @@
 //! Feed, speed, tool, plane, offsets, compensation, corners: modes of the control.
 
+use super::own_m::linuxcnc_m;
 use super::words::At;
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
-use crate::program::{Action, Compensation, Coolant, FeedMode, PathControl, Plane, Spindle};
+use crate::program::{Action, Compensation, Coolant, FeedMode, Plane, Spindle};
 use crate::source::Span;
 
 impl Control<'_> {
@@ -12,10 +13,10 @@ impl Control<'_> {
         if self.modal.compensation == Compensation::Off {
             return Ok(());
         }
-        Err(Box::new(
+        Err(
             Diagnostic::error(span, format!("{what} while cutter compensation is on"))
                 .help("end the compensation with G40 before"),
-        ))
+        )
     }
 
     /// G93 to G95.
@@ -32,10 +33,7 @@ impl Control<'_> {
     /// F, in units of the program.
     pub fn feed(&mut self, feed: At<f64>) -> Done {
         if feed.value <= 0.0 {
-            return Err(Box::new(Diagnostic::error(
-                feed.span,
-                "the feed must be above 0",
-            )));
+            return Err(Diagnostic::error(feed.span, "the feed must be above 0"));
         }
         let factor = match self.modal.feed_mode {
             FeedMode::InverseTime => 1.0,
@@ -50,10 +48,10 @@ impl Control<'_> {
     /// S, revolutions per minute.
     pub fn speed(&mut self, speed: At<f64>) -> Done {
         if speed.value < 0.0 {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(speed.span, "the spindle speed cannot be negative")
                     .help("M4 turns the other way"),
-            ));
+            );
         }
         self.modal.spindle_speed = Some(speed.value);
         self.actions.push(Action::SpindleSpeed(speed.value));
@@ -63,24 +61,12 @@ impl Control<'_> {
     /// T by its number.
     pub fn tool(&mut self, number: f64, span: Span) -> Done {
         if number.fract() != 0.0 || !(0.0..=99999.0).contains(&number) {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 format!("{number} is not the number of a tool"),
-            )));
+            ));
         }
-        self.actions.push(Action::Tool(number as u32));
-        Ok(())
-    }
-
-    /// T by its name, with the number that the settings give it.
-    pub fn named_tool(&mut self, name: &str, span: Span) -> Done {
-        let number = *self.settings.tool_names.get(name).ok_or_else(|| {
-            Box::new(
-                Diagnostic::error(span, format!("the tool \"{name}\" has no number"))
-                    .help(format!("give it: --tool \"{name}=3\"")),
-            )
-        })?;
-        self.actions.push(Action::Tool(number));
+        self.select_tool(number as u32);
         Ok(())
     }
 
@@ -89,6 +75,7 @@ impl Control<'_> {
         self.refuse_compensation(span, "the tool changes")?;
         self.modal.forget_position();
         self.actions.push(Action::ToolChange);
+        self.tools.change();
         if with_length {
             self.actions.push(Action::ToolLength(true));
         }
@@ -128,11 +115,14 @@ impl Control<'_> {
     /// An M function that neither the dialect nor LinuxCNC defines: passed on if the settings say so.
     pub fn other_m(&mut self, m: u32, span: Span) -> Done {
         if !self.settings.passed_m.contains(&m) {
-            return Err(Box::new(
-                Diagnostic::error(span, format!("M{m} is not defined")).help(format!(
-                    "if LinuxCNC has it on this machine, give --pass-m {m}"
-                )),
-            ));
+            let help = match linuxcnc_m(m) {
+                Some(meaning) => format!(
+                    "to LinuxCNC it is something of its own ({meaning}): take it out, or write what it is to do \
+                     with an M function of the user, M100 to M199"
+                ),
+                None => format!("if LinuxCNC has it on this machine, give --pass-m {m}"),
+            };
+            return Err(Diagnostic::error(span, format!("M{m} is not defined")).help(help));
         }
         self.actions.push(Action::OtherM(m));
         Ok(())
@@ -183,36 +173,10 @@ impl Control<'_> {
         Ok(())
     }
 
-    /// How corners are passed.
-    pub fn path_control(&mut self, control: PathControl) {
-        self.modal.path_control = control;
-        let other = |state: &Action| !matches!(state, Action::PathControl(_));
-        self.states.retain(other);
-        self.states.push(Action::PathControl(control));
-    }
-
-    /// Corners may be rounded by so much, in units of the program; `None` or 0: as the machine has it.
-    pub fn continuous_path(&mut self, tolerance: Option<f64>, span: Span) -> Done {
-        if tolerance.is_some_and(|tolerance| tolerance < 0.0) {
-            return Err(Box::new(Diagnostic::error(
-                span,
-                "a tolerance cannot be negative",
-            )));
-        }
-        let tolerance = tolerance.filter(|tolerance| *tolerance > 0.0);
-        self.path_control(PathControl::Continuous {
-            tolerance: tolerance.map(|tolerance| tolerance * self.modal.length_factor),
-        });
-        Ok(())
-    }
-
     /// A pause in seconds.
     pub fn dwell(&mut self, seconds: f64, span: Span) -> Done {
         if seconds < 0.0 {
-            return Err(Box::new(Diagnostic::error(
-                span,
-                "a dwell cannot be negative",
-            )));
+            return Err(Diagnostic::error(span, "a dwell cannot be negative"));
         }
         self.actions.push(Action::Dwell(seconds));
         Ok(())
@@ -232,13 +196,13 @@ impl Control<'_> {
         }
         // Said once; the blocks after it have the same fault.
         self.modal.has_feed = true;
-        Err(Box::new(
+        Err(
             Diagnostic::error(span, "a motion with feed, and no F is in force").help(
                 match inverse {
                     true => "with G93 every block needs its own F",
                     false => "add F to this block, in mm/min unless G95 says otherwise",
                 },
             ),
-        ))
+        )
     }
 }

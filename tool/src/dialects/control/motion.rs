@@ -36,10 +36,10 @@ impl Control<'_> {
     ) -> Done {
         let span = words.first_axis().unwrap_or(block);
         let Some(motion) = self.modal.motion else {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "no G0, G1, G2 or G3 before the first motion")
                     .help("say how the axes are to move: G0 rapid, G1 with feed"),
-            ));
+            );
         };
         if motion != Motion::Rapid {
             self.check_feed(own_feed, span)?;
@@ -74,13 +74,11 @@ impl Control<'_> {
     /// A motion whose coordinates are worked out.
     pub fn add_move(&mut self, path: Move, span: Span) -> Done {
         if self.modal.compensation != Compensation::Off && path.depends_on_position() {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "under cutter compensation, from a place that is not known ahead of time",
-                )
-                .help("program the axes of the plane absolute before G41 or G42"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "under cutter compensation, from a place that is not known ahead of time",
+            )
+            .help("program the axes of the plane absolute before G41 or G42"));
         }
         self.modal.tangent = end_direction(&path, self.modal.plane, self.settings);
         carry_out(&path, &mut self.modal);
@@ -95,7 +93,7 @@ pub(super) fn targets(
     modal: &Modal,
     settings: &Settings,
     diagnostics: &mut Diagnostics,
-) -> Result<[Coordinate; 9], Box<Diagnostic>> {
+) -> Result<[Coordinate; 9], Diagnostic> {
     let mut targets = [Coordinate::Keep; 9];
     for (axis, word) in words.axes.iter().enumerate() {
         let Some(At {
@@ -147,7 +145,7 @@ fn increment_base(
     modal: &Modal,
     settings: &Settings,
     diagnostics: &mut Diagnostics,
-) -> Result<Option<f64>, Box<Diagnostic>> {
+) -> Result<Option<f64>, Diagnostic> {
     let position = modal.position.get(axis);
     let Some(carried) = modal.carried.get(axis).copied().flatten() else {
         return Ok(position);
@@ -191,18 +189,16 @@ fn increment_base(
                 );
                 Ok(Some(carried))
             }
-            None => Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    format!(
-                        "increment in {letter} after a change of the frame, \
+            None => Err(Diagnostic::error(
+                span,
+                format!(
+                    "increment in {letter} after a change of the frame, \
                          and where {letter} was before is not known ahead of time"
-                    ),
-                )
-                .help(format!(
-                    "{advice}, or give --increment-after-frame position"
-                )),
-            )),
+                ),
+            )
+            .help(format!(
+                "{advice}, or give --increment-after-frame position"
+            ))),
         },
     }
 }
@@ -215,7 +211,7 @@ fn path_move(
     settings: &Settings,
     span: Span,
     diagnostics: &mut Diagnostics,
-) -> Result<Move, Box<Diagnostic>> {
+) -> Result<Move, Diagnostic> {
     let mut result = Move {
         kind: MoveKind::Rapid,
         target: targets(words, modal, settings, diagnostics)?,
@@ -226,10 +222,10 @@ fn path_move(
     let clockwise = match motion {
         Motion::Rapid | Motion::Line => {
             if words.names_a_centre() || words.turns.is_some() {
-                return Err(Box::new(
+                return Err(
                     Diagnostic::error(span, "centres, radii and turns belong to arcs")
                         .help("write G2 (clockwise) or G3 (counterclockwise) in this block"),
-                ));
+                );
             }
             if motion == Motion::Line {
                 result.kind = MoveKind::Line;
@@ -248,16 +244,16 @@ fn path_move(
     Ok(result)
 }
 
-fn extra_turns(words: &MotionWords) -> Result<u32, Box<Diagnostic>> {
+fn extra_turns(words: &MotionWords) -> Result<u32, Diagnostic> {
     match words.turns {
         None => Ok(0),
         Some(turns) if turns.value.fract() == 0.0 && (0.0..=999.0).contains(&turns.value) => {
             Ok(turns.value as u32)
         }
-        Some(turns) => Err(Box::new(Diagnostic::error(
+        Some(turns) => Err(Diagnostic::error(
             turns.span,
             "TURN takes whole numbers from 0 to 999",
-        ))),
+        )),
     }
 }
 
@@ -268,19 +264,17 @@ fn arc_centre(
     modal: &Modal,
     settings: &Settings,
     span: Span,
-) -> Result<Centre, Box<Diagnostic>> {
+) -> Result<Centre, Diagnostic> {
     let [first, second, normal] = modal.plane.axes();
     if let Some(centre) = words.centre[normal] {
-        return Err(Box::new(
-            Diagnostic::error(
-                centre.span,
-                format!(
-                    "{} is not in the plane that is active",
-                    ["I", "J", "K"][normal]
-                ),
-            )
-            .help("G17 has I and J, G18 I and K, G19 J and K"),
-        ));
+        return Err(Diagnostic::error(
+            centre.span,
+            format!(
+                "{} is not in the plane that is active",
+                ["I", "J", "K"][normal]
+            ),
+        )
+        .help("G17 has I and J, G18 I and K, G19 J and K"));
     }
     let chord = [first, second].map(|axis| chord(arc, axis));
     let known_chord = match chord {
@@ -291,17 +285,15 @@ fn arc_centre(
     if let Some(radius) = words.radius {
         let given = words.centre[first].or(words.centre[second]);
         if let Some(centre) = given {
-            return Err(Box::new(
-                Diagnostic::error(centre.span, "an arc has a centre or a radius, not both")
-                    .help("leave out either the radius or I, J and K"),
-            ));
+            return Err(Diagnostic::error(
+                centre.span,
+                "an arc has a centre or a radius, not both",
+            )
+            .help("leave out either the radius or I, J and K"));
         }
         let value = radius.value * modal.length_factor;
         if value == 0.0 {
-            return Err(Box::new(Diagnostic::error(
-                radius.span,
-                "a radius of 0 is no arc",
-            )));
+            return Err(Diagnostic::error(radius.span, "a radius of 0 is no arc"));
         }
         return match known_chord {
             Some(chord) => centre_from_radius(chord, value, clockwise, tolerance)
@@ -311,10 +303,10 @@ fn arc_centre(
         };
     }
     if words.centre[first].is_none() && words.centre[second].is_none() {
-        return Err(Box::new(
+        return Err(
             Diagnostic::error(span, "this arc has neither a centre nor a radius")
                 .help("add I, J or K (centre from the start) or the radius"),
-        ));
+        );
     }
     let centre = [first, second].map(|axis| centre_coordinate(words, arc, axis, modal));
     let offset = match centre {
@@ -357,8 +349,8 @@ fn centre_coordinate(words: &MotionWords, arc: &Move, axis: usize, modal: &Modal
 }
 
 /// The words for an error of the geometry.
-fn arc_error(error: ArcError, span: Span) -> Box<Diagnostic> {
-    let error = match error {
+fn arc_error(error: ArcError, span: Span) -> Diagnostic {
+    match error {
         ArcError::RadiusTooSmall { radius, least } => Diagnostic::error(
             span,
             format!("the radius {radius:.4} does not reach the end: at least {least:.4} is needed"),
@@ -376,8 +368,7 @@ fn arc_error(error: ArcError, span: Span) -> Box<Diagnostic> {
         .help("check the end point and the centre; I, J and K count from the start"),
         ArcError::NoRadius => Diagnostic::error(span, "the centre of this arc is its start")
             .help("I, J and K count from the start"),
-    };
-    Box::new(error)
+    }
 }
 
 /// The direction at the end of a move, if it is known ahead of time.

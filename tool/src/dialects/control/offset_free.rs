@@ -59,12 +59,10 @@ impl Control<'_> {
             Some(Motion::Clockwise | Motion::Counterclockwise)
         );
         if arc || words.names_a_centre() {
-            return Err(Box::new(
-                Diagnostic::error(span, "an arc while the work offset is off (G53)").help(
+            return Err(Diagnostic::error(span, "an arc while the work offset is off (G53)").help(
                     "LinuxCNC moves in straight lines only there: set a work offset of the machine to \
                      0 and select it (G59) instead of G53",
-                ),
-            ));
+                ));
         }
         let mut machine = *words;
         let mut programmed = state.programmed;
@@ -94,7 +92,7 @@ impl Control<'_> {
         axis: usize,
         word: &At<(f64, Dimension)>,
         programmed: &[Option<f64>; 9],
-    ) -> Result<f64, Box<Diagnostic>> {
+    ) -> Result<f64, Diagnostic> {
         let (value, dimension) = word.value;
         let incremental = match dimension {
             Dimension::Modal => self.modal.incremental,
@@ -106,34 +104,30 @@ impl Control<'_> {
         }
         let letter = AXES[axis];
         programmed[axis].map(|base| base + value).ok_or_else(|| {
-            Box::new(
-                Diagnostic::error(
-                    word.span,
-                    format!(
-                        "an increment while the work offset is off (G53), and where {letter} is there \
+            Diagnostic::error(
+                word.span,
+                format!(
+                    "an increment while the work offset is off (G53), and where {letter} is there \
                          is not known ahead of time"
-                    ),
-                )
-                .help(format!("program {letter} with G90 once after G53")),
+                ),
             )
+            .help(format!("program {letter} with G90 once after G53"))
         })
     }
 
     /// A coordinate after the frame, in units of the program. A frame that turns would need all axes.
-    fn framed(&self, axis: usize, value: f64, span: Span) -> Result<f64, Box<Diagnostic>> {
+    fn framed(&self, axis: usize, value: f64, span: Span) -> Result<f64, Diagnostic> {
         if axis >= 3 {
             return Ok(value);
         }
         let map = self.modal.frame.map();
         let turns = (0..3).any(|other| other != axis && map.linear()[(axis, other)] != 0.0);
         if turns {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "a rotation is active while the work offset is off (G53)",
-                )
-                .help("end the rotation before G53, or select a work offset"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "a rotation is active while the work offset is off (G53)",
+            )
+            .help("end the rotation before G53, or select a work offset"));
         }
         let factor = length_factor(axis, &self.modal);
         let shift = map.translation()[axis] / factor;

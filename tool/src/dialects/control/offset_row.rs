@@ -19,13 +19,13 @@ impl Control<'_> {
         &mut self,
         row: &mut OffsetRow,
         d: At<f64>,
-    ) -> Result<bool, Box<Diagnostic>> {
+    ) -> Result<bool, Diagnostic> {
         let At { value, span } = d;
         if value.fract() != 0.0 || !(0.0..=99_999.0).contains(&value) {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 format!("D{value} is not a row of the offset table"),
-            )));
+            ));
         }
         let number = value as u32;
         if row.selected == Some(number) {
@@ -51,7 +51,7 @@ impl Control<'_> {
         &mut self,
         list: &[At<u32>],
         ends: &[u32],
-    ) -> Result<Option<u32>, Box<Diagnostic>> {
+    ) -> Result<Option<u32>, Diagnostic> {
         let mut end = None;
         // LinuxCNC changes the tool first, then switches spindle and coolant; so do controls.
         let mut list: Vec<&At<u32>> = list.iter().collect();

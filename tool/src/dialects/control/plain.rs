@@ -23,6 +23,8 @@ pub struct PlainBlock {
     pub axes: [Option<f64>; 9],
     /// F.
     pub feed: Option<f64>,
+    /// Whether an axis has a number other than 0 that is written without a decimal point.
+    pub pointless: bool,
     /// Where its words begin and end in its line.
     pub range: [usize; 2],
 }
@@ -38,6 +40,7 @@ impl PlainBlock {
             motion: None,
             axes: [None; 9],
             feed: None,
+            pointless: false,
             range: [start, start],
         };
         let mut moves = false;
@@ -76,7 +79,11 @@ impl PlainBlock {
             if place.is_some() {
                 return None;
             }
-            *place = Some(reader.number()?);
+            let start = reader.at;
+            let value = reader.number()?;
+            *place = Some(value);
+            let digits = line.get(start..reader.at).unwrap_or(&[]);
+            block.pointless |= value != 0.0 && !digits.contains(&b'.');
             moves = true;
             block.range[1] = reader.at;
             reader.blanks();
@@ -136,7 +143,7 @@ impl Reader<'_> {
         let mut number = self.digit()?;
         let mut digits = 1;
         while let Some(digit) = self.digit() {
-            number = 10 * number + digit;
+            number = number.wrapping_mul(10).wrapping_add(digit);
             digits += 1;
         }
         if digits > 9 || self.peek() == Some(b'.') {
@@ -211,7 +218,7 @@ impl Control<'_> {
             _ => Motion::Line,
         });
         if let Err(diagnostic) = self.add_move(path, span) {
-            self.fail(*diagnostic);
+            self.fail(diagnostic);
         }
         self.finish_block(&Place {
             span,
@@ -300,6 +307,7 @@ mod tests {
             "G10 X1",
             "G001 X1",
             "X1 N5",
+            "N55555555555555555555555555 X1",
             "N1.5 X1",
             "X",
             "X-",

@@ -1,7 +1,7 @@
 //! Threads and taps: motions in step with the spindle, and those that only seem to be.
 
 use super::motion::targets;
-use super::words::MotionWords;
+use super::words::{AXES, MotionWords};
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
 use crate::program::moves::{Coordinate, Move, MoveKind};
@@ -49,16 +49,48 @@ impl Control<'_> {
                 x.hypot(y).hypot(z) / [x, y, z][axis].abs()
             }
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "the slope of this thread is not known ahead of time")
-                        .help("program X, Y and Z absolute before it"),
-                ));
+                return Err(Diagnostic::error(
+                    span,
+                    "the slope of this thread is not known ahead of time",
+                )
+                .help("program X, Y and Z absolute before it"));
             }
         };
         path.kind = MoveKind::Thread {
             pitch: pitch.abs() * self.modal.length_factor * slope,
         };
         self.add_move(path, span)
+    }
+
+    /// Where the axis of a tap is, units of the program; it must be the normal of the plane and the only one
+    /// that is named.
+    ///
+    /// # Errors
+    ///
+    /// It is not, or where it is is not known ahead of time.
+    pub fn tap_place(
+        &self,
+        words: &MotionWords,
+        axis: usize,
+        span: Span,
+    ) -> Result<f64, Diagnostic> {
+        let [_, _, normal] = self.modal.plane.axes();
+        let others = words.axes.iter().enumerate();
+        let others = others
+            .filter(|(_, word)| word.is_some())
+            .any(|(named, _)| named != axis);
+        match (axis == normal && !others, self.present(axis)) {
+            (true, Some(place)) => Ok(place),
+            (true, None) => Err(Diagnostic::error(
+                span,
+                "where the tap begins is not known ahead of time",
+            )
+            .help(format!("program {} absolute before", AXES[axis]))),
+            (false, _) => Err(Diagnostic::error(
+                span,
+                "a tap goes along the normal of the plane, and no other axis with it",
+            )),
+        }
     }
 
     /// A rigid tap from where the tool is. The spindle turns as the pitch says, and stands when it is
@@ -104,19 +136,14 @@ impl Control<'_> {
     /// G96: metres or feet per minute at the surface, with the axis X at the radius.
     pub fn surface_speed(&mut self, speed: f64, limit: Option<f64>, span: Span) -> Done {
         if speed <= 0.0 || limit.is_some_and(|limit| limit <= 0.0) {
-            return Err(Box::new(Diagnostic::error(
-                span,
-                "the speed must be above 0",
-            )));
+            return Err(Diagnostic::error(span, "the speed must be above 0"));
         }
         if !self.modal.frame.is_empty() {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "constant cutting speed in a frame: X is not the radius",
-                )
-                .help("clear the frame before"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "constant cutting speed in a frame: X is not the radius",
+            )
+            .help("clear the frame before"));
         }
         let per_minute = match self.settings.machine_in_inch {
             // The control counts metres, LinuxCNC feet.
@@ -135,10 +162,11 @@ impl Control<'_> {
     /// G97, with the speed that follows.
     pub fn turning_speed(&mut self, speed: Option<f64>, span: Span) -> Done {
         if speed.is_none() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G97 keeps a speed that is not known ahead of time")
-                    .help("program the speed beside it: G97 S1000"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "G97 keeps a speed that is not known ahead of time",
+            )
+            .help("program the speed beside it: G97 S1000"));
         }
         self.actions.push(Action::SurfaceSpeed(None));
         Ok(())
@@ -147,10 +175,10 @@ impl Control<'_> {
     fn check_spindle(&self, span: Span) -> Done {
         match self.modal.spindle {
             Some(Spindle::Clockwise | Spindle::Counterclockwise) => Ok(()),
-            _ => Err(Box::new(
+            _ => Err(
                 Diagnostic::error(span, "a thread, and the spindle does not turn")
                     .help("switch it on before: S500 M3"),
-            )),
+            ),
         }
     }
 }
@@ -158,15 +186,13 @@ impl Control<'_> {
 fn check_pitch(pitch: f64, span: Span) -> Done {
     match pitch.is_finite() && pitch != 0.0 {
         true => Ok(()),
-        false => Err(Box::new(
-            Diagnostic::error(span, "a thread with no pitch").help("the pitch cannot be 0"),
-        )),
+        false => {
+            Err(Diagnostic::error(span, "a thread with no pitch").help("the pitch cannot be 0"))
+        }
     }
 }
 
-fn no_speed(span: Span) -> Box<Diagnostic> {
-    Box::new(
-        Diagnostic::error(span, "a tap, and no spindle speed is programmed")
-            .help("program S before or beside it"),
-    )
+fn no_speed(span: Span) -> Diagnostic {
+    Diagnostic::error(span, "a tap, and no spindle speed is programmed")
+        .help("program S before or beside it")
 }

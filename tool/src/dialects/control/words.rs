@@ -24,10 +24,10 @@ pub struct At<T> {
 /// When there is one already.
 pub fn set<T>(place: &mut Option<At<T>>, value: T, span: Span, address: impl Display) -> Done {
     if place.is_some() {
-        return Err(Box::new(Diagnostic::error(
+        return Err(Diagnostic::error(
             span,
             format!("{address} is in this block twice"),
-        )));
+        ));
     }
     *place = Some(At { value, span });
     Ok(())

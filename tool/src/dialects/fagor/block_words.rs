@@ -19,6 +19,14 @@ pub struct BlockWords {
     pub centre: [Option<At<f64>>; 3],
     /// R.
     pub radius: Option<At<f64>>,
+    /// R behind one of G36 to G39, which another R may follow.
+    pub corner_radius: Option<At<f64>>,
+    /// Whether one of G36 to G39 was there, and its R not yet.
+    awaits_corner: bool,
+    /// P to V of a pattern: the places that are left out, from one to another.
+    pub left_out: Vec<At<[u32; 2]>>,
+    /// E, which only functions have that are not supported.
+    pub further: Option<At<f64>>,
     /// Q.
     pub angle: Option<At<f64>>,
     /// F.
@@ -31,9 +39,16 @@ pub struct BlockWords {
     pub offset: Option<At<f64>>,
     /// L: the pitch of a thread.
     pub pitch: Option<At<f64>>,
+    /// E: the contour error of G51.
+    pub contour_error: Option<At<f64>>,
+    /// H: the feed of the last round of a pocket, or how far a deep hole cycle draws back.
+    pub finish_feed: Option<At<f64>>,
     /// N at the end of the block: how often it is repeated.
     pub times: Option<At<f64>>,
 }
+
+/// The letters that leave places of a pattern out.
+const LEFT_OUT: &str = "PQRSTUV";
 
 impl BlockWords {
     /// Evaluates the words in their order. `None` when something was wrong with one of them; that has
@@ -45,16 +60,41 @@ impl BlockWords {
     ) -> Option<BlockWords> {
         let mut block = BlockWords::default();
         let mut failed = false;
+        let pattern = words.iter().any(Word::is_pattern);
         for word in words {
-            if let Err(diagnostic) = block.add(word, variables) {
-                diagnostics.push(*diagnostic);
+            let done = match pattern && LEFT_OUT.contains(word.letter) {
+                true => block.leave_out(word),
+                false => block.add(word, variables),
+            };
+            if let Err(diagnostic) = done {
+                diagnostics.push(diagnostic);
                 failed = true;
             }
         }
         (!failed).then_some(block)
     }
 
-    fn add(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Box<Diagnostic>> {
+    /// `P4` leaves place 4 out, `P6.009` those from 6 to 9.
+    fn leave_out(&mut self, word: &Word) -> Result<(), Diagnostic> {
+        let (first, last) = word.digits.split_once('.').unwrap_or((&word.digits, ""));
+        let range = match (first.parse(), last.len(), last.parse()) {
+            (Ok(first), 0, _) => Some([first, first]),
+            (Ok(first), 3, Ok(last)) if first <= last => Some([first, last]),
+            _ => None,
+        };
+        let Some(value) = range else {
+            return Err(
+                Diagnostic::error(word.span, "this does not name places of the pattern").help(
+                    "P4 leaves the fourth place out, P6.009 those from the sixth to the ninth",
+                ),
+            );
+        };
+        let span = word.span;
+        self.left_out.push(At { value, span });
+        Ok(())
+    }
+
+    fn add(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Diagnostic> {
         let span = word.span;
         let letter = word.letter;
         let value = match &word.value {
@@ -71,6 +111,7 @@ impl BlockWords {
         match letter {
             'G' => {
                 let value = code(value, span)?;
+                self.awaits_corner |= (36..=39).contains(&value);
                 self.g.push(At { value, span });
                 Ok(())
             }
@@ -78,6 +119,9 @@ impl BlockWords {
                 let value = code(value, span)?;
                 self.m.push(At { value, span });
                 Ok(())
+            }
+            'R' if std::mem::take(&mut self.awaits_corner) => {
+                set(&mut self.corner_radius, value, span, letter)
             }
             'R' => set(&mut self.radius, value, span, letter),
             'Q' => set(&mut self.angle, value, span, letter),
@@ -87,15 +131,20 @@ impl BlockWords {
             'T' => set(&mut self.tool, tool(word, value)?, span, letter),
             'N' => set(&mut self.times, value, span, letter),
             'L' => set(&mut self.pitch, value, span, letter),
-            'H' | 'E' | 'O' => Err(Box::new(
+            'E' if self.g.iter().any(|g| g.value == 51) => {
+                set(&mut self.contour_error, value, span, letter)
+            }
+            'H' => set(&mut self.finish_feed, value, span, letter),
+            'E' => set(&mut self.further, value, span, letter),
+            'O' => Err(
                 Diagnostic::error(span, format!("the address {letter} is not supported")).help(
                     "axes are X Y Z A B C U V W; parameters are P1 and stand behind an address",
                 ),
-            )),
-            _ => Err(Box::new(Diagnostic::error(
+            ),
+            _ => Err(Diagnostic::error(
                 span,
                 format!("the address {letter} is not supported"),
-            ))),
+            )),
         }
     }
 
@@ -117,30 +166,28 @@ impl BlockWords {
 }
 
 /// What is said where a word has no value.
-pub fn missing(letter: char, span: Span) -> Box<Diagnostic> {
-    Box::new(
-        Diagnostic::error(span, format!("the value of {letter} is missing"))
-            .help(format!("write {letter}10 or {letter}P1")),
-    )
+pub fn missing(letter: char, span: Span) -> Diagnostic {
+    Diagnostic::error(span, format!("the value of {letter} is missing"))
+        .help(format!("write {letter}10 or {letter}P1"))
 }
 
-fn code(value: f64, span: Span) -> Result<u32, Box<Diagnostic>> {
+fn code(value: f64, span: Span) -> Result<u32, Diagnostic> {
     if value.fract() != 0.0 || !(0.0..=9999.0).contains(&value) {
-        return Err(Box::new(Diagnostic::error(
+        return Err(Diagnostic::error(
             span,
             "this is not the number of a function",
-        )));
+        ));
     }
     Ok(value as u32)
 }
 
 /// `T5.10`: tool 5 with offset 10.
-fn tool(word: &Word, value: f64) -> Result<(f64, Option<u32>), Box<Diagnostic>> {
+fn tool(word: &Word, value: f64) -> Result<(f64, Option<u32>), Diagnostic> {
     if value < 0.0 {
-        return Err(Box::new(Diagnostic::error(
+        return Err(Diagnostic::error(
             word.span,
             format!("{value} is not the number of a tool"),
-        )));
+        ));
     }
     let Some((_, offset)) = word.digits.split_once('.') else {
         return Ok((value, None));
@@ -152,9 +199,7 @@ fn tool(word: &Word, value: f64) -> Result<(f64, Option<u32>), Box<Diagnostic>> 
         .parse()
         .map(|offset| (value.trunc(), Some(offset)))
         .map_err(|_| {
-            Box::new(
-                Diagnostic::error(word.span, "this is not a tool and its offset")
-                    .help("write T5.3 for tool 5 with offset 3"),
-            )
+            Diagnostic::error(word.span, "this is not a tool and its offset")
+                .help("write T5.3 for tool 5 with offset 3")
         })
 }

@@ -1,6 +1,6 @@
 //! Subroutines and repetitions.
 
-use super::interpreter::{Interpreter, find_label, place};
+use super::interpreter::Interpreter;
 use super::parameters::checked;
 use super::routine::{Routine, defines, subroutine_name};
 use super::syntax::{Block, Call, CallKind, Label};
@@ -19,7 +19,7 @@ const RULES: CallRules = CallRules {
 /// How many RPT may be inside each other.
 const REPEAT_NESTING: usize = 15;
 
-/// A subroutine that runs after each motion.
+/// A subroutine that runs at once and then after each motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalCall {
     number: u32,
@@ -35,8 +35,8 @@ impl Interpreter<'_> {
         call: &Call,
         block: &Block,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
-        self.control.finish_block(&place(block));
+    ) -> Result<Next, Diagnostic> {
+        self.control.finish_block(&block.place);
         let number = call.number.whole(&self.parameters, 0)?;
         let mut arguments = Vec::new();
         for argument in &call.arguments {
@@ -52,7 +52,8 @@ impl Interpreter<'_> {
                 span: call.span,
                 running: false,
             });
-            return Ok(Next::Block(at + 1));
+            // It runs here as well, as PCALL would.
+            return Ok(self.run_modal_call(block, at));
         }
         let arguments = (call.kind == CallKind::Parameters).then_some(arguments.as_slice());
         self.run_subroutine(number, arguments, call.span, block, at)
@@ -72,12 +73,12 @@ impl Interpreter<'_> {
             modal.running = false;
         }
         done.unwrap_or_else(|diagnostic| {
-            self.control.fail(*diagnostic);
+            self.control.fail(diagnostic);
             next
         })
     }
 
-    fn subroutine(&mut self, number: u32, span: Span) -> Result<Rc<Routine>, Box<Diagnostic>> {
+    fn subroutine(&mut self, number: u32, span: Span) -> Result<Rc<Routine>, Diagnostic> {
         let name = subroutine_name(number);
         let found = self.library.find_defined(
             &name,
@@ -86,14 +87,10 @@ impl Interpreter<'_> {
             self.control.diagnostics,
         );
         found.ok_or_else(|| {
-            Box::new(
-                Diagnostic::error(span, format!("the subroutine {number} was not found")).help(
-                    format!(
-                        "it is looked for as (SUB {number}) .. (RET) in this file, in the program \
+            Diagnostic::error(span, format!("the subroutine {number} was not found")).help(format!(
+                "it is looked for as (SUB {number}) .. (RET) in this file, in the program \
                          files beside it and in the folders of --subprograms"
-                    ),
-                ),
-            )
+            ))
         })
     }
 
@@ -105,12 +102,12 @@ impl Interpreter<'_> {
         span: Span,
         block: &Block,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let routine = self.subroutine(number, span)?;
         self.control.check_call(&routine.name, 1, span, &RULES)?;
-        let place = place(block);
+        let place = &block.place;
         self.control
-            .enter(&routine.name, routine.file, [1, 1], &place);
+            .enter(&routine.name, routine.file, [1, 1], place);
         if let Some(arguments) = arguments {
             self.parameters.enter(arguments);
         }
@@ -118,7 +115,7 @@ impl Interpreter<'_> {
         if arguments.is_some() {
             self.parameters.leave();
         }
-        self.control.leave(&routine.name, &place);
+        self.control.leave(&routine.name, place);
         Ok(match end {
             Next::Block(_) | Next::Return => Next::Block(at + 1),
             other => other,
@@ -133,32 +130,33 @@ impl Interpreter<'_> {
         times: u32,
         span: Span,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
-        let [first, last] = labels.map(|label| find_label(routine, label, at));
+    ) -> Result<Next, Diagnostic> {
+        let [first, last] = labels.map(|label| self.find_label(routine, label, at));
         let (first, last) = (first?, last?);
         if last < first {
-            return Err(Box::new(
-                Diagnostic::error(labels[1].span, "the last block stands before the first one")
-                    .help("write (RPT N10,N20) with the block first that comes first"),
-            ));
+            return Err(Diagnostic::error(
+                labels[1].span,
+                "the last block stands before the first one",
+            )
+            .help("write (RPT N10,N20) with the block first that comes first"));
         }
         if (first..=last).contains(&at) || self.repeats.contains(&span) {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "these blocks contain the repetition itself")
                     .help("let the repeated blocks end before it"),
-            ));
+            );
         }
         if self.repeats.len() >= REPEAT_NESTING {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 format!("more than {REPEAT_NESTING} repetitions inside each other"),
-            )));
+            ));
         }
         if times > RULES.passes {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 format!("{times} passes are more than the control allows (9999)"),
-            )));
+            ));
         }
         self.repeats.push(span);
         let mut end = Next::Block(at + 1);

@@ -1,5 +1,5 @@
-//! Canned cycles: drilling (G81, G82), deep hole drilling (G83), tapping (G84), reaming (G85) and boring
-//! (G86, G89).
+//! Canned cycles: drilling (G81, G82), deep hole drilling (G69, G83), tapping (G84), reaming (G85), boring
+//! (G86, G89) and pockets (G87, G88).
 //!
 //! A cycle that is defined runs at its own place and then at every place that the blocks after it move
 //! to, until G80, another cycle or another plane. Z is the reference plane and I the bottom; with G91 Z
@@ -7,8 +7,10 @@
 //! "Canned cycles".)
 
 use super::block_words::BlockWords;
+use super::deep_holes::Steps;
 use super::g_functions::OneShot;
-use super::interpreter::Interpreter;
+use super::interpreter::{Interpreter, times};
+use super::pockets::Pocket;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::spindle_motion::Tap;
@@ -19,9 +21,6 @@ use crate::source::Span;
 
 /// How far before the last bottom a deep hole cycle ends its rapid motion, machine units.
 const CLEARANCE: f64 = 1.0;
-
-/// How often a block can be repeated.
-const REPEAT_LIMIT: u32 = 9999;
 
 /// A cycle that is in force; coordinates along the normal of the plane, machine units.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +40,70 @@ pub struct Cycle {
     dwell: f64,
     /// G98.
     to_start: bool,
+    /// Of G69, G87 and G88.
+    form: Option<Form>,
     span: Span,
+}
+
+/// What cycles have with more parameters than the others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// G87 and G88.
+    Pocket(Pocket),
+    /// G69.
+    Steps(Steps),
+}
+
+impl Form {
+    /// Takes the words of such a cycle out of its block; `None` where the block defines or changes
+    /// another one.
+    pub fn take(
+        words: &mut BlockWords,
+        old: Option<Form>,
+        factors: [f64; 2],
+    ) -> Result<Option<Form>, Diagnostic> {
+        let codes = words.g.iter();
+        let g = codes
+            .copied()
+            .find(|g| matches!(g.value, 69 | 79 | 87 | 88));
+        let Some(g) = g else {
+            return Ok(None);
+        };
+        Ok(match (g.value, old) {
+            (69, _) => Some(Form::Steps(Steps::take(words, g, None, factors)?)),
+            (87 | 88, _) => Some(Form::Pocket(Pocket::take(words, g, None, factors[0])?)),
+            (_, Some(Form::Steps(old))) => {
+                Some(Form::Steps(Steps::take(words, g, Some(old), factors)?))
+            }
+            (_, Some(Form::Pocket(old))) => {
+                let pocket = Pocket::take(words, g, Some(old), factors[0])?;
+                Some(Form::Pocket(pocket))
+            }
+            (_, None) => None,
+        })
+    }
+}
+
+impl Cycle {
+    /// Its further parameters.
+    pub fn form(&self) -> Option<Form> {
+        self.form
+    }
+
+    /// G98 or G99 in a block that moves to the next place.
+    pub fn withdraw(&mut self, to_start: bool) {
+        self.to_start = to_start;
+    }
+
+    /// Where it is defined.
+    pub fn span(&self) -> Span {
+        self.span
+    }
+
+    /// The reference plane and the bottom.
+    pub fn depths(&self) -> (f64, f64) {
+        (self.reference, self.bottom)
+    }
 }
 
 impl Interpreter<'_> {
@@ -51,16 +113,18 @@ impl Interpreter<'_> {
         words: &BlockWords,
         g: At<u32>,
         withdrawal: Option<At<u32>>,
+        form: Option<Form>,
         block: Span,
     ) -> Done {
         let [_, _, normal] = self.control.modal.plane.axes();
         let factor = self.control.modal.length_factor;
         let old = match (g.value, self.cycle.take()) {
             (79, None) => {
-                return Err(Box::new(
-                    Diagnostic::error(g.span, "G79 changes a canned cycle, and none is active")
-                        .help("define it before: G81 X10 Y10 Z2 I-5 F100"),
-                ));
+                return Err(Diagnostic::error(
+                    g.span,
+                    "G79 changes a canned cycle, and none is active",
+                )
+                .help("define it before: G81 X10 Y10 Z2 I-5 F100"));
             }
             (79, old) => old,
             _ => None,
@@ -69,13 +133,11 @@ impl Interpreter<'_> {
         let start = match &old {
             Some(old) => old.start,
             None => self.control.modal.position.get(normal).ok_or_else(|| {
-                Box::new(
-                    Diagnostic::error(
+                Diagnostic::error(
                         g.span,
                         "a canned cycle, and where the tool is above the plane is not known ahead of time",
                     )
-                    .help("program the axis of the tool absolute before the cycle"),
-                )
+                    .help("program the axis of the tool absolute before the cycle")
             })?,
         };
         let incremental = self.control.modal.incremental;
@@ -93,10 +155,10 @@ impl Interpreter<'_> {
             (Some(word), _) => word.value * factor,
             (None, Some(old)) => old.bottom,
             (None, None) => {
-                return Err(Box::new(
+                return Err(
                     Diagnostic::error(g.span, format!("G{code} needs the depth I"))
                         .help(format!("write G{code} X10 Y10 Z2 I-5 F100")),
-                ));
+                );
             }
         };
         let steps = match (code, words.centre[1], &old) {
@@ -107,49 +169,41 @@ impl Interpreter<'_> {
             }
             (83, None, Some(old)) => old.steps,
             (83, steps, _) => {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        steps.map_or(g.span, |steps| steps.span),
-                        "G83 needs J, the number of its steps",
-                    )
-                    .help("write G83 X10 Y10 Z2 I-5 J4: four steps of 5"),
-                ));
+                return Err(Diagnostic::error(
+                    steps.map_or(g.span, |steps| steps.span),
+                    "G83 needs J, the number of its steps",
+                )
+                .help("write G83 X10 Y10 Z2 I-5 J4: four steps of 5"));
             }
             (_, Some(word), _) => {
-                return Err(Box::new(
+                return Err(
                     Diagnostic::error(word.span, format!("J has no meaning with G{code}"))
                         .help("J is the number of steps of G83"),
-                ));
+                );
             }
             _ => 1,
         };
-        let radius = words.radius.filter(|_| code != 84);
-        if let Some(other) = radius.or(words.angle).or(words.offset) {
-            return Err(Box::new(
-                Diagnostic::error(
-                    other.span,
-                    format!("this parameter of G{code} is not supported"),
-                )
-                .help("Z, I, J, K and the place are supported"),
-            ));
+        // With an angle the radius belongs to the place.
+        let radius = words.radius.filter(|_| words.angle.is_none());
+        if let Some(other) = radius.filter(|_| code != 84).or(words.offset) {
+            return Err(Diagnostic::error(
+                other.span,
+                format!("this parameter of G{code} is not supported"),
+            )
+            .help("Z, I, J, K and the place are supported"));
         }
         let direction = start - reference;
         if (bottom - reference) * direction > 0.0 || bottom == reference {
-            return Err(Box::new(
-                Diagnostic::error(
-                    g.span,
-                    "the bottom does not lie beyond the reference plane, seen from the starting plane",
-                )
-                .help("check Z (reference plane) and I (bottom)"),
-            ));
+            return Err(Diagnostic::error(
+                g.span,
+                "the bottom does not lie beyond the reference plane, seen from the starting plane",
+            )
+            .help("check Z (reference plane) and I (bottom)"));
         }
         let dwell = match (words.centre[2], &old) {
             (Some(dwell), _) if dwell.value >= 0.0 => dwell.value / 100.0,
             (Some(dwell), _) => {
-                return Err(Box::new(Diagnostic::error(
-                    dwell.span,
-                    "a dwell cannot be negative",
-                )));
+                return Err(Diagnostic::error(dwell.span, "a dwell cannot be negative"));
             }
             (None, old) => old.as_ref().map_or(0.0, |old| old.dwell),
         };
@@ -159,7 +213,7 @@ impl Interpreter<'_> {
             reference,
             bottom,
             steps,
-            rigid: match (words.radius, &old) {
+            rigid: match (radius, &old) {
                 (Some(rigid), _) => rigid.value == 1.0,
                 (None, old) => old.as_ref().is_some_and(|old| old.rigid),
             },
@@ -168,50 +222,44 @@ impl Interpreter<'_> {
                 (Some(g), _) => g.value == 98,
                 (None, old) => old.as_ref().is_none_or(|old| old.to_start),
             },
+            form,
             span: g.span,
         });
+        self.control.modal_cycle(true);
         if g.value == 79 {
             return Ok(());
         }
         let mut place = words.clone();
         place.axes[normal] = None;
         place.centre = [None; 3];
-        // Only G84 has one, which has been read.
-        place.radius = None;
+        if place.angle.is_none() {
+            // Only G84 has one, which has been read.
+            place.radius = None;
+        }
         self.run_at(&place, block)
+    }
+
+    /// G80, or another plane.
+    pub(super) fn end_cycle(&mut self) {
+        self.cycle = None;
+        self.control.modal_cycle(false);
     }
 
     /// A block while a cycle is in force.
     pub(super) fn cycle_block(&mut self, words: &BlockWords, block: Span) -> Done {
         let [_, _, normal] = self.control.modal.plane.axes();
         if let Some(word) = words.axes[normal] {
-            return Err(Box::new(
-                Diagnostic::error(
-                    word.span,
-                    "the axis of the tool moves while a canned cycle is in force",
-                )
-                .help("end the cycle with G80 before, or change it with G79"),
-            ));
+            return Err(Diagnostic::error(
+                word.span,
+                "the axis of the tool moves while a canned cycle is in force",
+            )
+            .help("end the cycle with G80 before, or change it with G79"));
         }
         self.run_at(words, block)
     }
 
     fn run_at(&mut self, words: &BlockWords, block: Span) -> Done {
-        let times = match words.times {
-            None => 1,
-            Some(times)
-                if times.value.fract() == 0.0
-                    && (0.0..=f64::from(REPEAT_LIMIT)).contains(&times.value) =>
-            {
-                times.value as u32
-            }
-            Some(times) => {
-                return Err(Box::new(Diagnostic::error(
-                    times.span,
-                    "N here is how often the block is repeated: a whole number up to 9999",
-                )));
-            }
-        };
+        let times = words.times.map_or(Ok(1), times)?;
         let mut place = words.clone();
         place.times = None;
         for _ in 0..times.max(1) {
@@ -229,19 +277,15 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    fn run_cycle(&mut self) -> Done {
+    pub(super) fn run_cycle(&mut self) -> Done {
         let Some(cycle) = self.cycle.clone() else {
             return Ok(());
         };
         self.to(cycle.reference, &MoveKind::Rapid, &cycle)?;
-        match cycle.code {
-            83 => self.deep_hole(&cycle)?,
-            84 if cycle.rigid => self.rigid_tap(&cycle)?,
-            84 => self.floating_tap(&cycle)?,
-            _ => {
-                self.to(cycle.bottom, &MoveKind::Line, &cycle)?;
-                self.wait(&cycle);
-            }
+        match (cycle.form, cycle.code) {
+            (Some(Form::Pocket(pocket)), _) => self.mill_pocket(&cycle, pocket)?,
+            (Some(Form::Steps(steps)), _) => self.drill_steps(&cycle, steps)?,
+            (None, code) => self.bore(&cycle, code)?,
         }
         let spindle = self.last_spindle();
         if cycle.code == 86 {
@@ -261,6 +305,20 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// From the reference plane to the bottom, and for G84 back.
+    fn bore(&mut self, cycle: &Cycle, code: u32) -> Done {
+        match code {
+            83 => self.deep_hole(cycle),
+            84 if cycle.rigid => self.rigid_tap(cycle),
+            84 => self.floating_tap(cycle),
+            _ => {
+                self.to(cycle.bottom, &MoveKind::Line, cycle)?;
+                self.wait(cycle);
+                Ok(())
+            }
+        }
+    }
+
     /// G84 R1: the pitch is the feed over the speed of the spindle.
     fn rigid_tap(&mut self, cycle: &Cycle) -> Done {
         let modal = &self.control.modal;
@@ -268,13 +326,11 @@ impl Interpreter<'_> {
         let (Some(feed), Some(speed), FeedMode::PerMinute) =
             (feed, speed.filter(|speed| *speed > 0.0), modal.feed_mode)
         else {
-            return Err(Box::new(
-                Diagnostic::error(
-                    cycle.span,
-                    "a rigid tap needs F in mm/min and S: they give its pitch",
-                )
-                .help("write S500 F500 for a pitch of 1"),
-            ));
+            return Err(Diagnostic::error(
+                cycle.span,
+                "a rigid tap needs F in mm/min and S: they give its pitch",
+            )
+            .help("write S500 F500 for a pitch of 1"));
         };
         let factor = modal.length_factor;
         let before = self.last_spindle();
@@ -330,7 +386,7 @@ impl Interpreter<'_> {
     }
 
     /// Moves along the normal of the plane to a coordinate in machine units, unless it is there.
-    fn to(&mut self, place: f64, kind: &MoveKind, cycle: &Cycle) -> Done {
+    pub(super) fn to(&mut self, place: f64, kind: &MoveKind, cycle: &Cycle) -> Done {
         let [_, _, normal] = self.control.modal.plane.axes();
         if self.control.modal.position.get(normal) == Some(place) {
             return Ok(());
@@ -340,7 +396,7 @@ impl Interpreter<'_> {
             .move_axis(normal, value, *kind == MoveKind::Rapid, cycle.span)
     }
 
-    fn wait(&mut self, cycle: &Cycle) {
+    pub(super) fn wait(&mut self, cycle: &Cycle) {
         if cycle.dwell > 0.0 {
             self.control.actions.push(Action::Dwell(cycle.dwell));
         }

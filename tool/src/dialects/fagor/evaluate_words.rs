@@ -2,6 +2,7 @@
 //! speed, tool, spindle, coolant, offsets, motion, stop.
 
 use super::block_words::{BlockWords, missing};
+use super::cycles::{Cycle, Form};
 use super::g_functions::OneShot;
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
@@ -9,6 +10,7 @@ use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
 use crate::dialects::control::{Control, Done};
 use crate::program::moves::Corner;
+use crate::program::position::Position;
 use crate::program::{Action, Compensation};
 use crate::source::Span;
 
@@ -19,7 +21,38 @@ impl Interpreter<'_> {
         &mut self,
         words: &BlockWords,
         block: Span,
-    ) -> Result<bool, Box<Diagnostic>> {
+    ) -> Result<bool, Diagnostic> {
+        let mut own;
+        let mut words = words;
+        let mut form = None;
+        if words.g.iter().any(|g| matches!(g.value, 69 | 79 | 87 | 88)) {
+            own = words.clone();
+            let old = self.cycle.as_ref().and_then(Cycle::form);
+            let millimetre = match self.control.settings.machine_in_inch {
+                true => 1.0 / 25.4,
+                false => 1.0,
+            };
+            form = Form::take(
+                &mut own,
+                old,
+                [self.control.modal.length_factor, millimetre],
+            )?;
+            words = &own;
+        }
+        if let Some(word) = words.finish_feed {
+            return Err(
+                Diagnostic::error(word.span, "the address H is not supported")
+                    .help("it belongs to pockets (G87, G88) and deep holes (G69)"),
+            );
+        }
+        let irregular = words.g.iter().any(|g| matches!(g.value, 67 | 68));
+        if let Some(word) = words.further.filter(|_| !irregular) {
+            return Err(
+                Diagnostic::error(word.span, "the address E is not supported").help(
+                    "axes are X Y Z A B C U V W; parameters are P1 and stand behind an address",
+                ),
+            );
+        }
         self.mirror_functions(words)?;
         for g in &words.g {
             match g.value {
@@ -27,12 +60,15 @@ impl Interpreter<'_> {
                 72 => self.scale(words, g.span)?,
                 73 => self.rotation(words, g.span)?,
                 93 => self.polar_origin(words, g.span)?,
-                60..=64 => self.pattern(words, g.value, g.span)?,
+                51 => self.look_ahead(words, g.span)?,
+                60..=65 => self.pattern(words, g.value, g.span)?,
                 _ => continue,
             }
             return Ok(false);
         }
         let compensated = self.control.modal.compensation != Compensation::Off;
+        let without_offset = self.offset_of_compensation(words)?;
+        let words = without_offset.as_ref().unwrap_or(words);
         let once = self.g_functions(words)?;
         if let Some(span) = once.dwell {
             self.control.apply_states(compensated);
@@ -44,13 +80,11 @@ impl Interpreter<'_> {
         }
         if let Some(speed) = words.speed {
             if let Some(span) = once.preset {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        span,
-                        "G92 S, a limit of the spindle speed, is not supported",
-                    )
-                    .help("leave S out: G92 X0 makes this place X0"),
-                ));
+                return Err(Diagnostic::error(
+                    span,
+                    "G92 S, a limit of the spindle speed, is not supported",
+                )
+                .help("leave S out: G92 X0 makes this place X0"));
             }
             self.control.speed(speed)?;
         }
@@ -59,16 +93,17 @@ impl Interpreter<'_> {
         if let (Some(times), None) = (
             words.times,
             self.cycle.as_ref().map(|_| ()).or(once.cycle.map(|_| ())),
-        ) {
-            return Err(Box::new(
-                Diagnostic::error(
-                    times.span,
-                    "the block number stands at the beginning of the block",
-                )
-                .help("N at the end repeats a canned cycle, and none is active"),
+        ) && self.modal_call.is_none()
+        {
+            return Err(Diagnostic::error(
+                times.span,
+                "the block number stands at the beginning of the block",
+            )
+            .help(
+                "N at the end repeats a canned cycle or a modal subroutine, and none is active",
             ));
         }
-        self.place(words, &once, block)?;
+        self.place(words, &once, form, block)?;
         for m in &words.m {
             if matches!(m.value, 0 | 1) {
                 self.control.actions.push(Action::Pause {
@@ -82,21 +117,77 @@ impl Interpreter<'_> {
         Ok(end.is_some())
     }
 
+    /// `G51 A50 E0.02`: corners may be rounded by E. A and B are of the accelerations and of the angles
+    /// that the control looks at.
+    fn look_ahead(&mut self, words: &BlockWords, span: Span) -> Done {
+        let mut rest = words.clone();
+        let error = rest.contour_error.take();
+        rest.g.retain(|g| g.value != 51);
+        (rest.axes[3], rest.axes[4]) = (None, None);
+        if rest != BlockWords::default() {
+            return Err(Diagnostic::error(span, "G51 stands alone in its block")
+                .help("write G51 E0.02: E is the greatest contour error"));
+        }
+        let tolerance = match error {
+            Some(error) => Some(self.control.tolerance(error.value, error.span)?),
+            None => None,
+        };
+        self.control.note("the look-ahead of G51", span);
+        self.control.continuous_path(tolerance);
+        self.control.apply_states(false);
+        Ok(())
+    }
+
     /// `G4 K100`: hundredths of a second.
     fn dwell(&mut self, words: &BlockWords, span: Span) -> Done {
         let Some(hundredths) = words.centre[2] else {
-            return Err(Box::new(
-                Diagnostic::error(span, "G4 needs a time")
-                    .help("G4 K250 waits 2.5 seconds: K is in hundredths"),
-            ));
+            return Err(Diagnostic::error(span, "G4 needs a time")
+                .help("G4 K250 waits 2.5 seconds: K is in hundredths"));
         };
         if words.first_axis().is_some() || !words.m.is_empty() || words.tool.is_some() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G4 stands alone in its block")
-                    .help("put axes, T, D and M functions in another block"),
-            ));
+            return Err(Diagnostic::error(span, "G4 stands alone in its block")
+                .help("put axes, T, D and M functions in another block"));
         }
         self.control.dwell(hundredths.value / 100.0, span)
+    }
+
+    /// D; whether another row of the tool table is meant than before.
+    fn select_offset(&mut self, offset: At<f64>) -> Result<bool, Diagnostic> {
+        if offset.value.fract() != 0.0 || !(0.0..=99999.0).contains(&offset.value) {
+            return Err(Diagnostic::error(
+                offset.span,
+                format!("D{}: this is not the number of an offset", offset.value),
+            ));
+        }
+        let row = offset.value as u32;
+        let row = Some(row).filter(|row| Some(*row) != self.tool.number);
+        let changes = row != self.tool.offset;
+        self.tool.offset = row;
+        Ok(changes)
+    }
+
+    /// D beside G41 or G42 is selected before the compensation that uses it. Returns the block without it.
+    fn offset_of_compensation(
+        &mut self,
+        words: &BlockWords,
+    ) -> Result<Option<BlockWords>, Diagnostic> {
+        let begins = words.g.iter().any(|g| matches!(g.value, 41 | 42))
+            && self.control.modal.compensation == Compensation::Off
+            && words.tool.is_none();
+        let Some(offset) = words.offset.filter(|_| begins) else {
+            return Ok(None);
+        };
+        if self.select_offset(offset)? && self.tool.length_on {
+            let before = self.control.modal.position.clone();
+            match self.tool.offset {
+                Some(row) => self.control.tool_offset(row, offset.span)?,
+                None => self.control.tool_length(true, offset.span)?,
+            }
+            self.keep_across_length(before);
+        }
+        let mut rest = words.clone();
+        rest.offset = None;
+        Ok(Some(rest))
     }
 
     /// T, D, M functions and the length compensation; returns the M function that ends the program.
@@ -104,7 +195,7 @@ impl Interpreter<'_> {
         &mut self,
         words: &BlockWords,
         once: &OneShot,
-    ) -> Result<Option<u32>, Box<Diagnostic>> {
+    ) -> Result<Option<u32>, Diagnostic> {
         let mut end = None;
         let mut rows_change = None;
         if let Some(tool) = words.tool {
@@ -113,15 +204,9 @@ impl Interpreter<'_> {
             self.tool.number = Some(number as u32);
             self.tool.offset = offset.filter(|offset| Some(*offset) != self.tool.number);
         }
-        if let Some(offset) = words.offset {
-            if offset.value.fract() != 0.0 || !(0.0..=99999.0).contains(&offset.value) {
-                return Err(Box::new(Diagnostic::error(
-                    offset.span,
-                    format!("D{}: this is not the number of an offset", offset.value),
-                )));
-            }
-            let row = offset.value as u32;
-            self.tool.offset = Some(row).filter(|row| Some(*row) != self.tool.number);
+        if let Some(offset) = words.offset
+            && self.select_offset(offset)?
+        {
             rows_change = Some(offset.span);
         }
         for At { value, span } in Control::in_order(&words.m) {
@@ -140,6 +225,7 @@ impl Interpreter<'_> {
         }
         if let Some(length) = once.length {
             self.tool.length_chosen = true;
+            self.warn_of_tool_left(length.span);
             let changes = self.tool.length_on != length.value;
             self.tool.length_on = length.value;
             match length.value {
@@ -147,17 +233,53 @@ impl Interpreter<'_> {
                 false => self.control.tool_length(false, length.span)?,
             }
         }
+        let changed = words.m.iter().any(|m| m.value == 6);
+        let before = self.control.modal.position.clone();
         if let (Some(span), true) = (rows_change, self.tool.length_on) {
             match self.tool.offset {
                 Some(row) => self.control.tool_offset(row, span)?,
                 None => self.control.tool_length(true, span)?,
             }
         }
+        if !changed {
+            self.keep_across_length(before);
+        }
         Ok(end)
     }
 
+    /// Machines without a changer take T for the change.
+    fn warn_of_tool_left(&mut self, span: Span) {
+        let Some(tool) = self.tool.number.filter(|_| self.tool.changed.is_none()) else {
+            return;
+        };
+        self.control.diagnostics.push(
+            Diagnostic::warning(
+                span,
+                format!(
+                    "T{tool} is selected and not changed to: LinuxCNC keeps the tool that it has"
+                ),
+            )
+            .help("write M06 behind T if the tool is to be changed"),
+        );
+    }
+
+    /// Lengths count along the axis of the tool: in a plane that is not tilted the others stay where they
+    /// are.
+    fn keep_across_length(&mut self, before: Position) {
+        let [first, second, _] = self.control.modal.plane.axes();
+        for axis in (0..9).filter(|axis| [first, second].contains(axis) || *axis > 2) {
+            self.control.modal.position.set(axis, before.get(axis));
+        }
+    }
+
     /// The coordinates of a block: a preset, a motion, a canned cycle.
-    fn place(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
+    fn place(
+        &mut self,
+        words: &BlockWords,
+        once: &OneShot,
+        form: Option<Form>,
+        block: Span,
+    ) -> Done {
         if let Some(span) = once.preset {
             return self.preset(words, span);
         }
@@ -168,30 +290,32 @@ impl Interpreter<'_> {
             return self.thread(words, span);
         }
         if let Some(pitch) = words.pitch {
-            return Err(Box::new(
-                Diagnostic::error(pitch.span, "L is the pitch of a thread, and there is none")
-                    .help("write G33 Z-20 L1.5"),
-            ));
+            return Err(Diagnostic::error(
+                pitch.span,
+                "L is the pitch of a thread, and there is none",
+            )
+            .help("write G33 Z-20 L1.5"));
         }
         if let Some(cycle) = once.cycle {
-            return self.define_cycle(words, cycle, once.withdrawal, block);
+            return self.define_cycle(words, cycle, once.withdrawal, form, block);
         }
-        if let Some(withdrawal) = once.withdrawal {
-            return Err(Box::new(
-                Diagnostic::error(
-                    withdrawal.span,
-                    format!("G{} without a canned cycle", withdrawal.value),
-                )
-                .help("G98 and G99 say how far a cycle withdraws: G99 G81 X10 Y10 Z2 I-5 F100"),
-            ));
+        if let (Some(withdrawal), Some(cycle)) = (once.withdrawal, &mut self.cycle) {
+            cycle.withdraw(withdrawal.value == 98);
+        } else if let Some(withdrawal) = once.withdrawal {
+            return Err(Diagnostic::error(
+                withdrawal.span,
+                format!("G{} without a canned cycle", withdrawal.value),
+            )
+            .help("G98 and G99 say how far a cycle withdraws: G99 G81 X10 Y10 Z2 I-5 F100"));
         }
         if !words.names_a_place() {
             let unused = once.corner.or(once.arc_form);
             return match unused {
-                Some(g) => Err(Box::new(
-                    Diagnostic::error(g.span, format!("G{} needs a motion in its block", g.value))
-                        .help(format!("write G{} beside the axes", g.value)),
-                )),
+                Some(g) => Err(Diagnostic::error(
+                    g.span,
+                    format!("G{} needs a motion in its block", g.value),
+                )
+                .help(format!("write G{} beside the axes", g.value))),
                 None => Ok(()),
             };
         }
@@ -204,28 +328,19 @@ impl Interpreter<'_> {
     /// A motion with the corner at its end.
     pub(super) fn motion(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
         let corner = self.corner(words, once)?;
-        let has_corner = corner.is_some();
         let mut motion = self.motion_words(words, once)?;
-        if has_corner {
-            motion.radius = None;
-        }
         let own_feed = words.feed.is_some();
         let kind = self.control.modal.motion;
         let span = motion.first_axis().unwrap_or(block);
         match once.arc_form {
             None => {
-                let mut polar = words.clone();
-                if has_corner {
-                    polar.radius = None;
-                }
-                self.resolve_polar(&polar, &mut motion, kind)?;
+                self.resolve_polar(words, &mut motion, kind)?;
+                self.resolve_helix(&mut motion, kind)?;
                 if matches!(kind, Some(Motion::Rapid | Motion::Line)) && motion.radius.is_some() {
                     // R beside axes is no polar radius.
                     let at = motion.radius.map_or(span, |radius| radius.span);
-                    return Err(Box::new(
-                        Diagnostic::error(at, "R beside axes belongs to arcs")
-                            .help("write G2 or G3, or R and Q for a place in polar coordinates"),
-                    ));
+                    return Err(Diagnostic::error(at, "R beside axes belongs to arcs")
+                        .help("write G2 or G3, or R and Q for a place in polar coordinates"));
                 }
                 self.control.motion(&motion, block, own_feed, false)?;
             }
@@ -238,10 +353,10 @@ impl Interpreter<'_> {
                 ends.radius = None;
                 if form.value == 8 {
                     if let Some(centre) = middle.into_iter().flatten().next() {
-                        return Err(Box::new(
+                        return Err(
                             Diagnostic::error(centre.span, "a tangent arc has no centre")
                                 .help("G8 needs the end point only"),
-                        ));
+                        );
                     }
                     self.control.tangent_arc(&ends, own_feed, span)?;
                 } else {
@@ -264,28 +379,26 @@ impl Interpreter<'_> {
             (Some(&axis @ 0..3), 1, Some(pitch), None) => {
                 self.control.thread(&motion, pitch.value, axis, span)
             }
-            _ => Err(Box::new(
+            _ => Err(
                 Diagnostic::error(span, "a thread needs one of X, Y and Z and its pitch L").help(
                     "write G33 Z-20 L1.5; an angle of entry (Q) and slopes are not supported",
                 ),
-            )),
+            ),
         }
     }
 
     /// G36 R, G39 R.
-    fn corner(
-        &mut self,
-        words: &BlockWords,
-        once: &OneShot,
-    ) -> Result<Option<Corner>, Box<Diagnostic>> {
+    fn corner(&mut self, words: &BlockWords, once: &OneShot) -> Result<Option<Corner>, Diagnostic> {
         let Some(g) = once.corner else {
             return Ok(None);
         };
-        let Some(radius) = words.radius.filter(|radius| radius.value > 0.0) else {
-            return Err(Box::new(
-                Diagnostic::error(g.span, format!("G{} needs R above 0", g.value))
-                    .help(format!("write G{} R5", g.value)),
-            ));
+        let Some(radius) = words.corner_radius.filter(|radius| radius.value > 0.0) else {
+            return Err(
+                Diagnostic::error(g.span, format!("G{} needs R above 0", g.value)).help(format!(
+                    "write G{} R5; the R of an arc stands behind it",
+                    g.value
+                )),
+            );
         };
         let length = radius.value * self.control.modal.length_factor;
         match g.value {
@@ -301,7 +414,7 @@ impl Interpreter<'_> {
         &self,
         words: &BlockWords,
         once: &OneShot,
-    ) -> Result<MotionWords, Box<Diagnostic>> {
+    ) -> Result<MotionWords, Diagnostic> {
         let mut motion = MotionWords {
             radius: words.radius,
             ..MotionWords::default()
@@ -330,10 +443,11 @@ impl Interpreter<'_> {
         let [first, second, _] = self.control.modal.plane.axes();
         let given = [first, second].map(|axis| motion.centre[axis]);
         if let ([Some(word), None] | [None, Some(word)], true) = (given, once.absolute_centre) {
-            return Err(Box::new(
-                Diagnostic::error(word.span, "an absolute centre (G6) needs both coordinates")
-                    .help("write I and J"),
-            ));
+            return Err(Diagnostic::error(
+                word.span,
+                "an absolute centre (G6) needs both coordinates",
+            )
+            .help("write I and J"));
         }
         Ok(motion)
     }
@@ -341,17 +455,15 @@ impl Interpreter<'_> {
     /// G53: in its block only, without tool length.
     fn machine_move(&mut self, words: &BlockWords, span: Span) -> Done {
         if words.first_axis().is_none() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G53 needs axes in its block")
-                    .help("it moves in coordinates of the machine; G54 to G57 choose a part zero"),
-            ));
+            return Err(Diagnostic::error(span, "G53 needs axes in its block")
+                .help("it moves in coordinates of the machine; G54 to G57 choose a part zero"));
         }
         let motion = self.motion_words(words, &OneShot::default())?;
         if self.control.modal.incremental {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "an increment in machine coordinates")
                     .help("write G90 in this block"),
-            ));
+            );
         }
         let factors = std::mem::replace(&mut self.control.modal.axis_factors, [1.0; 9]);
         let done = self
@@ -364,10 +476,10 @@ impl Interpreter<'_> {
     /// G92: not mirrored; what it would mean under a scale or a rotation is not said by the manual.
     fn preset(&mut self, words: &BlockWords, span: Span) -> Done {
         if self.transforms.rotates() || self.transforms.scales() {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "G92 while a scale or a rotation is in force")
                     .help("end them with G72 S1 and G73 before, and set them again after"),
-            ));
+            );
         }
         let motion = self.motion_words(words, &OneShot::default())?;
         self.control.preset(&motion, span)?;

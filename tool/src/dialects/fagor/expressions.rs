@@ -8,8 +8,9 @@
 use super::cursor::{Cursor, Parsed};
 use super::token::TokenKind;
 use crate::diagnostics::Diagnostic;
-use crate::dialects::expression::{Binary, Expression, ExpressionKind, Function, Unary};
+use crate::dialects::expression::{Binary, Expression, ExpressionKind, FUNCTIONS, Function, Unary};
 use crate::dialects::operators::{DEPTH_LIMIT, Grammar};
+use crate::dialects::spelling::did_you_mean;
 
 const GRAMMAR: Grammar<char, String> = Grammar {
     levels: 6,
@@ -51,27 +52,32 @@ pub fn word_value(cursor: &mut Cursor) -> Parsed<Expression> {
     })
 }
 
+/// Operators with names, and their levels.
+const OPERATORS: [(&str, Binary, usize); 11] = [
+    ("OR", Binary::Or, 0),
+    ("AND", Binary::And, 1),
+    ("XOR", Binary::ExclusiveOr, 1),
+    ("EQ", Binary::Equal, 2),
+    ("NE", Binary::NotEqual, 2),
+    ("GT", Binary::Greater, 2),
+    ("GE", Binary::GreaterOrEqual, 2),
+    ("LT", Binary::Less, 2),
+    ("LE", Binary::LessOrEqual, 2),
+    ("EXP", Binary::Power, 5),
+    ("MOD", Binary::Remainder, 5),
+];
+
 fn operator(token: Option<&TokenKind>, at_level: usize) -> Option<Binary> {
-    use Binary::*;
     let (operator, its_level) = match token? {
-        TokenKind::Symbol('+') => (Add, 3),
-        TokenKind::Symbol('-') => (Subtract, 3),
-        TokenKind::Symbol('*') => (Multiply, 4),
-        TokenKind::Symbol('/') => (Divide, 4),
-        TokenKind::Name(name) => match name.as_str() {
-            "OR" => (Or, 0),
-            "AND" => (And, 1),
-            "XOR" => (ExclusiveOr, 1),
-            "EQ" => (Equal, 2),
-            "NE" => (NotEqual, 2),
-            "GT" => (Greater, 2),
-            "GE" => (GreaterOrEqual, 2),
-            "LT" => (Less, 2),
-            "LE" => (LessOrEqual, 2),
-            "EXP" => (Power, 5),
-            "MOD" => (Remainder, 5),
-            _ => return None,
-        },
+        TokenKind::Symbol('+') => (Binary::Add, 3),
+        TokenKind::Symbol('-') => (Binary::Subtract, 3),
+        TokenKind::Symbol('*') => (Binary::Multiply, 4),
+        TokenKind::Symbol('/') => (Binary::Divide, 4),
+        TokenKind::Name(name) => {
+            let mut operators = OPERATORS.into_iter();
+            let (_, operator, level) = operators.find(|(known, ..)| known == name)?;
+            (operator, level)
+        }
         _ => return None,
     };
     (its_level == at_level).then_some(operator)
@@ -100,13 +106,11 @@ pub fn need_truth(operand: &Expression) -> Parsed<()> {
     if is_truth(operand) {
         return Ok(());
     }
-    Err(Box::new(
-        Diagnostic::error(
-            operand.span,
-            "a comparison is needed here, this is a number",
-        )
-        .help("write P1 NE 0; AND, OR, XOR and NOT on the bits of numbers are not supported"),
-    ))
+    Err(Diagnostic::error(
+        operand.span,
+        "a comparison is needed here, this is a number",
+    )
+    .help("write P1 NE 0; AND, OR, XOR and NOT on the bits of numbers are not supported"))
 }
 
 fn unary(cursor: &mut Cursor, depth: u32) -> Parsed<Expression> {
@@ -184,10 +188,14 @@ pub fn parameter(cursor: &mut Cursor, depth: u32) -> Parsed<Expression> {
 
 fn function_call(cursor: &mut Cursor, name: &str, depth: u32) -> Parsed<ExpressionKind> {
     let Some(function) = function(name) else {
-        return Err(cursor.error_with_help(
-            format!("{name} cannot be evaluated ahead of time"),
-            "variables of the control are not supported: use a parameter and --set P1=VALUE",
-        ));
+        let known = functions().map(|(known, _)| known);
+        let help = did_you_mean(name, known, str::to_string).unwrap_or_else(|| {
+            "variables of the control are not supported: use a parameter and --set P1=VALUE"
+                .to_string()
+        });
+        return Err(
+            cursor.error_with_help(format!("{name} cannot be evaluated ahead of time"), help)
+        );
     };
     cursor.advance();
     let arguments = if function.arguments() == 1 {
@@ -205,22 +213,23 @@ fn function_call(cursor: &mut Cursor, name: &str, depth: u32) -> Parsed<Expressi
     Ok(ExpressionKind::Function(function, arguments))
 }
 
+/// All functions; angles in degrees.
+fn functions() -> impl Iterator<Item = (&'static str, Function)> {
+    let own = [
+        ("ARG", Function::Direction),
+        ("FIX", Function::Truncate),
+        ("FUP", Function::RoundUp),
+    ];
+    FUNCTIONS.into_iter().chain(own)
+}
+
 fn function(name: &str) -> Option<Function> {
-    Some(match name {
-        "SIN" => Function::Sin,
-        "COS" => Function::Cos,
-        "TAN" => Function::Tan,
-        "ASIN" => Function::Asin,
-        "ACOS" => Function::Acos,
-        "ATAN" => Function::Atan,
-        "ARG" => Function::Direction,
-        "ABS" => Function::Absolute,
-        "LN" => Function::NaturalLogarithm,
-        "LOG" => Function::DecimalLogarithm,
-        "SQRT" => Function::SquareRoot,
-        "ROUND" => Function::Round,
-        "FIX" => Function::Truncate,
-        "FUP" => Function::RoundUp,
-        _ => return None,
-    })
+    let found = functions().find(|(known, _)| *known == name);
+    found.map(|(_, function)| function)
+}
+
+/// What may have been meant where an operator or the end of a statement is missing.
+pub fn similar_operator(cursor: &Cursor) -> Option<String> {
+    let known = OPERATORS.into_iter().map(|(known, ..)| known);
+    did_you_mean(cursor.peek()?.name()?, known, str::to_string)
 }

@@ -25,7 +25,7 @@ pub(super) struct OneShot {
     pub(super) arc_form: Option<At<u32>>,
     /// G36 to G39.
     pub(super) corner: Option<At<u32>>,
-    /// G79 and G81 to G89.
+    /// G69, G79 and G81 to G89.
     pub(super) cycle: Option<At<u32>>,
     /// G43 or G44.
     pub(super) length: Option<At<bool>>,
@@ -37,7 +37,7 @@ pub(super) struct OneShot {
 
 impl Interpreter<'_> {
     /// Carries out the G functions of a block that change modes; the others go to the result.
-    pub(super) fn g_functions(&mut self, words: &BlockWords) -> Result<OneShot, Box<Diagnostic>> {
+    pub(super) fn g_functions(&mut self, words: &BlockWords) -> Result<OneShot, Diagnostic> {
         let mut once = OneShot::default();
         let mut groups = Groups::default();
         for At { value: code, span } in in_order_of_compensation(&words.g, 1) {
@@ -51,12 +51,7 @@ impl Interpreter<'_> {
     }
 
     /// One G function; returns the number of its group, of which a block may hold one.
-    fn g_function(
-        &mut self,
-        code: u32,
-        span: Span,
-        once: &mut OneShot,
-    ) -> Result<u8, Box<Diagnostic>> {
+    fn g_function(&mut self, code: u32, span: Span, once: &mut OneShot) -> Result<u8, Diagnostic> {
         let at = At { value: code, span };
         let group = match code {
             0..=3 => {
@@ -76,15 +71,15 @@ impl Interpreter<'_> {
                 once.dwell = Some(span);
                 2
             }
-            5 | 7 | 50 => {
-                let control = match code {
-                    7 => PathControl::ExactStop,
-                    _ => PathControl::Continuous { tolerance: None },
-                };
+            5 | 50 => {
                 if code == 50 {
                     self.control.note("G50", span);
                 }
-                self.control.path_control(control);
+                self.control.continuous_path(None);
+                3
+            }
+            7 => {
+                self.control.path_control(PathControl::ExactStop);
                 3
             }
             6 => {
@@ -101,7 +96,7 @@ impl Interpreter<'_> {
                 };
                 if plane != self.control.modal.plane {
                     self.reset_polar_origin();
-                    self.cycle = None;
+                    self.end_cycle();
                 }
                 self.control.plane(plane, span)?;
                 5
@@ -127,10 +122,6 @@ impl Interpreter<'_> {
                 });
                 8
             }
-            51 => {
-                self.control.note("G51", span);
-                9
-            }
             53 => {
                 once.machine_coordinates = Some(span);
                 10
@@ -148,12 +139,12 @@ impl Interpreter<'_> {
                 self.control.modal.use_inch(code == 70, true, settings);
                 11
             }
-            79 | 81..=86 | 89 => {
+            69 | 79 | 81..=89 => {
                 once.cycle = Some(at);
                 12
             }
             80 => {
-                self.cycle = None;
+                self.end_cycle();
                 12
             }
             90 | 91 => {
@@ -203,17 +194,15 @@ impl Interpreter<'_> {
             return Ok(());
         }
         let row = row.unwrap_or(0);
-        Err(Box::new(
-            Diagnostic::error(
-                span,
-                format!("the radius of offset D{row} while its length is not compensated"),
-            )
-            .help("write G43 before, or take the offset of the tool itself"),
-        ))
+        Err(Diagnostic::error(
+            span,
+            format!("the radius of offset D{row} while its length is not compensated"),
+        )
+        .help("write G43 before, or take the offset of the tool itself"))
     }
 }
 
-fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
+fn unsupported(code: u32, span: Span) -> Diagnostic {
     let reason = match code {
         15 | 16 | 49 => "only the planes G17, G18 and G19 are supported",
         20..=22 => {
@@ -229,9 +218,9 @@ fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
              sum of both into one of G54 to G57"
         }
         159 => "further zero offsets are not supported: use G54 to G57",
-        65 => "the hole at the end of a chord: write its place",
-        66..=69 | 87 | 88 => {
-            "pockets and deep holes with variable steps are not supported: post the moves"
+        67 | 68 => {
+            "it is an operation of an irregular pocket: G66 R200 F300 S400 E500 names its block, which \
+             stands behind M30"
         }
         74 => "a reference search is done at the machine: take it out, or move with G53",
         77 | 78 => "slaved axes are not supported",
@@ -239,5 +228,5 @@ fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
             "look it up in the manual of the control, and write it with functions that are supported"
         }
     };
-    Box::new(Diagnostic::error(span, format!("G{code} is not supported")).help(reason))
+    Diagnostic::error(span, format!("G{code} is not supported")).help(reason)
 }

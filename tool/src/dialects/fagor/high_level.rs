@@ -1,15 +1,15 @@
 //! Parsing statements in parentheses.
 
 use super::cursor::{Cursor, Parsed};
-use super::expressions::{expression, need_truth, parameter, word_value};
+use super::expressions::{expression, need_truth, parameter, similar_operator, word_value};
 use super::syntax::{Assignment, Call, CallKind, HighLevel, Label, Statement};
 use super::token::TokenKind;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Expression, ExpressionKind};
-use crate::dialects::spelling::nearest;
+use crate::dialects::spelling::did_you_mean;
 
 /// The statements that are known.
-const KEYWORDS: [&str; 12] = [
+pub(super) const KEYWORDS: [&str; 12] = [
     "IF", "ELSE", "GOTO", "RPT", "SUB", "RET", "CALL", "PCALL", "MCALL", "MDOFF", "MSG", "ERROR",
 ];
 
@@ -26,6 +26,9 @@ pub fn high_level_block(cursor: &mut Cursor) -> Parsed<Statement> {
         return Ok(Statement::Subroutine(number));
     }
     let mut statement = statement(cursor, 0)?;
+    if let Some(similar) = similar_operator(cursor).filter(|_| !cursor.is_symbol(0, ')')) {
+        return Err(cursor.error_with_help("this is no operator", similar));
+    }
     cursor.expect(')', ")")?;
     if let HighLevel::Repeat { times, span, .. } = &mut statement {
         if cursor.take_letter('N') {
@@ -54,6 +57,13 @@ fn statement(cursor: &mut Cursor, depth: u32) -> Parsed<HighLevel> {
                 return Err(cursor.error("IF is nested too deep"));
             }
             let condition = expression(cursor)?;
+            let statement_follows = match cursor.peek() {
+                Some(TokenKind::Name(name)) => KEYWORDS.contains(&name.as_str()),
+                _ => true,
+            };
+            if let Some(similar) = similar_operator(cursor).filter(|_| !statement_follows) {
+                return Err(cursor.error_with_help("this is no operator", similar));
+            }
             need_truth(&condition)?;
             let then = statement(cursor, depth + 1)?;
             let otherwise = match cursor.take_name("ELSE") {
@@ -91,21 +101,15 @@ fn statement(cursor: &mut Cursor, depth: u32) -> Parsed<HighLevel> {
             HighLevel::Error(number, message, start.to(cursor.last_span()))
         }
         _ => {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(start, format!("{name} cannot stand here"))
                     .help("SUB begins a block of its own; ELSE belongs to (IF .. ELSE ..)"),
-            ));
+            );
         }
     })
 }
 
-fn unknown(cursor: &Cursor, name: &str) -> Box<Diagnostic> {
-    if let Some(known) = nearest(name, &KEYWORDS).filter(|known| *known != name) {
-        return cursor.error_with_help(
-            format!("({name} ..) is not a statement of this dialect"),
-            format!("did you mean {known}?"),
-        );
-    }
+fn unknown(cursor: &Cursor, name: &str) -> Diagnostic {
     let known = [
         "SYMBOL", "DIGIT", "KEYCZ", "TRACE", "WKEY", "WBUF", "SYSTEM", "ODW", "DW", "SK", "WRITE",
         "OPEN", "EXEC", "REPOS", "PROBE", "DIGITIZE", "PAGE", "SYSTAT", "SAVELIST",
@@ -114,6 +118,20 @@ fn unknown(cursor: &Cursor, name: &str) -> Box<Diagnostic> {
         return cursor.error_with_help(
             format!("({name} ..) is not supported"),
             "screens, files, keys and probes of the other control cannot be evaluated ahead of time",
+        );
+    }
+    // TOR1 and the like: what the tool table holds.
+    if ["TOR", "TOL", "TOI", "TOK", "ORGX", "ORGY", "ORGZ"].contains(&name) {
+        return cursor.error_with_help(
+            format!("{name}, a table of the control, cannot be written by a program here"),
+            "enter tools into LinuxCNC's tool table, and zero offsets at the machine",
+        );
+    }
+    if let Some(similar) = did_you_mean(name, KEYWORDS.into_iter(), |known| format!("({known} ..)"))
+    {
+        return cursor.error_with_help(
+            format!("({name} ..) is not a statement of this dialect"),
+            similar,
         );
     }
     cursor.error_with_help(
@@ -214,10 +232,10 @@ fn parameter_index(cursor: &mut Cursor) -> Parsed<Expression> {
                 span: variable.span,
             }))
         }
-        _ => Err(Box::new(Diagnostic::error(
+        _ => Err(Diagnostic::error(
             variable.span,
             "only a parameter can be given a value",
-        ))),
+        )),
     }
 }
 

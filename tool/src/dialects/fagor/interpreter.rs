@@ -6,17 +6,21 @@ use super::cycles::Cycle;
 use super::parameters::Parameters;
 use super::polar::PolarOrigin;
 use super::routine::Routine;
-use super::syntax::{Assignment, Block, HighLevel, Statement, Word};
+use super::syntax::{Assignment, Block, HighLevel, Label, Statement, Word};
 use super::transforms::Transforms;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::plain::PlainBlock;
-use crate::dialects::control::{About, Control, Done, Place};
+use crate::dialects::control::words::At;
+use crate::dialects::control::{About, Control, Done};
 use crate::dialects::library::Library;
-use crate::dialects::run::{Interpret, Next, jump_out_of_repetition};
+use crate::dialects::run::{Interpret, Next, Reached, jump_out_of_repetition, reach};
 use crate::dialects::settings::Settings;
 use crate::program::{Action, FrameScope};
 use crate::source::Span;
 use std::rc::Rc;
+
+/// How often a block can be repeated.
+const REPEAT_LIMIT: u32 = 9999;
 
 /// What the program has said about its tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -87,20 +91,21 @@ impl<'a> Interpreter<'a> {
     /// Runs the blocks from `first` up to the one before `end`.
     pub(super) fn run_blocks(&mut self, routine: &Rc<Routine>, first: usize, end: usize) -> Next {
         let mut at = first;
-        while let Some(block) = routine.blocks[..end].get(at) {
-            if !self.control.count_block(block.span) {
-                return Next::Abort;
-            }
-            match self.run_block(routine, at, block) {
+        loop {
+            let block = match reach(self, &routine.blocks, &mut at, end) {
+                Reached::Block(block) => block,
+                Reached::End => return Next::Block(at),
+                Reached::Abort => return Next::Abort,
+            };
+            match self.run_block(routine, at, &block) {
                 Next::Block(next) if next < first || next > end => {
-                    self.control.fail(jump_out_of_repetition(block.span));
+                    self.control.fail(jump_out_of_repetition(block.place.span));
                     return Next::Abort;
                 }
                 Next::Block(next) => at = next,
                 other => return other,
             }
         }
-        Next::Block(at)
     }
 
     fn run_block(&mut self, routine: &Rc<Routine>, at: usize, block: &Block) -> Next {
@@ -117,7 +122,12 @@ impl<'a> Interpreter<'a> {
                 self.control.modal.has_feed = true;
                 Ok(next)
             }
-            Statement::Words(words) => return self.words_block(words, block, at),
+            Statement::Words(words) => {
+                return match words.iter().any(Word::is_irregular_pocket) {
+                    true => self.irregular_pocket(words, routine, block, at),
+                    false => self.words_block(words, block, at),
+                };
+            }
             Statement::High(statement) => self.high_level(statement, routine, at, block),
         };
         let next = done.unwrap_or_else(|diagnostic| {
@@ -125,35 +135,70 @@ impl<'a> Interpreter<'a> {
                 block.statement,
                 Statement::High(HighLevel::Goto(_) | HighLevel::If(..) | HighLevel::Error(..))
             );
-            self.control.fail(*diagnostic);
+            self.control.fail(diagnostic);
             if is_jump { Next::Abort } else { next }
         });
         // A call finishes its block before the subroutine begins.
         match self.control.blocks_finished() == finished {
-            true => self.control.finish_block(&place(block)),
-            false => self.control.finish_marker(&place(block)),
+            true => self.control.finish_block(&block.place),
+            false => self.control.finish_marker(&block.place),
         }
         next
     }
 
     fn words_block(&mut self, words: &[Word], block: &Block, at: usize) -> Next {
         let words = BlockWords::collect(words, &self.parameters, self.control.diagnostics);
-        let ends = match words {
-            None => {
-                self.control.modal.forget_position();
-                false
-            }
-            Some(words) => self
-                .run_words(&words, block.span)
-                .unwrap_or_else(|diagnostic| {
-                    self.control.fail(*diagnostic);
-                    self.control.modal.has_feed = true;
-                    false
-                }),
+        let Some(mut words) = words else {
+            self.control.modal.forget_position();
+            self.control.finish_block(&block.place);
+            return Next::Block(at + 1);
         };
+        let pattern = words.g.iter().find(|g| (60..=65).contains(&g.value));
+        if let (Some(g), true, None) = (pattern, self.modal_call.is_some(), &self.cycle) {
+            return self
+                .modal_pattern(&words, *g, block, at)
+                .unwrap_or_else(|diagnostic| {
+                    self.control.fail(diagnostic);
+                    self.control.finish_block(&block.place);
+                    Next::Block(at + 1)
+                });
+        }
+        // Under MCALL, N at the end repeats the motion with the subroutine behind it.
+        let repeated = words.times.filter(|_| self.modal_call.is_some());
+        let passes = match repeated.map(times).unwrap_or(Ok(1)) {
+            Ok(passes) => passes,
+            Err(diagnostic) => {
+                self.control.fail(diagnostic);
+                1
+            }
+        };
+        if repeated.is_some() {
+            words.times = None;
+        }
+        let mut next = Next::Block(at + 1);
+        for pass in 0..passes {
+            if pass > 0 && !self.control.count_block(block.place.span) {
+                return Next::Abort;
+            }
+            next = self.run_block_words(&words, block, at);
+            if !matches!(next, Next::Block(_)) {
+                break;
+            }
+        }
+        next
+    }
+
+    pub(super) fn run_block_words(&mut self, words: &BlockWords, block: &Block, at: usize) -> Next {
+        let ends = self
+            .run_words(words, block.place.span)
+            .unwrap_or_else(|diagnostic| {
+                self.control.fail(diagnostic);
+                self.control.modal.has_feed = true;
+                false
+            });
         let moved = |action: &Action| matches!(action, Action::Move(_));
         let has_moved = self.control.actions.iter().any(moved);
-        self.control.finish_block(&place(block));
+        self.control.finish_block(&block.place);
         if ends {
             return Next::End;
         }
@@ -169,7 +214,7 @@ impl<'a> Interpreter<'a> {
         routine: &Rc<Routine>,
         at: usize,
         block: &Block,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let next = Next::Block(at + 1);
         match statement {
             HighLevel::Assign(list) => self.assign(list).map(|()| next),
@@ -181,14 +226,14 @@ impl<'a> Interpreter<'a> {
                     (false, None) => Ok(next),
                 }
             }
-            HighLevel::Goto(label) => find_label(routine, *label, at).map(Next::Block),
+            HighLevel::Goto(label) => self.find_label(routine, *label, at).map(Next::Block),
             HighLevel::Repeat {
                 first,
                 last,
                 times,
                 span,
             } => {
-                self.control.finish_block(&place(block));
+                self.control.finish_block(&block.place);
                 let times = match times {
                     Some(times) => times.whole(&self.parameters, 0)?,
                     None => 1,
@@ -201,10 +246,8 @@ impl<'a> Interpreter<'a> {
                 Ok(next)
             }
             HighLevel::Return(span) => match self.control.is_in_main() {
-                true => Err(Box::new(
-                    Diagnostic::error(*span, "(RET) outside of a subroutine")
-                        .help("a subroutine begins with (SUB n)"),
-                )),
+                true => Err(Diagnostic::error(*span, "(RET) outside of a subroutine")
+                    .help("a subroutine begins with (SUB n)")),
                 false => Ok(Next::Return),
             },
             HighLevel::Message(text) => {
@@ -218,15 +261,31 @@ impl<'a> Interpreter<'a> {
                     Some(number) => format!(" {}", number.number(&self.parameters)?),
                     None => String::new(),
                 };
-                Err(Box::new(
-                    Diagnostic::error(
-                        *span,
-                        format!("the program stops itself here with error{number}: {text}"),
-                    )
-                    .help("the values that lead here are in the program or were given with --set"),
-                ))
+                Err(Diagnostic::error(
+                    *span,
+                    format!("the program stops itself here with error{number}: {text}"),
+                )
+                .help("the values that lead here are in the program or were given with --set"))
             }
         }
+    }
+
+    /// The block that a jump names.
+    pub(super) fn find_label(
+        &mut self,
+        routine: &Routine,
+        label: Label,
+        at: usize,
+    ) -> Result<usize, Diagnostic> {
+        let (sources, diagnostics) = (&*self.control.sources, &mut *self.control.diagnostics);
+        let found = routine.label(label.number, at, sources, diagnostics);
+        found.ok_or_else(|| {
+            Diagnostic::error(
+                label.span,
+                format!("there is no block N{} here", label.number),
+            )
+            .help("jumps and repetitions stay in their program or subroutine")
+        })
     }
 
     fn assign(&mut self, list: &[Assignment]) -> Done {
@@ -250,6 +309,10 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
         &self.library
     }
 
+    fn parts(&mut self) -> (&Library<Routine>, &mut Control<'a>) {
+        (&self.library, &mut self.control)
+    }
+
     fn run_main(&mut self, main: &Rc<Routine>) -> bool {
         let end = self.run_blocks(main, 0, main.blocks.len());
         if end == Next::End {
@@ -259,8 +322,8 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
     }
 
     fn end_is_missing(&mut self, last: &Rc<Routine>) {
-        if let Some(last) = last.blocks.last() {
-            self.control.end_is_missing(&place(last), "(RET)");
+        if let Some(last) = self.control.last_block(&last.blocks) {
+            self.control.end_is_missing(&last.place, "(RET)");
         }
         self.check_tool_length();
     }
@@ -272,28 +335,14 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
     }
 }
 
-/// The block that a jump names.
-pub(super) fn find_label(
-    routine: &Routine,
-    label: super::syntax::Label,
-    at: usize,
-) -> Result<usize, Box<Diagnostic>> {
-    routine.label(label.number, at).ok_or_else(|| {
-        Box::new(
-            Diagnostic::error(
-                label.span,
-                format!("there is no block N{} here", label.number),
-            )
-            .help("jumps and repetitions stay in their program or subroutine"),
-        )
-    })
-}
-
-/// Where the actions of a block belong.
-pub(super) fn place(block: &Block) -> Place {
-    Place {
-        span: block.span,
-        number: block.number,
-        comment: block.comment.clone(),
+/// How often a block is repeated by N at its end.
+pub(super) fn times(word: At<f64>) -> Result<u32, Diagnostic> {
+    let whole = word.value.fract() == 0.0;
+    match whole && (0.0..=f64::from(REPEAT_LIMIT)).contains(&word.value) {
+        true => Ok(word.value as u32),
+        false => Err(Diagnostic::error(
+            word.span,
+            "N here is how often the block is repeated: a whole number up to 9999",
+        )),
     }
 }

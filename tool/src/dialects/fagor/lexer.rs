@@ -5,46 +5,19 @@
 
 use super::token::{Token, TokenKind};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::scanner::{Scanner, is_blank};
+use crate::dialects::lexer;
+use crate::dialects::scanner::is_blank;
 use crate::source::Text;
 
-/// All tokens of a file. What is no token is reported and left out; the rest of its line is left out
-/// too, so that one wrong character gives one error.
-pub fn tokens(text: Text, diagnostics: &mut Diagnostics) -> Vec<Token> {
-    let mut lexer = Lexer {
-        scanner: Scanner::new(text),
-        tokens: Vec::new(),
-        depth: 0,
-    };
-    while lexer.scanner.peek().is_some() {
-        lexer.depth = 0;
-        if let Err(diagnostic) = lexer.line() {
-            diagnostics.push(*diagnostic);
-            let start = lexer.scanner.position();
-            lexer.scanner.take_while(|c| c != '\n');
-            lexer.push(start, TokenKind::Invalid);
-        }
-        let start = lexer.scanner.position();
-        lexer.scanner.take("\n");
-        lexer.push(start, TokenKind::EndOfLine);
-    }
-    lexer.tokens
-}
+type Lexer<'a> = lexer::Lexer<'a, char, String>;
 
-struct Lexer<'a> {
-    scanner: Scanner<'a>,
-    tokens: Vec<Token>,
-    /// How many parentheses are open on this line.
-    depth: u32,
+/// All tokens of a file; see [`lexer::Lexer::cut`].
+pub fn tokens(text: Text, diagnostics: &mut Diagnostics) -> Vec<Token> {
+    Lexer::cut(text, diagnostics, Lexer::line)
 }
 
 impl Lexer<'_> {
-    fn push(&mut self, start: usize, kind: TokenKind) {
-        let span = self.scanner.span_from(start);
-        self.tokens.push(Token { kind, span });
-    }
-
-    fn line(&mut self) -> Result<(), Box<Diagnostic>> {
+    fn line(&mut self) -> Result<(), Diagnostic> {
         self.scanner.take_while(is_blank);
         if self.scanner.peek() == Some('%') {
             let start = self.scanner.position();
@@ -57,6 +30,8 @@ impl Lexer<'_> {
             }
             return Ok(());
         }
+        // How many parentheses are open.
+        let mut depth = 0;
         while let Some(next) = self.scanner.peek() {
             if next == '\n' {
                 break;
@@ -65,12 +40,12 @@ impl Lexer<'_> {
                 self.scanner.advance();
                 continue;
             }
-            self.token(next)?;
+            self.token(next, &mut depth)?;
         }
         Ok(())
     }
 
-    fn token(&mut self, next: char) -> Result<(), Box<Diagnostic>> {
+    fn token(&mut self, next: char, depth: &mut u32) -> Result<(), Diagnostic> {
         let start = self.scanner.position();
         let kind = match next {
             ';' => {
@@ -78,13 +53,13 @@ impl Lexer<'_> {
                 TokenKind::Comment(self.scanner.take_while(|c| c != '\n').trim().to_string())
             }
             '"' => TokenKind::Text(self.scanner.quoted()?.to_string()),
-            c if c.is_ascii_alphabetic() => self.letters(),
+            c if c.is_ascii_alphabetic() => self.letters(*depth > 0),
             c if c.is_ascii_digit() || c == '.' => self.number()?,
             '+' | '-' | '*' | '/' | '(' | ')' | '=' | ',' => {
                 self.scanner.advance();
                 match next {
-                    '(' => self.depth += 1,
-                    ')' => self.depth = self.depth.saturating_sub(1),
+                    '(' => *depth += 1,
+                    ')' => *depth = depth.saturating_sub(1),
                     _ => {}
                 }
                 TokenKind::Symbol(next)
@@ -102,11 +77,11 @@ impl Lexer<'_> {
         Ok(())
     }
 
-    fn letters(&mut self) -> TokenKind {
+    fn letters(&mut self, names: bool) -> TokenKind {
         let mut rest = self.scanner.rest().chars();
         let first = rest.next().unwrap_or(' ').to_ascii_uppercase();
         let joined = rest.next().is_some_and(|c| c.is_ascii_alphabetic());
-        if self.depth == 0 || !joined {
+        if !names || !joined {
             self.scanner.advance();
             return TokenKind::Letter(first);
         }
@@ -114,7 +89,7 @@ impl Lexer<'_> {
         TokenKind::Name(name.to_ascii_uppercase())
     }
 
-    fn number(&mut self) -> Result<TokenKind, Box<Diagnostic>> {
+    fn number(&mut self) -> Result<TokenKind, Diagnostic> {
         let start = self.scanner.position();
         let digits = self.scanner.digits()?;
         Ok(TokenKind::Number(self.scanner.number(start, digits)?))

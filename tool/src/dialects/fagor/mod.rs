@@ -7,15 +7,22 @@ mod block_words;
 mod calls;
 mod cursor;
 mod cycles;
+mod deep_holes;
 mod evaluate_words;
 mod expressions;
 mod g_functions;
+mod helix;
 mod high_level;
 mod interpreter;
+mod irregular_pockets;
 pub mod lexer;
 mod parameters;
 pub mod parser;
 mod patterns;
+mod plane_moves;
+mod pocket_contours;
+mod pocket_operations;
+mod pockets;
 mod polar;
 mod routine;
 pub mod syntax;
@@ -24,26 +31,34 @@ mod transforms;
 
 use super::control::About;
 use super::guess::Evidence;
-use super::library::Library;
-use super::run::run;
+use super::languages::Language;
+use super::run::{Files, run_file};
 use super::settings::Settings;
 use std::path::Path;
 
-/// Evaluates the part program in file 0 of `sources`; see [`super::evaluate`].
-pub fn evaluate<'a>(path: &Path, settings: &'a Settings, about: About<'a>) {
-    let library = Library::new(
-        path,
-        &routine::EXTENSIONS,
-        settings,
-        about.sources,
-        about.diagnostics,
-        routine::routines,
-    );
-    run(&mut interpreter::Interpreter::new(settings, library, about));
+/// The Fagor 8055.
+pub struct Fagor;
+
+/// For the list of all languages.
+pub const LANGUAGE: Fagor = Fagor;
+
+const FILES: Files<routine::Routine> = Files {
+    extensions: &routine::EXTENSIONS,
+    read: routine::routines,
+};
+
+impl Language for Fagor {
+    fn evaluate<'a>(&self, path: &Path, settings: &'a Settings, about: About<'a>) {
+        run_file(path, FILES, settings, about, interpreter::Interpreter::new);
+    }
+
+    fn evidence(&self, lines: &[String], extension: &str) -> Evidence {
+        evidence(lines, extension)
+    }
 }
 
 /// What speaks for this dialect; see [`super::guess`].
-pub fn evidence(lines: &[String], extension: &str) -> Evidence {
+fn evidence(lines: &[String], extension: &str) -> Evidence {
     const STATEMENTS: [&str; 10] = [
         "(RPT", "(SUB", "(CALL", "(PCALL", "(MCALL", "(MDOFF", "(GOTO", "(IF", "(RET", "(ERROR",
     ];

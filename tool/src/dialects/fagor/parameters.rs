@@ -44,7 +44,7 @@ impl Parameters {
     }
 
     /// Gives a parameter a value.
-    pub fn assign(&mut self, number: f64, value: f64, span: Span) -> Result<(), Box<Diagnostic>> {
+    pub fn assign(&mut self, number: f64, value: f64, span: Span) -> Result<(), Diagnostic> {
         let number = checked(number, span)?;
         self.set(number, value);
         Ok(())
@@ -60,19 +60,19 @@ impl Parameters {
 }
 
 /// The number of a parameter that there is.
-pub fn checked(number: f64, span: Span) -> Result<u32, Box<Diagnostic>> {
+pub fn checked(number: f64, span: Span) -> Result<u32, Diagnostic> {
     let exists = matches!(number, 0.0..=299.0 | 1000.0..=1255.0 | 2000.0..=2255.0);
     if exists && number.fract() == 0.0 {
         return Ok(number as u32);
     }
-    Err(Box::new(
+    Err(
         Diagnostic::error(span, format!("there is no parameter P{number}"))
             .help("P0 to P25 are local, P26 to P299, P1000 to P1255 and P2000 to P2255 global"),
-    ))
+    )
 }
 
 impl Variables for Parameters {
-    fn value(&self, _name: &str, index: &[f64], span: Span) -> Result<Value, Box<Diagnostic>> {
+    fn value(&self, _name: &str, index: &[f64], span: Span) -> Result<Value, Diagnostic> {
         let number = checked(index.first().copied().unwrap_or(-1.0), span)?;
         let place = match self.levels.last() {
             Some(level) if number <= LAST_LOCAL => level,
@@ -80,15 +80,13 @@ impl Variables for Parameters {
         };
         match place.get(&number) {
             Some(value) => Ok(Value::Number(*value)),
-            None => Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    format!("P{number} has no value here: the control would take what it had last"),
-                )
-                .help(format!(
-                    "assign it in the program: (P{number}=5), or give --set P{number}=5"
-                )),
-            )),
+            None => Err(Diagnostic::error(
+                span,
+                format!("P{number} has no value here: the control would take what it had last"),
+            )
+            .help(format!(
+                "assign it in the program: (P{number}=5), or give --set P{number}=5"
+            ))),
         }
     }
 }

@@ -3,90 +3,38 @@
 
 use super::cursor::{Cursor, Parsed};
 use super::expressions::word_value;
-use super::high_level::high_level_block;
-use super::syntax::{Block, HighLevel, Section, Statement, Word};
+use super::high_level::{KEYWORDS, high_level_block};
+use super::lexer::tokens;
+use super::syntax::{Block, Statement, Word};
 use super::token::{Token, TokenKind};
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::control::Place;
+use crate::dialects::spelling::did_you_mean;
 use crate::source::{Span, Text};
 
-/// The name in the header and the sections of a file: the main program first, then its subroutines.
-pub fn parse(
-    text: Text,
-    tokens: &[Token],
-    diagnostics: &mut Diagnostics,
-) -> (Option<String>, Vec<Section>) {
-    let mut name = None;
-    let mut main = Section {
-        subroutine: None,
-        blocks: Vec::new(),
-    };
-    let mut subroutines: Vec<Section> = Vec::new();
-    let mut open: Option<(Section, Span)> = None;
-    for line in tokens.split_inclusive(|token| token.kind == TokenKind::EndOfLine) {
-        let Some((end, tokens)) = line.split_last() else {
-            continue;
-        };
-        if let Some(Token {
-            kind: TokenKind::Program(header),
+/// The blocks of some lines; the header of the program is none.
+pub fn parse_blocks(text: Text, diagnostics: &mut Diagnostics) -> Vec<Block> {
+    let tokens = tokens(text, diagnostics);
+    let lines = tokens.split_inclusive(|token| token.kind == TokenKind::EndOfLine);
+    let blocks = lines.filter_map(|line| {
+        let (end, tokens) = line.split_last()?;
+        match header(tokens) {
+            Some(_) => None,
+            None => parse_block(text, tokens, end.span, diagnostics),
+        }
+    });
+    blocks.collect()
+}
+
+/// The name of the program in a line that is its header, and where it stands.
+pub fn header(tokens: &[Token]) -> Option<(&String, Span)> {
+    match tokens.first() {
+        Some(Token {
+            kind: TokenKind::Program(name),
             span,
-        }) = tokens.first()
-        {
-            if name.is_some() || !main.blocks.iter().all(is_empty) || !subroutines.is_empty() {
-                diagnostics.push(
-                    Diagnostic::error(*span, "a second program begins in the same file")
-                        .help("keep one program with its subroutines in the file"),
-                );
-            }
-            name = Some(header.clone());
-            continue;
-        }
-        let Some(block) = parse_block(text, tokens, end.span, diagnostics) else {
-            continue;
-        };
-        match (&block.statement, &mut open) {
-            (Statement::Subroutine(number), None) => {
-                let section = Section {
-                    subroutine: Some(*number),
-                    blocks: Vec::new(),
-                };
-                open = Some((section, block.span));
-            }
-            (Statement::Subroutine(_), Some((_, first))) => {
-                let line = line_of(text, *first);
-                diagnostics.push(
-                    Diagnostic::error(block.span, "a subroutine begins inside of another")
-                        .help(format!("end the one of line {line} with (RET)")),
-                );
-            }
-            (Statement::High(HighLevel::Return(_)), Some(_)) => {
-                if let Some((mut section, _)) = open.take() {
-                    section.blocks.push(block);
-                    subroutines.push(section);
-                }
-            }
-            (_, Some((section, _))) => section.blocks.push(block),
-            (_, None) => main.blocks.push(block),
-        }
+        }) => Some((name, *span)),
+        _ => None,
     }
-    if let Some((section, span)) = open {
-        diagnostics.push(
-            Diagnostic::error(span, "this subroutine does not end")
-                .help("put (RET) into a block of its own at its end"),
-        );
-        subroutines.push(section);
-    }
-    subroutines.insert(0, main);
-    (name, subroutines)
-}
-
-fn line_of(text: Text, span: Span) -> usize {
-    let before = text.slice(text.start..span.start);
-    before.matches('\n').count() + 1
-}
-
-/// Whether a block holds nothing but a comment.
-pub fn is_empty(block: &Block) -> bool {
-    block.statement == Statement::Empty
 }
 
 fn parse_block(
@@ -103,11 +51,13 @@ fn parse_block(
     let first = tokens.first().map_or(end, |token| token.span);
     let last = tokens.last().map_or(first, |token| token.span);
     let mut block = Block {
-        span: first.to(last),
-        number: None,
+        place: Place {
+            span: first.to(last),
+            number: None,
+            comment,
+        },
         skip: false,
         statement: Statement::Empty,
-        comment,
     };
     if tokens.iter().any(|token| token.kind == TokenKind::Invalid) {
         block.statement = Statement::Invalid;
@@ -122,7 +72,7 @@ fn parse_block(
     );
     let parsed = prefix(&mut cursor, &mut block).and_then(|()| statement(&mut cursor, text));
     block.statement = parsed.unwrap_or_else(|diagnostic| {
-        diagnostics.push(*diagnostic);
+        diagnostics.push(diagnostic);
         Statement::Invalid
     });
     Some(block)
@@ -140,7 +90,7 @@ fn prefix(cursor: &mut Cursor, block: &mut Block) -> Parsed<()> {
         }
     }
     if cursor.take_letter('N') {
-        block.number = Some(cursor.whole("a block number")?);
+        block.place.number = Some(cursor.whole("a block number")?);
     }
     Ok(())
 }
@@ -160,8 +110,32 @@ fn statement(cursor: &mut Cursor, text: Text) -> Parsed<Statement> {
     Ok(statement)
 }
 
+/// `GOTO N10` without parentheses would be words without values.
+fn refuse_bare_statement(cursor: &Cursor, text: Text) -> Parsed<()> {
+    let mut ahead = cursor.clone();
+    let start = ahead.span();
+    while matches!(ahead.peek(), Some(TokenKind::Letter(_)))
+        && (ahead.span() == start || ahead.is_adjacent())
+    {
+        ahead.advance();
+    }
+    let span = start.to(ahead.last_span());
+    let name = text.slice(span.start..span.end).to_ascii_uppercase();
+    // Fewer letters are addresses: G14 names axes without values.
+    let known = KEYWORDS.into_iter().filter(|_| name.len() > 2);
+    match did_you_mean(&name, known, |known| format!("({known} ..)")) {
+        None => Ok(()),
+        Some(similar) => Err(Diagnostic::error(
+            span,
+            format!("`{name}` is not a word of this dialect"),
+        )
+        .help(format!("statements stand in parentheses; {similar}"))),
+    }
+}
+
 fn words(cursor: &mut Cursor, text: Text) -> Parsed<Vec<Word>> {
     let mut list = Vec::new();
+    refuse_bare_statement(cursor, text)?;
     while let Some(token) = cursor.peek() {
         let start = cursor.span();
         let letter = match token {
@@ -179,7 +153,7 @@ fn words(cursor: &mut Cursor, text: Text) -> Parsed<Vec<Word>> {
                 ));
             }
         };
-        if letter == 'P' {
+        if letter == 'P' && !list.iter().any(Word::is_pattern) {
             return Err(cursor.error_with_help(
                 "a parameter stands here without an address",
                 "write XP1 for a value, or (P1=5) to assign one",
@@ -194,7 +168,7 @@ fn words(cursor: &mut Cursor, text: Text) -> Parsed<Vec<Word>> {
         };
         let value = match bare {
             true => None,
-            false => Some(word_value(cursor).map_err(|error| missing_value(*error, letter))?),
+            false => Some(word_value(cursor).map_err(|error| missing_value(error, letter))?),
         };
         let span = start.to(cursor.last_span());
         let digits = text.slice(start.end..span.end).trim();
@@ -208,12 +182,10 @@ fn words(cursor: &mut Cursor, text: Text) -> Parsed<Vec<Word>> {
     Ok(list)
 }
 
-fn missing_value(error: Diagnostic, letter: char) -> Box<Diagnostic> {
-    Box::new(
-        Diagnostic::error(
-            error.span,
-            format!("the value of {letter} is missing or not a number"),
-        )
-        .help(format!("write {letter}10 or {letter}P1")),
+fn missing_value(error: Diagnostic, letter: char) -> Diagnostic {
+    Diagnostic::error(
+        error.span,
+        format!("the value of {letter} is missing or not a number"),
     )
+    .help(format!("write {letter}10 or {letter}P1"))
 }

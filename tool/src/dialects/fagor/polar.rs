@@ -1,4 +1,4 @@
-//! Polar coordinates: G93, and places given by R and Q.
+//! Polar coordinates: G93, places given by R and Q, and lines by their angle Q and one coordinate.
 
 use super::block_words::BlockWords;
 use super::interpreter::Interpreter;
@@ -19,10 +19,8 @@ impl Interpreter<'_> {
         self.alone(words, 93, span)?;
         let [i, j, k] = words.centre;
         if let Some(other) = k.map(|k| k.span).or(words.first_axis()) {
-            return Err(Box::new(
-                Diagnostic::error(other, "G93 has I and J only")
-                    .help("G93 I10 J20 sets the origin of polar coordinates"),
-            ));
+            return Err(Diagnostic::error(other, "G93 has I and J only")
+                .help("G93 I10 J20 sets the origin of polar coordinates"));
         }
         self.polar = PolarOrigin(
             match (i, j) {
@@ -35,17 +33,15 @@ impl Interpreter<'_> {
     }
 
     /// Where the tool is along the axes of the plane, units of the program.
-    fn present_in_plane(&self, span: Span) -> Result<[f64; 2], Box<Diagnostic>> {
+    fn present_in_plane(&self, span: Span) -> Result<[f64; 2], Diagnostic> {
         let [first, second, _] = self.control.modal.plane.axes();
         match [first, second].map(|axis| self.control.present(axis)) {
             [Some(a), Some(b)] => Ok([a, b]),
-            _ => Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "polar coordinates from a place that is not known ahead of time",
-                )
-                .help("program both axes of the plane absolute before"),
-            )),
+            _ => Err(Diagnostic::error(
+                span,
+                "polar coordinates from a place that is not known ahead of time",
+            )
+            .help("program both axes of the plane absolute before")),
         }
     }
 
@@ -68,16 +64,64 @@ impl Interpreter<'_> {
             };
         };
         let [first, second, _] = self.control.modal.plane.axes();
+        let straight = matches!(kind, None | Some(Motion::Rapid | Motion::Line));
+        match [motion.axes[first], motion.axes[second]] {
+            [Some(word), None] if straight && words.radius.is_none() => {
+                return self.along_angle(angle, word, [0, 1], motion);
+            }
+            [None, Some(word)] if straight && words.radius.is_none() => {
+                return self.along_angle(angle, word, [1, 0], motion);
+            }
+            _ => {}
+        }
         if let Some(axis) = motion.axes[first].or(motion.axes[second]) {
-            return Err(Box::new(
-                Diagnostic::error(axis.span, "polar and rectangular coordinates in one block")
-                    .help("a place is given by R and Q or by the axes of the plane"),
-            ));
+            return Err(Diagnostic::error(
+                axis.span,
+                "polar and rectangular coordinates in one block",
+            )
+            .help("a place is given by R and Q or by the axes of the plane"));
         }
         match kind {
             Some(Motion::Clockwise | Motion::Counterclockwise) => self.polar_arc(angle, motion),
             _ => self.polar_place(angle, words.radius, motion),
         }
+    }
+
+    /// A line in the direction Q to one of its coordinates. `given`, `other`: along which axes of the plane
+    /// the coordinate is, and the one that is looked for.
+    fn along_angle(
+        &mut self,
+        angle: At<f64>,
+        word: At<(f64, Dimension)>,
+        [given, other]: [usize; 2],
+        motion: &mut MotionWords,
+    ) -> Done {
+        let [first, second, _] = self.control.modal.plane.axes();
+        let start = self.present_in_plane(angle.span)?;
+        let way = match self.control.modal.incremental {
+            true => word.value.0,
+            false => word.value.0 - start[given],
+        };
+        let (sin, cos) = sin_cos_degrees(angle.value);
+        let direction = [cos, sin];
+        // The angle is that of the line: which way along it, the coordinate says.
+        if way == 0.0 || direction[given].abs() < 1e-9 {
+            return Err(Diagnostic::error(
+                angle.span,
+                "the angle Q does not lead to this coordinate",
+            )
+            .help("Q is the angle of the line with the first axis of the plane"));
+        }
+        let mut end = start;
+        end[given] += way;
+        end[other] += way * direction[other] / direction[given];
+        for (axis, value) in [first, second].into_iter().zip(end) {
+            motion.axes[axis] = Some(At {
+                value: (value, Dimension::Absolute),
+                span: word.span,
+            });
+        }
+        Ok(())
     }
 
     /// The origin in units of the program.
@@ -139,10 +183,10 @@ impl Interpreter<'_> {
     /// An arc to the direction Q, seen from its centre: I and J, or the polar origin.
     fn polar_arc(&mut self, angle: At<f64>, motion: &mut MotionWords) -> Done {
         if let Some(radius) = motion.radius {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(radius.span, "an arc to an angle Q has no R")
                     .help("give the centre with I and J, or the polar origin with G93"),
-            ));
+            );
         }
         let [first, second, _] = self.control.modal.plane.axes();
         let start = self.present_in_plane(angle.span)?;

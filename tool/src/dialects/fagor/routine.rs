@@ -1,15 +1,23 @@
 //! The main program and the subroutines of a file.
 
 use super::lexer::tokens;
-use super::parser::{is_empty, parse};
-use super::syntax::{Block, Section};
-use crate::diagnostics::Diagnostics;
+use super::parser::{header, parse_blocks};
+use super::syntax::{Block, HighLevel, Statement};
+use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::blocks::{self, Blocks, Lines};
+use crate::dialects::control::Place;
 use crate::dialects::library;
+use crate::dialects::outline::{Notable, notable_lines};
 use crate::source::{Sources, Span, Text};
-use std::collections::HashMap;
+use std::collections::BTreeSet;
+use std::io;
+use std::ops::Range;
 
 /// Endings of program files.
 pub const EXTENSIONS: [&str; 3] = ["pim", "pit", "nc"];
+
+/// Statements that lead elsewhere, or to which something leads.
+const FLOW: [&str; 5] = ["SUB", "RET", "GOTO", "RPT", "IF"];
 
 /// A program or a subroutine, ready to run.
 #[derive(Debug)]
@@ -19,32 +27,22 @@ pub struct Routine {
     /// The file it was found in.
     pub file: usize,
     /// Its blocks.
-    pub blocks: Vec<Block>,
-    /// Where the blocks with a number are, in order.
-    labels: HashMap<u32, Vec<usize>>,
+    pub blocks: Blocks<Block>,
     subroutine: bool,
+    /// The first block that says something, if there is one.
+    first: Option<Span>,
 }
 
 impl Routine {
-    fn new(name: String, file: usize, section: Section) -> Routine {
-        let mut labels: HashMap<u32, Vec<usize>> = HashMap::new();
-        for (index, block) in section.blocks.iter().enumerate() {
-            if let Some(number) = block.number {
-                labels.entry(number).or_default().push(index);
-            }
-        }
-        Routine {
-            name,
-            file,
-            labels,
-            subroutine: section.subroutine.is_some(),
-            blocks: section.blocks,
-        }
-    }
-
     /// The block with this number: towards the end from the block `at` first, then from the beginning.
-    pub fn label(&self, number: u32, at: usize) -> Option<usize> {
-        let places = self.labels.get(&number)?;
+    pub fn label(
+        &self,
+        number: u32,
+        at: usize,
+        sources: &Sources,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<usize> {
+        let places = self.blocks.numbered(number, sources, diagnostics);
         let after = places.partition_point(|place| *place <= at);
         places.get(after).or(places.first()).copied()
     }
@@ -55,25 +53,166 @@ pub fn subroutine_name(number: u32) -> String {
     format!("SUB {number}")
 }
 
-/// The routines of a file. Of a file other than the program itself, the main program is not one.
+/// Whether a line is the header, or leads elsewhere. Blanks may be missing: `(IFP1GT3GOTON10)`.
+fn is_notable(line: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(line).to_ascii_uppercase();
+    let code = text.split(';').next().unwrap_or("");
+    let statement = code.contains('(') && FLOW.iter().any(|word| code.contains(word));
+    statement || code.contains('%')
+}
+
+/// What is known of a file when its lines have been looked at.
+#[derive(Default)]
+struct Outline {
+    name: Option<String>,
+    /// The lines of the main program, and of each subroutine with its number.
+    main: Vec<Range<usize>>,
+    subroutines: Vec<(u32, Range<usize>)>,
+    /// The subroutine that has begun, and where: its span and its line.
+    open: Option<(u32, Span, usize)>,
+    /// The first line behind the last subroutine.
+    next: usize,
+    targets: BTreeSet<u32>,
+}
+
+impl Outline {
+    fn line(&mut self, line: usize, text: Text, sources: &Sources, diagnostics: &mut Diagnostics) {
+        if let Some((name, span)) = header(&tokens(text, diagnostics)) {
+            self.header(name, span, line, sources, diagnostics);
+            return;
+        }
+        for block in parse_blocks(text, diagnostics) {
+            match (&block.statement, self.open) {
+                (Statement::Subroutine(number), None) => {
+                    self.main.push(self.next..line);
+                    self.open = Some((*number, block.place.span, line));
+                }
+                (Statement::Subroutine(_), Some((_, first, _))) => {
+                    let line = sources.line(first);
+                    diagnostics.push(
+                        Diagnostic::error(
+                            block.place.span,
+                            "a subroutine begins inside of another",
+                        )
+                        .help(format!("end the one of line {line} with (RET)")),
+                    );
+                }
+                (Statement::High(HighLevel::Return(_)), Some(_)) => self.close(line + 1),
+                (Statement::High(statement), _) => self.add_targets(statement),
+                _ => {}
+            }
+        }
+    }
+
+    fn header(
+        &mut self,
+        name: &str,
+        span: Span,
+        line: usize,
+        sources: &Sources,
+        diagnostics: &mut Diagnostics,
+    ) {
+        let mut before = self.main.clone();
+        before.push(self.next..line);
+        let lines = Lines {
+            file: span.file,
+            ranges: before,
+            ..Lines::default()
+        };
+        let before = Blocks::new(lines, parse_blocks);
+        let begun = || {
+            before
+                .find(sources, &mut Diagnostics::default(), says)
+                .is_some()
+        };
+        if self.name.is_some() || !self.subroutines.is_empty() || begun() {
+            diagnostics.push(
+                Diagnostic::error(span, "a second program begins in the same file")
+                    .help("keep one program with its subroutines in the file"),
+            );
+        }
+        self.name = Some(name.to_string());
+    }
+
+    fn close(&mut self, behind: usize) {
+        if let Some((number, _, begin)) = self.open.take() {
+            self.subroutines.push((number, begin + 1..behind));
+            self.next = behind;
+        }
+    }
+
+    fn add_targets(&mut self, statement: &HighLevel) {
+        match statement {
+            HighLevel::If(_, then, otherwise) => {
+                self.add_targets(then);
+                otherwise
+                    .iter()
+                    .for_each(|otherwise| self.add_targets(otherwise));
+            }
+            HighLevel::Goto(label) => self.targets.extend([label.number]),
+            HighLevel::Repeat { first, last, .. } => {
+                self.targets.extend([first.number, last.number])
+            }
+            _ => {}
+        }
+    }
+}
+
+fn says(block: &Block) -> bool {
+    block.statement != Statement::Empty
+}
+
+/// The routines of a file; see [`library::Read`]. Of a file other than the program itself, the main program is not
+/// one.
 pub fn routines(
-    text: Text,
+    file: usize,
     stem: &str,
-    _: &Sources,
+    sources: &Sources,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Routine> {
-    let tokens = tokens(text, diagnostics);
-    let (header, sections) = parse(text, &tokens, diagnostics);
-    let routine = |section: Section| {
-        let name = match section.subroutine {
-            Some(number) => subroutine_name(number),
-            None => header.clone().unwrap_or(stem.to_string()),
-        };
-        Routine::new(name, text.file, section)
+    let mut outline = Outline::default();
+    let notable = Notable {
+        is: is_notable,
+        among_plain: |_| false,
     };
-    let wanted = |section: &Section| text.file == 0 || section.subroutine.is_some();
-    let sections = sections.into_iter().filter(wanted);
-    sections.map(routine).collect()
+    let mut visit = |line: usize, text: Text, diagnostics: &mut Diagnostics| {
+        outline.line(line, text, sources, diagnostics);
+    };
+    let lines = notable_lines(file, sources, diagnostics, notable, &mut visit);
+    if let Some((_, span, _)) = outline.open {
+        diagnostics.push(
+            Diagnostic::error(span, "this subroutine does not end")
+                .help("put (RET) into a block of its own at its end"),
+        );
+        outline.close(lines);
+    }
+    outline.main.push(outline.next..lines);
+    let mut routine = |name: String, ranges: Vec<Range<usize>>, subroutine: bool| {
+        let lines = Lines {
+            file,
+            ranges,
+            targets: outline.targets.clone(),
+            ..Lines::default()
+        };
+        let blocks = Blocks::new(lines, parse_blocks);
+        let first = blocks.find(sources, diagnostics, says);
+        Routine {
+            name,
+            file,
+            blocks,
+            subroutine,
+            first: first.map(|block| block.place.span),
+        }
+    };
+    let mut routines = Vec::new();
+    if file == 0 {
+        let name = outline.name.unwrap_or(stem.to_string());
+        routines.push(routine(name, outline.main, false));
+    }
+    for (number, lines) in outline.subroutines {
+        routines.push(routine(subroutine_name(number), vec![lines], true));
+    }
+    routines
 }
 
 /// Whether a text seems to define the subroutine with this name: a quick look that spares parsing
@@ -95,7 +234,25 @@ pub fn defines(text: &str, name: &str) -> bool {
     })
 }
 
+impl blocks::Block for Block {
+    fn place(&self) -> &Place {
+        &self.place
+    }
+
+    fn is_blank(&self) -> bool {
+        false
+    }
+
+    fn is_invalid(&self) -> bool {
+        self.statement == Statement::Invalid
+    }
+}
+
 impl library::Routine for Routine {
+    fn check_rest(&self, sources: &Sources, diagnostics: &mut Diagnostics) -> io::Result<()> {
+        self.blocks.check_rest(sources, diagnostics)
+    }
+
     fn name(&self) -> &str {
         &self.name
     }
@@ -105,11 +262,10 @@ impl library::Routine for Routine {
     }
 
     fn is_empty(&self) -> bool {
-        self.blocks.iter().all(is_empty)
+        self.first.is_none()
     }
 
     fn first_span(&self) -> Span {
-        let first = self.blocks.first();
-        first.map_or(Span::start_of(self.file), |block| block.span)
+        self.first.unwrap_or(Span::start_of(self.file))
     }
 }

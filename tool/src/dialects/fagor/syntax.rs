@@ -1,30 +1,18 @@
 //! The syntax tree of a Fagor part program.
 
+use crate::dialects::control::Place;
 use crate::dialects::expression::Expression;
 use crate::source::Span;
-
-/// The main program of a file, or a subroutine: the blocks from `(SUB n)` to `(RET)`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Section {
-    /// Number of the subroutine; `None` for the main program.
-    pub subroutine: Option<u32>,
-    /// The blocks that hold something, in order.
-    pub blocks: Vec<Block>,
-}
 
 /// One line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// From its first to its last word, without the comment.
-    pub span: Span,
-    /// `N10`.
-    pub number: Option<u32>,
+    /// Its text, number and comment.
+    pub place: Place,
     /// Whether it begins with `/`: it is left out where the operator says so.
     pub skip: bool,
     /// What it says.
     pub statement: Statement,
-    /// Its comment.
-    pub comment: Option<String>,
 }
 
 /// What a block says.
@@ -90,7 +78,7 @@ pub enum CallKind {
     Plain,
     /// PCALL: with parameters of its own.
     Parameters,
-    /// MCALL: after each motion that follows, with parameters of its own.
+    /// MCALL: at once and after each motion that follows, with parameters of its own.
     Modal,
 }
 
@@ -129,4 +117,15 @@ pub struct Word {
     pub digits: String,
     /// The whole word.
     pub span: Span,
+}
+
+impl Word {
+    /// Whether this is the G function of a pattern, G60 to G65.
+    pub fn is_pattern(&self) -> bool {
+        self.letter == 'G' && matches!(self.digits.parse(), Ok(60..=65))
+    }
+    /// Whether this is G66, whose letters name blocks.
+    pub fn is_irregular_pocket(&self) -> bool {
+        self.letter == 'G' && self.digits.parse() == Ok(66)
+    }
 }

@@ -58,6 +58,11 @@ impl Transforms {
         self.scale != 1.0 || self.stretch != [1.0; 9]
     }
 
+    /// G72 S: what all coordinates of the program are multiplied with.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
     fn sign(&self, axis: usize) -> f64 {
         if self.mirrored[axis] { -1.0 } else { 1.0 }
     }
@@ -132,17 +137,15 @@ impl Interpreter<'_> {
                 continue;
             };
             if word.value.is_some() {
-                return Err(Box::new(
+                return Err(
                     Diagnostic::error(word.span, "G14 names axes without values")
                         .help(format!("write G14 {}", AXES[axis])),
-                ));
+                );
             }
             transforms.mirrored[axis] = true;
         }
         if words.first_axis().is_none() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G14 needs axes").help("write G14 X Z A"),
-            ));
+            return Err(Diagnostic::error(span, "G14 needs axes").help("write G14 X Z A"));
         }
         if words.names_a_centre() || words.angle.is_some() || words.speed.is_some() {
             return Err(stands_alone(14, span));
@@ -168,13 +171,11 @@ impl Interpreter<'_> {
                         continue;
                     };
                     if axis > 2 {
-                        return Err(Box::new(
-                            Diagnostic::error(
-                                word.span,
-                                format!("a factor for {} alone is not supported", AXES[axis]),
-                            )
-                            .help("X, Y and Z can have one; G72 S scales all axes"),
-                        ));
+                        return Err(Diagnostic::error(
+                            word.span,
+                            format!("a factor for {} alone is not supported", AXES[axis]),
+                        )
+                        .help("X, Y and Z can have one; G72 S scales all axes"));
                     }
                     let factor = word.value.ok_or_else(|| {
                         super::block_words::missing(
@@ -187,11 +188,9 @@ impl Interpreter<'_> {
                 }
             }
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "G72 needs either S or axes").help(
-                        "G72 S2 scales all coordinates, G72 X2 the finished path along X; \
+                return Err(Diagnostic::error(span, "G72 needs either S or axes").help(
+                    "G72 S2 scales all coordinates, G72 X2 the finished path along X; \
                          G72 S1 ends scaling",
-                    ),
                 ));
             }
         }
@@ -202,48 +201,42 @@ impl Interpreter<'_> {
     pub(super) fn rotation(&mut self, words: &BlockWords, span: Span) -> Done {
         self.alone(words, 73, span)?;
         if let Some(axis) = words.first_axis().or(words.radius.map(|word| word.span)) {
-            return Err(Box::new(
-                Diagnostic::error(axis, "G73 has Q, I and J only")
-                    .help("G73 Q45 I10 J0 turns by 45 degrees about 10, 0"),
-            ));
+            return Err(Diagnostic::error(axis, "G73 has Q, I and J only")
+                .help("G73 Q45 I10 J0 turns by 45 degrees about 10, 0"));
         }
         let plane = self.control.modal.plane;
         let mut transforms = self.transforms;
         let Some(angle) = words.angle else {
             if let Some(centre) = words.centre.iter().flatten().next() {
-                return Err(Box::new(
+                return Err(
                     Diagnostic::error(centre.span, "G73 with a centre needs the angle Q")
                         .help("G73 alone ends the rotation"),
-                ));
+                );
             }
             transforms.rotation = None;
             return self.set_transforms(transforms, span);
         };
         if angle.value.abs() > 360_000.0 {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 angle.span,
                 format!("{} degrees is out of range", angle.value),
-            )));
+            ));
         }
         let [i, j, k] = words.centre;
         if let Some(k) = k {
-            return Err(Box::new(
-                Diagnostic::error(k.span, "G73 has Q, I and J only")
-                    .help("I is the centre along the first axis of the plane, J along the second"),
-            ));
+            return Err(Diagnostic::error(k.span, "G73 has Q, I and J only")
+                .help("I is the centre along the first axis of the plane, J along the second"));
         }
         let centre = [i, j]
             .map(|word| word.map_or(0.0, |word| word.value))
             .map(|value| value * self.control.modal.length_factor);
         let before = match transforms.rotation {
             Some(old) if old.plane != plane || old.centre != centre => {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        span,
-                        "a rotation about another centre, or in another plane, is in force",
-                    )
-                    .help("end it with G73 in a block of its own before"),
-                ));
+                return Err(Diagnostic::error(
+                    span,
+                    "a rotation about another centre, or in another plane, is in force",
+                )
+                .help("end it with G73 in a block of its own before"));
             }
             Some(old) => old.angle,
             None => 0.0,
@@ -285,11 +278,9 @@ impl Interpreter<'_> {
     }
 }
 
-fn stands_alone(g: u32, span: Span) -> Box<Diagnostic> {
-    Box::new(
-        Diagnostic::error(span, format!("G{g} stands alone in its block"))
-            .help("put the rest into another block"),
-    )
+fn stands_alone(g: u32, span: Span) -> Diagnostic {
+    Diagnostic::error(span, format!("G{g} stands alone in its block"))
+        .help("put the rest into another block")
 }
 
 fn check_factor(factor: f64, span: Span) -> Done {
@@ -297,9 +288,9 @@ fn check_factor(factor: f64, span: Span) -> Done {
     if (least..=largest).contains(&factor) {
         return Ok(());
     }
-    Err(Box::new(
+    Err(
         Diagnostic::error(span, format!("the scale factor {factor} is out of range")).help(
             format!("factors go from {least} to {largest}; G72 S1 ends scaling"),
         ),
-    ))
+    )
 }

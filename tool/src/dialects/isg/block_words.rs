@@ -29,7 +29,7 @@ pub struct BlockWords {
 
 impl BlockWords {
     /// Evaluates one more word.
-    pub fn add(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Box<Diagnostic>> {
+    pub fn add(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Diagnostic> {
         let span = word.span;
         let letter = word.address;
         let value = word.value.number(variables)?;
@@ -38,10 +38,7 @@ impl BlockWords {
             if let Some(second) = &word.second {
                 let second = second.number(variables)?;
                 if !matches!(code, 4 | 159) {
-                    return Err(Box::new(Diagnostic::error(
-                        span,
-                        format!("G{code} takes no value"),
-                    )));
+                    return Err(Diagnostic::error(span, format!("G{code} takes no value")));
                 }
                 set(&mut self.g_value, second, span, letter)?;
             }
@@ -49,17 +46,15 @@ impl BlockWords {
             return Ok(());
         }
         if word.second.is_some() {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    format!("{letter}{value} with a value is not supported"),
-                )
-                .help(match letter {
-                    'M' => "M functions with values switch something on this one machine",
-                    'S' => "there is one spindle: S500",
-                    _ => "axes are X Y Z A B C U V W",
-                }),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                format!("{letter}{value} with a value is not supported"),
+            )
+            .help(match letter {
+                'M' => "M functions with values switch something on this one machine",
+                'S' => "there is one spindle: S500",
+                _ => "axes are X Y Z A B C U V W",
+            }));
         }
         let dimensioned = (value, Dimension::Modal);
         if let Some(axis) = AXES.iter().position(|axis| axis.starts_with(letter)) {
@@ -79,16 +74,14 @@ impl BlockWords {
                 self.m.push(At { value, span });
                 Ok(())
             }
-            _ => Err(Box::new(
-                Diagnostic::error(span, format!("the address {letter} is not supported")).help(
+            _ => Err(Diagnostic::error(span, format!("the address {letter} is not supported")).help(
                     match letter {
                         'H' => "H functions switch something on this one machine: use an M function that LinuxCNC has",
                         'E' => "a feed at the end of the block is not supported: program F",
                         'N' => "the block number stands at the beginning of the block",
                         _ => "axes are X Y Z A B C U V W",
                     },
-                ),
-            )),
+                )),
         }
     }
 
@@ -116,12 +109,12 @@ impl BlockWords {
     }
 }
 
-fn function_number(letter: char, value: f64, span: Span) -> Result<u32, Box<Diagnostic>> {
+fn function_number(letter: char, value: f64, span: Span) -> Result<u32, Diagnostic> {
     if value.fract() == 0.0 && (0.0..=999.0).contains(&value) {
         return Ok(value as u32);
     }
-    Err(Box::new(Diagnostic::error(
+    Err(Diagnostic::error(
         span,
         format!("{letter}{value} is not the number of a function"),
-    )))
+    ))
 }

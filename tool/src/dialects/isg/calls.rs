@@ -19,7 +19,7 @@ impl Interpreter<'_> {
         call: &Call,
         place: &Place,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let key = match call.local {
             true => format!("{}:{}", call.span.file, call.name),
             false => file_stem(call)?.to_string(),
@@ -32,13 +32,11 @@ impl Interpreter<'_> {
             return Err(missing(call));
         };
         if !call.local && call.name.contains('.') && routine.title != call.name {
-            return Err(Box::new(
-                Diagnostic::error(
-                    call.span,
-                    format!("{} was not found, but {}", call.name, routine.title),
-                )
-                .help("write the ending of the file as it is"),
-            ));
+            return Err(Diagnostic::error(
+                call.span,
+                format!("{} was not found, but {}", call.name, routine.title),
+            )
+            .help("write the ending of the file as it is"));
         }
         control.check_call(&routine.title, 1, call.span, &RULES)?;
         control.enter(&routine.title, routine.file, [1, 1], place);
@@ -54,12 +52,10 @@ impl Interpreter<'_> {
 }
 
 /// The name of a file without its ending.
-fn file_stem(call: &Call) -> Result<&str, Box<Diagnostic>> {
+fn file_stem(call: &Call) -> Result<&str, Diagnostic> {
     if call.name.contains(['/', '\\', ':']) {
-        return Err(Box::new(
-            Diagnostic::error(call.span, "a subprogram with a path")
-                .help("write the name of the file only, and give its folder with --subprograms"),
-        ));
+        return Err(Diagnostic::error(call.span, "a subprogram with a path")
+            .help("write the name of the file only, and give its folder with --subprograms"));
     }
     Ok(call
         .name
@@ -67,14 +63,14 @@ fn file_stem(call: &Call) -> Result<&str, Box<Diagnostic>> {
         .map_or(&call.name, |(stem, _)| stem))
 }
 
-fn missing(call: &Call) -> Box<Diagnostic> {
+fn missing(call: &Call) -> Diagnostic {
     let name = &call.name;
     let error = Diagnostic::error(call.span, format!("the subprogram {name} was not found"));
-    Box::new(match call.local {
+    match call.local {
         true => error.help(format!("it is looked for as %L {name} in this file")),
         false => error.help(
             "it is looked for beside the program and in the folders of --subprograms, with the \
              endings .nc .sub .cnc .iso .prg .txt",
         ),
-    })
+    }
 }

@@ -73,8 +73,18 @@ pub fn clean(lines: Text, diagnostics: &mut Diagnostics) -> Clean {
     }
 }
 
+/// Whether the next line belongs to this one.
+pub fn is_continued(line: &str) -> bool {
+    let mut cleaner = Cleaner {
+        offset: 0,
+        bytes: line.as_bytes().to_vec(),
+        comments: Vec::new(),
+    };
+    cleaner.line(line, 0, line.len(), true)
+}
+
 /// Whether a line is `#COMMENT BEGIN` (`Some(true)`) or `#COMMENT END` (`Some(false)`).
-fn block_comment(line: &str) -> Option<bool> {
+pub fn block_comment(line: &str) -> Option<bool> {
     let line = line.trim_start();
     let line = match line.strip_prefix(['N', 'n']) {
         Some(rest) => rest

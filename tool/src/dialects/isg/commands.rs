@@ -5,7 +5,7 @@ use super::reader::{Parsed, Reader};
 use super::syntax::{Command, Declaration, Parameter};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::Expression;
-use crate::dialects::spelling::nearest;
+use crate::dialects::spelling::did_you_mean;
 
 /// Commands that only tune the control, by their first words.
 const NOTED: [&str; 3] = ["SLOPE", "SET SLOPE PROFIL", "FLUSH"];
@@ -33,8 +33,19 @@ const KINEMATICS: &str = "kinematic transformations are not switched by programs
                           program for three axes, or use #CS ON [..]";
 
 /// All that are understood, for guesses.
-const KNOWN: [&str; 9] = [
-    "MSG", "HSC", "CS", "ROTATION", "TIME", "SLOPE", "VAR", "ENDVAR", "COMMENT",
+pub(super) const KNOWN: [&str; 12] = [
+    "MSG",
+    "HSC",
+    "CS",
+    "ROTATION",
+    "TIME",
+    "SLOPE",
+    "SET SLOPE PROFIL",
+    "FLUSH",
+    "CONTOUR MODE",
+    "VAR",
+    "ENDVAR",
+    "COMMENT",
 ];
 
 /// A command after its `#`, which stands at `start`.
@@ -61,18 +72,17 @@ pub fn command(reader: &mut Reader, start: usize) -> Parsed<Command> {
         _ => {
             let refused = REFUSED.iter().find(|(known, _)| *known == name);
             if let Some((_, reason)) = refused {
-                return Err(Box::new(
-                    Diagnostic::error(span, format!("#{name} is not supported")).help(*reason),
-                ));
+                return Err(
+                    Diagnostic::error(span, format!("#{name} is not supported")).help(*reason)
+                );
             }
             let error = Diagnostic::error(span, format!("#{name} is not supported"));
-            Err(Box::new(match nearest(&name, &KNOWN) {
-                Some(similar) => error.help(format!("did you mean #{similar}?")),
-                None => error.help(
-                    "look it up in the manual of the control, and write it with functions that are \
-                     supported",
-                ),
-            }))
+            let similar = did_you_mean(&name, KNOWN.into_iter(), |known| format!("#{known}"));
+            Err(error.help(similar.unwrap_or_else(|| {
+                "look it up in the manual of the control, and write it with functions that are \
+                 supported"
+                    .to_string()
+            })))
         }
     }
 }
@@ -154,10 +164,11 @@ fn parameters(reader: &mut Reader) -> Parsed<Vec<Parameter>> {
         };
         let span = reader.span_from(start);
         if letters.len() < name.len() {
-            return Err(Box::new(
-                Diagnostic::error(span, format!("{name} is not a parameter that is known"))
-                    .help(format!("write {letters}=value")),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                format!("{name} is not a parameter that is known"),
+            )
+            .help(format!("write {letters}=value")));
         }
         reader.blanks();
         let value = match reader.peek() {

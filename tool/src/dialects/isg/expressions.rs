@@ -4,15 +4,13 @@
 
 use super::reader::{Parsed, Reader};
 use crate::diagnostics::Diagnostic;
-use crate::dialects::expression::{Binary, Expression, ExpressionKind, Function, Unary};
-use crate::dialects::spelling::nearest;
+use crate::dialects::expression::{Binary, Expression, ExpressionKind, FUNCTIONS, Function, Unary};
+use crate::dialects::operators::{Arithmetic, DEPTH_LIMIT, climb};
+use crate::dialects::spelling::did_you_mean;
 use crate::source::Span;
 
-/// How deep brackets may be nested.
-const DEPTH_LIMIT: u32 = 64;
-
 /// Operators from the weakest level to the strongest; longer symbols before their beginnings.
-const SYMBOLS: [(&str, Binary, u8); 14] = [
+const SYMBOLS: [(&str, Binary, usize); 14] = [
     ("||", Binary::Or, 0),
     ("&&", Binary::And, 2),
     ("==", Binary::Equal, 3),
@@ -29,34 +27,31 @@ const SYMBOLS: [(&str, Binary, u8); 14] = [
     ("/", Binary::Divide, 5),
 ];
 
-const NAMED: [(&str, Binary, u8); 4] = [
+const NAMED: [(&str, Binary, usize); 4] = [
     ("OR", Binary::Or, 0),
     ("XOR", Binary::ExclusiveOr, 1),
     ("AND", Binary::And, 2),
     ("MOD", Binary::Remainder, 5),
 ];
 
-const LEVELS: u8 = 7;
+const LEVELS: usize = 7;
 
-/// Functions; angles in degrees.
-const FUNCTIONS: [(&str, Function); 16] = [
-    ("SIN", Function::Sin),
-    ("COS", Function::Cos),
-    ("TAN", Function::Tan),
-    ("ASIN", Function::Asin),
-    ("ACOS", Function::Acos),
-    ("ATAN", Function::Atan),
-    ("ATAN2", Function::Atan2),
-    ("SQRT", Function::SquareRoot),
-    ("SQR", Function::Square),
-    ("ABS", Function::Absolute),
-    ("INT", Function::Truncate),
-    ("ROUND", Function::Round),
-    ("LN", Function::NaturalLogarithm),
-    ("LOG", Function::DecimalLogarithm),
-    ("EXP", Function::Exponential),
-    ("MIN", Function::Minimum),
-];
+/// All functions; angles in degrees.
+fn functions() -> impl Iterator<Item = (&'static str, Function)> {
+    let own = [
+        ("ATAN2", Function::Atan2),
+        ("SQR", Function::Square),
+        ("INT", Function::Truncate),
+        ("EXP", Function::Exponential),
+        ("MIN", Function::Minimum),
+    ];
+    FUNCTIONS.into_iter().chain(own)
+}
+
+fn function_named(name: &str) -> Option<Function> {
+    let found = functions().find(|(known, _)| *known == name);
+    found.map(|(_, function)| function)
+}
 
 /// Names that begin a value besides P parameters and V variables.
 const OTHER_NAMES: [&str; 7] = ["MAX", "FRACT", "DEXP", "NOT", "TRUE", "FALSE", "PI"];
@@ -74,55 +69,51 @@ pub fn begins_value(name: &str) -> bool {
     is_parameter(name)
         || name == "V"
         || OTHER_NAMES.contains(&name)
-        || FUNCTIONS.iter().any(|(known, _)| *known == name)
+        || function_named(name).is_some()
 }
 
 /// Parses one expression.
 pub fn expression(reader: &mut Reader) -> Parsed<Expression> {
-    level(reader, 0)
+    climb(reader, 0)
 }
 
-fn level(reader: &mut Reader, at_level: u8) -> Parsed<Expression> {
-    if at_level == LEVELS {
-        return unary(reader);
+impl Arithmetic for Reader<'_> {
+    fn levels(&self) -> usize {
+        LEVELS
     }
-    let mut left = level(reader, at_level + 1)?;
-    while let Some(binary) = take_operator(reader, at_level) {
-        let right = level(reader, at_level + 1)?;
-        let signed = matches!(left.kind, ExpressionKind::Unary(Unary::Negate, _));
-        if binary == Binary::Power && signed {
-            return Err(Box::new(
-                Diagnostic::error(left.span, "a sign before a power can be read in two ways")
-                    .help("write [-2]**2 or -[2**2]"),
-            ));
+
+    fn take_operator(&mut self, level: usize) -> Option<Binary> {
+        self.blanks();
+        let name = self.name_ahead();
+        if let Some((_, binary, _)) = NAMED
+            .into_iter()
+            .find(|(known, _, its_level)| *known == name && *its_level == level)
+        {
+            self.name();
+            return Some(binary);
         }
-        left = binary_expression(binary, left, right);
+        let rest = self.rest();
+        let (symbol, binary, its_level) = SYMBOLS
+            .into_iter()
+            .find(|(symbol, ..)| rest.starts_with(symbol))?;
+        (its_level == level && self.take(symbol)).then_some(binary)
     }
-    Ok(left)
-}
 
-fn binary_expression(binary: Binary, left: Expression, right: Expression) -> Expression {
-    Expression {
-        span: left.span.to(right.span),
-        kind: ExpressionKind::Binary(binary, Box::new(left), Box::new(right)),
+    fn check(&self, operator: Binary, left: &Expression, _: &Expression) -> Parsed<()> {
+        let signed = matches!(left.kind, ExpressionKind::Unary(Unary::Negate, _));
+        match operator == Binary::Power && signed {
+            false => Ok(()),
+            true => Err(Diagnostic::error(
+                left.span,
+                "a sign before a power can be read in two ways",
+            )
+            .help("write [-2]**2 or -[2**2]")),
+        }
     }
-}
 
-fn take_operator(reader: &mut Reader, at_level: u8) -> Option<Binary> {
-    reader.blanks();
-    let name = reader.name_ahead();
-    if let Some((_, binary, _)) = NAMED
-        .into_iter()
-        .find(|(known, _, its_level)| *known == name && *its_level == at_level)
-    {
-        reader.name();
-        return Some(binary);
+    fn operand(&mut self) -> Parsed<Expression> {
+        unary(self)
     }
-    let rest = reader.rest();
-    let (symbol, binary, its_level) = SYMBOLS
-        .into_iter()
-        .find(|(symbol, ..)| rest.starts_with(symbol))?;
-    (its_level == at_level && reader.take(symbol)).then_some(binary)
 }
 
 fn unary(reader: &mut Reader) -> Parsed<Expression> {
@@ -158,7 +149,7 @@ fn primary(reader: &mut Reader) -> Parsed<Expression> {
         Some('0'..='9' | '.') => number(reader)?,
         Some('[') => {
             reader.advance();
-            let inner = level(reader, 0)?;
+            let inner = climb(reader, 0)?;
             reader.expect("]")?;
             ExpressionKind::Group(Box::new(inner))
         }
@@ -185,13 +176,13 @@ fn number(reader: &mut Reader) -> Parsed<ExpressionKind> {
         Some(number) => Ok(ExpressionKind::Number(number)),
         None => {
             reader.take_while(|c| c.is_ascii_digit() || c == '.');
-            Err(Box::new(Diagnostic::error(
+            Err(Diagnostic::error(
                 reader.span_from(start),
                 match again {
                     true => "a number with two decimal points",
                     false => "this is not a number",
                 },
-            )))
+            ))
         }
     }
 }
@@ -217,7 +208,7 @@ fn named(reader: &mut Reader) -> Parsed<ExpressionKind> {
         return Ok(ExpressionKind::Number(constant));
     }
     if !begins_value(&name) {
-        return Err(Box::new(unknown_name(&name, span)));
+        return Err(unknown_name(&name, span));
     }
     let arguments = arguments(reader)?;
     function(&name, arguments, span)
@@ -228,13 +219,9 @@ fn unknown_name(name: &str, span: Span) -> Diagnostic {
         span,
         format!("`{name}` is not a function that can be used here"),
     );
-    let known: Vec<&'static str> = FUNCTIONS
-        .iter()
-        .map(|(known, _)| *known)
-        .chain(OTHER_NAMES)
-        .collect();
-    match nearest(name, &known) {
-        Some(similar) => error.help(format!("did you mean {similar}?")),
+    let known = functions().map(|(known, _)| known);
+    match did_you_mean(name, known.chain(OTHER_NAMES), str::to_string) {
+        Some(similar) => error.help(similar),
         None => error,
     }
 }
@@ -242,9 +229,9 @@ fn unknown_name(name: &str, span: Span) -> Diagnostic {
 /// `[a, b]`.
 fn arguments(reader: &mut Reader) -> Parsed<Vec<Expression>> {
     reader.expect("[")?;
-    let mut list = vec![level(reader, 0)?];
+    let mut list = vec![climb(reader, 0)?];
     while reader.take(",") {
-        list.push(level(reader, 0)?);
+        list.push(climb(reader, 0)?);
     }
     reader.expect("]")?;
     Ok(list)
@@ -259,19 +246,16 @@ fn function(name: &str, arguments: Vec<Expression>, span: Span) -> Parsed<Expres
     let wanted = match name {
         "MAX" => 2,
         "FRACT" | "DEXP" => 1,
-        _ => FUNCTIONS
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map_or(1, |(_, function)| function.arguments()),
+        _ => function_named(name).map_or(1, Function::arguments),
     };
     if arguments.len() != wanted {
-        return Err(Box::new(Diagnostic::error(
+        return Err(Diagnostic::error(
             span,
             format!(
                 "{name} needs {wanted} value{}",
                 if wanted == 1 { "" } else { "s" }
             ),
-        )));
+        ));
     }
     if name == "MAX" {
         return Ok(of(Function::Maximum, arguments));
@@ -288,9 +272,9 @@ fn function(name: &str, arguments: Vec<Expression>, span: Span) -> Parsed<Expres
             ExpressionKind::Binary(Binary::Subtract, Box::new(first), Box::new(whole))
         }
         "DEXP" => ExpressionKind::Binary(Binary::Power, Box::new(number(10.0)), Box::new(first)),
-        _ => match FUNCTIONS.iter().find(|(known, _)| *known == name) {
-            Some((_, function)) => of(*function, arguments),
-            None => return Err(Box::new(unknown_name(name, span))),
+        _ => match function_named(name) {
+            Some(function) => of(function, arguments),
+            None => return Err(unknown_name(name, span)),
         },
     })
 }
@@ -307,7 +291,7 @@ fn p_parameter(reader: &mut Reader) -> Parsed<ExpressionKind> {
         Some('P') => p_parameter(reader)?,
         Some('[') => {
             reader.advance();
-            let inner = level(reader, 0)?;
+            let inner = climb(reader, 0)?;
             reader.expect("]")?;
             inner.kind
         }
@@ -333,15 +317,11 @@ pub fn v_variable(reader: &mut Reader) -> Parsed<(String, Vec<Expression>)> {
         .to_ascii_uppercase();
     let scope = name.split('.').nth(1).unwrap_or("");
     if !matches!(scope, "P" | "L" | "S") || name.split('.').any(str::is_empty) {
-        return Err(Box::new(
-            Diagnostic::error(
-                reader.span_from(start),
-                format!("{name} cannot be evaluated ahead of time"),
-            )
-            .help(
-                "only variables of the program (V.P., V.L., V.S.) and P parameters are supported",
-            ),
-        ));
+        return Err(Diagnostic::error(
+            reader.span_from(start),
+            format!("{name} cannot be evaluated ahead of time"),
+        )
+        .help("only variables of the program (V.P., V.L., V.S.) and P parameters are supported"));
     }
     let mut index = Vec::new();
     while reader.peek() == Some('[') {

@@ -19,7 +19,7 @@ impl Interpreter<'_> {
         flow: &Flow,
         routine: &Routine,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let links = routine.structure.links(at);
         let body = Next::Block(at + 1);
         Ok(match flow {
@@ -58,28 +58,29 @@ impl Interpreter<'_> {
             },
             Flow::Switch(value) => self.switch(value, routine, links)?,
             Flow::Case(_) | Flow::Default => {
-                let span = routine.blocks.get(at).map(|block| block.span);
+                let block = self.control.block(&routine.blocks, at);
+                let span = block.map(|block| block.place.span);
                 let span = span.unwrap_or(routine_span(routine));
-                return Err(Box::new(
+                return Err(
                     Diagnostic::error(span, "the $CASE before this one does not end")
                         .help("end it with $BREAK"),
-                ));
+                );
             }
             Flow::Break => after(links.last),
             Flow::Continue => links.last.map_or(Next::Abort, Next::Block),
         })
     }
 
-    fn holds(&self, condition: &Expression) -> Result<bool, Box<Diagnostic>> {
+    fn holds(&self, condition: &Expression) -> Result<bool, Diagnostic> {
         Ok(condition.number(&self.variables)?.abs() >= TRUE)
     }
 
     /// From an `$IF` that does not hold to the first of its other branches that does.
-    fn branch(&self, routine: &Routine, next: Option<usize>) -> Result<Next, Box<Diagnostic>> {
+    fn branch(&mut self, routine: &Routine, next: Option<usize>) -> Result<Next, Diagnostic> {
         let mut next = next;
         while let Some(at) = next {
-            let statement = routine.blocks.get(at).map(|block| &block.statement);
-            match statement {
+            let block = self.control.block(&routine.blocks, at);
+            match block.as_ref().map(|block| &block.statement) {
                 Some(Statement::Flow(Flow::ElseIf(condition))) => {
                     if self.holds(condition)? {
                         return Ok(Next::Block(at + 1));
@@ -94,16 +95,17 @@ impl Interpreter<'_> {
     }
 
     fn switch(
-        &self,
+        &mut self,
         value: &Expression,
         routine: &Routine,
         links: Links,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let value = value.number(&self.variables)?;
         let mut default = None;
         let mut next = links.next;
         while let Some(at) = next {
-            match routine.blocks.get(at).map(|block| &block.statement) {
+            let block = self.control.block(&routine.blocks, at);
+            match block.as_ref().map(|block| &block.statement) {
                 Some(Statement::Flow(Flow::Case(case))) => {
                     if (case.number(&self.variables)? - value).abs() < SAME_CASE {
                         return Ok(Next::Block(at + 1));
@@ -128,7 +130,7 @@ impl Interpreter<'_> {
         step: Option<&Expression>,
         body: Next,
         links: Links,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let step = self.step(step)?;
         let last = last.number(&self.variables)?;
         // Steps such as 0.1 add up with rounding.
@@ -136,26 +138,28 @@ impl Interpreter<'_> {
         Ok(if within { body } else { after(links.last) })
     }
 
-    fn step(&self, step: Option<&Expression>) -> Result<f64, Box<Diagnostic>> {
+    fn step(&self, step: Option<&Expression>) -> Result<f64, Diagnostic> {
         let Some(step) = step else {
             return Ok(1.0);
         };
         let value = step.number(&self.variables)?;
         if value == 0.0 {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 step.span,
                 "with a step of 0 this loop never ends",
-            )));
+            ));
         }
         Ok(value)
     }
 
-    fn end_for(&mut self, routine: &Routine, links: Links) -> Result<Next, Box<Diagnostic>> {
+    fn end_for(&mut self, routine: &Routine, links: Links) -> Result<Next, Diagnostic> {
         let Some(first) = links.first else {
             return Ok(Next::Abort);
         };
-        let statement = routine.blocks.get(first).map(|block| &block.statement);
-        let Some(Statement::Flow(Flow::For(variable, last, step))) = statement else {
+        let block = self.control.block(&routine.blocks, first);
+        let Some(Statement::Flow(Flow::For(variable, last, step))) =
+            block.as_ref().map(|block| &block.statement)
+        else {
             return Ok(Next::Abort);
         };
         let Assignment {
@@ -177,25 +181,28 @@ impl Interpreter<'_> {
         )
     }
 
-    fn jump(&self, jump: &Jump, routine: &Routine) -> Result<Next, Box<Diagnostic>> {
-        let is_target = |index: &usize| {
-            let block = &routine.blocks[*index];
-            match &jump.target {
-                Target::Label(label) => block.label.as_ref() == Some(label),
-                Target::Number(number) => block.number == Some(*number),
+    fn jump(&mut self, jump: &Jump, routine: &Routine) -> Result<Next, Diagnostic> {
+        let control = &mut self.control;
+        let numbered;
+        let found = match &jump.target {
+            Target::Label(label) => routine.labels.get(label).map_or(&[][..], Vec::as_slice),
+            Target::Number(number) => {
+                let blocks = &routine.blocks;
+                numbered = blocks.numbered(*number, control.sources, control.diagnostics);
+                &numbered
             }
         };
-        let mut found = (0..routine.blocks.len()).filter(is_target);
-        match (found.next(), found.next()) {
-            (Some(target), None) => Ok(Next::Block(target)),
-            (Some(_), Some(_)) => Err(Box::new(
-                Diagnostic::error(jump.span, "several blocks have this number or label")
-                    .help("give the target of the jump a number of its own"),
-            )),
-            (None, _) => Err(Box::new(
+        match found {
+            [target] => Ok(Next::Block(*target)),
+            [_, _, ..] => Err(Diagnostic::error(
+                jump.span,
+                "several blocks have this number or label",
+            )
+            .help("give the target of the jump a number of its own")),
+            [] => Err(
                 Diagnostic::error(jump.span, "there is no such block in this program")
                     .help("the target begins with N10 or with [NAME]"),
-            )),
+            ),
         }
     }
 }

@@ -5,9 +5,9 @@ use super::parser::{assignment, label};
 use super::reader::{Parsed, Reader};
 use super::syntax::{Flow, Jump, Target};
 use crate::diagnostics::Diagnostic;
-use crate::dialects::spelling::nearest;
+use crate::dialects::spelling::did_you_mean;
 
-const NAMES: [&str; 19] = [
+pub(super) const NAMES: [&str; 19] = [
     "IF",
     "ELSEIF",
     "ELSE",
@@ -76,10 +76,11 @@ pub fn flow(reader: &mut Reader, start: usize) -> Parsed<Flow> {
         "GOTO" => Flow::Jump(jump(reader)?),
         _ => {
             let error = Diagnostic::error(span, format!("`${name}` is not a control statement"));
-            return Err(Box::new(match nearest(&name, &NAMES) {
-                Some(similar) => error.help(format!("did you mean ${similar}?")),
+            let similar = did_you_mean(&name, NAMES.into_iter(), |known| format!("${known}"));
+            return Err(match similar {
+                Some(similar) => error.help(similar),
                 None => error,
-            }));
+            });
         }
     })
 }

@@ -120,31 +120,28 @@ impl Interpreter<'_> {
         if plane == Plane::Xy || outside != MirrorOutsideXy::Refuse {
             return Ok(());
         }
-        Err(Box::new(
-            Diagnostic::error(
-                span,
-                "a mirror by G21, G22 or G23 outside of G17 can be read in two ways",
-            )
-            .help(
-                "mirror axes by name (G351 X-1), or say what is meant: --mirror-outside-xy plane \
+        Err(Diagnostic::error(
+            span,
+            "a mirror by G21, G22 or G23 outside of G17 can be read in two ways",
+        )
+        .help(
+            "mirror axes by name (G351 X-1), or say what is meant: --mirror-outside-xy plane \
                  (the axes of the plane) or xy (X and Y in every plane)",
-            ),
         ))
     }
 
     /// `G351 X-1 Y1`: each axis for itself, alone in its block.
     pub(super) fn mirror_axes(&mut self, words: &BlockWords, span: Span) -> Done {
         if let Some((what, other)) = words.beside_axes(&[351]) {
-            return Err(Box::new(
-                Diagnostic::error(other, format!("{what} cannot stand in one block with G351"))
-                    .help("G351 stands alone in its block: put the rest in the next one"),
-            ));
+            return Err(Diagnostic::error(
+                other,
+                format!("{what} cannot stand in one block with G351"),
+            )
+            .help("G351 stands alone in its block: put the rest in the next one"));
         }
         if !words.motion.names_an_axis() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G351 needs axes")
-                    .help("G351 X-1 mirrors X, G351 X1 ends that"),
-            ));
+            return Err(Diagnostic::error(span, "G351 needs axes")
+                .help("G351 X-1 mirrors X, G351 X1 ends that"));
         }
         let mut next = self.frames.clone();
         for (axis, word) in words.motion.axes.iter().enumerate() {
@@ -159,10 +156,11 @@ impl Interpreter<'_> {
                 -1.0 => true,
                 1.0 => false,
                 _ => {
-                    return Err(Box::new(
-                        Diagnostic::error(span, format!("{value} has no meaning with G351"))
-                            .help("-1 mirrors the axis, 1 ends that"),
-                    ));
+                    return Err(Diagnostic::error(
+                        span,
+                        format!("{value} has no meaning with G351"),
+                    )
+                    .help("-1 mirrors the axis, 1 ends that"));
                 }
             };
         }
@@ -175,15 +173,14 @@ impl Interpreter<'_> {
     /// G92: an offset, not a preset. With G91 it adds to the one before.
     pub(super) fn reference_offset(&mut self, words: &BlockWords, span: Span) -> Done {
         if !words.motion.names_an_axis() {
-            return Err(Box::new(Diagnostic::error(span, "G92 needs axes").help(
-                "G92 X60 shifts what is programmed in X by 60; G92 X0 ends that",
-            )));
+            return Err(Diagnostic::error(span, "G92 needs axes")
+                .help("G92 X60 shifts what is programmed in X by 60; G92 X0 ends that"));
         }
         if words.motion.names_a_centre() {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "G92 takes axes only, no centre and no radius")
                     .help("put the arc in a block of its own"),
-            ));
+            );
         }
         self.refuse_system(span, "the reference point offset (G92)")?;
         let mut next = self.frames.clone();
@@ -225,10 +222,10 @@ impl Interpreter<'_> {
         if self.frames.systems.is_empty() {
             return Ok(());
         }
-        Err(Box::new(
+        Err(
             Diagnostic::error(span, format!("{what} changes while #CS is active"))
                 .help("change it before #CS ON, or after #CS OFF"),
-        ))
+        )
     }
 
     /// `#CS ON`.
@@ -238,13 +235,19 @@ impl Interpreter<'_> {
             return Err(mirror_and_system(span));
         }
         if next.systems.len() >= SYSTEM_LIMIT {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 format!("more than {SYSTEM_LIMIT} coordinate systems inside each other"),
-            )));
+            ));
         }
         next.systems.push(system);
-        self.control.set_frame_scope(FrameScope::Machine);
+        if !self.control.set_frame_scope(FrameScope::Machine) {
+            return Err(Diagnostic::error(
+                span,
+                "#CS in a subprogram of a long program, which has used other frames before it",
+            )
+            .help("put a #CS ON [0,0,0,0,0,0] and #CS OFF into the program itself"));
+        }
         self.set_frames(next, span)
     }
 
@@ -252,10 +255,10 @@ impl Interpreter<'_> {
     pub(super) fn system_off(&mut self, all: bool, span: Span) -> Done {
         let mut next = self.frames.clone();
         if next.systems.pop().is_none() && !all {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "#CS OFF, and no coordinate system is active")
                     .help("#CS OFF ALL does nothing then"),
-            ));
+            );
         }
         if all {
             next.systems.clear();
@@ -274,22 +277,20 @@ impl Interpreter<'_> {
             self.frames.stored.insert(number, system);
         }
         if self.frames.stored.len() > SYSTEM_LIMIT {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 format!("more than {SYSTEM_LIMIT} coordinate systems are stored"),
-            )));
+            ));
         }
         self.frames.last_defined = Some(system);
         Ok(())
     }
 }
 
-fn mirror_and_system(span: Span) -> Box<Diagnostic> {
-    Box::new(
-        Diagnostic::error(
-            span,
-            "G351 and #CS at the same time can be read in two ways",
-        )
-        .help("mirror inside of the coordinate system with G21, G22 or G23"),
+fn mirror_and_system(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        span,
+        "G351 and #CS at the same time can be read in two ways",
     )
+    .help("mirror inside of the coordinate system with G21, G22 or G23")
 }

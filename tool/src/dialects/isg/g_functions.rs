@@ -3,6 +3,7 @@
 use super::block_words::BlockWords;
 use super::interpreter::Interpreter;
 use super::modes::OneShot;
+use super::spindle::SpindleMotion;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::groups::{Groups, in_order_of_compensation};
@@ -12,7 +13,7 @@ use crate::program::{Compensation, FeedMode, Plane};
 use crate::source::Span;
 
 impl Interpreter<'_> {
-    pub(super) fn g_functions(&mut self, words: &BlockWords) -> Result<OneShot, Box<Diagnostic>> {
+    pub(super) fn g_functions(&mut self, words: &BlockWords) -> Result<OneShot, Diagnostic> {
         let mut once = OneShot::default();
         let mut groups = Groups::default();
         for At { value: code, span } in in_order_of_compensation(&words.g, 1) {
@@ -29,15 +30,23 @@ impl Interpreter<'_> {
         span: Span,
         words: &BlockWords,
         once: &mut OneShot,
-    ) -> Result<u8, Box<Diagnostic>> {
+    ) -> Result<u8, Diagnostic> {
         let own_feed = words.feed.is_some();
         let group = match code {
             0..=3 => {
+                self.spindle.active = None;
                 self.control.modal.motion = Some(match code {
                     0 => Motion::Rapid,
                     1 => Motion::Line,
                     2 => Motion::Clockwise,
                     _ => Motion::Counterclockwise,
+                });
+                0
+            }
+            33 | 63 => {
+                self.spindle.active = Some(match code {
+                    33 => SpindleMotion::Thread,
+                    _ => SpindleMotion::Tap,
                 });
                 0
             }
@@ -78,10 +87,11 @@ impl Interpreter<'_> {
                 let wanted =
                     value.filter(|value| value.fract() == 0.0 && (0.0..=96.0).contains(value));
                 let Some(wanted) = wanted else {
-                    return Err(Box::new(
-                        Diagnostic::error(span, "G159 needs the number of a zero offset, 0 to 96")
-                            .help("write G159=2"),
-                    ));
+                    return Err(Diagnostic::error(
+                        span,
+                        "G159 needs the number of a zero offset, 0 to 96",
+                    )
+                    .help("write G159=2"));
                 };
                 self.zero_offset(wanted as u32, span)?;
                 6
@@ -99,8 +109,7 @@ impl Interpreter<'_> {
                 8
             }
             261 => {
-                let tolerance = self.modes.contour_deviation;
-                self.control.continuous_path(tolerance, span)?;
+                self.round_contour(span)?;
                 9
             }
             260 => {
@@ -174,23 +183,26 @@ impl Interpreter<'_> {
                 self.offset_free.end();
             }
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, format!("LinuxCNC has no work offset {number}"))
-                        .help("it has nine: G54 to G59, and G59.1 to G59.3 as G159=7 to G159=9"),
-                ));
+                return Err(Diagnostic::error(
+                    span,
+                    format!("LinuxCNC has no work offset {number}"),
+                )
+                .help("it has nine: G54 to G59, and G59.1 to G59.3 as G159=7 to G159=9"));
             }
         }
         Ok(())
     }
 }
 
-fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
+fn unsupported(code: u32, span: Span) -> Diagnostic {
     let help = match code {
-        33 | 63 => "threads and rigid tapping are not supported",
+        331 | 332 => "write G63 Z-20 F300 S200, and Z5 S-200 to come back",
         51 => "diameter programming is not supported: program radii",
         68 | 69 => "write #ROTATION ON [ANGLE=30] and #ROTATION OFF",
         74 => "homing is done at the machine, not by programs",
-        80..=89 => "cycles are subprograms of the other control: post the program with moves",
+        80..=89 | 800..=839 => {
+            "cycles are subprograms of the other control: post the program with moves"
+        }
         96 => "constant cutting speed is not supported",
         98 | 99 => "limits are set in the INI file",
         151 | 150 => "splines are not supported: post the program with lines and arcs",
@@ -200,5 +212,5 @@ fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
             "look it up in the manual of the control, and write it with functions that are supported"
         }
     };
-    Box::new(Diagnostic::error(span, format!("G{code} is not supported")).help(help))
+    Diagnostic::error(span, format!("G{code} is not supported")).help(help)
 }

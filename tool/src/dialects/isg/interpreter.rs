@@ -3,6 +3,7 @@
 use super::block_words::BlockWords;
 use super::frames::Frames;
 use super::modes::Modes;
+use super::spindle::SpindleModes;
 use super::syntax::{Block, Declaration, Item, Routine, Statement};
 use super::variables::VariableStore;
 use crate::diagnostics::Diagnostic;
@@ -12,7 +13,7 @@ use crate::dialects::control::plain::PlainBlock;
 use crate::dialects::control::{About, Control, Done, Place};
 use crate::dialects::expression::Expression;
 use crate::dialects::library::Library;
-use crate::dialects::run::{Interpret, Next};
+use crate::dialects::run::{Interpret, Next, Reached, reach};
 use crate::dialects::settings::Settings;
 use crate::program::FrameScope;
 use std::rc::Rc;
@@ -28,6 +29,7 @@ pub struct Interpreter<'a> {
     pub(super) offset_free: OffsetFree,
     pub(super) offset_row: OffsetRow,
     pub(super) modes: Modes,
+    pub(super) spindle: SpindleModes,
 }
 
 impl<'a> Interpreter<'a> {
@@ -46,6 +48,7 @@ impl<'a> Interpreter<'a> {
             offset_free: OffsetFree::default(),
             offset_row: OffsetRow::default(),
             modes: Modes::default(),
+            spindle: SpindleModes::default(),
         }
     }
 
@@ -60,28 +63,29 @@ impl<'a> Interpreter<'a> {
     /// Runs blocks up to the last one, or to one that leads elsewhere.
     fn run_blocks(&mut self, routine: &Rc<Routine>) -> Next {
         let mut at = 0;
-        while let Some(block) = routine.blocks.get(at) {
-            if !self.control.count_block(block.span) {
-                return Next::Abort;
-            }
-            match self.run_block(routine, at, block) {
+        loop {
+            let block = match reach(self, &routine.blocks, &mut at, routine.blocks.len()) {
+                Reached::Block(block) => block,
+                Reached::End => return Next::Block(at),
+                Reached::Abort => return Next::Abort,
+            };
+            match self.run_block(routine, at, &block) {
                 Next::Block(next) => at = next,
                 Next::Return if self.control.is_in_main() => {
                     self.control.end_of_program(false);
-                    self.control.finish_block(&place(block));
+                    self.control.finish_block(&block.place);
                     return Next::End;
                 }
                 other => return other,
             }
         }
-        Next::Block(at)
     }
 
     fn run_block(&mut self, routine: &Rc<Routine>, at: usize, block: &Block) -> Next {
         if block.skip && self.control.settings.skip_blocks {
             return Next::Block(at + 1);
         }
-        let here = place(block);
+        let here = &block.place;
         let next = match &block.statement {
             Statement::Empty => Ok(Next::Block(at + 1)),
             // Where the axes are after a block that was not understood is anybody's guess.
@@ -90,44 +94,39 @@ impl<'a> Interpreter<'a> {
                 self.control.modal.has_feed = true;
                 Ok(Next::Block(at + 1))
             }
-            Statement::Items(items) => self.run_items(items, &here, at),
+            Statement::Items(items) => self.run_items(items, here, at),
             Statement::Declare(declaration) => {
                 self.declare(declaration).map(|()| Next::Block(at + 1))
             }
             Statement::Command(command) => self
-                .run_command(command, block.span)
+                .run_command(command, block.place.span)
                 .map(|()| Next::Block(at + 1)),
             Statement::Call(call) => {
-                self.control.finish_block(&here);
-                return self.call(call, &here, at).unwrap_or_else(|diagnostic| {
-                    self.control.fail(*diagnostic);
+                self.control.finish_block(here);
+                return self.call(call, here, at).unwrap_or_else(|diagnostic| {
+                    self.control.fail(diagnostic);
                     self.control.modal.has_feed = true;
                     Next::Block(at + 1)
                 });
             }
             Statement::Flow(flow) => {
-                self.control.finish_block(&here);
+                self.control.finish_block(here);
                 return self.flow(flow, routine, at).unwrap_or_else(|diagnostic| {
-                    self.control.diagnostics.push(*diagnostic);
+                    self.control.diagnostics.push(diagnostic);
                     Next::Abort
                 });
             }
         };
         let next = next.unwrap_or_else(|diagnostic| {
-            self.control.fail(*diagnostic);
+            self.control.fail(diagnostic);
             Next::Block(at + 1)
         });
-        self.control.finish_block(&here);
+        self.control.finish_block(here);
         next
     }
 
     /// Words are evaluated in their order, and variables get their values on the way.
-    fn run_items(
-        &mut self,
-        items: &[Item],
-        place: &Place,
-        at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    fn run_items(&mut self, items: &[Item], place: &Place, at: usize) -> Result<Next, Diagnostic> {
         let mut words = BlockWords::default();
         let mut failed = false;
         let mut has_words = false;
@@ -150,7 +149,7 @@ impl<'a> Interpreter<'a> {
                 }
             };
             if let Err(diagnostic) = done {
-                self.control.fail(*diagnostic);
+                self.control.fail(diagnostic);
                 failed = true;
             }
         }
@@ -160,7 +159,7 @@ impl<'a> Interpreter<'a> {
         self.carry_out(words, place, at)
     }
 
-    pub(super) fn numbers(&self, list: &[Expression]) -> Result<Vec<f64>, Box<Diagnostic>> {
+    pub(super) fn numbers(&self, list: &[Expression]) -> Result<Vec<f64>, Diagnostic> {
         list.iter()
             .map(|item| item.number(&self.variables))
             .collect()
@@ -188,32 +187,31 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
         &self.library
     }
 
+    fn parts(&mut self) -> (&Library<Routine>, &mut Control<'a>) {
+        (&self.library, &mut self.control)
+    }
+
     fn run_main(&mut self, main: &Rc<Routine>) -> bool {
+        if main.turns_machine {
+            self.control.set_frame_scope(FrameScope::Machine);
+        }
         matches!(self.run_blocks(main), Next::Block(_))
     }
 
     fn end_is_missing(&mut self, last: &Rc<Routine>) {
-        let Some(last) = last.blocks.iter().rfind(|block| !block.is_blank()) else {
-            return;
-        };
-        self.control.end_is_missing(&place(last), "M29");
+        self.check_tap_at_end();
+        if let Some(last) = self.control.last_block(&last.blocks) {
+            self.control.end_is_missing(&last.place, "M29");
+        }
     }
 
     fn takes(&self, block: &PlainBlock) -> bool {
         self.unsettled == [false; 3]
             && !self.modes.exact_stop
+            && self.spindle.active.is_none()
             && !self.offset_free.active
             // F has a meaning of its own in each feed mode.
             && block.feed.is_none()
             && block.axes[3..].iter().all(Option::is_none)
-    }
-}
-
-/// The block to which what it does belongs.
-pub(super) fn place(block: &Block) -> Place {
-    Place {
-        span: block.span,
-        number: block.number,
-        comment: block.comment.clone(),
     }
 }

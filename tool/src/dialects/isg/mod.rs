@@ -18,36 +18,46 @@ mod interpreter;
 mod modes;
 mod parser;
 mod reader;
+mod routine;
 mod run_commands;
+mod spindle;
 mod structure;
 mod syntax;
 mod variables;
 
 use super::control::About;
 use super::guess::Evidence;
-use super::library::Library;
-use super::run::run;
+use super::languages::Language;
+use super::run::{Files, run_file};
 use super::settings::Settings;
 use std::path::Path;
 
 /// Endings of subprogram files.
 const EXTENSIONS: [&str; 6] = ["nc", "sub", "cnc", "iso", "prg", "txt"];
 
-/// Evaluates the part program in file 0 of `sources`; see [`super::evaluate`].
-pub fn evaluate<'a>(path: &Path, settings: &'a Settings, about: About<'a>) {
-    let library = Library::new(
-        path,
-        &EXTENSIONS,
-        settings,
-        about.sources,
-        about.diagnostics,
-        parser::parse,
-    );
-    run(&mut interpreter::Interpreter::new(settings, library, about));
+/// ISG kernels.
+pub struct Isg;
+
+/// For the list of all languages.
+pub const LANGUAGE: Isg = Isg;
+
+const FILES: Files<syntax::Routine> = Files {
+    extensions: &EXTENSIONS,
+    read: routine::routines,
+};
+
+impl Language for Isg {
+    fn evaluate<'a>(&self, path: &Path, settings: &'a Settings, about: About<'a>) {
+        run_file(path, FILES, settings, about, interpreter::Interpreter::new);
+    }
+
+    fn evidence(&self, lines: &[String], extension: &str) -> Evidence {
+        evidence(lines, extension)
+    }
 }
 
 /// What speaks for this dialect; see [`super::guess`].
-pub fn evidence(lines: &[String], _extension: &str) -> Evidence {
+fn evidence(lines: &[String], _extension: &str) -> Evidence {
     const STATEMENTS: [&str; 9] = [
         "$IF", "$FOR", "$WHILE", "$DO", "$SWITCH", "$GOTO", "$ENDIF", "$ENDFOR", "$REPEAT",
     ];

@@ -54,7 +54,7 @@ impl Interpreter<'_> {
         mut words: BlockWords,
         place: &Place,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let next = Next::Block(at + 1);
         let was_compensated = self.control.modal.compensation != Compensation::Off;
         // The offset is selected before the compensation that uses it, and after the one that ends.
@@ -63,6 +63,7 @@ impl Interpreter<'_> {
             self.tool_offset(offset)?;
         }
         let once = self.g_functions(&words)?;
+        self.check_tap(&words)?;
         if let Some(offset) = words.offset.filter(|_| releases) {
             self.tool_offset(offset)?;
         }
@@ -75,7 +76,7 @@ impl Interpreter<'_> {
             self.feed(feed)?;
         }
         if let Some(speed) = words.speed {
-            self.control.speed(speed)?;
+            self.spindle_speed(speed)?;
         }
         if let Some(tool) = words.tool {
             self.control.tool(tool.value, tool.span)?;
@@ -124,10 +125,10 @@ impl Interpreter<'_> {
     pub(super) fn feed(&mut self, feed: At<f64>) -> Done {
         if self.control.modal.feed_mode == FeedMode::InverseTime {
             if feed.value <= 0.0 {
-                return Err(Box::new(Diagnostic::error(
+                return Err(Diagnostic::error(
                     feed.span,
                     "the time of a block (G93) must be above 0",
-                )));
+                ));
             }
             self.modes.block_time = Some(feed.value);
             return Ok(());
@@ -156,6 +157,9 @@ impl Interpreter<'_> {
 
     fn block_motion(&mut self, words: &mut BlockWords, once: &OneShot, place: &Place) -> Done {
         let block = place.span;
+        if self.spindle_motion(words, block)? {
+            return Ok(());
+        }
         let arc = matches!(
             self.control.modal.motion,
             Some(Motion::Clockwise | Motion::Counterclockwise)
@@ -168,13 +172,11 @@ impl Interpreter<'_> {
             if !words.motion.is_motion() {
                 return match once.exact_stop.or(once.contouring) {
                     None => Ok(()),
-                    Some(span) => Err(Box::new(
-                        Diagnostic::error(
-                            span,
-                            "this acts in its block only, and the block has no motion",
-                        )
-                        .help("put it beside the axes; G360 and G261 act until G359 and G260"),
-                    )),
+                    Some(span) => Err(Diagnostic::error(
+                        span,
+                        "this acts in its block only, and the block has no motion",
+                    )
+                    .help("put it beside the axes; G360 and G261 act until G359 and G260")),
                 };
             }
         }
@@ -194,8 +196,7 @@ impl Interpreter<'_> {
         }
         let before = self.control.modal.path_control;
         if once.contouring.is_some() {
-            let tolerance = self.modes.contour_deviation;
-            self.control.continuous_path(tolerance, block)?;
+            self.round_contour(block)?;
             self.control.apply_states(false);
         }
         let exact_stop = once.exact_stop.is_some() || self.modes.exact_stop;
@@ -218,6 +219,16 @@ impl Interpreter<'_> {
         for (axis, unsettled) in self.unsettled.iter_mut().enumerate() {
             *unsettled &= words.motion.axes[axis].is_none();
         }
+        Ok(())
+    }
+
+    /// Corners are rounded by as much as `#CONTOUR MODE` has said.
+    pub(super) fn round_contour(&mut self, span: Span) -> Done {
+        let tolerance = match self.modes.contour_deviation {
+            Some(deviation) => Some(self.control.tolerance(deviation, span)?),
+            None => None,
+        };
+        self.control.continuous_path(tolerance);
         Ok(())
     }
 
@@ -246,10 +257,11 @@ impl Interpreter<'_> {
             .map(|centre| centre.span);
         let span = given.unwrap_or(block);
         if motion.centre[first].is_none() || motion.centre[second].is_none() {
-            return Err(Box::new(
-                Diagnostic::error(span, "an absolute centre (G161) needs both coordinates")
-                    .help("write I and J in G17, K and I in G18, J and K in G19"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "an absolute centre (G161) needs both coordinates",
+            )
+            .help("write I and J in G17, K and I in G18, J and K in G19"));
         }
         let stays = motion.axes[first].is_none() && motion.axes[second].is_none();
         if stays && (self.unsettled[first] || self.unsettled[second]) {
@@ -258,9 +270,9 @@ impl Interpreter<'_> {
             let help = "move to the mirrored start of the circle before it";
             match self.control.settings.mirrored_circle {
                 MirroredCircle::Refuse => {
-                    return Err(Box::new(Diagnostic::error(span, message).help(format!(
+                    return Err(Diagnostic::error(span, message).help(format!(
                         "{help}, or give --mirrored-circle warn if the control did that"
-                    ))));
+                    )));
                 }
                 MirroredCircle::Warn => {
                     let warning = Diagnostic::warning(span, message).help(help);
@@ -283,10 +295,8 @@ impl Interpreter<'_> {
         let (direct, turns) = (rest.g_value.take(), rest.speed.take());
         let other = rest.beside_axes(&[4]).map(|(_, span)| span);
         if let Some(other) = other.or(rest.motion.first_axis()) {
-            return Err(Box::new(
-                Diagnostic::error(other, "G04 stands alone in its block")
-                    .help("put everything but the time in another block"),
-            ));
+            return Err(Diagnostic::error(other, "G04 stands alone in its block")
+                .help("put everything but the time in another block"));
         }
         match (axis.or(direct), turns) {
             (Some(seconds), None) => self.control.dwell(seconds.value, seconds.span),
@@ -294,17 +304,15 @@ impl Interpreter<'_> {
                 Some(speed) if speed > 0.0 => {
                     self.control.dwell(60.0 * turns.value / speed, turns.span)
                 }
-                _ => Err(Box::new(
-                    Diagnostic::error(
-                        turns.span,
-                        "a dwell in revolutions of a spindle without speed",
-                    )
-                    .help("program S before, or dwell in seconds: G04 X2"),
-                )),
+                _ => Err(Diagnostic::error(
+                    turns.span,
+                    "a dwell in revolutions of a spindle without speed",
+                )
+                .help("program S before, or dwell in seconds: G04 X2")),
             },
-            _ => Err(Box::new(
-                Diagnostic::error(span, "G04 needs a time").help("G04 X2.5 waits 2.5 seconds"),
-            )),
+            _ => {
+                Err(Diagnostic::error(span, "G04 needs a time").help("G04 X2.5 waits 2.5 seconds"))
+            }
         }
     }
 }

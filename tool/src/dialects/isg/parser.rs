@@ -2,106 +2,76 @@
 //! reported and does not hide the ones after it.
 
 use super::clean::{Clean, clean};
-use super::commands::{command, declaration};
+use super::commands::{KNOWN, command, declaration};
 use super::expressions::{begins_value, expression, is_parameter, variable};
-use super::flow_parser::flow;
+use super::flow_parser::{NAMES, flow};
 use super::reader::{Parsed, Reader};
-use super::structure::Structure;
-use super::syntax::{Assignment, Block, Call, Item, Routine, Statement, Word};
+use super::syntax::{Assignment, Block, Call, Item, Statement, Word};
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::control::Place;
 use crate::dialects::expression::{Binary, Expression, ExpressionKind};
-use crate::source::{Sources, Span, Text};
+use crate::dialects::scanner::is_blank;
+use crate::dialects::spelling::did_you_mean;
+use crate::source::{Span, Text};
 
-/// The programs and subprograms of a file; see [`crate::dialects::library::Parse`].
-pub fn parse(
-    text: Text,
-    stem: &str,
-    sources: &Sources,
-    diagnostics: &mut Diagnostics,
-) -> Vec<Routine> {
-    let file = text.file;
-    let clean = clean(text, diagnostics);
-    let mut reader = Reader::new(Text {
-        text: &clean.text,
-        ..text
-    });
-    let file_name = |path: &str| {
-        let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
-        name.to_ascii_uppercase()
-    };
-    let main = Routine {
-        name: stem.to_string(),
-        title: file_name(&sources.file(file).name),
-        main: true,
-        file,
-        blocks: Vec::new(),
-        structure: Structure::default(),
-    };
-    let mut routines = vec![main.clone()];
+/// The blocks of some lines, which do not end inside of what several lines say together; heads are none.
+pub fn parse_blocks(text: Text, diagnostics: &mut Diagnostics) -> Vec<Block> {
     let mut declaring = None;
-    while !reader.is_finished() {
-        let start = reader.position();
-        reader.blanks();
-        if reader.peek() == Some('%') {
-            match head(&mut reader) {
-                Ok(Some(title)) => {
-                    let name = format!("{file}:{title}");
-                    if routines.iter().any(|known| known.name == name) {
-                        let twice = format!("{title} is in this file twice");
-                        let error = Diagnostic::error(reader.span_from(start), twice);
-                        diagnostics.push(error.help("give one of them another name"));
-                    }
-                    routines.push(Routine {
-                        name,
-                        title,
-                        main: false,
-                        ..main.clone()
-                    });
-                }
-                Ok(None) => routines.push(main.clone()),
-                Err(diagnostic) => {
-                    diagnostics.push(*diagnostic);
-                    // A subprogram that nothing can call: its blocks are not the program's.
-                    routines.push(Routine {
-                        main: false,
-                        ..main.clone()
-                    });
-                }
-            }
-            reader.next_line();
-            continue;
-        }
-        let mut block = block(&mut reader, &mut declaring, diagnostics);
-        block.comment = comment(&clean, start, reader.position());
-        if let Some(routine) = routines.last_mut() {
-            routine.blocks.push(block);
-        }
-        reader.next_line();
-    }
+    let blocks = lines(text, &mut declaring, diagnostics);
     if let Some(span) = declaring {
         diagnostics.push(Diagnostic::error(
             span,
             "the #ENDVAR that belongs to this is missing",
         ));
     }
-    // The main program may have a head or not: what stands before the first head is none if empty.
-    let is_content = |routine: &Routine| !crate::dialects::library::Routine::is_empty(routine);
-    let several = routines.len() > 1;
-    routines.retain(|routine| !several || !routine.main || is_content(routine));
-    for routine in &mut routines {
-        routine.structure = Structure::of(&routine.blocks, diagnostics);
+    blocks
+}
+
+/// The same, where a declaration (`#VAR`) may have begun before and may end behind.
+pub(super) fn lines(
+    text: Text,
+    declaring: &mut Option<Span>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Block> {
+    let clean = clean(text, diagnostics);
+    let mut reader = Reader::new(Text {
+        text: &clean.text,
+        ..text
+    });
+    let mut blocks = Vec::new();
+    while !reader.is_finished() {
+        let start = reader.position();
+        reader.blanks();
+        if reader.peek() != Some('%') {
+            let mut block = block(&mut reader, declaring, diagnostics);
+            block.place.comment = comment(&clean, start, reader.position());
+            blocks.push(block);
+        }
+        reader.next_line();
     }
-    routines
+    blocks
+}
+
+/// What a line that begins a program or subprogram says; see [`head`].
+pub(super) fn head_line(
+    text: Text,
+    diagnostics: &mut Diagnostics,
+) -> (Parsed<Option<String>>, Span) {
+    let clean = clean(text, diagnostics);
+    let mut reader = Reader::new(Text {
+        text: &clean.text,
+        ..text
+    });
+    let start = reader.position();
+    reader.blanks();
+    let parsed = head(&mut reader);
+    (parsed, reader.span_from(start))
 }
 
 /// `%L NAME`: the name; `%NAME`, `% NAME`: `None`.
 fn head(reader: &mut Reader) -> Parsed<Option<String>> {
     reader.advance();
-    let separated = reader
-        .rest()
-        .get(1..)
-        .unwrap_or("")
-        .starts_with([' ', '\t']);
+    let separated = reader.rest().get(1..).unwrap_or("").starts_with(is_blank);
     let local = reader.name_ahead() == "L" && separated;
     if !local {
         reader.take_while(|_| true);
@@ -144,22 +114,24 @@ fn block(
 ) -> Block {
     let start = reader.position();
     let mut block = Block {
-        span: reader.span_from(start),
-        number: None,
+        place: Place {
+            span: reader.span_from(start),
+            number: None,
+            comment: None,
+        },
         skip: false,
         label: None,
         statement: Statement::Empty,
-        comment: None,
     };
     let parsed = prefix(reader, &mut block).and_then(|()| statement(reader, declaring));
     block.statement = parsed.unwrap_or_else(|diagnostic| {
-        diagnostics.push(*diagnostic);
+        diagnostics.push(diagnostic);
         Statement::Invalid
     });
     reader.take_while(|_| true);
     // The block ends where its last character stands, before the blanks that comments left.
     let text = reader.text_from(start).trim_end();
-    block.span.end = start + text.len();
+    block.place.span.end = start + text.len();
     block
 }
 
@@ -177,8 +149,8 @@ fn prefix(reader: &mut Reader, block: &mut Block) -> Parsed<()> {
         let digits = reader.take_while(|c| c.is_ascii_digit());
         let number = digits
             .parse()
-            .map_err(|_| Box::new(Diagnostic::error(span, "this block number is too large")))?;
-        block.number = Some(number);
+            .map_err(|_| Diagnostic::error(span, "this block number is too large"))?;
+        block.place.number = Some(number);
         // `N10:` is the target of a jump, as any N10 is here.
         reader.take(":");
     }
@@ -254,10 +226,10 @@ fn call(reader: &mut Reader) -> Parsed<Statement> {
         ));
     }
     if name == "CYCLE" || name.starts_with("V.E.") {
-        return Err(Box::new(
+        return Err(
             Diagnostic::error(span, format!("the call of {name} is not supported"))
                 .help("post the program with the cycles written out as moves"),
-        ));
+        );
     }
     Ok(Statement::Call(Call { local, name, span }))
 }
@@ -330,36 +302,55 @@ fn word(reader: &mut Reader) -> Parsed<Word> {
     if ahead.starts_with(|c: char| c.is_ascii_alphabetic()) && !begins_value(&ahead) {
         let mut at_word = reader.span_from(start);
         at_word.end = start + whole.len();
-        return Err(Box::new(
+        return Err(
             Diagnostic::error(at_word, format!("`{whole}` is not a word of this dialect"))
-                .help("commands begin with # (#MSG) or $ ($IF), calls with LL or L"),
-        ));
+                .help(meant(&whole)),
+        );
     }
     reader.take("=");
     if reader.is_at_end() {
-        return Err(Box::new(
-            Diagnostic::error(
-                reader.span_from(start),
-                format!("the value of {address} is missing"),
-            )
-            .help(format!("write {address}10 or {address}=P1")),
-        ));
+        return Err(Diagnostic::error(
+            reader.span_from(start),
+            format!("the value of {address} is missing"),
+        )
+        .help(format!("write {address}10 or {address}=P1")));
     }
     let value = expression(reader)?;
-    let end = reader.position();
+    // The search for operators goes over blanks.
+    let end = start + reader.text_from(start).trim_end().len();
+    if address == 'G' && reader.peek() == Some('[') {
+        return Err(Diagnostic::error(
+            reader.span_from(start),
+            "a G function with arguments is a subprogram of the other control",
+        )
+        .help("post the program with what it does written out as moves"));
+    }
     let second = match reader.take("=") || (is_dwell(address, &value) && has_time(reader)) {
         true => Some(expression(reader)?),
         false => None,
     };
     let mut span = reader.span_from(start);
-    if second.is_none() {
-        span.end = end;
-    }
+    span.end = match second {
+        None => end,
+        Some(_) => start + reader.text_from(start).trim_end().len(),
+    };
     Ok(Word {
         address,
         value,
         second,
         span,
+    })
+}
+
+/// What may have been meant by a name without its mark.
+fn meant(name: &str) -> String {
+    let known = KNOWN.into_iter().chain(NAMES);
+    let shown = |known: &str| match NAMES.contains(&known) {
+        true => format!("${known}"),
+        false => format!("#{known}"),
+    };
+    did_you_mean(name, known, shown).unwrap_or_else(|| {
+        "commands begin with # (#MSG) or $ ($IF), calls with LL or L".to_string()
     })
 }
 

@@ -1,11 +1,11 @@
 //! Reading the characters of one block.
 
 use crate::diagnostics::Diagnostic;
-use crate::dialects::scanner::Scanner;
+use crate::dialects::scanner::{Scanner, is_blank};
 use crate::source::{Span, Text};
 
 /// The outcome of parsing a part of a block.
-pub type Parsed<T> = Result<T, Box<Diagnostic>>;
+pub type Parsed<T> = Result<T, Diagnostic>;
 
 /// A place in a cleaned text. Nothing is read beyond the end of the line.
 #[derive(Clone, Debug)]
@@ -70,13 +70,7 @@ impl<'a> Reader<'a> {
 
     /// Leaves out blanks.
     pub fn blanks(&mut self) {
-        // Programs that were sent over a serial line begin and end with NULs and other fillers.
-        self.scanner.take_while(|c| {
-            matches!(
-                c,
-                ' ' | '\t' | '\u{a0}' | '\0' | '\u{1a}' | '\u{11}' | '\u{13}'
-            )
-        });
+        self.scanner.take_while(is_blank);
     }
 
     /// Leaves out blanks; whether the line is at its end then.
@@ -140,10 +134,10 @@ impl<'a> Reader<'a> {
         }
         let text = self.take_while(|c| c != '"').to_string();
         if !self.scanner.take("\"") {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(self.span_from(start), "this text does not end")
                     .help("put a \" at its end, on the same line"),
-            ));
+            );
         }
         Ok(Some(text))
     }
@@ -172,13 +166,13 @@ impl<'a> Reader<'a> {
     }
 
     /// An error at the next word.
-    pub fn error(&self, message: impl Into<String>) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.word_span(), message))
+    pub fn error(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(self.word_span(), message)
     }
 
     /// An error at the next word, with advice.
-    pub fn error_with_help(&self, message: impl Into<String>, help: &str) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.word_span(), message).help(help))
+    pub fn error_with_help(&self, message: impl Into<String>, help: &str) -> Diagnostic {
+        Diagnostic::error(self.word_span(), message).help(help)
     }
 }
 

@@ -54,10 +54,10 @@ impl Interpreter<'_> {
                 };
                 match system {
                     Some(system) => self.system_on(system, span),
-                    None => Err(Box::new(
+                    None => Err(
                         Diagnostic::error(span, "this coordinate system is not defined")
                             .help("write #CS ON [x,y,z,a,b,c], or #CS DEF before"),
-                    )),
+                    ),
                 }
             }
             Command::SystemOff { all } => self.system_off(*all, span),
@@ -103,13 +103,11 @@ impl Interpreter<'_> {
         }
         message.push_str(rest);
         if !fits || values.next().is_some() {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "as many values are needed as the text has %f, %d and %s",
-                )
-                .help("write #MSG [\"P1 is %f\", P1]"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "as many values are needed as the text has %f, %d and %s",
+            )
+            .help("write #MSG [\"P1 is %f\", P1]"));
         }
         if !message.trim().is_empty() {
             self.control.actions.push(Action::Message(message));
@@ -126,13 +124,11 @@ impl Interpreter<'_> {
                     self.modes.contour_error = Some(self.parameter(given)?);
                 }
                 "OPMODE" if self.parameter(given)? != 1.0 => {
-                    return Err(Box::new(
-                        Diagnostic::error(
-                            given.span,
-                            "splines through the points are not supported",
-                        )
-                        .help("use OPMODE 1, which rounds the corners"),
-                    ));
+                    return Err(Diagnostic::error(
+                        given.span,
+                        "splines through the points are not supported",
+                    )
+                    .help("use OPMODE 1, which rounds the corners"));
                 }
                 "OPMODE" => {}
                 name if NOTED_PARAMETERS.contains(&name) => {
@@ -141,10 +137,10 @@ impl Interpreter<'_> {
                     }
                 }
                 name => {
-                    return Err(Box::new(Diagnostic::error(
+                    return Err(Diagnostic::error(
                         given.span,
                         format!("{name} is not a parameter of #HSC that is known"),
-                    )));
+                    ));
                 }
             }
         }
@@ -160,8 +156,9 @@ impl Interpreter<'_> {
                     false => 1.0,
                 };
                 let in_program = default * millimetres / self.control.modal.length_factor;
-                let tolerance = self.modes.contour_error.unwrap_or(in_program);
-                self.control.continuous_path(Some(tolerance), span)?;
+                let error = self.modes.contour_error.unwrap_or(in_program);
+                let tolerance = self.control.tolerance(error, span)?;
+                self.control.continuous_path(Some(tolerance));
             }
             // As before the program asked for it.
             Some(false) => self.control.path_control(self.control.settings.path_mode),
@@ -178,10 +175,7 @@ impl Interpreter<'_> {
             self.modes.contour_deviation = Some(self.parameter(given)?);
         }
         match on {
-            Some(true) => {
-                let tolerance = self.modes.contour_deviation;
-                self.control.continuous_path(tolerance, span)?;
-            }
+            Some(true) => self.round_contour(span)?,
             // As before the program asked for it.
             Some(false) => self.control.path_control(self.control.settings.path_mode),
             None => {}
@@ -199,22 +193,18 @@ impl Interpreter<'_> {
                 "ANGLE" => angle = value,
                 "CENTER1" | "CENTER2" if value == 0.0 => {}
                 "CENTER1" | "CENTER2" => {
-                    return Err(Box::new(
-                        Diagnostic::error(
-                            given.span,
-                            "a centre of rotation beside zero is not supported",
-                        )
-                        .help("shift zero there with G92 before and rotate about it"),
-                    ));
+                    return Err(Diagnostic::error(
+                        given.span,
+                        "a centre of rotation beside zero is not supported",
+                    )
+                    .help("shift zero there with G92 before and rotate about it"));
                 }
                 name => {
-                    return Err(Box::new(
-                        Diagnostic::error(
-                            given.span,
-                            format!("{name} is not a parameter of #ROTATION that is known"),
-                        )
-                        .help("write #ROTATION ON [ANGLE=30]"),
-                    ));
+                    return Err(Diagnostic::error(
+                        given.span,
+                        format!("{name} is not a parameter of #ROTATION that is known"),
+                    )
+                    .help("write #ROTATION ON [ANGLE=30]"));
                 }
             }
         }
@@ -223,24 +213,24 @@ impl Interpreter<'_> {
         self.set_frames(next, span)
     }
 
-    fn parameter(&self, given: &Parameter) -> Result<f64, Box<Diagnostic>> {
+    fn parameter(&self, given: &Parameter) -> Result<f64, Diagnostic> {
         match &given.value {
             Some(value) => value.number(&self.variables),
-            None => Err(Box::new(
+            None => Err(
                 Diagnostic::error(given.span, format!("{} needs a value", given.name))
                     .help(format!("write {}=0.1", given.name)),
-            )),
+            ),
         }
     }
 
-    fn system_number(&self, number: Option<&Expression>) -> Result<Option<u32>, Box<Diagnostic>> {
+    fn system_number(&self, number: Option<&Expression>) -> Result<Option<u32>, Diagnostic> {
         number
             .map(|number| number.whole(&self.variables, 0))
             .transpose()
     }
 
     /// Shift and angles; what is left out is 0.
-    fn system(&self, values: &[Option<Expression>]) -> Result<System, Box<Diagnostic>> {
+    fn system(&self, values: &[Option<Expression>]) -> Result<System, Diagnostic> {
         let mut system = [0.0; 6];
         for (place, (at, value)) in system.iter_mut().zip(values.iter().enumerate()) {
             if let Some(value) = value {

@@ -1,12 +1,17 @@
 //! Which control statements belong together.
 
-use super::syntax::{Block, Flow, Statement};
+use super::syntax::{Block, Flow};
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::blocks::Blocks;
+use crate::source::{Sources, Span};
+use std::collections::HashMap;
 
 /// For each block with a control statement, the blocks that belong to it.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default)]
 pub struct Structure {
-    links: Vec<Links>,
+    links: HashMap<usize, Links>,
+    open: Vec<Open>,
+    lost: Vec<Diagnostic>,
 }
 
 /// Indices of blocks.
@@ -77,97 +82,117 @@ fn role(flow: &Flow) -> Role {
 }
 
 /// A construction whose end has not come yet.
+#[derive(Debug)]
 struct Open {
     kind: Kind,
+    span: Span,
     branches: Vec<usize>,
     leaving: Vec<usize>,
 }
 
 impl Structure {
-    /// Looks for all partners; reports those that are missing. Where a block was not understood, it may
-    /// be the partner: then nothing is said.
-    pub fn of(blocks: &[Block], diagnostics: &mut Diagnostics) -> Structure {
-        let invalid = |block: &Block| block.statement == Statement::Invalid;
-        let mut unheard = Diagnostics::default();
-        let diagnostics = match blocks.iter().any(invalid) {
-            true => &mut unheard,
-            false => diagnostics,
-        };
-        let mut links = vec![Links::default(); blocks.len()];
-        let mut open: Vec<Open> = Vec::new();
-        for (index, block) in blocks.iter().enumerate() {
-            let Statement::Flow(flow) = &block.statement else {
-                continue;
-            };
-            let mut lost = |what: String| diagnostics.push(Diagnostic::error(block.span, what));
-            match role(flow) {
-                Role::None => {}
-                Role::Begins(kind) => open.push(Open {
+    /// Takes the next statement of a routine, which is the block with this index.
+    pub fn add(&mut self, index: usize, flow: &Flow, span: Span) {
+        let missing = |kind: Kind| format!("{} is missing before this", kind.end());
+        let lost = match role(flow) {
+            Role::None => None,
+            Role::Begins(kind) => {
+                self.open.push(Open {
                     kind,
+                    span,
                     branches: vec![index],
                     leaving: Vec::new(),
-                }),
-                Role::Branches(kind) => match open.last_mut() {
-                    Some(top) if top.kind == kind => top.branches.push(index),
-                    Some(top) => lost(format!("{} is missing before this", top.kind.end())),
-                    None => lost("the beginning that belongs to this is missing".to_string()),
-                },
-                Role::Ends(kind) => match open.pop() {
-                    Some(top) if top.kind == kind => connect(&mut links, &top, index),
-                    Some(top) => {
-                        lost(format!("{} is missing before this", top.kind.end()));
-                        open.push(top);
-                    }
-                    None => lost("the beginning that belongs to this is missing".to_string()),
-                },
-                Role::LeavesLoopOrSwitch => {
-                    let left = open.iter_mut().rev().find(|open| open.kind != Kind::If);
-                    match left {
-                        Some(left) => left.leaving.push(index),
-                        None => lost("$BREAK outside of a loop and a $SWITCH".to_string()),
-                    }
+                });
+                None
+            }
+            Role::Branches(kind) => match self.open.last_mut() {
+                Some(top) if top.kind == kind => {
+                    top.branches.push(index);
+                    None
                 }
-                Role::LeavesLoop => {
-                    let is_loop = |open: &&mut Open| !matches!(open.kind, Kind::If | Kind::Switch);
-                    match open.iter_mut().rev().find(is_loop) {
-                        Some(left) => left.leaving.push(index),
-                        None => lost("$CONTINUE outside of a loop".to_string()),
-                    }
+                Some(top) => Some(missing(top.kind)),
+                None => Some("the beginning that belongs to this is missing".to_string()),
+            },
+            Role::Ends(kind) => match self.open.pop() {
+                Some(top) if top.kind == kind => {
+                    connect(&mut self.links, &top, index);
+                    None
+                }
+                Some(top) => {
+                    let what = missing(top.kind);
+                    self.open.push(top);
+                    Some(what)
+                }
+                None => Some("the beginning that belongs to this is missing".to_string()),
+            },
+            Role::LeavesLoopOrSwitch => match self.leave(|kind| kind != Kind::If, index) {
+                true => None,
+                false => Some("$BREAK outside of a loop and a $SWITCH".to_string()),
+            },
+            Role::LeavesLoop => {
+                let is_loop = |kind| !matches!(kind, Kind::If | Kind::Switch);
+                match self.leave(is_loop, index) {
+                    true => None,
+                    false => Some("$CONTINUE outside of a loop".to_string()),
                 }
             }
+        };
+        let lost = lost.map(|what| Diagnostic::error(span, what));
+        self.lost.extend(lost);
+    }
+
+    /// A statement leaves the innermost construction of such a kind, if there is one.
+    fn leave(&mut self, is: impl Fn(Kind) -> bool, index: usize) -> bool {
+        let mut open = self.open.iter_mut().rev();
+        let left = open.find(|open| is(open.kind));
+        left.map(|left| left.leaving.push(index)).is_some()
+    }
+
+    /// All statements have been taken: partners that are missing are reported. Where a block was not understood,
+    /// it may be the partner: then nothing is said.
+    pub fn close(
+        &mut self,
+        blocks: &Blocks<Block>,
+        sources: &Sources,
+        diagnostics: &mut Diagnostics,
+    ) {
+        for rest in self.open.drain(..) {
+            let what = format!("the {} that belongs to this is missing", rest.kind.end());
+            self.lost.push(Diagnostic::error(rest.span, what));
         }
-        for rest in open {
-            if let Some(block) = rest.branches.first().and_then(|first| blocks.get(*first)) {
-                diagnostics.push(Diagnostic::error(
-                    block.span,
-                    format!("the {} that belongs to this is missing", rest.kind.end()),
-                ));
-            }
+        let lost = std::mem::take(&mut self.lost);
+        if !lost.is_empty() && !blocks.has_invalid(sources, diagnostics) {
+            lost.into_iter().for_each(|one| diagnostics.push(one));
         }
-        Structure { links }
     }
 
     /// The blocks that belong to a control statement.
     pub fn links(&self, block: usize) -> Links {
-        self.links.get(block).copied().unwrap_or_default()
+        self.links.get(&block).copied().unwrap_or_default()
     }
 }
 
-fn connect(links: &mut [Links], open: &Open, end: usize) {
+fn connect(links: &mut HashMap<usize, Links>, open: &Open, end: usize) {
     let first = open.branches.first().copied();
     let next = open.branches.iter().skip(1).copied().chain([end]);
     for (&branch, next) in open.branches.iter().zip(next) {
-        links[branch] = Links {
-            first,
-            next: Some(next),
-            last: Some(end),
-        };
+        links.insert(
+            branch,
+            Links {
+                first,
+                next: Some(next),
+                last: Some(end),
+            },
+        );
     }
     for &index in open.leaving.iter().chain([&end]) {
-        links[index] = Links {
-            first,
-            next: None,
-            last: Some(end),
-        };
+        links.insert(
+            index,
+            Links {
+                first,
+                next: None,
+                last: Some(end),
+            },
+        );
     }
 }

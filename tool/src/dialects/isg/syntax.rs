@@ -1,33 +1,26 @@
 //! The syntax tree of an ISG part program.
 
 use super::structure::Structure;
+use crate::diagnostics::Diagnostics;
+use crate::dialects::blocks::{self, Blocks};
+use crate::dialects::control::Place;
 use crate::dialects::expression::Expression;
 use crate::dialects::library;
-use crate::source::Span;
+use crate::source::{Sources, Span};
+use std::collections::HashMap;
+use std::io;
 
 /// One block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// Its text.
-    pub span: Span,
-    /// `N10`.
-    pub number: Option<u32>,
+    /// Its text, number and comment.
+    pub place: Place,
     /// Whether it begins with `/`.
     pub skip: bool,
     /// `[NAME]` at its beginning, in upper case.
     pub label: Option<String>,
     /// What it says.
     pub statement: Statement,
-    /// Its comments.
-    pub comment: Option<String>,
-}
-
-impl Block {
-    /// Whether its line holds nothing.
-    pub fn is_blank(&self) -> bool {
-        let nothing = self.number.is_none() && self.label.is_none() && self.comment.is_none();
-        self.statement == Statement::Empty && nothing
-    }
 }
 
 /// What a block says.
@@ -194,7 +187,7 @@ pub struct Declaration {
 }
 
 /// A program or subprogram.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub struct Routine {
     /// What calls look for: `3:NAME` of a subprogram in the file with index 3, or the name of the file.
     pub name: String,
@@ -205,14 +198,40 @@ pub struct Routine {
     /// Index of its file.
     pub file: usize,
     /// Its blocks.
-    pub blocks: Vec<Block>,
+    pub blocks: Blocks<Block>,
     /// Which blocks of it belong together.
     pub structure: Structure,
+    /// The blocks with each label, in upper case.
+    pub labels: HashMap<String, Vec<usize>>,
+    /// Whether it has a `#CS ON`: frames turn the machine then, those before it too.
+    pub turns_machine: bool,
+    /// The first block that says something, if there is one.
+    pub first: Option<Span>,
+}
+
+impl blocks::Block for Block {
+    fn place(&self) -> &Place {
+        &self.place
+    }
+
+    fn is_blank(&self) -> bool {
+        let nothing =
+            self.place.number.is_none() && self.label.is_none() && self.place.comment.is_none();
+        self.statement == Statement::Empty && nothing
+    }
+
+    fn is_invalid(&self) -> bool {
+        self.statement == Statement::Invalid
+    }
 }
 
 impl library::Routine for Routine {
     fn title(&self) -> &str {
         &self.title
+    }
+
+    fn check_rest(&self, sources: &Sources, diagnostics: &mut Diagnostics) -> io::Result<()> {
+        self.blocks.check_rest(sources, diagnostics)
     }
 
     fn name(&self) -> &str {
@@ -224,15 +243,10 @@ impl library::Routine for Routine {
     }
 
     fn is_empty(&self) -> bool {
-        let empty = |block: &Block| block.statement == Statement::Empty;
-        self.blocks.iter().all(empty)
+        self.first.is_none()
     }
 
     fn first_span(&self) -> Span {
-        let first = self
-            .blocks
-            .iter()
-            .find(|block| block.statement != Statement::Empty);
-        first.map_or(Span::start_of(self.file), |block| block.span)
+        self.first.unwrap_or(Span::start_of(self.file))
     }
 }

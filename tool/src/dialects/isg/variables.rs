@@ -63,7 +63,7 @@ impl VariableStore {
         declaration: &Declaration,
         size: Vec<usize>,
         values: Vec<f64>,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Diagnostic> {
         let span = declaration.span;
         let count = size
             .iter()
@@ -77,12 +77,12 @@ impl VariableStore {
         let used = in_use(&self.global) + self.local.iter().map(in_use).sum::<usize>();
         let count = count
             .filter(|count| count.saturating_add(used) <= ELEMENT_LIMIT)
-            .ok_or_else(|| Box::new(Diagnostic::error(span, "this array is too large")))?;
+            .ok_or_else(|| Diagnostic::error(span, "this array is too large"))?;
         if values.len() > 1 && values.len() != count {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 span,
                 format!("{} values for {count} elements", values.len()),
-            )));
+            ));
         }
         for value in &values {
             check_whole(declaration.whole, *value, span)?;
@@ -123,7 +123,7 @@ impl VariableStore {
         index: &[f64],
         value: f64,
         span: Span,
-    ) -> Result<(), Box<Diagnostic>> {
+    ) -> Result<(), Diagnostic> {
         if name == "P" {
             self.parameters
                 .insert(parameter_number(index, "a P parameter", span)?, value);
@@ -157,16 +157,14 @@ impl Variable {
 }
 
 impl Variables for VariableStore {
-    fn value(&self, name: &str, index: &[f64], span: Span) -> Result<Value, Box<Diagnostic>> {
+    fn value(&self, name: &str, index: &[f64], span: Span) -> Result<Value, Diagnostic> {
         if name == "P" {
             let number = parameter_number(index, "a P parameter", span)?;
             let value = self.parameters.get(&number).copied();
             return value.map(Value::Number).ok_or_else(|| {
-                Box::new(
-                    Diagnostic::error(span, format!("P{number} has no value here")).help(format!(
-                        "assign it in the program, or give --set P{number}=VALUE"
-                    )),
-                )
+                Diagnostic::error(span, format!("P{number} has no value here")).help(format!(
+                    "assign it in the program, or give --set P{number}=VALUE"
+                ))
             });
         }
         let variable = self.variable(name).ok_or_else(|| unknown(name, span))?;
@@ -175,28 +173,24 @@ impl Variables for VariableStore {
             .values
             .get(at)
             .map(|value| Value::Number(*value))
-            .ok_or_else(|| Box::new(Diagnostic::error(span, "there is no such element")))
+            .ok_or_else(|| Diagnostic::error(span, "there is no such element"))
     }
 }
 
-fn unknown(name: &str, span: Span) -> Box<Diagnostic> {
-    Box::new(
-        Diagnostic::error(span, format!("{name} has no value here")).help(format!(
-            "declare it between #VAR and #ENDVAR, or give --set {name}=VALUE"
-        )),
-    )
+fn unknown(name: &str, span: Span) -> Diagnostic {
+    Diagnostic::error(span, format!("{name} has no value here")).help(format!(
+        "declare it between #VAR and #ENDVAR, or give --set {name}=VALUE"
+    ))
 }
 
 /// The control would round by rules of its own.
-fn check_whole(whole: bool, value: f64, span: Span) -> Result<(), Box<Diagnostic>> {
+fn check_whole(whole: bool, value: f64, span: Span) -> Result<(), Diagnostic> {
     if !whole || value.fract() == 0.0 {
         return Ok(());
     }
-    Err(Box::new(
-        Diagnostic::error(
-            span,
-            format!("{value} does not fit into a variable for whole numbers"),
-        )
-        .help("round it with INT[..] or ROUND[..], or declare the variable REAL64"),
-    ))
+    Err(Diagnostic::error(
+        span,
+        format!("{value} does not fit into a variable for whole numbers"),
+    )
+    .help("round it with INT[..] or ROUND[..], or declare the variable REAL64"))
 }

@@ -24,8 +24,10 @@ pub struct BlockWords {
     pub offset: Option<At<f64>>,
     /// L: the number of a subprogram.
     pub label: Option<At<f64>>,
-    /// Q: the number of passes.
+    /// P or Q: the number of passes.
     pub passes: Option<At<f64>>,
+    /// Whether it is Q, of which the manual says nothing.
+    pub passes_by_q: bool,
 }
 
 impl BlockWords {
@@ -35,14 +37,14 @@ impl BlockWords {
         let mut failed = false;
         for word in &block.words {
             if let Err(diagnostic) = words.add(word) {
-                diagnostics.push(*diagnostic);
+                diagnostics.push(diagnostic);
                 failed = true;
             }
         }
         (!failed).then_some(words)
     }
 
-    fn add(&mut self, word: &Word) -> Result<(), Box<Diagnostic>> {
+    fn add(&mut self, word: &Word) -> Result<(), Diagnostic> {
         let Word {
             letter,
             value,
@@ -63,13 +65,16 @@ impl BlockWords {
             'T' => set(&mut self.tool, value, span, letter),
             'D' => set(&mut self.offset, value, span, letter),
             'L' => set(&mut self.label, value, span, letter),
-            'Q' => set(&mut self.passes, value, span, letter),
+            'P' | 'Q' => {
+                self.passes_by_q = letter == 'Q';
+                set(&mut self.passes, value, span, "the number of passes")
+            }
             'G' | 'M' => {
                 if value.fract() != 0.0 || !(0.0..=999.0).contains(&value) {
-                    return Err(Box::new(Diagnostic::error(
+                    return Err(Diagnostic::error(
                         span,
                         format!("{letter}{value} is not the number of a function"),
-                    )));
+                    ));
                 }
                 let list = if letter == 'G' {
                     &mut self.g
@@ -80,10 +85,10 @@ impl BlockWords {
                 list.push(At { value, span });
                 Ok(())
             }
-            _ => Err(Box::new(
+            _ => Err(
                 Diagnostic::error(span, format!("the address {letter} is not supported"))
                     .help("axes are X Y Z A B C U V W"),
-            )),
+            ),
         }
     }
 
@@ -112,7 +117,7 @@ impl BlockWords {
             ("T", self.tool),
             ("D", self.offset),
             ("L", self.label),
-            ("Q", self.passes),
+            ("P", self.passes),
         ];
         others.extend(named(&single));
         others.extend(self.motion.named_centre());

@@ -21,7 +21,7 @@ pub(super) struct OneShot {
 }
 
 impl Interpreter<'_> {
-    pub(super) fn g_functions(&mut self, words: &BlockWords) -> Result<OneShot, Box<Diagnostic>> {
+    pub(super) fn g_functions(&mut self, words: &BlockWords) -> Result<OneShot, Diagnostic> {
         let mut once = OneShot::default();
         let mut groups = Groups::default();
         for At { value: code, span } in in_order_of_compensation(&words.g, 1) {
@@ -32,12 +32,7 @@ impl Interpreter<'_> {
     }
 
     /// One G function; returns a number for its group, of which a block may hold one.
-    fn g_function(
-        &mut self,
-        code: u32,
-        span: Span,
-        once: &mut OneShot,
-    ) -> Result<u8, Box<Diagnostic>> {
+    fn g_function(&mut self, code: u32, span: Span, once: &mut OneShot) -> Result<u8, Diagnostic> {
         let control = &mut self.control;
         Ok(match code {
             0..=3 => {
@@ -121,9 +116,9 @@ impl Interpreter<'_> {
         };
         match refusal {
             None => self.control.preset(&words.motion, span),
-            Some((why, help)) => Err(Box::new(
-                Diagnostic::error(span, format!("G92 while {why}")).help(help),
-            )),
+            Some((why, help)) => {
+                Err(Diagnostic::error(span, format!("G92 while {why}")).help(help))
+            }
         }
     }
 
@@ -140,15 +135,13 @@ impl Interpreter<'_> {
         let seconds = match (feed, axis, other.or(rest.motion.first_axis())) {
             (Some(seconds), None, None) | (None, Some(seconds), None) => seconds,
             (_, _, Some(other)) => {
-                return Err(Box::new(
-                    Diagnostic::error(other, "G4 stands alone in its block")
-                        .help("put everything but the time in another block"),
-                ));
+                return Err(Diagnostic::error(other, "G4 stands alone in its block")
+                    .help("put everything but the time in another block"));
             }
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "G4 needs a time").help("G4 F2.5 waits 2.5 seconds"),
-                ));
+                return Err(
+                    Diagnostic::error(span, "G4 needs a time").help("G4 F2.5 waits 2.5 seconds")
+                );
             }
         };
         self.control.diagnostics.push(Diagnostic::warning(
@@ -170,7 +163,7 @@ impl Interpreter<'_> {
     }
 }
 
-fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
+fn unsupported(code: u32, span: Span) -> Diagnostic {
     let help = match code {
         20 | 21 => "programs of this dialect are in millimetres",
         43 | 44 => "D3 selects the length and the radius of row 3 of the offset table",
@@ -183,5 +176,5 @@ fn unsupported(code: u32, span: Span) -> Box<Diagnostic> {
             "look it up in the manual of the control, and write it with functions that are supported"
         }
     };
-    Box::new(Diagnostic::error(span, format!("G{code} is not supported")).help(help))
+    Diagnostic::error(span, format!("G{code} is not supported")).help(help)
 }

@@ -10,24 +10,11 @@ use crate::dialects::control::offset_row::OffsetRow;
 use crate::dialects::control::plain::PlainBlock;
 use crate::dialects::control::{About, Control, Done, Place};
 use crate::dialects::library::Library;
-use crate::dialects::run::Interpret;
+use crate::dialects::run::{Interpret, Next, Reached, reach};
 use crate::dialects::settings::Settings;
 use crate::program::{Compensation, FrameScope};
 use crate::source::Span;
 use std::rc::Rc;
-
-/// Where the flow goes after a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Next {
-    /// To the block after it.
-    Continue,
-    /// Out of the subprogram.
-    Return,
-    /// The program is at its end.
-    End,
-    /// Nowhere: what follows cannot be known after an error.
-    Abort,
-}
 
 /// Runs a program.
 pub struct Interpreter<'a> {
@@ -64,7 +51,7 @@ impl<'a> Interpreter<'a> {
     /// Runs a subprogram.
     pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> Next {
         match self.run_blocks(routine) {
-            Next::Continue => {
+            Next::Block(_) => {
                 self.end_is_missing(routine);
                 Next::Return
             }
@@ -74,19 +61,23 @@ impl<'a> Interpreter<'a> {
 
     /// Runs blocks up to the last one, or to one that leads elsewhere.
     fn run_blocks(&mut self, routine: &Rc<Routine>) -> Next {
-        for block in &routine.blocks {
-            if !self.control.count_block(block.span) {
-                return Next::Abort;
-            }
+        let mut at = 0;
+        loop {
+            let block = match reach(self, &routine.blocks, &mut at, routine.blocks.len()) {
+                Reached::Block(block) => block,
+                Reached::End => return Next::Block(at),
+                Reached::Abort => return Next::Abort,
+            };
             if block.skip && self.control.settings.skip_blocks {
+                at += 1;
                 continue;
             }
-            match self.run_block(block) {
-                Next::Continue => {}
+            match self.run_block(&block, at) {
+                Next::Block(next) => at = next,
                 Next::Return if self.control.is_in_main() => {
                     self.control.diagnostics.push(
                         Diagnostic::error(
-                            block.span,
+                            block.place.span,
                             "G70 returns from a subprogram, and this is the program",
                         )
                         .help("end the program with M30"),
@@ -96,68 +87,71 @@ impl<'a> Interpreter<'a> {
                 other => return other,
             }
         }
-        Next::Continue
     }
 
     fn end_is_missing(&mut self, routine: &Rc<Routine>) {
-        let Some(last) = routine.blocks.iter().rfind(|block| !block.is_blank()) else {
-            return;
-        };
-        self.control.end_is_missing(&place(last), "G70");
+        if let Some(last) = self.control.last_block(&routine.blocks) {
+            self.control.end_is_missing(&last.place, "G70");
+        }
     }
 
-    fn run_block(&mut self, block: &Block) -> Next {
+    fn run_block(&mut self, block: &Block, at: usize) -> Next {
+        let following = Next::Block(at + 1);
         if block.invalid {
             self.control.modal.forget_position();
             self.control.modal.has_feed = true;
-            return Next::Continue;
+            return following;
         }
-        let place = place(block);
+        let place = &block.place;
         let Some(words) = BlockWords::collect(block, self.control.diagnostics) else {
             self.control.modal.forget_position();
-            return Next::Continue;
+            return following;
         };
         let call = words.function(71);
         let next = match call {
-            Some(call) => self.call(call.span, &words, &place),
-            None => self.run_words(words, &place),
+            Some(call) => self.call(call.span, &words, place, following),
+            None => self.run_words(words, place, following),
         };
         let next = next.unwrap_or_else(|diagnostic| {
-            self.control.fail(*diagnostic);
+            self.control.fail(diagnostic);
             // What a subprogram would have done is unknown.
             self.control.modal.has_feed |= call.is_some();
-            Next::Continue
+            following
         });
         // A call has finished its block before the subprogram began.
         if call.is_none() {
-            self.control.finish_block(&place);
+            self.control.finish_block(place);
         }
         next
     }
 
-    fn run_words(&mut self, mut words: BlockWords, place: &Place) -> Result<Next, Box<Diagnostic>> {
+    fn run_words(
+        &mut self,
+        mut words: BlockWords,
+        place: &Place,
+        following: Next,
+    ) -> Result<Next, Diagnostic> {
         if let Some(end) = words.function(70) {
             return match words.beside_axes(70) {
                 None if !words.motion.names_an_axis() => Ok(Next::Return),
-                _ => Err(Box::new(
-                    Diagnostic::error(end.span, "G70 stands alone in its block")
-                        .help("put the rest in the block before"),
-                )),
+                _ => Err(Diagnostic::error(end.span, "G70 stands alone in its block")
+                    .help("put the rest in the block before")),
             };
         }
         let stray = words.label.or(words.passes);
         if let Some(word) = stray {
-            return Err(Box::new(
-                Diagnostic::error(word.span, "L and Q belong to the call of a subprogram")
-                    .help("write G71 L100"),
-            ));
+            return Err(Diagnostic::error(
+                word.span,
+                "L, P and Q belong to the call of a subprogram",
+            )
+            .help("write G71 L100 P3 for three passes of L100"));
         }
         let recalculation = words.g.iter().find(|g| (34..=37).contains(&g.value));
         if let Some(function) = recalculation.copied() {
             self.recalculate(function, &words)?;
-            return Ok(Next::Continue);
+            return Ok(following);
         }
-        self.carry_out(&mut words, place)
+        self.carry_out(&mut words, place, following)
     }
 
     /// The words of an ordinary block, in the order in which controls carry them out: modes, feed and
@@ -166,7 +160,8 @@ impl<'a> Interpreter<'a> {
         &mut self,
         words: &mut BlockWords,
         place: &Place,
-    ) -> Result<Next, Box<Diagnostic>> {
+        following: Next,
+    ) -> Result<Next, Diagnostic> {
         let was_compensated = self.control.modal.compensation != Compensation::Off;
         // The offset is selected before the compensation that uses it, and after the one that ends.
         let releases = words.function(40).is_some();
@@ -180,7 +175,7 @@ impl<'a> Interpreter<'a> {
         if let Some(span) = once.dwell {
             self.control.apply_states(was_compensated);
             self.dwell(words, span)?;
-            return Ok(Next::Continue);
+            return Ok(following);
         }
         if let Some(feed) = words.feed {
             self.control.feed(feed)?;
@@ -202,7 +197,7 @@ impl<'a> Interpreter<'a> {
         }
         self.control.stops(&words.m);
         let Some(end) = ends else {
-            return Ok(Next::Continue);
+            return Ok(following);
         };
         self.control.end_of_program(end == 30);
         Ok(Next::End)
@@ -246,8 +241,12 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
         &self.library
     }
 
+    fn parts(&mut self) -> (&Library<Routine>, &mut Control<'a>) {
+        (&self.library, &mut self.control)
+    }
+
     fn run_main(&mut self, main: &Rc<Routine>) -> bool {
-        self.run_blocks(main) == Next::Continue
+        matches!(self.run_blocks(main), Next::Block(_))
     }
 
     fn end_is_missing(&mut self, last: &Rc<Routine>) {
@@ -256,14 +255,5 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
 
     fn takes(&self, block: &PlainBlock) -> bool {
         self.motion_named && !self.offset_free.active && block.axes[3..].iter().all(Option::is_none)
-    }
-}
-
-/// The block to which what it does belongs.
-pub(super) fn place(block: &Block) -> Place {
-    Place {
-        span: block.span,
-        number: block.number,
-        comment: block.comment.clone(),
     }
 }

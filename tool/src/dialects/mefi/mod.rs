@@ -10,33 +10,42 @@ mod g_functions;
 mod interpreter;
 mod parser;
 mod recalculation;
+mod routine;
 mod syntax;
 
 use super::control::About;
 use super::guess::Evidence;
-use super::library::Library;
-use super::run::run;
+use super::languages::Language;
+use super::run::{Files, run_file};
 use super::settings::Settings;
 use std::path::Path;
 
 /// Endings of subprogram files.
 const EXTENSIONS: [&str; 4] = ["nc", "prg", "cnc", "txt"];
 
-/// Evaluates the part program in file 0 of `sources`; see [`super::evaluate`].
-pub fn evaluate<'a>(path: &Path, settings: &'a Settings, about: About<'a>) {
-    let library = Library::new(
-        path,
-        &EXTENSIONS,
-        settings,
-        about.sources,
-        about.diagnostics,
-        parser::parse,
-    );
-    run(&mut interpreter::Interpreter::new(settings, library, about));
+/// MEFI controls.
+pub struct Mefi;
+
+/// For the list of all languages.
+pub const LANGUAGE: Mefi = Mefi;
+
+const FILES: Files<syntax::Routine> = Files {
+    extensions: &EXTENSIONS,
+    read: routine::routines,
+};
+
+impl Language for Mefi {
+    fn evaluate<'a>(&self, path: &Path, settings: &'a Settings, about: About<'a>) {
+        run_file(path, FILES, settings, about, interpreter::Interpreter::new);
+    }
+
+    fn evidence(&self, lines: &[String], extension: &str) -> Evidence {
+        evidence(lines, extension)
+    }
 }
 
 /// What speaks for this dialect; see [`super::guess`].
-pub fn evidence(lines: &[String], _extension: &str) -> Evidence {
+fn evidence(lines: &[String], _extension: &str) -> Evidence {
     let mut evidence = Evidence::default();
     for (index, line) in lines.iter().enumerate() {
         let code = line.strip_prefix('N').map_or(line.as_str(), |rest| {

@@ -67,20 +67,20 @@ impl Interpreter<'_> {
     pub(super) fn recalculate(&mut self, function: At<u32>, words: &BlockWords) -> Done {
         let At { value: code, span } = function;
         if let Some((what, other)) = words.beside_axes(code) {
-            return Err(Box::new(
-                Diagnostic::error(other, format!("{what} cannot stand in one block with G{code}")).help(
-                    format!("G{code} stands alone in its block, without motion: put the rest in the next one"),
-                ),
-            ));
+            return Err(Diagnostic::error(
+                other,
+                format!("{what} cannot stand in one block with G{code}"),
+            )
+            .help(format!(
+                "G{code} stands alone in its block, without motion: put the rest in the next one"
+            )));
         }
         let mut next = self.recalculation;
         match code {
             34 if words.motion.names_an_axis() => {
                 let span = words.motion.first_axis().unwrap_or(span);
-                return Err(Box::new(
-                    Diagnostic::error(span, "G34 takes no axes")
-                        .help("it cancels mirror, scale and shift"),
-                ));
+                return Err(Diagnostic::error(span, "G34 takes no axes")
+                    .help("it cancels mirror, scale and shift"));
             }
             34 => next = Recalculation::default(),
             35 => next.mirrored = words.motion.axes.map(|axis| axis.is_some()),
@@ -153,14 +153,14 @@ impl Interpreter<'_> {
 }
 
 /// `G36 X1.27`, `G36 Y0.38`: the factor; `G36 X1.54 Y3.28`: the first divided by the second; bare: 1.
-fn scale(words: &BlockWords) -> Result<f64, Box<Diagnostic>> {
+fn scale(words: &BlockWords) -> Result<f64, Diagnostic> {
     let mut given = words.motion.axes.iter().flatten();
     let (first, second) = (given.next(), given.next());
     if let Some(third) = given.next() {
-        return Err(Box::new(
+        return Err(
             Diagnostic::error(third.span, "G36 takes one value, or two for a fraction")
                 .help("G36 X1.54 Y3.28 scales by 1.54 / 3.28, all axes alike"),
-        ));
+        );
     }
     let Some(first) = first else {
         return Ok(1.0);
@@ -172,19 +172,19 @@ fn scale(words: &BlockWords) -> Result<f64, Box<Diagnostic>> {
     {
         if *value <= 0.0 {
             let error = Diagnostic::error(*span, format!("a scale of {value} is out of range"));
-            return Err(Box::new(match *value < 0.0 {
+            return Err(match *value < 0.0 {
                 true => error.help("G35 mirrors axes; factors are above 0"),
                 false => error.help("G36 alone in its block ends scaling"),
-            }));
+            });
         }
     }
     let factor = first.value.0 / second.map_or(1.0, |second| second.value.0);
     let [least, largest] = SCALE_RANGE;
     if !(least..=largest).contains(&factor) {
-        return Err(Box::new(
+        return Err(
             Diagnostic::error(first.span, format!("a scale of {factor} is out of range"))
                 .help(format!("factors go from {least} to {largest}")),
-        ));
+        );
     }
     Ok(factor)
 }

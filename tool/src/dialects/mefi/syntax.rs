@@ -1,7 +1,11 @@
 //! The blocks and subprograms of a MEFI part program.
 
+use crate::diagnostics::Diagnostics;
+use crate::dialects::blocks::{self, Blocks};
+use crate::dialects::control::Place;
 use crate::dialects::library;
-use crate::source::Span;
+use crate::source::{Sources, Span};
+use std::io;
 
 /// An address and its value: `X10`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,29 +21,20 @@ pub struct Word {
 /// One line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// The text without its comment.
-    pub span: Span,
-    /// `N10`.
-    pub number: Option<u32>,
+    /// Its text, number and comment.
+    pub place: Place,
     /// Whether it begins with `/`.
     pub skip: bool,
     /// The words after the number.
     pub words: Vec<Word>,
     /// Whether something in it was not understood; that has been reported.
     pub invalid: bool,
-    /// The comment after a quotation mark.
-    pub comment: Option<String>,
 }
 
 impl Block {
     /// Whether it does nothing.
     pub fn is_empty(&self) -> bool {
         self.words.is_empty() && !self.invalid
-    }
-
-    /// Whether its line holds nothing.
-    pub fn is_blank(&self) -> bool {
-        self.is_empty() && self.number.is_none() && self.comment.is_none()
     }
 
     /// The word with this letter and number, if there is one: `G79`.
@@ -55,7 +50,7 @@ impl Block {
 }
 
 /// A program, or a subprogram from `G79 L100` to `G70`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub struct Routine {
     /// `L100`; of a program, the name of its file.
     pub name: String,
@@ -64,10 +59,30 @@ pub struct Routine {
     /// Index of its file.
     pub file: usize,
     /// Its blocks.
-    pub blocks: Vec<Block>,
+    pub blocks: Blocks<Block>,
+    /// The first block that does something, if there is one.
+    pub first: Option<Span>,
+}
+
+impl blocks::Block for Block {
+    fn place(&self) -> &Place {
+        &self.place
+    }
+
+    fn is_blank(&self) -> bool {
+        self.is_empty() && self.place.number.is_none() && self.place.comment.is_none()
+    }
+
+    fn is_invalid(&self) -> bool {
+        self.invalid
+    }
 }
 
 impl library::Routine for Routine {
+    fn check_rest(&self, sources: &Sources, diagnostics: &mut Diagnostics) -> io::Result<()> {
+        self.blocks.check_rest(sources, diagnostics)
+    }
+
     fn name(&self) -> &str {
         &self.name
     }
@@ -77,11 +92,10 @@ impl library::Routine for Routine {
     }
 
     fn is_empty(&self) -> bool {
-        self.blocks.iter().all(Block::is_empty)
+        self.first.is_none()
     }
 
     fn first_span(&self) -> Span {
-        let first = self.blocks.iter().find(|block| !block.is_empty());
-        first.map_or(Span::start_of(self.file), |block| block.span)
+        self.first.unwrap_or(Span::start_of(self.file))
     }
 }

@@ -25,10 +25,7 @@ impl Interpreter<'_> {
     pub(super) fn path_motion(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
         match (words.cip, words.ct) {
             (Some(_), Some(span)) => {
-                return Err(Box::new(Diagnostic::error(
-                    span,
-                    "CIP and CT exclude each other",
-                )));
+                return Err(Diagnostic::error(span, "CIP and CT exclude each other"));
             }
             (Some(_), None) => self.arc_form = Some(ArcForm::Cip),
             (None, Some(_)) => self.arc_form = Some(ArcForm::Ct),
@@ -41,10 +38,13 @@ impl Interpreter<'_> {
         if let Some(middle) = words.middle.iter().flatten().next()
             && self.arc_form != Some(ArcForm::Cip)
         {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(middle.span, "I1, J1 and K1 belong to CIP")
                     .help("write CIP in this block, or I, J and K for a centre"),
-            ));
+            );
+        }
+        if self.line_by_angle(words, &mut motion, once.exact_stop)? {
+            return Ok(());
         }
         if self.offset_free.active {
             let mut state = self.offset_free;
@@ -63,15 +63,20 @@ impl Interpreter<'_> {
                 if let Some(opening) = words.opening {
                     self.resolve_opening(opening, &mut motion)?;
                 }
-                self.control
-                    .motion(&motion, block, own_feed, once.exact_stop)
+                if words.opening.is_some() {
+                    return self
+                        .control
+                        .motion(&motion, block, own_feed, once.exact_stop);
+                }
+                self.motion_in_its_plane(&motion, block, own_feed, once.exact_stop)
             }
             Some(form) => {
                 if motion.names_a_centre() || words.opening.is_some() || motion.turns.is_some() {
-                    return Err(Box::new(
-                        Diagnostic::error(span, "CIP and CT have neither centre nor radius")
-                            .help("write G2 or G3 for an arc by its centre or radius"),
-                    ));
+                    return Err(Diagnostic::error(
+                        span,
+                        "CIP and CT have neither centre nor radius",
+                    )
+                    .help("write G2 or G3 for an arc by its centre or radius"));
                 }
                 match form {
                     ArcForm::Ct => self.control.tangent_arc(&motion, own_feed, span),
@@ -90,17 +95,19 @@ impl Interpreter<'_> {
     ) -> Done {
         let [first, second, normal] = self.control.modal.plane.axes();
         if let Some(middle) = words.middle[normal] {
-            return Err(Box::new(
-                Diagnostic::error(middle.span, "an intermediate point outside of the plane")
-                    .help("CIP makes arcs in the plane that is active: turn the plane with ROT"),
-            ));
+            return Err(Diagnostic::error(
+                middle.span,
+                "an intermediate point outside of the plane",
+            )
+            .help("CIP makes arcs in the plane that is active: turn the plane with ROT"));
         }
         let middle = [first, second].map(|axis| words.middle[axis]);
         if middle.iter().any(Option::is_none) {
-            return Err(Box::new(
-                Diagnostic::error(span, "CIP needs both coordinates of its intermediate point")
-                    .help("write CIP X20 Y0 I1=10 J1=10"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "CIP needs both coordinates of its intermediate point",
+            )
+            .help("write CIP X20 Y0 I1=10 J1=10"));
         }
         self.control.arc_through(motion, middle, own_feed, span)
     }
@@ -112,23 +119,19 @@ impl Interpreter<'_> {
             Some(Motion::Clockwise) => true,
             Some(Motion::Counterclockwise) => false,
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "AR belongs to arcs")
-                        .help("write G2 (clockwise) or G3 (counterclockwise) in this block"),
-                ));
+                return Err(Diagnostic::error(span, "AR belongs to arcs")
+                    .help("write G2 (clockwise) or G3 (counterclockwise) in this block"));
             }
         };
         if !(opening.value > 0.0 && opening.value < 360.0) {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, format!("an arc of {} degrees", opening.value))
                     .help("AR lies between 0 and 360 degrees; full circles have a centre only"),
-            ));
+            );
         }
         if let Some(radius) = motion.radius {
-            return Err(Box::new(
-                Diagnostic::error(radius.span, "an arc with AR has no CR")
-                    .help("give the centre or the end with AR"),
-            ));
+            return Err(Diagnostic::error(radius.span, "an arc with AR has no CR")
+                .help("give the centre or the end with AR"));
         }
         let [first, second, _] = self.control.modal.plane.axes();
         let plane = [first, second];
@@ -186,27 +189,26 @@ impl Interpreter<'_> {
                 }
             }
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "AR needs either the centre or the end of the arc")
-                        .help("write G2 X10 Y10 AR=90, or G2 I5 J0 AR=90"),
-                ));
+                return Err(Diagnostic::error(
+                    span,
+                    "AR needs either the centre or the end of the arc",
+                )
+                .help("write G2 X10 Y10 AR=90, or G2 I5 J0 AR=90"));
             }
         }
         Ok(())
     }
 
     /// Where the tool is along the axes of the plane, units of the program.
-    pub(super) fn known_in_plane(&self, span: Span) -> Result<[f64; 2], Box<Diagnostic>> {
+    pub(super) fn known_in_plane(&self, span: Span) -> Result<[f64; 2], Diagnostic> {
         let [first, second, _] = self.control.modal.plane.axes();
         match [first, second].map(|axis| self.control.present(axis)) {
             [Some(a), Some(b)] => Ok([a, b]),
-            _ => Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "where the tool is in the plane is not known ahead of time",
-                )
-                .help("program both axes of the plane absolute before"),
-            )),
+            _ => Err(Diagnostic::error(
+                span,
+                "where the tool is in the plane is not known ahead of time",
+            )
+            .help("program both axes of the plane absolute before")),
         }
     }
 }

@@ -33,6 +33,13 @@ pub struct BlockWords {
     pub middle: [Option<At<(f64, Dimension)>>; 3],
     /// AR: the angle of an arc, degrees.
     pub opening: Option<At<f64>>,
+    /// DISR and DISCL, units of the program.
+    pub approach_distance: Option<At<f64>>,
+    pub approach_height: Option<At<(f64, Dimension)>>,
+    /// FAD, units of the program.
+    pub approach_feed: Option<At<f64>>,
+    /// ANG: the angle of a line, degrees.
+    pub contour_angle: Option<At<f64>>,
     /// AP and RP: polar coordinates.
     pub polar_angle: Option<At<(f64, Dimension)>>,
     pub polar_radius: Option<At<(f64, Dimension)>>,
@@ -43,8 +50,10 @@ pub struct BlockWords {
     /// CIP, CT.
     pub cip: Option<Span>,
     pub ct: Option<Span>,
-    /// ADIS or CTOL.
-    pub tolerance: Option<At<f64>>,
+    /// ADIS, units of the program.
+    pub rounding_distance: Option<At<f64>>,
+    /// CTOL, units of the program.
+    pub contour_tolerance: Option<At<f64>>,
     pub supa: Option<Span>,
     pub end_of_routine: Option<Span>,
     /// Ways by which rotary axes turn to their angles.
@@ -72,14 +81,14 @@ impl BlockWords {
         let mut failed = false;
         for word in words {
             if let Err(diagnostic) = block.add(word, variables) {
-                diagnostics.push(*diagnostic);
+                diagnostics.push(diagnostic);
                 failed = true;
             }
         }
         (!failed && diagnostics.errors() == before).then_some(block)
     }
 
-    fn add(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Box<Diagnostic>> {
+    fn add(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Diagnostic> {
         let span = word.span;
         let address = word.address.as_str();
         if let Some(axis) = AXES.iter().position(|axis| *axis == address) {
@@ -127,7 +136,8 @@ impl BlockWords {
             "F" => set(&mut self.feed, number(word, variables)?, span, address),
             "S" | "S1" => set(&mut self.speed, number(word, variables)?, span, "S"),
             "D" => set(&mut self.offset, number(word, variables)?, span, address),
-            "ADIS" | "CTOL" => set(&mut self.tolerance, number(word, variables)?, span, address),
+            "ADIS" => set(&mut self.rounding_distance, number(word, variables)?, span, address),
+            "CTOL" => set(&mut self.contour_tolerance, number(word, variables)?, span, address),
             "T" | "T1" => self.tool(word, variables),
             "I1" | "J1" | "K1" => {
                 let axis = ["I1", "J1", "K1"].iter().position(|name| *name == address);
@@ -135,6 +145,10 @@ impl BlockWords {
                 set(&mut self.middle[axis], dimensioned(word, variables)?, span, address)
             }
             "AR" => set(&mut self.opening, number(word, variables)?, span, address),
+            "DISR" => set(&mut self.approach_distance, number(word, variables)?, span, address),
+            "DISCL" => set(&mut self.approach_height, dimensioned(word, variables)?, span, address),
+            "FAD" => set(&mut self.approach_feed, number(word, variables)?, span, address),
+            "ANG" => set(&mut self.contour_angle, number(word, variables)?, span, address),
             "AP" => set(&mut self.polar_angle, dimensioned(word, variables)?, span, address),
             "RP" => set(&mut self.polar_radius, dimensioned(word, variables)?, span, address),
             "RND" | "CHF" | "CHR" => {
@@ -172,6 +186,19 @@ impl BlockWords {
                 self.supa = Some(span);
                 Ok(())
             }
+            "SETMS" => {
+                let spindle = match &word.value {
+                    WordValue::Plain(value) => value.number(variables)?,
+                    _ => 1.0,
+                };
+                if spindle != 1.0 {
+                    return Err(Diagnostic::error(span, format!("SETMS({spindle}): only the first spindle is supported"))
+                            .help("LinuxCNC's spindle 0 is that of SETMS(1)"));
+                }
+                let value = address.to_string();
+                self.noted.push(At { value, span });
+                Ok(())
+            }
             "RET" => {
                 self.end_of_routine = Some(span);
                 Ok(())
@@ -181,28 +208,18 @@ impl BlockWords {
                 self.noted.push(At { value, span });
                 Ok(())
             }
-            "N" => Err(Box::new(
-                Diagnostic::error(span, "the block number stands at the beginning of the block"),
-            )),
-            "H" => Err(Box::new(
-                Diagnostic::error(span, "H functions are not supported")
-                    .help("they switch something on this one machine: use an M function that LinuxCNC has"),
-            )),
-            "P" => Err(Box::new(
-                Diagnostic::error(span, "P has no meaning here")
-                    .help("P gives the number of passes after a subprogram call: L10 P3"),
-            )),
-            "RPL" => Err(Box::new(
-                Diagnostic::error(span, "RPL has no meaning here").help("it belongs to ROT and AROT"),
-            )),
-            _ => Err(Box::new(
-                Diagnostic::error(span, format!("the address {address} is not supported"))
-                    .help("axes are X Y Z A B C U V W"),
-            )),
+            "N" => Err(Diagnostic::error(span, "the block number stands at the beginning of the block")),
+            "H" => Err(Diagnostic::error(span, "H functions are not supported")
+                    .help("they switch something on this one machine: use an M function that LinuxCNC has")),
+            "P" => Err(Diagnostic::error(span, "P has no meaning here")
+                    .help("P gives the number of passes after a subprogram call: L10 P3")),
+            "RPL" => Err(Diagnostic::error(span, "RPL has no meaning here").help("it belongs to ROT and AROT")),
+            _ => Err(Diagnostic::error(span, format!("the address {address} is not supported"))
+                    .help("axes are X Y Z A B C U V W")),
         }
     }
 
-    fn tool(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Box<Diagnostic>> {
+    fn tool(&mut self, word: &Word, variables: &dyn Variables) -> Result<(), Diagnostic> {
         set(&mut self.tool, (), word.span, "T")?;
         let WordValue::Plain(value) = &word.value else {
             return Err(error(word.span, "a tool number or a name is needed here"));
@@ -220,16 +237,17 @@ impl BlockWords {
     pub fn is_motion(&self) -> bool {
         self.motion.is_motion()
             || self.opening.is_some()
+            || self.contour_angle.is_some()
             || self.polar_angle.is_some()
             || self.polar_radius.is_some()
     }
 }
 
-fn error(span: Span, message: &str) -> Box<Diagnostic> {
-    Box::new(Diagnostic::error(span, message))
+fn error(span: Span, message: &str) -> Diagnostic {
+    Diagnostic::error(span, message)
 }
 
-fn number(word: &Word, variables: &dyn Variables) -> Result<f64, Box<Diagnostic>> {
+fn number(word: &Word, variables: &dyn Variables) -> Result<f64, Diagnostic> {
     match &word.value {
         WordValue::Plain(value) => value.number(variables),
         _ => Err(error(word.span, "AC and IC belong to axes and to I, J, K")),
@@ -237,7 +255,7 @@ fn number(word: &Word, variables: &dyn Variables) -> Result<f64, Box<Diagnostic>
 }
 
 /// The angle of the spindle, by whatever way.
-fn angle(word: &Word, variables: &dyn Variables) -> Result<f64, Box<Diagnostic>> {
+fn angle(word: &Word, variables: &dyn Variables) -> Result<f64, Diagnostic> {
     match &word.value {
         WordValue::Plain(value) | WordValue::Absolute(value) | WordValue::Angle(_, value) => {
             value.number(variables)
@@ -249,10 +267,7 @@ fn angle(word: &Word, variables: &dyn Variables) -> Result<f64, Box<Diagnostic>>
     }
 }
 
-fn dimensioned(
-    word: &Word,
-    variables: &dyn Variables,
-) -> Result<(f64, Dimension), Box<Diagnostic>> {
+fn dimensioned(word: &Word, variables: &dyn Variables) -> Result<(f64, Dimension), Diagnostic> {
     let (value, dimension) = match &word.value {
         WordValue::Plain(value) => (value, Dimension::Modal),
         WordValue::Absolute(value) => (value, Dimension::Absolute),
@@ -264,7 +279,7 @@ fn dimensioned(
 }
 
 /// Numbers of G and M functions have at most one decimal.
-fn ten_times_code(number: f64, span: Span) -> Result<u32, Box<Diagnostic>> {
+fn ten_times_code(number: f64, span: Span) -> Result<u32, Diagnostic> {
     let tenfold = (number * 10.0).round();
     if !(0.0..=99990.0).contains(&tenfold) || (tenfold - number * 10.0).abs() > 1e-9 {
         return Err(error(span, "this is not the number of a function"));

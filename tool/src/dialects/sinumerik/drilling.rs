@@ -1,38 +1,45 @@
-//! Drilling cycles and patterns of holes, written out as moves: CYCLE81, CYCLE82 (drilling), CYCLE83 (deep
-//! holes), CYCLE85 to CYCLE89 (reaming, boring), HOLES1 (a row), HOLES2 (a circle); CYCLE84 and CYCLE840
-//! are in [`super::tapping`]. (Siemens, SINUMERIK 840D, Programming Guide Cycles, "Drilling cycles and
-//! drilling patterns".)
+//! Drilling cycles, written out as moves: CYCLE81, CYCLE82 (drilling), CYCLE85 to CYCLE89 (reaming,
+//! boring); CYCLE83 is in [`super::deep_hole`], CYCLE84 and CYCLE840 are in [`super::tapping`]. (Siemens,
+//! SINUMERIK 840D, Programming Guide Cycles, "Drilling cycles and drilling patterns".)
 
+use super::cycle_parameters::Cycle;
 use super::interpreter::Interpreter;
-use super::syntax::{Block, Call};
+use super::syntax::Call;
+use super::tapping::turning;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, MotionWords};
 use crate::program::{Action, Compensation, Spindle};
 use crate::source::Span;
-use framepath::frame::angle::sin_cos_degrees;
-
-/// How many strokes a deep hole may take.
-const STROKE_LIMIT: usize = 1000;
-
-/// How many holes a pattern may have.
-const HOLE_LIMIT: u32 = 10_000;
-
-/// How far chip breaking (VARI = 0) comes back, millimetres.
-const CHIP_BREAKING: f64 = 1.0;
 
 /// A drilling cycle; coordinates along the normal of the plane, units of the program.
 pub(super) struct Hole<'a> {
-    pub call: &'a Call,
+    pub cycle: &'a Cycle<'a>,
     /// RTP.
     retraction: f64,
     /// RFP.
-    reference: f64,
+    pub reference: f64,
     /// RFP and SDIS.
     pub safe: f64,
     /// DP.
     pub bottom: f64,
+}
+
+/// Decimal places of `_AMODE` that a cycle knows; each goes from 0 to 2.
+fn mode_places(cycle: &str) -> &'static [u32] {
+    match cycle {
+        "CYCLE83" => &[0, 1, 2, 3, 4, 5, 6, 7],
+        "CYCLE84" => &[0, 3, 6],
+        "CYCLE840" => &[0],
+        _ => &[0, 1],
+    }
+}
+
+/// Whether a cycle drills, reams, bores or taps a hole, for which the path is kept exactly.
+pub(super) fn is_drilling(name: &str) -> bool {
+    let kind = name.strip_prefix("CYCLE");
+    kind.is_some_and(|kind| kind == "840" || matches!(kind.as_bytes(), [b'8', b'1'..=b'9']))
 }
 
 impl Interpreter<'_> {
@@ -43,51 +50,78 @@ impl Interpreter<'_> {
                 .control
                 .refuse_compensation(call.span, "a drilling cycle");
         }
-        let hole = self.hole(call)?;
+        let Some(cycle) = self.cycle(call)? else {
+            return Ok(());
+        };
+        let hole = self.hole(&cycle)?;
         self.plunge(hole.safe, true, call.span)?;
-        match call.name.as_str() {
+        match cycle.name {
             "CYCLE83" => self.deep_hole(&hole)?,
             "CYCLE84" => self.rigid_tap(&hole)?,
             "CYCLE840" => self.floating_chuck(&hole)?,
             "CYCLE85" => self.ream(&hole)?,
             "CYCLE86" => return self.bore(&hole),
+            "CYCLE87" | "CYCLE88" => self.bore_and_stop(&hole)?,
             name => {
                 self.plunge(hole.bottom, false, call.span)?;
-                let dwell = match name {
-                    "CYCLE81" | "CYCLE87" => 0.0,
-                    _ => self.value(call, 5)?.unwrap_or(0.0),
-                };
-                self.wait(dwell, call.span)?;
+                self.wait_at_bottom(&cycle)?;
+                if name == "CYCLE89" {
+                    self.plunge(hole.safe, false, call.span)?;
+                }
             }
-        }
-        match call.name.as_str() {
-            "CYCLE89" => self.plunge(hole.safe, false, call.span)?,
-            "CYCLE87" | "CYCLE88" => {
-                // The operator goes on when the spindle stands.
-                self.control.set_spindle(Spindle::Stop);
-                self.control.actions.push(Action::Pause { optional: false });
-            }
-            _ => {}
         }
         self.plunge(hole.retraction, true, call.span)
     }
 
-    /// CYCLE85: DTB, FFR and RFF follow DPR, the feeds in and out.
+    /// DTB, as the tens of `_AMODE` say.
+    fn wait_at_bottom(&mut self, cycle: &Cycle) -> Done {
+        let unit = cycle.mode(1)?;
+        self.wait_by(cycle, cycle.or_zero("DTB")?, unit)
+    }
+
+    /// A dwell of a cycle: with 0 as its sign says, with 1 in seconds, with 2 in revolutions of the
+    /// spindle.
+    pub(super) fn wait_by(&mut self, cycle: &Cycle, time: f64, unit: u32) -> Done {
+        if time < 0.0 && unit == 1 {
+            return Err(cycle.unsupported("_AMODE", "a dwell in seconds cannot be negative"));
+        }
+        self.wait(if unit == 2 { -time.abs() } else { time }, cycle.span)
+    }
+
+    /// CYCLE87 and CYCLE88: the spindle turns as SDIR says, stops at the bottom, and the operator goes on.
+    fn bore_and_stop(&mut self, hole: &Hole) -> Done {
+        let cycle = hole.cycle;
+        if let Some(spindle) = turning(cycle.number("SDIR")?) {
+            self.turn(spindle);
+        }
+        self.plunge(hole.bottom, false, cycle.span)?;
+        if cycle.name == "CYCLE88" {
+            self.wait_at_bottom(cycle)?;
+        }
+        self.control.set_spindle(Spindle::Stop);
+        self.control.actions.push(Action::Pause { optional: false });
+        Ok(())
+    }
+
+    /// Switches the spindle if it does not turn that way already.
+    fn turn(&mut self, spindle: Spindle) {
+        if self.control.modal.spindle != Some(spindle) {
+            self.control.set_spindle(spindle);
+        }
+    }
+
+    /// CYCLE85: FFR and RFF are the feeds in and out.
     fn ream(&mut self, hole: &Hole) -> Done {
-        let call = hole.call;
-        let feeds = [6, 7].map(|at| self.value(call, at));
+        let cycle = hole.cycle;
         let before = self.control.modal.feed;
-        for (place, feed) in [hole.bottom, hole.safe].into_iter().zip(feeds) {
-            if let Some(value) = feed?.filter(|feed| *feed != 0.0) {
-                self.control.feed(At {
-                    value,
-                    span: call.span,
-                })?;
+        for (place, feed) in [(hole.bottom, "FFR"), (hole.safe, "RFF")] {
+            if let Some(value) = cycle.nonzero(feed)? {
+                let span = cycle.span_of(feed);
+                self.control.feed(At { value, span })?;
             }
-            self.plunge(place, false, call.span)?;
+            self.plunge(place, false, cycle.span)?;
             if place == hole.bottom {
-                let dwell = self.value(call, 5)?.unwrap_or(0.0);
-                self.wait(dwell, call.span)?;
+                self.wait_at_bottom(cycle)?;
             }
         }
         self.restore_feed(before);
@@ -102,108 +136,61 @@ impl Interpreter<'_> {
         }
     }
 
-    /// CYCLE86: DTB, SDIR, RPA, RPO, RPAP and POSS follow DPR. At the bottom the spindle stops at the
+    /// CYCLE86. At the bottom the spindle stops at the
     /// angle POSS, the cutting edge moves off the wall by RPA, RPO and RPAP, and the tool leaves the
     /// hole in rapid motion, then goes back over its middle.
     fn bore(&mut self, hole: &Hole) -> Done {
-        let call = hole.call;
-        let mut values = [0.0; 6];
-        for (at, value) in values.iter_mut().enumerate() {
-            *value = self.value(call, 5 + at)?.unwrap_or(0.0);
-        }
-        let [dwell, direction, off @ .., angle] = values;
-        let spindle = match direction {
-            3.0 => Spindle::Clockwise,
-            4.0 => Spindle::Counterclockwise,
-            _ => {
-                return Err(Box::new(
-                    Diagnostic::error(call.span, "CYCLE86 needs SDIR, how the spindle turns")
-                        .help("value 7 is 3 for M3 or 4 for M4"),
-                ));
-            }
+        let cycle = hole.cycle;
+        let span = cycle.span;
+        let off = [
+            cycle.or_zero("RPA")?,
+            cycle.or_zero("RPO")?,
+            cycle.or_zero("RPAP")?,
+        ];
+        let Some(spindle) = turning(cycle.number("SDIR")?) else {
+            return Err(
+                Diagnostic::error(span, "CYCLE86 needs SDIR, how the spindle turns")
+                    .help("value 7 is 3 for M3 or 4 for M4"),
+            );
         };
         let [first, second, normal] = self.control.modal.plane.axes();
         let (Some(x), Some(y)) = (self.control.present(first), self.control.present(second)) else {
-            return Err(Box::new(
-                Diagnostic::error(call.span, "where this hole is, is not known ahead of time")
+            return Err(
+                Diagnostic::error(span, "where this hole is, is not known ahead of time")
                     .help("program its place absolute before the cycle"),
-            ));
+            );
         };
-        if self.control.modal.spindle != Some(spindle) {
-            self.control.set_spindle(spindle);
-        }
-        self.plunge(hole.bottom, false, call.span)?;
-        self.wait(dwell, call.span)?;
+        self.turn(spindle);
+        self.plunge(hole.bottom, false, span)?;
+        self.wait_at_bottom(cycle)?;
         self.control.modal.spindle = None;
-        let angle = angle.rem_euclid(360.0);
+        let angle = cycle.or_zero("POSS")?.rem_euclid(360.0);
         self.control.actions.push(Action::Orient(angle));
         let lifted = [x + off[0], y + off[1], hole.bottom + off[2]];
         let axes = [first, second, normal];
-        self.rapid_to(&axes, &lifted, call.span)?;
-        self.plunge(hole.safe, true, call.span)?;
-        self.rapid_to(&axes, &[x, y, hole.retraction], call.span)
+        self.rapid_to(&axes, &lifted, span)?;
+        self.plunge(hole.safe, true, span)?;
+        self.rapid_to(&axes, &[x, y, hole.retraction], span)
     }
 
     /// The planes of a cycle: RTP, RFP, SDIS, DP, DPR.
-    fn hole<'a>(&self, call: &'a Call) -> Result<Hole<'a>, Box<Diagnostic>> {
-        let known = match call.name.as_str() {
-            "CYCLE81" | "CYCLE87" => 5,
-            "CYCLE83" | "CYCLE84" => 12,
-            "CYCLE840" | "CYCLE86" => 11,
-            "CYCLE85" => 8,
-            _ => 6,
-        };
-        for at in known..call.arguments.len() {
-            // Which way the spindle turns at the bottom of CYCLE87 and CYCLE88 before it stops.
-            if matches!((call.name.as_str(), at), ("CYCLE87", 5) | ("CYCLE88", 6)) {
-                continue;
-            }
-            if self.value(call, at)?.is_some_and(|value| value != 0.0) {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        call.span,
-                        format!("value {} of {} is not supported", at + 1, call.name),
-                    )
-                    .help(
-                        "it belongs to the modes of newer controls: post the program with the moves \
-                         of the cycle",
-                    ),
-                ));
-            }
-        }
-        let need = |at: usize, name: &str| {
-            self.value(call, at)?.ok_or_else(|| {
-                Box::new(Diagnostic::error(
-                    call.span,
-                    format!("{} needs {name}", call.name),
-                ))
-            })
-        };
-        let retraction = need(0, "RTP, the retraction plane")?;
-        let reference = self.value(call, 1)?.unwrap_or(0.0);
-        let clearance = self.value(call, 2)?.unwrap_or(0.0);
-        let bottom = match (self.value(call, 4)?, self.value(call, 3)?) {
-            (Some(depth), _) if depth != 0.0 => reference - depth.abs(),
-            (_, Some(bottom)) => bottom,
-            _ => {
-                return Err(Box::new(
-                    Diagnostic::error(call.span, format!("{} needs a depth", call.name))
-                        .help("give DP (absolute) or DPR (from the reference plane)"),
-                ));
-            }
-        };
+    fn hole<'a>(&self, cycle: &'a Cycle) -> Result<Hole<'a>, Diagnostic> {
+        cycle.check_modes(mode_places(cycle.name))?;
+        self.check_tool_axis(cycle)?;
+        let retraction = cycle.needed("RTP", "the retraction plane")?;
+        let reference = cycle.or_zero("RFP")?;
+        let clearance = cycle.or_zero("SDIS")?;
+        let bottom = self.depth(cycle, reference, cycle.mode(0)?)?;
         let safe = reference + clearance;
         if clearance < 0.0 || bottom >= reference || retraction < safe {
-            return Err(Box::new(
-                Diagnostic::error(
-                    call.span,
-                    "the planes of this cycle are not in the order RTP, RFP + SDIS, RFP, DP from above",
-                )
-                .help("check the retraction plane, the reference plane and the depth"),
-            ));
+            return Err(Diagnostic::error(
+                cycle.span,
+                "the planes of this cycle are not in the order RTP, RFP + SDIS, RFP, DP from above",
+            )
+            .help("check the retraction plane, the reference plane and the depth"));
         }
         Ok(Hole {
-            call,
+            cycle,
             retraction,
             reference,
             safe,
@@ -211,71 +198,45 @@ impl Interpreter<'_> {
         })
     }
 
-    /// CYCLE83: FDEP, FDPR, DAM, DTB, DTS, FRF, VARI follow DPR.
-    fn deep_hole(&mut self, hole: &Hole) -> Done {
-        let call = hole.call;
-        let value = |at: usize| self.value(call, at);
-        let first = match (value(6)?, value(5)?) {
-            (Some(depth), _) if depth != 0.0 => depth.abs(),
-            (_, Some(depth)) => hole.reference - depth,
-            _ => hole.reference - hole.bottom,
+    /// DP or DPR: with 0 the one that is given, with 1 DPR, with 2 DP.
+    pub(super) fn depth(
+        &self,
+        cycle: &Cycle,
+        reference: f64,
+        mode: u32,
+    ) -> Result<f64, Diagnostic> {
+        let below = |depth: f64| reference - depth.abs();
+        let (absolute, relative) = (cycle.number("DP")?, cycle.nonzero("DPR")?);
+        let bottom = match mode {
+            0 => relative.map(below).or(absolute),
+            1 => relative.map(below),
+            _ => absolute,
         };
-        let (less, at_bottom, at_top) = (value(7)?, value(8)?, value(9)?);
-        let (share, clears) = (value(10)?, value(11)?);
-        if share.is_some_and(|share| share != 1.0 && share != 0.0) {
-            return Err(Box::new(
-                Diagnostic::error(
-                    call.span,
-                    "FRF, another feed for the first stroke, is not supported",
-                )
-                .help("write 1"),
-            ));
+        bottom.ok_or_else(|| {
+            Diagnostic::error(cycle.span, format!("{} needs a depth", cycle.name)).help(
+                match mode {
+                    0 => "give DP (absolute) or DPR (from the reference plane)",
+                    1 => "the last digit of _AMODE is 1: give DPR (from the reference plane)",
+                    _ => "the last digit of _AMODE is 2: give DP (absolute)",
+                },
+            )
+        })
+    }
+
+    /// `_AXN` names the tool axis by its number from 1 on; 0 is the normal of the plane.
+    fn check_tool_axis(&self, cycle: &Cycle) -> Done {
+        if !cycle.has("_AXN") {
+            return Ok(());
         }
-        let clears = match clears.unwrap_or(0.0) {
-            0.0 => false,
-            1.0 => true,
-            other => {
-                return Err(Box::new(
-                    Diagnostic::error(call.span, format!("VARI = {other} is not supported"))
-                        .help("0 breaks chips, 1 clears them"),
-                ));
-            }
-        };
-        let depths =
-            strokes(hole.reference - hole.bottom, first, less.unwrap_or(0.0)).ok_or_else(|| {
-                Box::new(
-                    Diagnostic::error(
-                        call.span,
-                        "the strokes of this cycle do not lead to the bottom",
-                    )
-                    .help("check the first depth (FDEP, FDPR) and DAM"),
-                )
-            })?;
-        let factor = self.control.modal.length_factor;
-        let last = depths.len() - 1;
-        for (at, depth) in depths.into_iter().enumerate() {
-            if !self.control.count_block(call.span) {
-                return Ok(());
-            }
-            let bottom = hole.reference - depth;
-            self.plunge(bottom, false, call.span)?;
-            self.wait(at_bottom.unwrap_or(0.0), call.span)?;
-            if at == last {
-                break;
-            }
-            if clears {
-                self.plunge(hole.safe, true, call.span)?;
-                self.wait(at_top.unwrap_or(0.0), call.span)?;
-                // How far before the last bottom the rapid motion ends: 0.6 mm up to a depth of 30 mm,
-                // then a fiftieth of it, at most 7 mm.
-                let ahead = (depth * factor / 50.0).clamp(0.6, 7.0) / factor;
-                self.plunge((bottom + ahead).min(hole.safe), true, call.span)?;
-            } else {
-                let back = CHIP_BREAKING / self.millimetres();
-                self.plunge((bottom + back).min(hole.safe), false, call.span)?;
-            }
+        let [_, _, normal] = self.control.modal.plane.axes();
+        match cycle.nonzero("_AXN")? {
+            None => Ok(()),
+            Some(axis) if axis == (normal + 1) as f64 => Ok(()),
+            Some(_) => Err(cycle.unsupported(
+                "_AXN",
+                "holes are drilled along the normal of the plane: write 0, and G17, G18 or G19 before",
+            )),
         }
-        Ok(())
     }
 
     /// How many millimetres a unit of the program has.
@@ -286,58 +247,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// `HOLES1(SPCA, SPCO, STA1, FDIS, DBH, NUM)`, `HOLES2(CPA, CPO, RAD, STA1, INDA, NUM)`: the modal
-    /// subprogram or cycle at each place.
-    pub(super) fn holes(&mut self, call: &Call, block: &Block) -> Done {
-        let mut values = [0.0; 6];
-        for (at, value) in values.iter_mut().enumerate() {
-            *value = self.value(call, at)?.unwrap_or(0.0);
-        }
-        let [a, b, third, fourth, fifth, count] = values;
-        if count.fract() != 0.0 || !(1.0..=f64::from(HOLE_LIMIT)).contains(&count) {
-            return Err(Box::new(Diagnostic::error(
-                call.span,
-                format!("NUM = {count} is not a number of holes"),
-            )));
-        }
-        if self.modal_call.is_none() {
-            return Err(Box::new(
-                Diagnostic::error(call.span, format!("{} without a modal cycle", call.name))
-                    .help("say before what is done at the holes: MCALL CYCLE81(10,0,2,-5)"),
-            ));
-        }
-        for number in 0..count as u32 {
-            if !self.control.count_block(call.span) {
-                return Ok(());
-            }
-            let number = f64::from(number);
-            let (distance, direction) = match call.name.as_str() {
-                "HOLES1" => (fourth + number * fifth, third),
-                _ => {
-                    let step = if fifth == 0.0 { 360.0 / count } else { fifth };
-                    (third, fourth + number * step)
-                }
-            };
-            let (sin, cos) = sin_cos_degrees(direction);
-            self.go_to([a + distance * cos, b + distance * sin], call.span)?;
-            self.control
-                .finish_marker(&super::interpreter::place(block));
-            if !matches!(
-                self.run_modal_call(block, 0)?,
-                super::interpreter::Next::Block(_)
-            ) {
-                return Ok(());
-            }
-        }
-        Ok(())
-    }
-
-    fn go_to(&mut self, place: [f64; 2], span: Span) -> Done {
-        let [first, second, _] = self.control.modal.plane.axes();
-        self.rapid_to(&[first, second], &place, span)
-    }
-
-    fn rapid_to(&mut self, axes: &[usize], place: &[f64], span: Span) -> Done {
+    pub(super) fn rapid_to(&mut self, axes: &[usize], place: &[f64], span: Span) -> Done {
         let mut words = MotionWords::default();
         for (axis, value) in axes.iter().zip(place) {
             if self.control.present(*axis) != Some(*value) {
@@ -367,73 +277,15 @@ impl Interpreter<'_> {
             (false, _) => time,
             (true, Some(speed)) if speed > 0.0 => -60.0 * time / speed,
             _ => {
-                return Err(Box::new(Diagnostic::error(
+                return Err(Diagnostic::error(
                     span,
                     "a dwell in revolutions of a spindle without speed",
-                )));
+                ));
             }
         };
         if seconds > 0.0 {
             self.control.actions.push(Action::Dwell(seconds));
         }
         Ok(())
-    }
-
-    pub(super) fn value(&self, call: &Call, at: usize) -> Result<Option<f64>, Box<Diagnostic>> {
-        match call.arguments.get(at) {
-            Some(Some(argument)) => argument.number(&self.variables).map(Some),
-            _ => Ok(None),
-        }
-    }
-}
-
-/// The depths of the strokes, from the reference plane: each stroke is shorter by `less` than the one
-/// before until it would be shorter than `less`; the last two share what is left. `None` where they never
-/// reach the bottom.
-fn strokes(total: f64, first: f64, less: f64) -> Option<Vec<f64>> {
-    if !(first > 0.0 && less >= 0.0) {
-        return None;
-    }
-    let mut depths = vec![first.min(total)];
-    let mut stroke = first;
-    while let Some(depth) = depths.last().copied().filter(|depth| *depth < total) {
-        stroke = if stroke - less >= less {
-            stroke - less
-        } else {
-            less
-        };
-        let left = total - depth;
-        let next = match left {
-            left if left <= stroke => left,
-            left if less > 0.0 && left < 2.0 * stroke && stroke == less => left / 2.0,
-            _ => stroke,
-        };
-        // Rounding must not leave a last stroke of nothing.
-        depths.push(if total - depth - next < 1e-9 * total {
-            total
-        } else {
-            depth + next
-        });
-        if depths.len() > STROKE_LIMIT {
-            return None;
-        }
-    }
-    Some(depths)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::strokes;
-
-    #[test]
-    fn strokes_become_shorter_and_end_at_the_bottom() {
-        assert_eq!(strokes(10.0, 4.0, 0.0), Some(vec![4.0, 8.0, 10.0]));
-        assert_eq!(strokes(10.0, 20.0, 1.0), Some(vec![10.0]));
-        assert_eq!(
-            strokes(20.0, 8.0, 3.0),
-            Some(vec![8.0, 13.0, 16.0, 18.0, 20.0])
-        );
-        assert_eq!(strokes(10.0, 0.0, 1.0), None);
-        assert_eq!(strokes(10.0, 1e-9, 0.0), None);
     }
 }

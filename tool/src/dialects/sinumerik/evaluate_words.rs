@@ -1,10 +1,11 @@
 //! What the words of a block do, in the order in which the control does it: modes, feed and speed,
 //! tool, spindle, coolant, offsets, motion, stop.
 
+use super::approach::shape_of;
 use super::block_words::{BlockWords, ToolWord};
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
-use crate::dialects::control::words::{AXES, At, Dimension};
+use crate::dialects::control::words::{At, Dimension};
 use crate::dialects::control::{Control, Done};
 use crate::program::moves::{Corner, MoveKind};
 use crate::program::{Action, Compensation};
@@ -30,6 +31,10 @@ pub(super) struct OneShot {
     pub(super) pole: Option<At<u32>>,
     /// G52.
     pub(super) local_offset: Option<Span>,
+    /// G58 or G59.
+    pub(super) programmed_offset: Option<At<u32>>,
+    /// G147 and its like (`true`), or G148 and its like.
+    pub(super) smooth: Option<bool>,
 }
 
 impl Interpreter<'_> {
@@ -38,7 +43,7 @@ impl Interpreter<'_> {
         &mut self,
         words: &BlockWords,
         block: Span,
-    ) -> Result<BlockEnd, Box<Diagnostic>> {
+    ) -> Result<BlockEnd, Diagnostic> {
         let mut words = words.clone();
         for noted in &words.noted {
             self.control.note(&noted.value, noted.span);
@@ -48,7 +53,17 @@ impl Interpreter<'_> {
             ..OneShot::default()
         };
         let compensated = self.control.modal.compensation != Compensation::Off;
+        self.check_open_line(&words)?;
+        self.check_approach(&words)?;
+        let leaves = |g: &At<u32>| shape_of(g.value).is_some_and(|(_, approaches)| !approaches);
+        if words.g.iter().any(leaves) {
+            self.begin_retraction(&words)?;
+        }
         self.g_functions(&words, &mut once)?;
+        if let Some(g) = once.programmed_offset {
+            self.programmed_offset(&words, g)?;
+            return Ok(BlockEnd::Continue);
+        }
         self.resolve_axes(&mut words)?;
         let words = &words;
         if let Some(span) = once.dwell {
@@ -70,12 +85,12 @@ impl Interpreter<'_> {
             }
         }
         let end = self.m_functions(words)?;
-        self.offset(words)?;
-        // `ADIS=` (distance at which G641 begins to round) and `CTOL=` (contour tolerance) become the
-        // tolerance of G64.
-        if let Some(tolerance) = words.tolerance {
-            self.control
-                .continuous_path(Some(tolerance.value), tolerance.span)?;
+        self.offset(words, compensated)?;
+        if let Some(distance) = words.rounding_distance {
+            self.rounding_distance(distance)?;
+        }
+        if let Some(tolerance) = words.contour_tolerance {
+            self.contour_tolerance(tolerance)?;
         }
         self.control.apply_states(compensated);
         if !self.spindle_motion(words, block)? {
@@ -94,37 +109,31 @@ impl Interpreter<'_> {
             || words.tool.is_some()
             || words.offset.is_some()
         {
-            return Err(Box::new(
-                Diagnostic::error(span, "G4 stands alone in its block")
-                    .help("put axes, T, D and M functions in another block"),
-            ));
+            return Err(Diagnostic::error(span, "G4 stands alone in its block")
+                .help("put axes, T, D and M functions in another block"));
         }
         let seconds = match (words.feed, words.speed) {
             (Some(seconds), None) => seconds.value,
             (None, Some(revolutions)) => match self.control.modal.spindle_speed {
                 Some(speed) if speed > 0.0 => 60.0 * revolutions.value / speed,
                 _ => {
-                    return Err(Box::new(
-                        Diagnostic::error(
-                            revolutions.span,
-                            "a dwell in revolutions of a spindle without speed",
-                        )
-                        .help("program S before, or dwell in seconds: G4 F2"),
-                    ));
+                    return Err(Diagnostic::error(
+                        revolutions.span,
+                        "a dwell in revolutions of a spindle without speed",
+                    )
+                    .help("program S before, or dwell in seconds: G4 F2"));
                 }
             },
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, "G4 needs a time")
-                        .help("G4 F2.5 waits 2.5 seconds, G4 S30 waits 30 revolutions"),
-                ));
+                return Err(Diagnostic::error(span, "G4 needs a time")
+                    .help("G4 F2.5 waits 2.5 seconds, G4 S30 waits 30 revolutions"));
             }
         };
         self.control.dwell(seconds, span)
     }
 
     /// M functions except the stops at the end of the block; returns the word that ends the routine.
-    fn m_functions(&mut self, words: &BlockWords) -> Result<Option<Span>, Box<Diagnostic>> {
+    fn m_functions(&mut self, words: &BlockWords) -> Result<Option<Span>, Diagnostic> {
         let mut end = words.end_of_routine;
         for At { value, span } in Control::in_order(&words.m) {
             match value {
@@ -134,6 +143,7 @@ impl Interpreter<'_> {
                 6 => {
                     self.control.tool_change(span, true)?;
                     self.tool = self.selected;
+                    self.edge = Some(1.0);
                 }
                 19 => self.control.actions.push(Action::Orient(0.0)),
                 40..=45 => self.control.note(&format!("M{value}"), span),
@@ -144,10 +154,28 @@ impl Interpreter<'_> {
         Ok(end)
     }
 
-    fn offset(&mut self, words: &BlockWords) -> Done {
+    /// D. `compensated`: whether cutter compensation was on when the block began.
+    fn offset(&mut self, words: &BlockWords, compensated: bool) -> Done {
         let Some(offset) = words.offset else {
             return Ok(());
         };
+        let unchanged = self.edge == Some(offset.value);
+        let compensation = self.control.modal.compensation;
+        if unchanged && (compensated || compensation != Compensation::Off) {
+            return Ok(());
+        }
+        // `G41 D1`: the edge is chosen before its radius acts.
+        if !compensated {
+            self.control.modal.compensation = Compensation::Off;
+        }
+        let done = self.choose_edge(offset);
+        self.control.modal.compensation = compensation;
+        done?;
+        self.edge = Some(offset.value);
+        Ok(())
+    }
+
+    fn choose_edge(&mut self, offset: At<f64>) -> Done {
         let on = match offset.value {
             0.0 => false,
             1.0 => true,
@@ -156,27 +184,26 @@ impl Interpreter<'_> {
                 return self.control.tool_offset(row, offset.span);
             }
             value => {
-                return Err(Box::new(
-                    Diagnostic::error(offset.span, format!("D{value} is not an edge of a tool"))
-                        .help("the edges of a tool are D1 to D9, D0 is none"),
-                ));
+                return Err(Diagnostic::error(
+                    offset.span,
+                    format!("D{value} is not an edge of a tool"),
+                )
+                .help("the edges of a tool are D1 to D9, D0 is none"));
             }
         };
         self.control.tool_length(on, offset.span)
     }
 
     /// The row of LinuxCNC's tool table that holds a further edge of the tool.
-    fn edge_row(&self, edge: u32, span: Span) -> Result<u32, Box<Diagnostic>> {
+    pub(super) fn edge_row(&self, edge: u32, span: Span) -> Result<u32, Diagnostic> {
         let tool = self.tool.unwrap_or(0);
         let rows = &self.control.settings.tool_edges;
         rows.get(&(tool, edge)).copied().ok_or_else(|| {
-            Box::new(
-                Diagnostic::error(span, format!("D{edge}: a tool has one offset in LinuxCNC")).help(
+            Diagnostic::error(span, format!("D{edge}: a tool has one offset in LinuxCNC")).help(
                     format!(
                         "enter the edge as a row of the tool table and name it: --edge {tool}.{edge}=ROW"
                     ),
-                ),
-            )
+                )
         })
     }
 
@@ -196,35 +223,52 @@ impl Interpreter<'_> {
         if let Some(rounding) = words.rounding {
             self.modal_rounding(rounding)?;
         }
+        match once.smooth {
+            Some(true) => return self.begin_approach(words),
+            Some(false) => return self.end_retraction(words, block),
+            None => {}
+        }
+        if let Some(word) = words.approach_distance {
+            return Err(Diagnostic::error(
+                word.span,
+                "DISR belongs to a smooth approach or retraction",
+            )
+            .help("write G147, G247 or G347, or G148, G248 or G348 in this block"));
+        }
         if !words.is_motion() {
             if let Some(corner) = words.corner {
-                return Err(Box::new(
-                    Diagnostic::error(corner.span, "a rounding or chamfer without a motion")
-                        .help("write it beside the axes of the motion before the corner"),
-                ));
+                return Err(Diagnostic::error(
+                    corner.span,
+                    "a rounding or chamfer without a motion",
+                )
+                .help("write it beside the axes of the motion before the corner"));
             }
             if once.exact_stop {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        block,
-                        "G9 acts in its block only, and this one has no motion",
-                    )
-                    .help("put it beside the axes, or use G60"),
-                ));
+                return Err(Diagnostic::error(
+                    block,
+                    "G9 acts in its block only, and this one has no motion",
+                )
+                .help("put it beside the axes, or use G60"));
             }
             return Ok(());
         }
-        self.path_motion(words, once, block)?;
-        self.corner_after(words)
+        self.approach_before(words, |this| this.path_motion(words, once, block))?;
+        if self.approach.is_some() {
+            return Ok(());
+        }
+        match self.open_line {
+            Some(_) => Ok(()),
+            None => self.corner_after(words.corner),
+        }
     }
 
     /// RNDM: every corner that follows is rounded; 0 ends it.
     fn modal_rounding(&mut self, radius: At<f64>) -> Done {
         if radius.value < 0.0 {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 radius.span,
                 "a rounding cannot be negative",
-            )));
+            ));
         }
         let length = radius.value * self.control.modal.length_factor;
         self.rounding = Some(length).filter(|length| *length > 0.0);
@@ -232,9 +276,10 @@ impl Interpreter<'_> {
     }
 
     /// Asks for the corner at the end of the motion of the block.
-    fn corner_after(&mut self, words: &BlockWords) -> Done {
+    pub(super) fn corner_after(&mut self, corner: Option<At<Corner>>) -> Done {
         let factor = self.control.modal.length_factor;
-        let corner = match words.corner {
+        let asked = corner;
+        let corner = match corner {
             Some(corner) => match corner.value {
                 Corner::Round(length) => Corner::Round(length * factor),
                 Corner::ChamferOf(length) => Corner::ChamferOf(length * factor),
@@ -248,12 +293,13 @@ impl Interpreter<'_> {
         };
         if let Some(Action::Move(path)) = self.control.actions.last_mut() {
             let rapid = path.kind == MoveKind::Rapid;
-            match (rapid, words.corner) {
+            match (rapid, asked) {
                 (true, Some(word)) => {
-                    return Err(Box::new(
-                        Diagnostic::error(word.span, "a rounding or chamfer after a rapid motion")
-                            .help("corners are made between motions with feed"),
-                    ));
+                    return Err(Diagnostic::error(
+                        word.span,
+                        "a rounding or chamfer after a rapid motion",
+                    )
+                    .help("corners are made between motions with feed"));
                 }
                 (true, None) => {}
                 (false, _) => path.corner = Some(corner),
@@ -266,31 +312,10 @@ impl Interpreter<'_> {
     fn local_offset(&mut self, words: &BlockWords, span: Span) -> Done {
         self.control.refuse_compensation(span, "G52")?;
         if !self.control.modal.frame.is_empty() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G52 while a frame is active")
-                    .help("use TRANS or ATRANS, or clear the frame with TRANS before"),
-            ));
+            return Err(Diagnostic::error(span, "G52 while a frame is active")
+                .help("use TRANS or ATRANS, or clear the frame with TRANS before"));
         }
-        let mut values = [None; 9];
-        for (axis, word) in words.motion.axes.iter().enumerate() {
-            let Some(word) = word else {
-                continue;
-            };
-            let factor = match AXES[axis] {
-                "A" | "B" | "C" => 1.0,
-                _ => self.control.modal.length_factor,
-            };
-            values[axis] = Some(word.value.0 * factor);
-            self.control.modal.position.set(axis, None);
-        }
-        if values == [None; 9] {
-            return Err(Box::new(
-                Diagnostic::error(span, "G52 needs axes").help("G52 X0 Y0 Z0 ends it"),
-            ));
-        }
-        self.control.modal.tangent = None;
-        self.control.actions.push(Action::LocalOffset(values));
-        Ok(())
+        self.control.local_offset(&words.motion, span)
     }
 
     /// G53, G153, SUPA.
@@ -302,10 +327,10 @@ impl Interpreter<'_> {
         let increments = |axis: &At<(f64, Dimension)>| axis.value.1 != Dimension::Absolute;
         let mut axes = words.motion.axes.iter().flatten();
         if self.control.modal.incremental && axes.any(increments) {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(span, "an increment in machine coordinates")
                     .help("write G90, or X=AC(..), in this block"),
-            ));
+            );
         }
         self.control
             .machine_move(&words.motion, span, true, words.feed.is_some())
@@ -313,10 +338,8 @@ impl Interpreter<'_> {
 
     fn preset(&mut self, words: &BlockWords, span: Span) -> Done {
         if !self.control.modal.frame.is_empty() {
-            return Err(Box::new(
-                Diagnostic::error(span, "G92 while a frame is active")
-                    .help("clear the frame with TRANS before, and set it again after"),
-            ));
+            return Err(Diagnostic::error(span, "G92 while a frame is active")
+                .help("clear the frame with TRANS before, and set it again after"));
         }
         self.control.preset(&words.motion, span)
     }

@@ -1,5 +1,5 @@
-//! Parsing arithmetic. From the strongest to the weakest: `NOT` and signs; `* / DIV MOD`; `+ -`; `AND`;
-//! `XOR`; `OR`; `<<`; comparisons. (Siemens, Programming Manual Job Planning, "Operators".)
+//! Parsing arithmetic. From the strongest to the weakest: `NOT`, `B_NOT` and signs; `* / DIV MOD`; `+ -`;
+//! `B_AND`; `B_XOR`; `B_OR`; `AND`; `XOR`; `OR`; `<<`; comparisons. (Siemens, Programming Manual Job Planning, "Operators".)
 //!
 //! Comparisons are the weakest, so that `R1 > 5 AND R2 < 3` means `R1 > (5 AND R2) < 3` to the
 //! control. Nobody means that: such mixtures are refused unless parentheses say what is meant.
@@ -11,7 +11,7 @@ use crate::dialects::expression::{Binary, Expression, ExpressionKind, Function, 
 use crate::dialects::operators::{DEPTH_LIMIT, Grammar};
 
 const GRAMMAR: Grammar<Symbol, SectionName> = Grammar {
-    levels: 7,
+    levels: 10,
     operator,
     check: check_comparison,
     operand: unary,
@@ -68,18 +68,21 @@ fn operator(token: Option<&TokenKind>, at_level: usize) -> Option<Binary> {
             Symbol::Greater => (Greater, 0),
             Symbol::GreaterOrEqual => (GreaterOrEqual, 0),
             Symbol::Concatenate => (Concatenate, 1),
-            Symbol::Plus => (Add, 5),
-            Symbol::Minus => (Subtract, 5),
-            Symbol::Star => (Multiply, 6),
-            Symbol::Slash => (Divide, 6),
+            Symbol::Plus => (Add, 8),
+            Symbol::Minus => (Subtract, 8),
+            Symbol::Star => (Multiply, 9),
+            Symbol::Slash => (Divide, 9),
             _ => return None,
         },
         TokenKind::Name(name) => match name.as_str() {
             "OR" => (Or, 2),
             "XOR" => (ExclusiveOr, 3),
             "AND" => (And, 4),
-            "DIV" => (WholeDivide, 6),
-            "MOD" => (Remainder, 6),
+            "B_OR" => (BitOr, 5),
+            "B_XOR" => (BitExclusiveOr, 6),
+            "B_AND" => (BitAnd, 7),
+            "DIV" => (WholeDivide, 9),
+            "MOD" => (Remainder, 9),
             _ => return None,
         },
         _ => return None,
@@ -104,13 +107,11 @@ fn refuse_mixture(operand: &Expression) -> Parsed<()> {
     if !mixed {
         return Ok(());
     }
-    Err(Box::new(
-        Diagnostic::error(
-            operand.span,
-            "comparisons bind weaker than AND, OR and NOT: this is compared, not the parts of it",
-        )
-        .help("put each comparison in parentheses: (R1 > 5) AND (R2 < 3)"),
-    ))
+    Err(Diagnostic::error(
+        operand.span,
+        "comparisons bind weaker than AND, OR and NOT: this is compared, not the parts of it",
+    )
+    .help("put each comparison in parentheses: (R1 > 5) AND (R2 < 3)"))
 }
 
 fn unary(cursor: &mut Cursor, depth: u32) -> Parsed<Expression> {
@@ -122,6 +123,8 @@ fn unary(cursor: &mut Cursor, depth: u32) -> Parsed<Expression> {
         Unary::Negate
     } else if cursor.take_name("NOT") {
         Unary::Not
+    } else if cursor.take_name("B_NOT") {
+        Unary::BitNot
     } else if cursor.take(Symbol::Plus) {
         return unary(cursor, depth + 1);
     } else {
@@ -193,19 +196,20 @@ fn named(cursor: &mut Cursor, name: &str, depth: u32) -> Parsed<ExpressionKind> 
         "FALSE" => return Ok(ExpressionKind::Number(0.0)),
         "PI" | "$PI" => return Ok(ExpressionKind::Number(std::f64::consts::PI)),
         _ if name.starts_with('$') => {
-            return Err(Box::new(
-                Diagnostic::error(start, format!("{name} cannot be evaluated ahead of time"))
-                    .help("system variables are not supported: use an R parameter and --set"),
-            ));
+            return Err(Diagnostic::error(
+                start,
+                format!("{name} cannot be evaluated ahead of time"),
+            )
+            .help("system variables are not supported: use an R parameter and --set"));
         }
         _ => {}
     }
     if cursor.take(Symbol::Open) {
         let function = function(name).ok_or_else(|| {
-            Box::new(Diagnostic::error(
+            Diagnostic::error(
                 start,
                 format!("`{name}` is not a function that can be used here"),
-            ))
+            )
         })?;
         let list = list(cursor, Symbol::Close, ")", depth + 1)?;
         let given: Option<Vec<Expression>> = list.into_iter().collect();
@@ -213,10 +217,10 @@ fn named(cursor: &mut Cursor, name: &str, depth: u32) -> Parsed<ExpressionKind> 
             Some(given) if given.len() == function.arguments() => {
                 Ok(ExpressionKind::Function(function, given))
             }
-            _ => Err(Box::new(Diagnostic::error(
+            _ => Err(Diagnostic::error(
                 start,
                 format!("{name} needs {} values", function.arguments()),
-            ))),
+            )),
         };
     }
     if cursor.take(Symbol::OpenBracket) {
@@ -225,7 +229,7 @@ fn named(cursor: &mut Cursor, name: &str, depth: u32) -> Parsed<ExpressionKind> 
             .collect();
         return index
             .map(|index| ExpressionKind::Variable(name.to_string(), index))
-            .ok_or_else(|| Box::new(Diagnostic::error(start, "an index is missing")));
+            .ok_or_else(|| Diagnostic::error(start, "an index is missing"));
     }
     Ok(ExpressionKind::Variable(name.to_string(), Vec::new()))
 }

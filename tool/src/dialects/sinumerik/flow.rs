@@ -1,10 +1,11 @@
 //! Which block comes next: conditions, loops and jumps.
 
-use super::interpreter::{Interpreter, Next};
+use super::interpreter::Interpreter;
 use super::routine::Routine;
 use super::syntax::{Assignment, Direction, Flow, Jump, RepeatPart, Statement, Target};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Expression, ExpressionKind, Value};
+use crate::dialects::run::Next;
 use std::rc::Rc;
 
 /// How often a part can be repeated by one statement.
@@ -16,7 +17,7 @@ impl Interpreter<'_> {
         flow: &Flow,
         routine: &Rc<Routine>,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         // A missing partner has been reported when the file was read.
         let Some(after_partner) = self.after_partner(flow, routine, at) else {
             return Ok(Next::Abort);
@@ -74,40 +75,35 @@ impl Interpreter<'_> {
         part: &RepeatPart,
         routine: &Rc<Routine>,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         if self.repeats.contains(&part.span) {
-            return Err(Box::new(
-                Diagnostic::error(
-                    part.span,
-                    "this repetition is among the blocks that it repeats",
-                )
-                .help("let the part end before it"),
-            ));
+            return Err(Diagnostic::error(
+                part.span,
+                "this repetition is among the blocks that it repeats",
+            )
+            .help("let the part end before it"));
         }
         let missing = |what: &str| {
-            Box::new(
-                Diagnostic::error(part.span, format!("there is no {what} for this repetition"))
-                    .help("labels are written NAME: at the beginning of a block"),
-            )
+            Diagnostic::error(part.span, format!("there is no {what} for this repetition"))
+                .help("labels are written NAME: at the beginning of a block")
         };
         // The label nearest before the statement, else the first one behind it.
-        let nearest = |target: &Target| {
-            let targets = routine.targets(target);
+        let nearest = |targets: Vec<usize>| {
             let before = targets.partition_point(|place| *place < at);
             let before = before.checked_sub(1).and_then(|last| targets.get(last));
             before.or(targets.first()).copied()
         };
-        let first = nearest(&part.first).ok_or_else(|| missing("label"))?;
+        let first = nearest(self.targets(&part.first, routine)).ok_or_else(|| missing("label"))?;
         let end_label = Target::Label("ENDLABEL".to_string());
         let end = match &part.last {
             _ if part.one_block => first + 1,
             Some(last) => {
-                let places = routine.targets(last).iter();
-                let last = places.copied().find(|last| *last >= first);
+                let mut places = self.targets(last, routine).into_iter();
+                let last = places.find(|last| *last >= first);
                 last.ok_or_else(|| missing("last label"))? + 1
             }
             None => {
-                let mut ends = routine.targets(&end_label).iter().copied();
+                let mut ends = self.targets(&end_label, routine).into_iter();
                 let end = ends.find(|end| *end > first && (*end < at || first > at));
                 match end {
                     Some(end) => end,
@@ -122,7 +118,7 @@ impl Interpreter<'_> {
         };
         if times > MOST_REPEATS {
             let message = format!("{times} repetitions are more than the control allows");
-            return Err(Box::new(Diagnostic::error(part.span, message)));
+            return Err(Diagnostic::error(part.span, message));
         }
         self.repeats.push(part.span);
         let mut next = Next::Block(end);
@@ -139,7 +135,7 @@ impl Interpreter<'_> {
         })
     }
 
-    fn holds(&self, condition: &Expression) -> Result<bool, Box<Diagnostic>> {
+    fn holds(&self, condition: &Expression) -> Result<bool, Diagnostic> {
         Ok(condition.number(&self.variables)? != 0.0)
     }
 
@@ -149,13 +145,13 @@ impl Interpreter<'_> {
         last: &Expression,
         body: usize,
         after: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let value = self.loop_variable(start)?;
         let last = last.number(&self.variables)?;
         Ok(Next::Block(if value <= last { body } else { after }))
     }
 
-    fn loop_variable(&self, start: &Assignment) -> Result<f64, Box<Diagnostic>> {
+    fn loop_variable(&self, start: &Assignment) -> Result<f64, Diagnostic> {
         let variable = Expression {
             kind: ExpressionKind::Variable(start.name.clone(), start.index.clone()),
             span: start.span,
@@ -164,18 +160,11 @@ impl Interpreter<'_> {
     }
 
     /// Counts up and tests again. The end is evaluated in each pass, as the control does.
-    fn end_for(
-        &mut self,
-        routine: &Routine,
-        at: usize,
-        body: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
-        let beginning = routine
-            .section
-            .blocks
-            .get(body - 1)
-            .map(|block| &block.statement);
-        let Some(Statement::Flow(Flow::For(start, last))) = beginning else {
+    fn end_for(&mut self, routine: &Routine, at: usize, body: usize) -> Result<Next, Diagnostic> {
+        let beginning = self.control.block(&routine.blocks, body - 1);
+        let Some(Statement::Flow(Flow::For(start, last))) =
+            beginning.as_ref().map(|block| &block.statement)
+        else {
             return Ok(Next::Abort);
         };
         let value = Value::Number(self.loop_variable(start)? + 1.0);
@@ -189,8 +178,13 @@ impl Interpreter<'_> {
         self.for_pass(start, last, body, at + 1)
     }
 
-    fn jump(&self, jump: &Jump, routine: &Routine, at: usize) -> Result<Next, Box<Diagnostic>> {
-        let targets = routine.targets(&jump.target);
+    fn targets(&mut self, target: &Target, routine: &Routine) -> Vec<usize> {
+        let control = &mut self.control;
+        routine.targets(target, control.sources, control.diagnostics)
+    }
+
+    fn jump(&mut self, jump: &Jump, routine: &Routine, at: usize) -> Result<Next, Diagnostic> {
+        let targets = self.targets(&jump.target, routine);
         // Those up to this block, and those after it.
         let (before, after) = targets.split_at(targets.partition_point(|target| *target <= at));
         let forward = after.first().copied();
@@ -206,12 +200,12 @@ impl Interpreter<'_> {
             (None, _) => {
                 let error =
                     Diagnostic::error(jump.span, "there is no such label in this direction");
-                Err(Box::new(match forward.or(backward) {
+                Err(match forward.or(backward) {
                     Some(_) => {
                         error.help("GOTOF looks towards the end, GOTOB towards the beginning")
                     }
                     None => error.help("labels are written NAME: at the beginning of a block"),
-                }))
+                })
             }
         }
     }

@@ -200,10 +200,10 @@ pub(super) fn parameters(parser: &mut BlockParser) -> Parsed<Vec<Parameter>> {
         let kind = variable_kind(parser)?;
         let definition = definition(parser, kind)?;
         if !definition.size.is_empty() {
-            return Err(Box::new(crate::diagnostics::Diagnostic::error(
+            return Err(crate::diagnostics::Diagnostic::error(
                 definition.span,
                 "arrays as parameters are not supported",
-            )));
+            ));
         }
         list.push(Parameter {
             returns,
@@ -258,7 +258,7 @@ fn definition(parser: &mut BlockParser, kind: VariableKind) -> Parsed<Definition
         }
     }
     let value = match parser.cursor.take(Symbol::Assign) {
-        true => Some(expression(&mut parser.cursor)?),
+        true => Some(parser.assigned(!size.is_empty())?),
         false => None,
     };
     Ok(Definition {

@@ -24,7 +24,7 @@ pub fn frame_command(
     modal: &Modal,
     variables: &dyn Variables,
     diagnostics: &mut Diagnostics,
-) -> Result<Option<FrameCommand>, Box<Diagnostic>> {
+) -> Result<Option<FrameCommand>, Diagnostic> {
     use FrameKeyword::*;
     let name = format!("{keyword:?}").to_ascii_uppercase();
     let given = collect(&name, keyword, words, variables)?;
@@ -68,7 +68,7 @@ fn collect(
     keyword: FrameKeyword,
     words: &[Word],
     variables: &dyn Variables,
-) -> Result<FrameWords, Box<Diagnostic>> {
+) -> Result<FrameWords, Diagnostic> {
     let mut given = FrameWords::default();
     for word in words {
         let axis = ["X", "Y", "Z"]
@@ -80,51 +80,45 @@ fn collect(
             (Some(axis), _) => &mut given.axes[axis],
             (None, "RPL") if rotates => &mut given.in_plane,
             (None, "RPL") if solid => {
-                return Err(Box::new(
-                    Diagnostic::error(word.span, format!("{name} has no RPL"))
-                        .help("a rotation in the plane is ROT RPL=.. or AROT RPL=.."),
-                ));
+                return Err(Diagnostic::error(word.span, format!("{name} has no RPL"))
+                    .help("a rotation in the plane is ROT RPL=.. or AROT RPL=.."));
             }
             (None, "A" | "B" | "C" | "U" | "V" | "W") => {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        word.span,
-                        format!("{name} acts on X, Y and Z only, not on {}", word.address),
-                    )
-                    .help("set the offset of this axis with G54 to G59.3"),
-                ));
+                return Err(Diagnostic::error(
+                    word.span,
+                    format!("{name} acts on X, Y and Z only, not on {}", word.address),
+                )
+                .help("set the offset of this axis with G54 to G59.3"));
             }
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        word.span,
-                        format!("{} cannot stand in one block with {name}", word.address),
-                    )
-                    .help(format!(
-                        "{name} stands alone in its block: put the rest in the next one"
-                    )),
-                ));
+                return Err(Diagnostic::error(
+                    word.span,
+                    format!("{} cannot stand in one block with {name}", word.address),
+                )
+                .help(format!(
+                    "{name} stands alone in its block: put the rest in the next one"
+                )));
             }
         };
         let WordValue::Plain(value) = &word.value else {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 word.span,
                 format!("AC and IC have no meaning with {name}"),
-            )));
+            ));
         };
         if place.is_some() {
-            return Err(Box::new(Diagnostic::error(
+            return Err(Diagnostic::error(
                 word.span,
                 format!("{} is in this block twice", word.address),
-            )));
+            ));
         }
         *place = Some((value.number(variables)?, word.span));
     }
     if let (Some((_, span)), true) = (given.in_plane, given.axes.iter().any(Option::is_some)) {
-        return Err(Box::new(
+        return Err(
             Diagnostic::error(span, "RPL cannot stand in one block with axes")
                 .help("rotate in the plane with one command and about axes with another"),
-        ));
+        );
     }
     Ok(given)
 }
@@ -133,7 +127,7 @@ fn rotation(
     given: &FrameWords,
     modal: &Modal,
     diagnostics: &mut Diagnostics,
-) -> Result<FrameOperation, Box<Diagnostic>> {
+) -> Result<FrameOperation, Diagnostic> {
     if let Some((angle, span)) = given.in_plane {
         check_angle(angle, span, 360.0)?;
         return Ok(FrameOperation::RotateInPlane(modal.plane, angle));
@@ -160,31 +154,27 @@ fn solid_angles(
     given: &FrameWords,
     modal: &Modal,
     diagnostics: &mut Diagnostics,
-) -> Result<FrameOperation, Box<Diagnostic>> {
+) -> Result<FrameOperation, Diagnostic> {
     let (which, first, second) = match given.axes {
         [Some(x), Some(y), None] => (SolidAngles::XThenY, x, y),
         [Some(x), None, Some(z)] => (SolidAngles::ZThenX, z, x),
         [None, Some(y), Some(z)] => (SolidAngles::YThenZ, y, z),
         [Some(_), Some(_), Some((_, span))] => {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    "two solid angles determine the plane: a third is too much",
-                )
-                .help("leave one of X, Y and Z out"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                "two solid angles determine the plane: a third is too much",
+            )
+            .help("leave one of X, Y and Z out"));
         }
         _ => return rotation(given, modal, diagnostics),
     };
     for (angle, span) in [first, second] {
         if angle.abs() >= 90.0 {
-            return Err(Box::new(
-                Diagnostic::error(
-                    span,
-                    format!("a solid angle of {angle} degrees has no plane"),
-                )
-                .help("solid angles lie between -90 and 90 degrees"),
-            ));
+            return Err(Diagnostic::error(
+                span,
+                format!("a solid angle of {angle} degrees has no plane"),
+            )
+            .help("solid angles lie between -90 and 90 degrees"));
         }
     }
     Ok(FrameOperation::RotateBySolidAngles(
@@ -193,35 +183,33 @@ fn solid_angles(
     ))
 }
 
-fn check_angle(angle: f64, span: Span, limit: f64) -> Result<(), Box<Diagnostic>> {
+fn check_angle(angle: f64, span: Span, limit: f64) -> Result<(), Diagnostic> {
     if angle.abs() <= limit {
         return Ok(());
     }
-    Err(Box::new(
+    Err(
         Diagnostic::error(span, format!("{angle} degrees is out of range"))
             .help(format!("angles go from -{limit} to {limit} degrees here")),
-    ))
+    )
 }
 
-fn check_factor(factor: f64, span: Span) -> Result<(), Box<Diagnostic>> {
+fn check_factor(factor: f64, span: Span) -> Result<(), Diagnostic> {
     let [least, largest] = SCALE_RANGE;
     if factor == 0.0 {
-        return Err(Box::new(
+        return Err(
             Diagnostic::error(span, "a scale factor of 0 makes everything vanish")
                 .help("leave an axis out to keep its scale; SCALE alone ends scaling"),
-        ));
+        );
     }
     if factor < 0.0 {
-        return Err(Box::new(
-            Diagnostic::error(span, "a scale factor cannot be negative")
-                .help("MIRROR and AMIRROR negate axes"),
-        ));
+        return Err(Diagnostic::error(span, "a scale factor cannot be negative")
+            .help("MIRROR and AMIRROR negate axes"));
     }
     if !(least..=largest).contains(&factor) {
-        return Err(Box::new(
+        return Err(
             Diagnostic::error(span, format!("the scale factor {factor} is out of range"))
                 .help(format!("factors go from {least} to {largest}")),
-        ));
+        );
     }
     Ok(())
 }

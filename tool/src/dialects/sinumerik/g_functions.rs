@@ -1,5 +1,6 @@
 //! What the G functions of a block change.
 
+use super::approach::shape_of;
 use super::block_words::BlockWords;
 use super::evaluate_words::OneShot;
 use super::interpreter::Interpreter;
@@ -8,7 +9,7 @@ use crate::dialects::control::Done;
 use crate::dialects::control::groups::{Groups, in_order_of_compensation};
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::At;
-use crate::program::{Compensation, FeedMode, PathControl, Plane};
+use crate::program::{Compensation, FeedMode, Plane};
 use crate::source::Span;
 
 impl Interpreter<'_> {
@@ -23,12 +24,7 @@ impl Interpreter<'_> {
     }
 
     /// One G function; returns the number of its group, of which a block may hold one.
-    fn g_function(
-        &mut self,
-        code: u32,
-        span: Span,
-        once: &mut OneShot,
-    ) -> Result<u8, Box<Diagnostic>> {
+    fn g_function(&mut self, code: u32, span: Span, once: &mut OneShot) -> Result<u8, Diagnostic> {
         let group = match code {
             0 | 10 | 20 | 30 => {
                 self.arc_form = None;
@@ -42,7 +38,24 @@ impl Interpreter<'_> {
             }
             // They move by themselves, the others of the group go on behind them.
             330 | 630 | 3310 | 3320 => 1,
-            960 | 970 => 15,
+            1470 | 2470 | 3470 | 1480 | 2480 | 3480 => {
+                once.smooth = shape_of(code).map(|(_, approaches)| approaches);
+                2
+            }
+            1400..=1420 => {
+                self.approach_mode(code);
+                43
+            }
+            3400 | 3410 => {
+                self.approach_mode(code);
+                44
+            }
+            960 => {
+                // Before F, which is per turn in its block.
+                self.control.feed_mode(FeedMode::PerRevolution);
+                15
+            }
+            970 => 15,
             40 => {
                 once.dwell = Some(span);
                 2
@@ -73,7 +86,14 @@ impl Interpreter<'_> {
                 once.machine_coordinates = Some(span);
                 9
             }
-            540..=599 | 5050..=5999 => {
+            580 | 590 => {
+                once.programmed_offset = Some(At {
+                    value: code / 10,
+                    span,
+                });
+                3
+            }
+            540..=579 | 591..=593 | 5050..=5999 => {
                 self.work_offset(code, span)?;
                 8
             }
@@ -81,6 +101,8 @@ impl Interpreter<'_> {
                 self.control
                     .refuse_compensation(span, "the work offset changes")?;
                 self.control.modal.forget_position();
+                self.system = Some(0);
+                self.set_offsets();
                 self.offset_free.begin();
                 8
             }
@@ -96,11 +118,7 @@ impl Interpreter<'_> {
                 3
             }
             600 | 640 | 6410..=6450 => {
-                let path_control = match code {
-                    600 => PathControl::ExactStop,
-                    _ => PathControl::Continuous { tolerance: None },
-                };
-                self.control.path_control(path_control);
+                self.path_mode(code);
                 10
             }
             6010 | 6020 | 6030 | 4500 | 4510 => {
@@ -137,17 +155,15 @@ impl Interpreter<'_> {
 
     fn work_offset(&mut self, code: u32, span: Span) -> Done {
         let system = match code {
-            540 | 550 | 560 | 570 | 580 | 590 => (code - 530) / 10,
+            540 | 550 | 560 | 570 => (code - 530) / 10,
             591..=593 => code - 584,
             5050 | 5060 | 5070 | 5080 | 5090 => (code - 5000) / 10,
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        span,
-                        format!("LinuxCNC has no work offset for G{}", shown(code)),
-                    )
-                    .help("it has nine: G54 to G59.3, also reached as G54 to G57 and G505 to G509"),
-                ));
+                return Err(Diagnostic::error(
+                    span,
+                    format!("LinuxCNC has no work offset for G{}", shown(code)),
+                )
+                .help("it has nine: G54 to G59.3, also reached as G54 to G57 and G505 to G509"));
             }
         };
         if code >= 5000 {
@@ -161,6 +177,8 @@ impl Interpreter<'_> {
                 .push(Diagnostic::warning(span, message));
         }
         self.offset_free.end();
+        self.system = Some(system as u8);
+        self.set_offsets();
         self.control.work_offset(system as u8, span)
     }
 }
@@ -172,15 +190,14 @@ fn shown(tenfold: u32) -> String {
     }
 }
 
-fn unsupported_g(code: u32, span: Span) -> Box<Diagnostic> {
+fn unsupported_g(code: u32, span: Span) -> Diagnostic {
     let reason = match code {
         340 | 350 => "threads whose pitch changes are not supported",
         961 | 962 | 971 | 9610 | 9620 | 9710 | 9720 | 9730 => "write G96 or G97",
-        580 | 590 => "programmable axis offsets are not supported",
         200 | 210 => "inch and millimetre are G70 and G71 in this dialect",
         _ => {
             "look it up in the manual of the control, and write it with functions that are supported"
         }
     };
-    Box::new(Diagnostic::error(span, format!("G{} is not supported", shown(code))).help(reason))
+    Diagnostic::error(span, format!("G{} is not supported", shown(code))).help(reason)
 }

@@ -1,38 +1,32 @@
 //! Running the syntax tree, block by block. The result is the plain list of what the program does.
 
+use super::approach::Smooth;
 use super::arc_words::ArcForm;
 use super::block_words::BlockWords;
+use super::contour_angle::OpenLine;
 use super::evaluate_words::BlockEnd;
 use super::frame_commands::frame_command;
 use super::polar::Pole;
 use super::procedures::ModalCall;
+use super::programmed_offset::ProgrammedOffset;
 use super::routine::Routine;
+use super::smoothing::Smoothing;
 use super::spindle::{Diameter, Tapping};
-use super::syntax::{Assignment, Block, Definition, Statement, Word};
-use super::variables::VariableStore;
+use super::syntax::{Assigned, Assignment, Block, Definition, Statement, Word};
+use super::variables::{Filling, VariableStore};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::offset_free::OffsetFree;
 use crate::dialects::control::plain::PlainBlock;
-use crate::dialects::control::{About, Control, Place};
+use crate::dialects::control::{About, Control};
 use crate::dialects::expression::{Expression, text};
 use crate::dialects::library::Library;
-use crate::dialects::run::{Interpret, jump_out_of_repetition};
+use crate::dialects::run::{Interpret, Next, Reached, jump_out_of_repetition, reach};
 use crate::dialects::settings::Settings;
 use crate::program::frame::FrameOperation;
-use crate::program::{Action, FrameScope};
+use crate::program::{Action, FrameScope, SystemValues};
 use crate::source::Span;
 use std::ops::Range;
 use std::rc::Rc;
-
-/// Where the flow goes after a block.
-pub(super) enum Next {
-    /// To the block with this index.
-    Block(usize),
-    /// Out of the routine.
-    Return,
-    /// Nowhere: what follows cannot be known after an error.
-    Abort,
-}
 
 /// Runs a program.
 pub struct Interpreter<'a> {
@@ -44,13 +38,18 @@ pub struct Interpreter<'a> {
     pub(super) pole: Pole,
     /// RNDM, machine units.
     pub(super) rounding: Option<f64>,
+    pub(super) smoothing: Smoothing,
     /// The tool that T selected, and the one in the spindle.
     pub(super) selected: Option<u32>,
     pub(super) tool: Option<u32>,
+    /// D, while that is known.
+    pub(super) edge: Option<f64>,
     /// G500.
     pub(super) offset_free: OffsetFree,
     /// The frame of CYCLE800, in which that of TRANS and its like acts.
     pub(super) swivelled: Vec<FrameOperation>,
+    /// G58, G59, TRANS and ATRANS.
+    pub(super) offset: ProgrammedOffset,
     pub(super) modal_call: Option<ModalCall>,
     /// The REPEAT statements that are running.
     pub(super) repeats: Vec<Span>,
@@ -58,10 +57,24 @@ pub struct Interpreter<'a> {
     pub(super) tapping: Option<Tapping>,
     /// DIAMON and DIAM90.
     pub(super) diameter: Diameter,
+    /// G147, G247 or G347, until the contour comes.
+    pub(super) approach: Option<Smooth>,
+    /// G141 (left) and G142; `None` with G140.
+    pub(super) approach_side: Option<bool>,
+    /// G341.
+    pub(super) approach_flat: bool,
+    /// The first of two lines with ANG.
+    pub(super) open_line: Option<OpenLine>,
+    /// The work offset in force, 1 for G54 and 0 for G500, once the program has named one.
+    pub(super) system: Option<u8>,
+    /// Values for work offsets, until one is chosen.
+    pub(super) waiting_offsets: Vec<SystemValues>,
     /// LIMS: the most that G96 turns the spindle.
     pub(super) most_speed: Option<f64>,
     /// G96.
     pub(super) surface_speed: bool,
+    /// S of the last G96.
+    pub(super) cutting_speed: Option<f64>,
 }
 
 impl<'a> Interpreter<'a> {
@@ -80,16 +93,26 @@ impl<'a> Interpreter<'a> {
             arc_form: None,
             pole: Pole::default(),
             rounding: None,
+            smoothing: Smoothing::default(),
             selected: None,
             tool: None,
+            edge: None,
             offset_free: OffsetFree::default(),
             swivelled: Vec::new(),
+            offset: ProgrammedOffset::default(),
             modal_call: None,
             repeats: Vec::new(),
             tapping: None,
             diameter: Diameter::default(),
+            approach: None,
+            approach_side: None,
+            approach_flat: false,
+            open_line: None,
+            system: None,
+            waiting_offsets: Vec::new(),
             most_speed: None,
             surface_speed: false,
+            cutting_speed: None,
         }
     }
 
@@ -104,32 +127,35 @@ impl<'a> Interpreter<'a> {
 
     /// Runs blocks up to the last one, or to one that leads elsewhere.
     fn run_blocks(&mut self, routine: &Rc<Routine>) -> Next {
-        self.run_range(routine, 0..routine.section.blocks.len())
+        self.run_range(routine, 0..routine.blocks.len())
     }
 
     /// The same of a part of the blocks, which no jump may leave.
     pub(super) fn run_range(&mut self, routine: &Rc<Routine>, range: Range<usize>) -> Next {
-        let blocks = &routine.section.blocks[..range.end];
         let mut at = range.start;
-        while let Some(block) = blocks.get(at) {
-            if !self.control.count_block(block.span) {
-                return Next::Abort;
-            }
-            match self.run_block(routine, at, block) {
+        loop {
+            let block = match reach(self, &routine.blocks, &mut at, range.end) {
+                Reached::Block(block) => block,
+                Reached::End => return Next::Block(at),
+                Reached::Abort => return Next::Abort,
+            };
+            match self.run_block(routine, at, &block) {
                 Next::Block(next) if next < range.start || next > range.end => {
-                    self.control.fail(jump_out_of_repetition(block.span));
+                    self.control.fail(jump_out_of_repetition(block.place.span));
                     return Next::Abort;
                 }
                 Next::Block(next) => at = next,
                 other => return other,
             }
         }
-        Next::Block(at)
     }
 
     fn end_is_missing(&mut self, routine: &Rc<Routine>) {
-        if let Some(last) = routine.section.blocks.last() {
-            self.control.end_is_missing(&place(last), "M17");
+        if let Some(last) = self.control.last_block(&routine.blocks) {
+            if self.control.is_in_main() {
+                self.set_offsets();
+            }
+            self.control.end_is_missing(&last.place, "M17");
         }
     }
 
@@ -147,11 +173,14 @@ impl<'a> Interpreter<'a> {
                 Ok(Next::Block(at + 1))
             }
             Statement::Noted(name) => {
-                self.control.note(name, block.span);
+                self.control.note(name, block.place.span);
                 Ok(Next::Block(at + 1))
             }
             Statement::Words(words) => self.words_block(words, block, at),
             Statement::Assign(list) => self.assign(list).map(|()| Next::Block(at + 1)),
+            Statement::SettableOffset(offset) => {
+                self.settable_offset(offset).map(|()| Next::Block(at + 1))
+            }
             Statement::Define(list) => self.define(list).map(|()| Next::Block(at + 1)),
             Statement::Message(message) => {
                 self.message(message.as_ref()).map(|()| Next::Block(at + 1))
@@ -189,16 +218,20 @@ impl<'a> Interpreter<'a> {
                 self.finish_block(block);
                 return self.call(call, block, at);
             }
+            Statement::CallByText(text) => {
+                self.finish_block(block);
+                return self.call_by_text(text, block, at);
+            }
             Statement::Flow(flow) => {
                 self.finish_block(block);
                 return self.flow(flow, routine, at).unwrap_or_else(|diagnostic| {
-                    self.control.diagnostics.push(*diagnostic);
+                    self.control.diagnostics.push(diagnostic);
                     Next::Abort
                 });
             }
         };
         let next = next.unwrap_or_else(|diagnostic| {
-            self.control.diagnostics.push(*diagnostic);
+            self.control.diagnostics.push(diagnostic);
             self.control.modal.forget_position();
             Next::Block(at + 1)
         });
@@ -214,13 +247,13 @@ impl<'a> Interpreter<'a> {
         words: &[Word],
         block: &Block,
         at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    ) -> Result<Next, Diagnostic> {
         let Some(words) = BlockWords::collect(words, &self.variables, self.control.diagnostics)
         else {
             self.control.modal.forget_position();
             return Ok(Next::Block(at + 1));
         };
-        match self.run_words(&words, block.span)? {
+        match self.run_words(&words, block.place.span)? {
             BlockEnd::Continue => {
                 let moves = |action: &Action| matches!(action, Action::Move(_));
                 if self.modal_call.is_some() && self.control.actions.iter().any(moves) {
@@ -232,6 +265,7 @@ impl<'a> Interpreter<'a> {
             BlockEnd::Ends(_) => {
                 // M30 in a subprogram returns, M17 in a main program ends it: as on the control.
                 if self.control.is_in_main() {
+                    self.set_offsets();
                     let rewind = words.m.iter().any(|m| m.value == 30);
                     self.control.end_of_program(rewind);
                 }
@@ -241,10 +275,10 @@ impl<'a> Interpreter<'a> {
     }
 
     pub(super) fn finish_block(&mut self, block: &Block) {
-        self.control.finish_block(&place(block));
+        self.control.finish_block(&block.place);
     }
 
-    fn message(&mut self, message: Option<&Expression>) -> Result<(), Box<Diagnostic>> {
+    fn message(&mut self, message: Option<&Expression>) -> Result<(), Diagnostic> {
         let Some(message) = message else {
             return Ok(());
         };
@@ -270,38 +304,71 @@ impl<'a> Interpreter<'a> {
             .help("the values that lead here are in the program or were given with --set")
     }
 
-    pub(super) fn assign(&mut self, list: &[Assignment]) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn assign(&mut self, list: &[Assignment]) -> Result<(), Diagnostic> {
         for assignment in list {
             let index: Result<Vec<f64>, _> = assignment
                 .index
                 .iter()
                 .map(|index| index.number(&self.variables))
                 .collect();
-            let value = assignment.value.evaluate(&self.variables)?;
+            let filling = self.filling(&assignment.value)?;
             self.variables
-                .assign(&assignment.name, &index?, value, assignment.span)?;
+                .fill(&assignment.name, &index?, filling, assignment.span)?;
         }
         Ok(())
     }
 
-    fn define(&mut self, list: &[Definition]) -> Result<(), Box<Diagnostic>> {
+    fn filling(&self, value: &Assigned) -> Result<Filling, Diagnostic> {
+        Ok(match value {
+            Assigned::One(value) => Filling::One(value.evaluate(&self.variables)?),
+            Assigned::Set(list) => {
+                let mut values = Vec::new();
+                for value in list {
+                    values.push(match value {
+                        Some(value) => Some(value.evaluate(&self.variables)?),
+                        None => None,
+                    });
+                }
+                Filling::Each(values)
+            }
+            Assigned::Repeat(value, count) => Filling::Same(
+                value.evaluate(&self.variables)?,
+                match count {
+                    Some(count) => Some(count.whole(&self.variables, 0)? as usize),
+                    None => None,
+                },
+            ),
+        })
+    }
+
+    fn define(&mut self, list: &[Definition]) -> Result<(), Diagnostic> {
         for definition in list {
             let size: Result<Vec<usize>, _> = definition
                 .size
                 .iter()
                 .map(|size| size.whole(&self.variables, 1).map(|size| size as usize))
                 .collect();
-            let value = match &definition.value {
-                Some(value) => Some(value.evaluate(&self.variables)?),
+            let size = size?;
+            let first = vec![0.0; size.len()];
+            let (name, span) = (&definition.name, definition.span);
+            let filling = match &definition.value {
+                Some(value) => Some(self.filling(value)?),
                 None => None,
             };
-            self.variables.define(
-                &definition.name,
-                definition.kind,
-                size?,
-                value,
-                definition.span,
-            )?;
+            match filling {
+                // One value is that of all elements.
+                Some(Filling::One(value)) => {
+                    self.variables
+                        .define(name, definition.kind, size, Some(value), span)?;
+                }
+                filling => {
+                    self.variables
+                        .define(name, definition.kind, size, None, span)?;
+                    if let Some(filling) = filling {
+                        self.variables.fill(name, &first, filling, span)?;
+                    }
+                }
+            }
         }
         Ok(())
     }
@@ -318,6 +385,10 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
         &self.library
     }
 
+    fn parts(&mut self) -> (&Library<Routine>, &mut Control<'a>) {
+        (&self.library, &mut self.control)
+    }
+
     fn run_main(&mut self, main: &Rc<Routine>) -> bool {
         matches!(self.run_blocks(main), Next::Block(_))
     }
@@ -331,16 +402,9 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
             && self.rounding.is_none()
             && self.modal_call.is_none()
             && self.tapping.is_none()
+            && self.open_line.is_none()
+            && self.approach.is_none()
             && self.diameter == Diameter::default()
             && !self.offset_free.active
-    }
-}
-
-/// Where the actions of a block belong.
-pub(super) fn place(block: &Block) -> Place {
-    Place {
-        span: block.span,
-        number: block.number,
-        comment: block.comment.clone(),
     }
 }

@@ -2,7 +2,8 @@
 
 use super::token::{SectionName, Symbol, Token, TokenKind};
 use crate::diagnostics::{Diagnostic, Diagnostics};
-use crate::dialects::scanner::{Scanner, is_blank};
+use crate::dialects::lexer;
+use crate::dialects::scanner::is_blank;
 use crate::source::Text;
 
 /// The symbols, longer ones before their beginnings.
@@ -27,39 +28,15 @@ const SYMBOLS: [(&str, Symbol); 18] = [
     (":", Symbol::Colon),
 ];
 
-/// All tokens of a file. What is no token is reported and left out; the rest of its line is left out
-/// too, so that one wrong character gives one error.
-pub fn tokens(text: Text, diagnostics: &mut Diagnostics) -> Vec<Token> {
-    let mut lexer = Lexer {
-        scanner: Scanner::new(text),
-        tokens: Vec::new(),
-    };
-    while lexer.scanner.peek().is_some() {
-        if let Err(diagnostic) = lexer.line() {
-            diagnostics.push(*diagnostic);
-            let start = lexer.scanner.position();
-            lexer.scanner.take_while(|c| c != '\n');
-            lexer.push(start, TokenKind::Invalid);
-        }
-        let start = lexer.scanner.position();
-        lexer.scanner.take("\n");
-        lexer.push(start, TokenKind::EndOfLine);
-    }
-    lexer.tokens
-}
+type Lexer<'a> = lexer::Lexer<'a, Symbol, SectionName>;
 
-struct Lexer<'a> {
-    scanner: Scanner<'a>,
-    tokens: Vec<Token>,
+/// All tokens of a file; see [`lexer::Lexer::cut`].
+pub fn tokens(text: Text, diagnostics: &mut Diagnostics) -> Vec<Token> {
+    Lexer::cut(text, diagnostics, Lexer::line)
 }
 
 impl Lexer<'_> {
-    fn push(&mut self, start: usize, kind: TokenKind) {
-        let span = self.scanner.span_from(start);
-        self.tokens.push(Token { kind, span });
-    }
-
-    fn line(&mut self) -> Result<(), Box<Diagnostic>> {
+    fn line(&mut self) -> Result<(), Diagnostic> {
         self.scanner.take_while(is_blank);
         if self.scanner.peek() == Some('%') {
             return self.section();
@@ -77,7 +54,7 @@ impl Lexer<'_> {
         Ok(())
     }
 
-    fn token(&mut self, next: char) -> Result<(), Box<Diagnostic>> {
+    fn token(&mut self, next: char) -> Result<(), Diagnostic> {
         let start = self.scanner.position();
         let kind = if next == ';' {
             self.scanner.advance();
@@ -118,7 +95,7 @@ impl Lexer<'_> {
         TokenKind::Name(name.to_ascii_uppercase())
     }
 
-    fn number(&mut self) -> Result<TokenKind, Box<Diagnostic>> {
+    fn number(&mut self) -> Result<TokenKind, Diagnostic> {
         let start = self.scanner.position();
         let digits = self.scanner.digits()?;
         let mut text = digits.to_string();
@@ -140,7 +117,7 @@ impl Lexer<'_> {
     }
 
     /// `%_N_L10_SPF`, the older `%MPF100` and `%SPF10`, or a bare `%`, which says nothing.
-    fn section(&mut self) -> Result<(), Box<Diagnostic>> {
+    fn section(&mut self) -> Result<(), Diagnostic> {
         let start = self.scanner.position();
         let line = self.scanner.take_while(|c| c != '\n' && c != ';').trim();
         let upper = line.to_ascii_uppercase();
@@ -167,34 +144,32 @@ impl Lexer<'_> {
             }
             _ if upper == "%" => {}
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        self.scanner.span_from(start),
-                        "this line begins a kind of data that is not run here",
-                    )
-                    .help(
-                        "programs begin with %_N_NAME_MPF, subprograms with %_N_NAME_SPF; \
+                return Err(Diagnostic::error(
+                    self.scanner.span_from(start),
+                    "this line begins a kind of data that is not run here",
+                )
+                .help(
+                    "programs begin with %_N_NAME_MPF, subprograms with %_N_NAME_SPF; \
                          take tool, offset and other data out of the file",
-                    ),
                 ));
             }
         }
         Ok(())
     }
 
-    fn unknown_character(&mut self, character: char) -> Box<Diagnostic> {
+    fn unknown_character(&mut self, character: char) -> Diagnostic {
         let start = self.scanner.position();
         self.scanner.advance();
         let shown = character.escape_default();
         let span = self.scanner.span_from(start);
-        Box::new(match character {
+        match character {
             '{' | '}' | '\'' => Diagnostic::error(span, format!("`{shown}` is not supported"))
                 .help("write numbers in decimal form"),
             _ => Diagnostic::error(
                 span,
                 format!("the character `{shown}` has no meaning in a part program"),
             ),
-        })
+        }
     }
 }
 

@@ -3,23 +3,40 @@
 //! Text is cut into tokens ([`lexer`]), tokens are made into a tree ([`parser`]), and the tree is run
 //! ([`interpreter`]) into the form that all dialects share ([`crate::program`]).
 
+mod approach;
+mod arc_plane;
 mod arc_words;
 mod block_words;
 mod calls;
+mod contour_angle;
+mod contour_milling;
 mod cursor;
+mod cycle_parameters;
+mod cycle_tables;
+mod deep_hole;
 mod drilling;
 mod evaluate_words;
 mod expressions;
+mod external;
 mod flow;
 mod flow_parser;
 mod frame_commands;
 mod g_functions;
+mod hole_patterns;
 mod interpreter;
 pub mod lexer;
+mod milling;
+mod offset_parser;
+mod outline;
 pub mod parser;
+mod pockets;
 mod polar;
 mod procedures;
+mod programmed_offset;
 mod routine;
+mod settable_offset;
+mod slots;
+mod smoothing;
 mod spindle;
 mod structure;
 mod swivel;
@@ -32,26 +49,34 @@ mod words;
 
 use super::control::About;
 use super::guess::Evidence;
-use super::library::Library;
-use super::run::run;
+use super::languages::Language;
+use super::run::{Files, run_file};
 use super::settings::Settings;
 use std::path::Path;
 
-/// Evaluates the part program in file 0 of `sources`; see [`super::evaluate`].
-pub fn evaluate<'a>(path: &Path, settings: &'a Settings, about: About<'a>) {
-    let library = Library::new(
-        path,
-        &routine::EXTENSIONS,
-        settings,
-        about.sources,
-        about.diagnostics,
-        routine::routines,
-    );
-    run(&mut interpreter::Interpreter::new(settings, library, about));
+/// Sinumerik-like controls.
+pub struct Sinumerik;
+
+/// For the list of all languages.
+pub const LANGUAGE: Sinumerik = Sinumerik;
+
+const FILES: Files<routine::Routine> = Files {
+    extensions: &routine::EXTENSIONS,
+    read: routine::routines,
+};
+
+impl Language for Sinumerik {
+    fn evaluate<'a>(&self, path: &Path, settings: &'a Settings, about: About<'a>) {
+        run_file(path, FILES, settings, about, interpreter::Interpreter::new);
+    }
+
+    fn evidence(&self, lines: &[String], extension: &str) -> Evidence {
+        evidence(lines, extension)
+    }
 }
 
 /// What speaks for this dialect; see [`super::guess`].
-pub fn evidence(lines: &[String], extension: &str) -> Evidence {
+fn evidence(lines: &[String], extension: &str) -> Evidence {
     const WORDS: [&str; 18] = [
         "TRANS",
         "ATRANS",

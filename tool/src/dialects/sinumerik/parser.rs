@@ -4,50 +4,36 @@
 use super::cursor::{Cursor, Parsed};
 use super::expressions::{arguments, expression};
 use super::flow_parser;
-use super::syntax::{Assignment, Block, Call, Section, Statement, Word, WordValue};
-use super::token::{Symbol, Token, TokenKind};
+use super::lexer::tokens;
+use super::syntax::{Assigned, Assignment, Block, Call, Statement, Word, WordValue};
+use super::token::{SectionName, Symbol, Token, TokenKind};
 use super::word_parser::unknown_word;
 use super::words;
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::dialects::control::Place;
 use crate::dialects::expression::{Expression, ExpressionKind};
 use crate::source::{Span, Text};
 
-/// The sections of a file. A file without archive lines is one section without a name.
-pub fn parse(text: Text, tokens: &[Token], diagnostics: &mut Diagnostics) -> Vec<Section> {
-    let mut sections = vec![Section {
-        name: String::new(),
-        main: true,
-        blocks: Vec::new(),
-    }];
-    for line in tokens.split_inclusive(|token| token.kind == TokenKind::EndOfLine) {
-        let Some((end, tokens)) = line.split_last() else {
-            continue;
-        };
-        let section_line = tokens.iter().find_map(|token| match &token.kind {
-            TokenKind::Program(section) => Some((&section.name, section.main)),
-            _ => None,
-        });
-        if let Some((name, main)) = section_line {
-            sections.push(Section {
-                name: name.clone(),
-                main,
-                blocks: Vec::new(),
-            });
-        } else if let (Some(section), Some(block)) = (
-            sections.last_mut(),
-            parse_block(text, tokens, end.span, diagnostics),
-        ) {
-            section.blocks.push(block);
+/// The blocks of some lines; those that begin a section are none.
+pub fn parse_blocks(text: Text, diagnostics: &mut Diagnostics) -> Vec<Block> {
+    let tokens = tokens(text, diagnostics);
+    let lines = tokens.split_inclusive(|token| token.kind == TokenKind::EndOfLine);
+    let blocks = lines.filter_map(|line| {
+        let (end, tokens) = line.split_last()?;
+        match section_name(tokens) {
+            Some(_) => None,
+            None => parse_block(text, tokens, end.span, diagnostics),
         }
-    }
-    let is_empty = |section: &Section| {
-        let mut blocks = section.blocks.iter();
-        blocks.all(|block| block.statement == Statement::Empty)
-    };
-    if sections.len() > 1 && is_empty(&sections[0]) {
-        sections.remove(0);
-    }
-    sections
+    });
+    blocks.collect()
+}
+
+/// The name of the section that a line begins.
+pub fn section_name(tokens: &[Token]) -> Option<&SectionName> {
+    tokens.iter().find_map(|token| match &token.kind {
+        TokenKind::Program(section) => Some(section),
+        _ => None,
+    })
 }
 
 fn parse_block(
@@ -68,12 +54,14 @@ fn parse_block(
     let first = tokens.first().map_or(end, |token| token.span);
     let last = tokens.last().map_or(first, |token| token.span);
     let mut block = Block {
-        span: first.to(last),
-        number: None,
+        place: Place {
+            span: first.to(last),
+            number: None,
+            comment,
+        },
         skip: false,
         label: None,
         statement: Statement::Empty,
-        comment,
     };
     let mut parser = BlockParser {
         cursor: Cursor::new(
@@ -92,7 +80,7 @@ fn parse_block(
     }
     let parsed = parser.prefix(&mut block).and_then(|()| parser.statement());
     block.statement = parsed.unwrap_or_else(|diagnostic| {
-        diagnostics.push(*diagnostic);
+        diagnostics.push(diagnostic);
         Statement::Invalid
     });
     Some(block)
@@ -117,7 +105,7 @@ impl BlockParser<'_> {
         }
         let numbered = matches!(self.cursor.peek_at(1), Some(TokenKind::Number(_)));
         if numbered && (self.cursor.take_letter('N') || self.cursor.take(Symbol::Colon)) {
-            block.number = Some(self.cursor.whole("a block number")?);
+            block.place.number = Some(self.cursor.whole("a block number")?);
         }
         if let (Some(TokenKind::Name(name)), true) =
             (self.cursor.peek(), self.cursor.is_symbol(1, Symbol::Colon))
@@ -151,7 +139,7 @@ impl BlockParser<'_> {
 
     /// Statements that begin with a name; `None` if it is a word among others.
     fn named_statement(&mut self, name: &str) -> Parsed<Option<Statement>> {
-        if words::is_address(name) || words::is_flag(name) {
+        if words::is_address(name) || words::is_flag(name) || words::is_noted(name) {
             return Ok(None);
         }
         if let Some(flow) = flow_parser::flow(self, name)? {
@@ -166,6 +154,9 @@ impl BlockParser<'_> {
                 keyword,
                 words,
             }));
+        }
+        if name == "$P_UIFR" {
+            return self.settable_offset().map(Some);
         }
         if self.is_assignment() {
             return self.assignments().map(Some);
@@ -183,8 +174,8 @@ impl BlockParser<'_> {
         if name == "MCALL" {
             return self.modal_call().map(Some);
         }
-        if name == "CALL" {
-            return self.call_by_text().map(Some);
+        if matches!(name, "CALL" | "EXTCALL") {
+            return self.call_by_text(name).map(Some);
         }
         if name == "SETAL" {
             self.cursor.advance();
@@ -203,12 +194,10 @@ impl BlockParser<'_> {
                 span: keyword,
             }])));
         }
-        if words::is_noted(name) {
-            // Several may stand in one block, among G functions too.
-            return Ok(match self.noted_alone() {
-                true => Some(self.noted(name)?),
-                false => None,
-            });
+        if name == "EXTERN" {
+            // It declares a subprogram that its call finds without it.
+            while self.cursor.advance().is_some() {}
+            return Ok(Some(Statement::Noted(name.to_string())));
         }
         self.refuse_known(name, keyword)?;
         if words::is_reserved(name) {
@@ -250,35 +239,20 @@ impl BlockParser<'_> {
         }
     }
 
-    /// `CALL "NAME"`.
-    fn call_by_text(&mut self) -> Parsed<Statement> {
+    /// `CALL "NAME"`, `EXTCALL "NAME"`, `EXTCALL(FOLDER << "NAME")`.
+    fn call_by_text(&mut self, keyword: &str) -> Parsed<Statement> {
         self.cursor.advance();
-        let Some(TokenKind::Text(name)) = self.cursor.peek() else {
+        let is_text = matches!(
+            self.cursor.peek(),
+            Some(TokenKind::Text(_) | TokenKind::Name(_) | TokenKind::Symbol(Symbol::Open))
+        );
+        if !is_text {
             return Err(self.error_with_help(
-                "CALL needs the name of a subprogram as a text",
-                "write CALL \"POCKET\"",
+                &format!("{keyword} needs the name of a subprogram as a text"),
+                &format!("write {keyword} \"POCKET\""),
             ));
-        };
-        let span = self.cursor.span();
-        self.cursor.advance();
-        Ok(Statement::Call(Call {
-            name: name.to_ascii_uppercase(),
-            span,
-            arguments: Vec::new(),
-            passes: None,
-        }))
-    }
-
-    fn noted_alone(&self) -> bool {
-        self.cursor.peek_at(1).is_none() || self.cursor.is_symbol(1, Symbol::Open)
-    }
-
-    fn noted(&mut self, name: &str) -> Parsed<Statement> {
-        self.cursor.advance();
-        if self.cursor.take(Symbol::Open) {
-            arguments(&mut self.cursor, Symbol::Close, ")")?;
         }
-        Ok(Statement::Noted(name.to_string()))
+        expression(&mut self.cursor).map(Statement::CallByText)
     }
 
     pub(super) fn refuse_known(&self, name: &str, span: Span) -> Parsed<()> {
@@ -287,9 +261,7 @@ impl BlockParser<'_> {
             None if name.starts_with('$') => "system variables cannot be evaluated ahead of time",
             None => return Ok(()),
         };
-        Err(Box::new(
-            Diagnostic::error(span, format!("{name} is not supported")).help(reason),
-        ))
+        Err(Diagnostic::error(span, format!("{name} is not supported")).help(reason))
     }
 
     /// `L10`, `L10 P3`: leading zeros belong to the name.
@@ -327,7 +299,7 @@ impl BlockParser<'_> {
         let passes = self.passes()?;
         if !self.cursor.is_at_end() {
             // A call stands alone: this is a word that nobody knows, among others.
-            return Err(Box::new(unknown_word(&name, span)));
+            return Err(unknown_word(&name, span));
         }
         Ok(Statement::Call(Call {
             name,
@@ -379,13 +351,39 @@ impl BlockParser<'_> {
     pub(super) fn assignment(&mut self) -> Parsed<Assignment> {
         let (name, index, span) = self.variable()?;
         self.cursor.expect(Symbol::Assign, "=")?;
-        let value = expression(&mut self.cursor)?;
+        let value = self.assigned(false)?;
         Ok(Assignment {
             name,
             index,
             value,
             span,
         })
+    }
+
+    /// A value, `SET(..)`, `REP(..)`; where an array is declared also `(1, 2, 3)`.
+    pub(super) fn assigned(&mut self, declares_array: bool) -> Parsed<Assigned> {
+        let is_list = self.cursor.is_symbol(1, Symbol::Open);
+        if is_list && self.cursor.take_name("SET") || declares_array && self.starts_list() {
+            self.cursor.expect(Symbol::Open, "(")?;
+            let list = arguments(&mut self.cursor, Symbol::Close, ")")?;
+            return Ok(Assigned::Set(list));
+        }
+        if !(is_list && self.cursor.take_name("REP")) {
+            return expression(&mut self.cursor).map(Assigned::One);
+        }
+        self.cursor.advance();
+        let mut list = arguments(&mut self.cursor, Symbol::Close, ")")?.into_iter();
+        match (list.next().flatten(), list.next(), list.next()) {
+            (Some(value), count, None) => Ok(Assigned::Repeat(value, count.flatten())),
+            _ => Err(self.error_with_help(
+                "REP needs a value, and takes a number of elements behind it",
+                "write REP(0) or REP(0,10)",
+            )),
+        }
+    }
+
+    fn starts_list(&self) -> bool {
+        self.cursor.is_symbol(0, Symbol::Open)
     }
 
     /// A variable that is written to.
@@ -401,10 +399,10 @@ impl BlockParser<'_> {
         };
         match variable.kind {
             ExpressionKind::Variable(name, index) => Ok((name, index, variable.span)),
-            _ => Err(Box::new(Diagnostic::error(
+            _ => Err(Diagnostic::error(
                 variable.span,
                 "only a variable can be given a value",
-            ))),
+            )),
         }
     }
 
@@ -412,7 +410,7 @@ impl BlockParser<'_> {
         self.word_list().map(Statement::Words)
     }
 
-    pub(super) fn error_with_help(&self, message: &str, help: &str) -> Box<Diagnostic> {
-        Box::new(Diagnostic::error(self.cursor.span(), message).help(help))
+    pub(super) fn error_with_help(&self, message: &str, help: &str) -> Diagnostic {
+        Diagnostic::error(self.cursor.span(), message).help(help)
     }
 }

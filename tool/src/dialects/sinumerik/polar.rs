@@ -24,10 +24,10 @@ impl Interpreter<'_> {
     pub(super) fn set_pole(&mut self, words: &BlockWords, g: At<u32>) -> Done {
         let [first, second, normal] = self.control.modal.plane.axes();
         if let Some(word) = words.motion.axes[normal] {
-            return Err(Box::new(
+            return Err(
                 Diagnostic::error(word.span, "a pole lies in the plane that is active")
                     .help("name the two axes of the plane only"),
-            ));
+            );
         }
         let factor = self.control.modal.length_factor;
         let base = match g.value {
@@ -44,10 +44,11 @@ impl Interpreter<'_> {
                 [first, second].map(|axis| words.motion.axes[axis].map_or(0.0, |word| word.value.0))
             }
             (Some(word), None) | (None, Some(word)) => {
-                return Err(Box::new(
-                    Diagnostic::error(word.span, "a pole in polar coordinates needs AP and RP")
-                        .help("write G111 AP=30 RP=50, or G111 X40 Y25"),
-                ));
+                return Err(Diagnostic::error(
+                    word.span,
+                    "a pole in polar coordinates needs AP and RP",
+                )
+                .help("write G111 AP=30 RP=50, or G111 X40 Y25"));
             }
         };
         self.pole.at = [0, 1].map(|at| base[at] + offset[at] * factor);
@@ -62,10 +63,11 @@ impl Interpreter<'_> {
         let span = word.span;
         let [first, second, _] = self.control.modal.plane.axes();
         if let Some(axis) = motion.axes[first].or(motion.axes[second]) {
-            return Err(Box::new(
-                Diagnostic::error(axis.span, "polar and rectangular coordinates in one block")
-                    .help("a place is given by AP and RP or by the axes of the plane"),
-            ));
+            return Err(Diagnostic::error(
+                axis.span,
+                "polar and rectangular coordinates in one block",
+            )
+            .help("a place is given by AP and RP or by the axes of the plane"));
         }
         let factor = self.control.modal.length_factor;
         let angle = merged(words.polar_angle, self.pole.angle, "AP", span)?;
@@ -107,12 +109,10 @@ fn merged(
     last: Option<f64>,
     name: &str,
     span: Span,
-) -> Result<f64, Box<Diagnostic>> {
+) -> Result<f64, Diagnostic> {
     let missing = || {
-        Box::new(
-            Diagnostic::error(span, format!("{name} has no value yet"))
-                .help("the first polar block names both: G1 AP=30 RP=50"),
-        )
+        Diagnostic::error(span, format!("{name} has no value yet"))
+            .help("the first polar block names both: G1 AP=30 RP=50")
     };
     match word {
         Some(At {

@@ -1,11 +1,13 @@
 //! Subprograms with parameters (PROC), and those that run after each motion (MCALL).
 
-use super::interpreter::{Interpreter, Next};
+use super::drilling::is_drilling;
+use super::interpreter::Interpreter;
 use super::routine::Routine;
-use super::syntax::{Block, Call, Parameter, Statement, VariableKind};
+use super::syntax::{Assigned, Block, Call, Parameter, Statement, VariableKind};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::expression::{Expression, ExpressionKind, Value};
+use crate::dialects::run::Next;
 use crate::source::Span;
 
 /// A subprogram that runs after each motion.
@@ -31,24 +33,22 @@ pub(super) struct Argument {
 impl Interpreter<'_> {
     /// The values for the parameters of a subprogram, worked out where it is called.
     pub(super) fn arguments(
-        &self,
+        &mut self,
         call: &Call,
         routine: &Routine,
-    ) -> Result<Vec<Argument>, Box<Diagnostic>> {
+    ) -> Result<Vec<Argument>, Diagnostic> {
+        let control = &mut self.control;
+        let says = |block: &Block| block.statement != Statement::Empty;
         let head = routine
-            .section
             .blocks
-            .iter()
-            .find_map(|block| match &block.statement {
-                Statement::Empty => None,
-                Statement::Procedure(parameters) => Some(Some(parameters)),
-                _ => Some(None),
-            });
-        let none = Vec::new();
-        let parameters: &Vec<Parameter> = head.flatten().unwrap_or(&none);
+            .find(control.sources, control.diagnostics, says);
+        let parameters: &[Parameter] = match head.as_ref().map(|block| &block.statement) {
+            Some(Statement::Procedure(parameters)) => parameters,
+            _ => &[],
+        };
         if call.arguments.len() > parameters.len() {
             let name = &call.name;
-            return Err(Box::new(match parameters.len() {
+            return Err(match parameters.len() {
                 0 => Diagnostic::error(call.span, format!("{name} takes no values in parentheses"))
                     .help("declare them: PROC NAME(REAL DEPTH), or pass them in R parameters"),
                 count => Diagnostic::error(
@@ -58,7 +58,7 @@ impl Interpreter<'_> {
                         call.arguments.len()
                     ),
                 ),
-            }));
+            });
         }
         let given = call.arguments.iter().chain(std::iter::repeat(&None));
         parameters
@@ -73,7 +73,7 @@ impl Interpreter<'_> {
         parameter: &Parameter,
         given: Option<&Expression>,
         span: Span,
-    ) -> Result<Argument, Box<Diagnostic>> {
+    ) -> Result<Argument, Diagnostic> {
         let definition = &parameter.definition;
         let returns_to = match (parameter.returns, given.map(|given| &given.kind)) {
             (false, _) => None,
@@ -85,19 +85,21 @@ impl Interpreter<'_> {
                 Some((name.clone(), index?))
             }
             (true, _) => {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        given.map_or(span, |given| given.span),
-                        format!(
-                            "{} returns a value: a variable is needed here",
-                            definition.name
-                        ),
-                    )
-                    .help("declare a variable with DEF and name it in the call"),
-                ));
+                return Err(Diagnostic::error(
+                    given.map_or(span, |given| given.span),
+                    format!(
+                        "{} returns a value: a variable is needed here",
+                        definition.name
+                    ),
+                )
+                .help("declare a variable with DEF and name it in the call"));
             }
         };
-        let value = match given.or(definition.value.as_ref()) {
+        let initial = match &definition.value {
+            Some(Assigned::One(value)) => Some(value),
+            _ => None,
+        };
+        let value = match given.or(initial) {
             Some(value) => Some(value.evaluate(&self.variables)?),
             None => None,
         };
@@ -125,7 +127,7 @@ impl Interpreter<'_> {
     }
 
     /// The values that go back to the caller, while the subprogram still has its variables.
-    pub(super) fn returned(&self, arguments: &[Argument]) -> Result<Returned, Box<Diagnostic>> {
+    pub(super) fn returned(&self, arguments: &[Argument]) -> Result<Returned, Diagnostic> {
         use crate::dialects::expression::Variables;
         let mut list = Vec::new();
         for argument in arguments {
@@ -147,6 +149,20 @@ impl Interpreter<'_> {
 
     /// `MCALL NAME(..)`, `MCALL`.
     pub(super) fn set_modal_call(&mut self, call: Option<&Call>) -> Done {
+        if let Some(call) = call
+            && matches!(
+                call.name.as_str(),
+                "POCKET3" | "POCKET4" | "SLOT1" | "LONGHOLE" | "CYCLE72"
+            )
+        {
+            return Err(Diagnostic::error(
+                call.span,
+                format!("{} as a modal cycle is not supported", call.name),
+            )
+            .help("it has its own place: call it once for each, without MCALL"));
+        }
+        let drills = call.is_some_and(|call| is_drilling(&call.name));
+        self.control.modal_cycle(drills);
         self.modal_call = call.map(|call| ModalCall {
             call: call.clone(),
             running: false,
@@ -155,11 +171,7 @@ impl Interpreter<'_> {
     }
 
     /// Runs the modal subprogram after a motion. What it moves itself does not call it again.
-    pub(super) fn run_modal_call(
-        &mut self,
-        block: &Block,
-        at: usize,
-    ) -> Result<Next, Box<Diagnostic>> {
+    pub(super) fn run_modal_call(&mut self, block: &Block, at: usize) -> Result<Next, Diagnostic> {
         let next = Next::Block(at + 1);
         let Some(modal) = self.modal_call.clone().filter(|modal| !modal.running) else {
             return Ok(next);

@@ -8,7 +8,7 @@ use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::spindle_motion::Tap;
 use crate::dialects::control::words::{AXES, At, Dimension};
-use crate::program::{Action, FeedMode};
+use crate::program::Action;
 use crate::source::Span;
 
 /// Places of the spindle axis that differ by less, in units of the program, are the same.
@@ -40,7 +40,7 @@ impl Interpreter<'_> {
         &mut self,
         words: &BlockWords,
         block: Span,
-    ) -> Result<bool, Box<Diagnostic>> {
+    ) -> Result<bool, Diagnostic> {
         let code = words
             .g
             .iter()
@@ -49,13 +49,11 @@ impl Interpreter<'_> {
             && (words.is_motion() || !words.m.is_empty())
         {
             self.tapping = None;
-            return Err(Box::new(
-                Diagnostic::error(
-                    tapping.span,
-                    "the tap that goes in here does not come out next",
-                )
-                .help("write G332 in the next block with an axis, back to where G331 began"),
-            ));
+            return Err(Diagnostic::error(
+                tapping.span,
+                "the tap that goes in here does not come out next",
+            )
+            .help("write G332 in the next block with an axis, back to where G331 began"));
         }
         let Some(code) = code else {
             return Ok(false);
@@ -79,12 +77,20 @@ impl Interpreter<'_> {
 
     /// `G63 Z-20 F300`: the chuck gives way for what feed and speed do not agree.
     fn floating_tap(&mut self, words: &BlockWords, block: Span) -> Done {
+        if !words.motion.names_an_axis() {
+            return Err(
+                Diagnostic::error(block, "G63 needs the axis of the tap in its block")
+                    .help("write G63 Z-20 F300"),
+            );
+        }
         let motion = self.control.modal.motion.replace(Motion::Line);
+        self.control.begin_cycle();
         self.control.actions.push(Action::Overrides(false));
         let done = self
             .control
             .motion(&words.motion, block, words.feed.is_some(), false);
         self.control.actions.push(Action::Overrides(true));
+        self.control.end_cycle();
         self.control.modal.motion = motion;
         done
     }
@@ -92,7 +98,7 @@ impl Interpreter<'_> {
     /// `G331 Z-20 K1.5 S500`.
     fn tap_in(&mut self, words: &BlockWords, span: Span) -> Done {
         let (axis, pitch) = pitch(words, span)?;
-        let start = self.alone(words, axis, span)?;
+        let start = self.control.tap_place(&words.motion, axis, span)?;
         let (value, dimension) =
             words.motion.axes[axis].map_or((start, Dimension::Absolute), |at| at.value);
         let bottom = match self.is_incremental(dimension) {
@@ -114,10 +120,8 @@ impl Interpreter<'_> {
     /// `G332 Z5 K1.5`: the tap that LinuxCNC makes goes in and out in one.
     fn tap_out(&mut self, words: &BlockWords, span: Span) -> Done {
         let Some(Tapping { start, tap, .. }) = self.tapping.take() else {
-            return Err(Box::new(
-                Diagnostic::error(span, "G332 without a G331 before it")
-                    .help("G331 Z-20 K1.5 taps, G332 Z5 K1.5 comes back"),
-            ));
+            return Err(Diagnostic::error(span, "G332 without a G331 before it")
+                .help("G331 Z-20 K1.5 taps, G332 Z5 K1.5 comes back"));
         };
         let (axis, pitch) = pitch(words, span)?;
         let value = words.motion.axes[axis].map(|at| at.value);
@@ -127,36 +131,13 @@ impl Interpreter<'_> {
             None => tap.bottom,
         };
         if (end - start).abs() > SAME_PLACE || pitch != tap.pitch {
-            return Err(Box::new(
-                Diagnostic::error(
+            return Err(Diagnostic::error(
                     span,
                     "this tap does not come back to where it began with the pitch with which it went in",
                 )
-                .help("LinuxCNC taps back to the start: end G332 where G331 began, and move on with G0"),
-            ));
+                .help("LinuxCNC taps back to the start: end G332 where G331 began, and move on with G0"));
         }
         self.control.tap(&tap, span)
-    }
-
-    /// Where the axis of the tap is, which must be the normal of the plane and the only one in the block.
-    fn alone(&self, words: &BlockWords, axis: usize, span: Span) -> Result<f64, Box<Diagnostic>> {
-        let [_, _, normal] = self.control.modal.plane.axes();
-        let others = words.motion.axes.iter().enumerate();
-        let others = others
-            .filter(|(_, word)| word.is_some())
-            .any(|(named, _)| named != axis);
-        let place = self.control.present(axis);
-        match (axis == normal && !others, place) {
-            (true, Some(place)) => Ok(place),
-            (true, None) => Err(Box::new(
-                Diagnostic::error(span, "where the tap begins is not known ahead of time")
-                    .help(format!("program {} absolute before", AXES[axis])),
-            )),
-            (false, _) => Err(Box::new(Diagnostic::error(
-                span,
-                "a tap goes along the normal of the plane, and no other axis with it",
-            ))),
-        }
     }
 
     fn is_incremental(&self, dimension: Dimension) -> bool {
@@ -175,20 +156,29 @@ impl Interpreter<'_> {
         let mode = words.g.iter().find(|g| matches!(g.value, 960 | 970));
         if let Some(mode) = mode {
             self.surface_speed = mode.value == 960;
-            if self.surface_speed {
-                self.control.feed_mode(FeedMode::PerRevolution);
-            } else {
+            if !self.surface_speed {
                 self.control
                     .turning_speed(words.speed.map(|speed| speed.value), mode.span)?;
             }
         }
-        match (words.speed, self.surface_speed) {
-            (Some(speed), true) => {
-                self.control
-                    .surface_speed(speed.value, self.most_speed, speed.span)?;
-            }
-            (Some(speed), false) => self.control.speed(speed)?,
-            (None, _) => {}
+        // G96 without S takes the cutting speed of before, and LIMS holds for the one in force.
+        let again = mode.map(|mode| mode.span);
+        let again = again.or(words.most_speed.map(|most| most.span));
+        match (words.speed, self.surface_speed, again) {
+            (Some(speed), true, _) => self.cutting_speed(speed)?,
+            (Some(speed), false, _) => self.control.speed(speed)?,
+            (None, true, Some(span)) => match (self.cutting_speed, mode) {
+                (Some(value), _) => self.cutting_speed(At { value, span })?,
+                (None, None) => {}
+                (None, Some(mode)) => {
+                    return Err(Diagnostic::error(
+                        mode.span,
+                        "G96, and no cutting speed is programmed",
+                    )
+                    .help("write it beside G96, in m/min: G96 S200"));
+                }
+            },
+            (None, ..) => {}
         }
         if let Some(angle) = words.spindle_angle {
             self.control.modal.spindle = None;
@@ -197,6 +187,12 @@ impl Interpreter<'_> {
                 .push(Action::Orient(angle.value.rem_euclid(360.0)));
         }
         Ok(())
+    }
+
+    fn cutting_speed(&mut self, speed: At<f64>) -> Done {
+        self.cutting_speed = Some(speed.value);
+        self.control
+            .surface_speed(speed.value, self.most_speed, speed.span)
     }
 
     /// Diameters become radii, and ways of rotary axes coordinates.
@@ -220,16 +216,29 @@ impl Interpreter<'_> {
                 continue;
             };
             let Some(present) = self.control.present(axis) else {
-                return Err(Box::new(
-                    Diagnostic::error(
-                        word.span,
-                        "which way this axis turns is not known ahead of time",
-                    )
-                    .help(format!(
-                        "program {} absolute with AC(..) before",
-                        AXES[axis]
-                    )),
-                ));
+                let rapid = self.control.modal.motion == Some(Motion::Rapid);
+                if rapid && *way == Way::Shorter {
+                    self.control.diagnostics.push(
+                        Diagnostic::warning(
+                            word.span,
+                            format!(
+                                "where {} is, is not known ahead of time: it goes to {} as LinuxCNC \
+                                 counts its turns",
+                                AXES[axis], word.value.0
+                            ),
+                        )
+                        .help("the angle is the same; the way there may be the longer one"),
+                    );
+                    continue;
+                }
+                return Err(Diagnostic::error(
+                    word.span,
+                    "which way this axis turns is not known ahead of time",
+                )
+                .help(format!(
+                    "program {} absolute with AC(..) before",
+                    AXES[axis]
+                )));
             };
             let forward = (word.value.0 - present).rem_euclid(360.0);
             let step = match way {
@@ -246,7 +255,7 @@ impl Interpreter<'_> {
 }
 
 /// The axis along which a thread goes, and its pitch: I, J or K.
-fn pitch(words: &BlockWords, span: Span) -> Result<(usize, f64), Box<Diagnostic>> {
+fn pitch(words: &BlockWords, span: Span) -> Result<(usize, f64), Diagnostic> {
     let given: Vec<(usize, f64)> = words
         .motion
         .centre
@@ -256,9 +265,7 @@ fn pitch(words: &BlockWords, span: Span) -> Result<(usize, f64), Box<Diagnostic>
         .collect();
     match given[..] {
         [(axis, pitch)] => Ok((axis, pitch)),
-        _ => Err(Box::new(
-            Diagnostic::error(span, "a thread needs its pitch")
-                .help("write K2 for a pitch of 2 along Z; I is that along X, J that along Y"),
-        )),
+        _ => Err(Diagnostic::error(span, "a thread needs its pitch")
+            .help("write K2 for a pitch of 2 along Z; I is that along X, J that along Y")),
     }
 }

@@ -4,6 +4,7 @@
 //! The frame of the cycle is one of its own: TRANS and its like act in it and do not clear it.
 
 use super::interpreter::Interpreter;
+use super::programmed_offset::ProgrammedOffset;
 use super::syntax::Call;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
@@ -17,6 +18,7 @@ const AXIS_BITS: [u32; 3] = [0, 2, 4];
 impl Interpreter<'_> {
     /// A frame command of the program, inside of the swivelled plane.
     pub(super) fn programmable_frame(&mut self, command: FrameCommand, span: Span) -> Done {
+        self.follow_offset(&command);
         if self.swivelled.is_empty() {
             return self.control.change_frame(command, span);
         }
@@ -39,6 +41,7 @@ impl Interpreter<'_> {
                 return Ok(());
             }
             self.swivelled.clear();
+            self.offset = ProgrammedOffset::default();
             return self.control.change_frame(FrameCommand::Cancel, span);
         }
         let mut values = [0.0; 14];
@@ -66,35 +69,68 @@ impl Interpreter<'_> {
         ] = values;
         let operations =
             self.swivel_operations(mode, [x0, y0, z0], [a, b, c], [x1, y1, z1], span)?;
-        if operations.is_empty() {
+        if operations.is_empty() && direction == 0.0 {
             self.control.note("CYCLE800 without angles", span);
         }
+        self.retract(retraction, span)?;
         // The units digit of ST: 1 is additive.
         match state.rem_euclid(10.0) {
             0.0 => self.swivelled = operations,
             1.0 => self.swivelled.extend(operations),
             _ => {
-                return Err(Box::new(
-                    Diagnostic::error(span, format!("CYCLE800 with ST = {state} is not supported"))
-                        .help("0 sets a new plane, 1 turns the one that is set"),
-                ));
+                return Err(Diagnostic::error(
+                    span,
+                    format!("CYCLE800 with ST = {state} is not supported"),
+                )
+                .help("0 sets a new plane, 1 turns the one that is set"));
             }
         }
-        self.control.set_frame(&self.swivelled, span)?;
-        let turns = [a, b, c].iter().any(|angle| *angle != 0.0);
-        if retraction != 0.0 {
-            self.control.diagnostics.push(
-                Diagnostic::warning(
-                    span,
-                    format!("CYCLE800: the retraction FR = {retraction} is left to the program"),
-                )
-                .help("move the tool clear of the part before: G0 SUPA Z0 D0"),
-            );
+        let tilts = self.swivelled.iter().any(is_rotation);
+        // DIR 0 sets the frame and leaves the axes where they are.
+        let swivels = direction != 0.0;
+        if swivels && !tilts {
+            self.control
+                .refuse_compensation(span, "the rotary axes turn")?;
+            self.control.modal.forget_position();
+            self.control.actions.push(Action::RotaryZero);
         }
-        if turns && direction != 0.0 {
+        self.control.set_frame(&self.swivelled, span)?;
+        self.offset = ProgrammedOffset::default();
+        if swivels && tilts {
             self.control.modal.forget_position();
             self.control.actions.push(Action::ToolNormal);
         }
+        Ok(())
+    }
+
+    /// FR: 1 retracts Z, to a place that on the control stands in the data of its swivel axes.
+    fn retract(&mut self, retraction: f64, span: Span) -> Done {
+        if retraction == 0.0 {
+            return Ok(());
+        }
+        let before = "write FR = 0 and move the tool clear before: G0 SUPA Z0 D0";
+        let refuse = |why: String, help: String| Err(Diagnostic::error(span, why).help(help));
+        if retraction != 1.0 {
+            let why = format!("CYCLE800 with the retraction FR = {retraction} is not supported");
+            return refuse(why, format!("1 retracts Z; or {before}"));
+        }
+        let Some(place) = self.control.settings.retract_z else {
+            return refuse(
+                "CYCLE800 with FR = 1 retracts Z, and where to is not set".to_string(),
+                format!(
+                    "give Z of the machine in mm: --retract-z 120, or RETRACT_Z in [FRAMEPATH]; or {before}"
+                ),
+            );
+        };
+        self.control
+            .refuse_compensation(span, "the tool retracts")?;
+        let map = self.control.modal.frame.map();
+        if self.control.modal.frame.has_scale() || map.linear().determinant() < 0.0 {
+            let why = "CYCLE800 with FR = 1 while a scale or a mirror is in force";
+            return refuse(why.to_string(), "clear it before: TRANS".to_string());
+        }
+        self.control.modal.forget_position();
+        self.control.actions.push(Action::Retract(place));
         Ok(())
     }
 
@@ -105,7 +141,7 @@ impl Interpreter<'_> {
         angles: [f64; 3],
         after: [f64; 3],
         span: Span,
-    ) -> Result<Vec<FrameOperation>, Box<Diagnostic>> {
+    ) -> Result<Vec<FrameOperation>, Diagnostic> {
         let factor = self.control.modal.length_factor;
         let translate = |shift: [f64; 3]| {
             let moves = shift.iter().any(|along| *along != 0.0);
@@ -127,16 +163,18 @@ impl Interpreter<'_> {
     }
 }
 
+fn is_rotation(operation: &FrameOperation) -> bool {
+    matches!(operation, FrameOperation::Rotate(_))
+}
+
 /// The first, second and third axis of rotation of a MODE whose bits 7 and 6 say "axis by axis".
-fn rotation_axes(mode: f64, span: Span) -> Result<[usize; 3], Box<Diagnostic>> {
+fn rotation_axes(mode: f64, span: Span) -> Result<[usize; 3], Diagnostic> {
     let unsupported = || {
-        Box::new(
-            Diagnostic::error(
-                span,
-                format!("CYCLE800 with MODE = {mode} is not supported"),
-            )
-            .help("rotations axis by axis are: 57 about X Y Z, 27 about Z Y X, 39 about Z X Y .."),
+        Diagnostic::error(
+            span,
+            format!("CYCLE800 with MODE = {mode} is not supported"),
         )
+        .help("rotations axis by axis are: 57 about X Y Z, 27 about Z Y X, 39 about Z X Y ..")
     };
     if mode.fract() != 0.0 || !(0.0..64.0).contains(&mode) {
         return Err(unsupported());

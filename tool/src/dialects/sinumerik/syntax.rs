@@ -1,34 +1,20 @@
 //! The syntax tree of a Sinumerik-like part program.
 
+use crate::dialects::control::Place;
 use crate::dialects::expression::Expression;
 use crate::source::Span;
-
-/// A program or subprogram: a file, or one section of an archive file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Section {
-    /// Name in upper case; empty for a file that does not name itself.
-    pub name: String,
-    /// Whether it was declared a main program.
-    pub main: bool,
-    /// The blocks that hold something, in order.
-    pub blocks: Vec<Block>,
-}
 
 /// One line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// From its first to its last word, without the comment.
-    pub span: Span,
-    /// `N10` or `:10`.
-    pub number: Option<u32>,
+    /// Its text, number and comment.
+    pub place: Place,
     /// Whether it begins with `/`: it is left out where the operator says so.
     pub skip: bool,
     /// The label before the colon, in upper case.
     pub label: Option<String>,
     /// What it says.
     pub statement: Statement,
-    /// Its comment.
-    pub comment: Option<String>,
 }
 
 /// What a block says.
@@ -42,6 +28,8 @@ pub enum Statement {
     Words(Vec<Word>),
     /// Values for variables.
     Assign(Vec<Assignment>),
+    /// A value for a settable offset.
+    SettableOffset(SettableOffset),
     /// TRANS, ROT, SCALE, MIRROR and their like.
     Frame {
         /// Which command.
@@ -53,6 +41,8 @@ pub enum Statement {
     },
     /// A subprogram, or a command in the form of one.
     Call(Call),
+    /// `CALL "POCKET"`, `EXTCALL "JOB/POCKET.SPF"`: a subprogram whose name is a text.
+    CallByText(Expression),
     /// `MCALL POCKET(5)`; `MCALL` alone ends it.
     ModalCall(Option<Call>),
     /// `PROC POCKET(REAL DEPTH)`: the head of a subprogram with parameters.
@@ -132,7 +122,7 @@ pub struct Assignment {
     /// Indices, for an array.
     pub index: Vec<Expression>,
     /// The new value.
-    pub value: Expression,
+    pub value: Assigned,
     /// The name with its indices.
     pub span: Span,
 }
@@ -171,7 +161,42 @@ pub struct Definition {
     /// Sizes, for an array.
     pub size: Vec<Expression>,
     /// The starting value.
-    pub value: Option<Expression>,
+    pub value: Option<Assigned>,
+}
+
+/// What a variable is given, or an array from one of its elements on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Assigned {
+    /// A value.
+    One(Expression),
+    /// `SET(1, 2, , 4)`: a value each; an element without one keeps what it has.
+    Set(Vec<Option<Expression>>),
+    /// `REP(0)`, `REP(0, 10)`: the same for all that follow, or for so many.
+    Repeat(Expression, Option<Expression>),
+}
+
+/// `$P_UIFR[1]=CTRANS(X,10)`, `$P_UIFR[1,X,TR]=10`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SettableOffset {
+    /// 1 for G54.
+    pub number: Expression,
+    /// Whether it is a whole frame, and what it does not name is 0.
+    pub replaces: bool,
+    /// Its parts with their axes (X Y Z A B C U V W) and values.
+    pub parts: Vec<(OffsetPart, Vec<(usize, Expression)>)>,
+    /// The whole of it.
+    pub span: Span,
+}
+
+/// A part of a settable offset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OffsetPart {
+    /// CTRANS, TR.
+    Coarse,
+    /// CFINE, FI: it is added.
+    Fine,
+    /// CROT, RT: degrees.
+    Rotation,
 }
 
 /// The kinds of values.

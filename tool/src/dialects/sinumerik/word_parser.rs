@@ -56,7 +56,13 @@ impl BlockParser<'_> {
 
     fn named_word(&mut self, name: &str) -> Parsed<Word> {
         let span = self.cursor.span();
-        if words::is_flag(name) || words::is_noted(name) {
+        if name == "SETMS" {
+            return self.master_spindle(span);
+        }
+        if words::is_noted(name) {
+            return self.noted(name, span);
+        }
+        if words::is_flag(name) {
             self.cursor.advance();
             return Ok(Word {
                 address: name.to_string(),
@@ -78,7 +84,56 @@ impl BlockParser<'_> {
             ));
         }
         self.refuse_known(name, span)?;
-        Err(Box::new(unknown_word(name, span)))
+        Err(unknown_word(name, span))
+    }
+
+    /// `SETMS`, `SETMS(1)`.
+    fn master_spindle(&mut self, span: Span) -> Parsed<Word> {
+        self.cursor.advance();
+        let mut value = WordValue::None;
+        if self.cursor.take(Symbol::Open) {
+            value = WordValue::Plain(expression(&mut self.cursor)?);
+            self.cursor.expect(Symbol::Close, ")")?;
+        }
+        Ok(Word {
+            address: "SETMS".to_string(),
+            value,
+            span: span.to(self.cursor.last_span()),
+        })
+    }
+
+    /// A command that is left out: `SOFT`, `FGROUP(X,Y)`, `ACC[X]=50`.
+    fn noted(&mut self, name: &str, span: Span) -> Parsed<Word> {
+        self.cursor.advance();
+        if self.cursor.is_symbol(0, Symbol::Open) {
+            self.skip_to(Symbol::Open, Symbol::Close, ")")?;
+        } else if self.cursor.is_symbol(0, Symbol::OpenBracket) {
+            self.skip_to(Symbol::OpenBracket, Symbol::CloseBracket, "]")?;
+        }
+        if self.cursor.take(Symbol::Assign) {
+            expression(&mut self.cursor)?;
+        }
+        Ok(Word {
+            address: name.to_string(),
+            value: WordValue::None,
+            span,
+        })
+    }
+
+    /// Takes what stands in parentheses or brackets, of which nothing is needed: names of axes too.
+    fn skip_to(&mut self, open: Symbol, close: Symbol, shown: &str) -> Parsed<()> {
+        let mut depth = 0_u32;
+        while let Some(token) = self.cursor.advance() {
+            match token.kind.symbol() {
+                Some(symbol) if symbol == open => depth += 1,
+                Some(symbol) if symbol == close => depth -= 1,
+                _ => {}
+            }
+            if depth == 0 {
+                return Ok(());
+            }
+        }
+        Err(self.cursor.error(format!("`{shown}` is missing here")))
     }
 
     fn word_value(&mut self, address: String, start: Span) -> Parsed<Word> {
@@ -135,13 +190,11 @@ impl BlockParser<'_> {
             self.cursor.take(Symbol::Plus);
         }
         let Some(TokenKind::Number(number)) = self.cursor.peek() else {
-            return Err(Box::new(
-                Diagnostic::error(
-                    start,
-                    format!("the value of {address} is missing or not a number"),
-                )
-                .help(format!("write {address}10 or {address}=expression")),
-            ));
+            return Err(Diagnostic::error(
+                start,
+                format!("the value of {address} is missing or not a number"),
+            )
+            .help(format!("write {address}10 or {address}=expression")));
         };
         self.cursor.advance();
         Ok(Expression {

@@ -2,7 +2,109 @@
 //! refused.
 
 use super::syntax::FrameKeyword;
-use crate::dialects::spelling::nearest;
+use crate::dialects::spelling::nearest_ones;
+
+/// Addresses of several letters, with their value after `=`.
+const ADDRESSES: [&str; 26] = [
+    "DISR", "DISCL", "FAD", "CR", "RPL", "AR", "TURN", "RND", "RNDM", "CHF", "CHR", "ANG", "AP",
+    "RP", "ADIS", "ADISPOS", "CTOL", "OFFN", "LIMS", "SPOS", "SPOSA", "FRC", "FRCM", "I1", "J1",
+    "K1",
+];
+
+/// Words without a value that may stand among others.
+const FLAGS: [&str; 7] = ["SUPA", "CIP", "CT", "DIAMON", "DIAMOF", "DIAM90", "SETMS"];
+
+/// Commands that tune the other control and cannot change the part; some with values in parentheses,
+/// some with the name of an axis in brackets and a value.
+const NOTED: [&str; 78] = [
+    "SOFT",
+    "SOFTA",
+    "BRISK",
+    "BRISKA",
+    "DRIVE",
+    "DRIVEA",
+    "FFWON",
+    "FFWOF",
+    "COMPON",
+    "COMPCURV",
+    "COMPCAD",
+    "COMPSURF",
+    "COMPOF",
+    "FNORM",
+    "FLIN",
+    "FCUB",
+    "FIFOCTRL",
+    "CFC",
+    "CFTCP",
+    "CFIN",
+    "UPATH",
+    "SPATH",
+    "NORM",
+    "KONT",
+    "CUT2D",
+    "CUT2DF",
+    "ORIMKS",
+    "ORIWKS",
+    "ORISON",
+    "ORISOF",
+    "WORKPIECE",
+    "GROUP_BEGIN",
+    "GROUP_END",
+    "TRAFOOF",
+    "TOROTOF",
+    "PAROTOF",
+    "WALIMON",
+    "WALIMOF",
+    "STARTFIFO",
+    "STOPFIFO",
+    "DISPLOF",
+    "DISPLON",
+    "SBLON",
+    "SBLOF",
+    "DYNNORM",
+    "DYNPOS",
+    "DYNROUGH",
+    "DYNSEMIFIN",
+    "DYNFINISH",
+    "DYNPREC",
+    "FGROUP",
+    "FGREF",
+    "ACC",
+    "ACCLIM",
+    "ACCLIMA",
+    "VELOLIM",
+    "VELOLIMA",
+    "JERKLIM",
+    "JERKLIMA",
+    "OTOL",
+    "STOLF",
+    "CDON",
+    "CDOF",
+    "CDOF2",
+    "CPRECON",
+    "CPRECOF",
+    "SPCON",
+    "SPCOF",
+    "RTLION",
+    "RTLIOF",
+    "DELAYFSTON",
+    "DELAYFSTOF",
+    "LFOF",
+    "WALCS0",
+    "WALCS1",
+    "WALCS2",
+    "PTPG0",
+    "CP",
+];
+
+/// Statements and operators.
+const KEYWORDS: [&str; 53] = [
+    "B_AND", "B_OR", "B_XOR", "B_NOT", "SET", "REP", "TRANS", "ATRANS", "ROT", "AROT", "ROTS",
+    "AROTS", "SCALE", "ASCALE", "MIRROR", "AMIRROR", "IF", "ELSE", "ENDIF", "WHILE", "ENDWHILE",
+    "FOR", "TO", "ENDFOR", "LOOP", "ENDLOOP", "REPEAT", "REPEATB", "UNTIL", "CASE", "OF",
+    "DEFAULT", "GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS", "DEF", "PROC", "RET", "MSG", "AND",
+    "OR", "XOR", "NOT", "DIV", "MOD", "CALL", "MCALL", "PCALL", "SAVE", "STOPRE", "SETAL",
+];
 
 /// The command of the programmable frame with this name.
 pub fn frame_keyword(name: &str) -> Option<FrameKeyword> {
@@ -23,74 +125,17 @@ pub fn frame_keyword(name: &str) -> Option<FrameKeyword> {
 
 /// Whether a name of several letters is an address, with its value after `=`.
 pub fn is_address(name: &str) -> bool {
-    matches!(
-        name,
-        "CR" | "RPL"
-            | "AR"
-            | "TURN"
-            | "RND"
-            | "RNDM"
-            | "CHF"
-            | "CHR"
-            | "ANG"
-            | "AP"
-            | "RP"
-            | "ADIS"
-            | "ADISPOS"
-            | "CTOL"
-            | "OFFN"
-            | "LIMS"
-            | "SPOS"
-            | "SPOSA"
-            | "FRC"
-            | "FRCM"
-            | "I1"
-            | "J1"
-            | "K1"
-    )
+    ADDRESSES.contains(&name)
 }
 
 /// Whether a name is a word without a value that may stand among others.
 pub fn is_flag(name: &str) -> bool {
-    matches!(name, "SUPA" | "CIP" | "CT" | "DIAMON" | "DIAMOF" | "DIAM90")
+    FLAGS.contains(&name)
 }
 
 /// Whether a command tunes the other control and cannot change the part.
 pub fn is_noted(name: &str) -> bool {
-    matches!(
-        name,
-        "SOFT"
-            | "BRISK"
-            | "DRIVE"
-            | "FFWON"
-            | "FFWOF"
-            | "COMPON"
-            | "COMPCURV"
-            | "COMPCAD"
-            | "COMPSURF"
-            | "COMPOF"
-            | "FNORM"
-            | "FLIN"
-            | "FIFOCTRL"
-            | "CFC"
-            | "CFTCP"
-            | "CFIN"
-            | "UPATH"
-            | "SPATH"
-            | "NORM"
-            | "ORIMKS"
-            | "ORIWKS"
-            | "WORKPIECE"
-            | "GROUP_BEGIN"
-            | "GROUP_END"
-            | "TRAFOOF"
-            | "EXTERN"
-            | "WALIMON"
-            | "STARTFIFO"
-            | "STOPFIFO"
-            | "DISPLOF"
-            | "DISPLON"
-    )
+    NOTED.contains(&name)
 }
 
 /// Why a command of the control is refused, if it is a known one.
@@ -110,7 +155,7 @@ pub fn refused(name: &str) -> Option<&'static str> {
         }
         "INIT" | "START" | "WAITM" | "WAITMC" | "WAITE" | "SETM" | "CLEARM" | "GET" | "GETD"
         | "RELEASE" => "there is only one channel",
-        "EXECSTRING" | "READ" | "WRITE" | "DELETE" | "ISFILE" | "EXTCALL" => {
+        "EXECSTRING" | "READ" | "WRITE" | "DELETE" | "ISFILE" => {
             "file access and text that is run as program are not supported"
         }
         "POS" | "POSA" | "POSP" | "WAITP" | "FA" => {
@@ -119,12 +164,13 @@ pub fn refused(name: &str) -> Option<&'static str> {
         "MEAS" | "MEAW" | "MEASA" | "MEAWA" | "MEAC" => {
             "measuring cannot be evaluated ahead of time"
         }
-        "TOFRAME" | "TOROT" | "TOROTOF" | "PAROT" | "PAROTOF" | "MEAFRAME" => {
+        "TOFRAME" | "TOROT" | "PAROT" | "MEAFRAME" => {
             "frames from tool or table orientation are not supported: write the angles with ROT"
         }
         "CTRANS" | "CROT" | "CSCALE" | "CMIRROR" | "CFINE" | "FRAME" => {
             "frame variables are not supported: write TRANS, ROT, SCALE and MIRROR"
         }
+        "KONTC" | "KONTT" => "approach paths of other forms than KONT and NORM are not supported",
         "SETINT" | "ENABLE" | "DISABLE" | "CLRINT" | "PRIO" => {
             "interrupt routines are not supported"
         }
@@ -142,55 +188,16 @@ pub fn is_reserved(name: &str) -> bool {
         || is_flag(name)
         || is_noted(name)
         || refused(name).is_some()
-        || matches!(
-            name,
-            "IF" | "ELSE"
-                | "ENDIF"
-                | "WHILE"
-                | "ENDWHILE"
-                | "FOR"
-                | "TO"
-                | "ENDFOR"
-                | "LOOP"
-                | "ENDLOOP"
-                | "REPEAT"
-                | "REPEATB"
-                | "UNTIL"
-                | "CASE"
-                | "OF"
-                | "DEFAULT"
-                | "GOTO"
-                | "GOTOF"
-                | "GOTOB"
-                | "GOTOC"
-                | "GOTOS"
-                | "DEF"
-                | "PROC"
-                | "RET"
-                | "MSG"
-                | "AND"
-                | "OR"
-                | "XOR"
-                | "NOT"
-                | "DIV"
-                | "MOD"
-                | "CALL"
-                | "MCALL"
-                | "PCALL"
-                | "SAVE"
-                | "STOPRE"
-                | "SETAL"
-        )
+        || KEYWORDS.contains(&name)
+        || name == "EXTERN"
 }
 
-/// The known name nearest to a misspelt one, if it is near enough to be meant.
-pub fn similar(name: &str) -> Option<&'static str> {
-    const NAMES: [&str; 30] = [
-        "TRANS", "ATRANS", "ROT", "AROT", "ROTS", "AROTS", "SCALE", "ASCALE", "MIRROR", "AMIRROR",
-        "SUPA", "GOTOF", "GOTOB", "GOTO", "ENDIF", "ELSE", "WHILE", "ENDWHILE", "ENDFOR", "LOOP",
-        "ENDLOOP", "REPEAT", "UNTIL", "STOPRE", "MSG", "RET", "PROC", "MCALL", "CASE", "DEF",
-    ];
-    nearest(name, &NAMES)
+/// The known names nearest to a misspelt one, for a question: `TRANS`, `SOFT or SOFTA`. `None` where none
+/// is near enough to be meant.
+pub fn similar(name: &str) -> Option<String> {
+    let known = [&KEYWORDS[..], &ADDRESSES, &FLAGS, &NOTED].concat();
+    let nearest = nearest_ones(name, &known);
+    (!nearest.is_empty()).then(|| nearest.join(" or "))
 }
 
 #[cfg(test)]
@@ -199,8 +206,16 @@ mod tests {
 
     #[test]
     fn slips_of_the_pen_are_recognised() {
-        assert_eq!(similar("TRANZ"), Some("TRANS"));
-        assert_eq!(similar("MIROR"), Some("MIRROR"));
-        assert_eq!(similar("POCKET"), None);
+        let cases = [
+            ("TRANZ", Some("TRANS")),
+            ("MIROR", Some("MIRROR")),
+            ("DYNFINISCH", Some("DYNFINISH")),
+            ("DYNNROM", Some("DYNNORM")),
+            ("COMPCAF", Some("COMPCAD")),
+            ("POCKET", None),
+        ];
+        for (slip, meant) in cases {
+            assert_eq!(similar(slip).as_deref(), meant, "{slip}");
+        }
     }
 }

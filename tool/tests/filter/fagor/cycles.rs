@@ -76,6 +76,84 @@ fn deep_holes_in_steps() {
 }
 
 #[test]
+fn places_may_be_polar_and_withdrawals_change_on_the_way() {
+    let program = "G90 G0 X0 Y0 Z10\nG99 G81 R5 Q0 Z2 I-1 F100\nG98 Q90\nG84 R5 Q180 Z2 I-1\nM30\n";
+    let mut expected = Path::from([0., 0., 10.]);
+    for (x, y) in [(5., 0.), (0., 5.), (-5., 0.)] {
+        expected = expected.rapid([x, y, if x == 0. { 2. } else { 10. }]);
+        expected = expected.rapid([x, y, 2.]).line([x, y, -1.]);
+        expected = match x < 0. {
+            true => expected.line([x, y, 2.]),
+            false => expected.rapid([x, y, 2.]),
+        };
+        if x <= 0. {
+            expected = expected.rapid([x, y, 10.]);
+        }
+    }
+    check(program, &expected);
+}
+
+#[test]
+fn deep_holes_whose_steps_grow_shorter() {
+    let head = "G90 G0 X0 Y0 Z10\n";
+    let path = || {
+        Path::from([0., 0., 10.])
+            .rapid([5., 0., 10.])
+            .rapid([5., 0., 2.])
+    };
+    // Without H the tool comes out after each step; C is 1.
+    let out = path()
+        .line([5., 0., -3.])
+        .rapid([5., 0., 2.])
+        .rapid([5., 0., -2.])
+        .line([5., 0., -6.])
+        .rapid([5., 0., 2.]);
+    check(
+        &format!("{head}G99 G69 X5 Y0 Z2 I-6 B3 D2 F100\nM30\n"),
+        &out,
+    );
+    check(
+        &format!("{head}G99 G69 X5 Y0 Z2 I-6 B3 D2 J1 H0.5 F100\nM30\n"),
+        &out,
+    );
+    // Steps of 4, 2 and at least 1.5; out after two of them.
+    let shorter = path()
+        .line([5., 0., -4.])
+        .rapid([5., 0., -3.5])
+        .line([5., 0., -6.])
+        .rapid([5., 0., 2.])
+        .rapid([5., 0., -5.])
+        .line([5., 0., -7.5])
+        .rapid([5., 0., -7.])
+        .line([5., 0., -8.])
+        .rapid([5., 0., 2.])
+        .rapid([5., 0., 10.]);
+    let cycle = "G69 X5 Y0 Z2 I-8 B4 D2 H0.5 J2 R0.5 L1.5 F100\n";
+    check(&format!("{head}{cycle}M30\n"), &shorter);
+    // Polar coordinates: R is the radius; G79 changes the depth of the hole after it.
+    let polar = Path::from([0., 0., 10.])
+        .rapid([5., 0., 10.])
+        .rapid([5., 0., 2.])
+        .line([5., 0., -3.])
+        .rapid([5., 0., 2.])
+        .rapid([0., 5., 2.])
+        .line([0., 5., -1.])
+        .rapid([0., 5., 2.]);
+    let program = format!("{head}G99 G69 R5 Q0 Z2 I-3 B9 F100\nG79 I-1\nG0 X0 Y5\nG80\nM30\n");
+    check(&program, &polar);
+    for (block, text) in [
+        ("G69 X5 Z2 I-8 F100", "needs B"),
+        ("G69 X5 Z2 I-8 B3 R1.5 F100", "R out of range"),
+        ("G69 X5 Z2 I-8 B3 J1.5 F100", "no number of steps"),
+        ("G69 X5 Z2 I-8 B3 C0 F100", "C0"),
+        ("G69 X5 Z2 I-8 B3 R0.1 F100", "too small"),
+    ] {
+        let shown = super::errors(&format!("{head}{block}\nM30\n"), &[]);
+        assert!(shown.contains(text), "{block}\n{shown}");
+    }
+}
+
+#[test]
 fn boring_comes_back_with_feed_or_with_the_spindle_at_rest() {
     for g in [85, 89] {
         let program = format!("G90 G0 X0 Y0 Z10\nG{g} X5 Y0 Z2 I-5 F100\nG80\nM30\n");
@@ -230,6 +308,15 @@ fn patterns_of_holes() {
             "G64 X30 Y0 B60 I-20",
             [0., -20., -40., -60.].map(around).to_vec(),
         ),
+        ("G60 X20 I10 P2", vec![(10., 5.), (30., 5.)]),
+        (
+            "G62 X20 K3 J7 D2 P2 Q4.005",
+            vec![(10., 5.), (30., 5.), (10., 12.)],
+        ),
+        ("G65 X30 Y0 A135", [0., -90.].map(around).to_vec()),
+        ("G65 X30 Y0 A225 C0", [0., 90.].map(around).to_vec()),
+        ("G65 X30 Y0 I30", [0., 60.].map(around).to_vec()),
+        ("G65 X30 Y0 I-60", [0., -180.].map(around).to_vec()),
     ] {
         let program =
             format!("G90 G0 X0 Y0 Z20\nG99 G81 X10 Y5 Z2 I-8 F100\n{pattern}\nG80\nM30\n");
@@ -240,20 +327,112 @@ fn patterns_of_holes() {
 }
 
 #[test]
+fn the_tool_may_go_from_place_to_place_with_feed() {
+    let head = "G90 G0 X0 Y0 Z20\nG99 G81 X10 Y0 Z2 I-8 F100\n";
+    let first = || {
+        Path::from([0., 0., 20.])
+            .rapid([10., 0., 20.])
+            .rapid([10., 0., 2.])
+            .line([10., 0., -8.])
+            .rapid([10., 0., 2.])
+            .feed(50.)
+    };
+    let drilled = |path: Path| path.feed(100.).line([0., 10., -8.]).rapid([0., 10., 2.]);
+    let around = drilled(first().ccw([0., 10., 2.], (0., 0.)));
+    check(
+        &format!("{head}G64 X-10 Y0 B90 I90 C3 F50\nG80\nM30\n"),
+        &around,
+    );
+    let straight = drilled(first().line([0., 10., 2.]));
+    check(
+        &format!("{head}G91\nG65 X-10 Y0 A45 C1 F50\nG80\nM30\n"),
+        &straight,
+    );
+}
+
+#[test]
+fn a_modal_subroutine_runs_at_each_repetition() {
+    let program = "(SUB 1)\nG90 G1 Z-1 F100\nG0 Z0\nG91\n(RET)\nG90 G0 X0 Y0 Z0\n(MCALL 1)\nG91 X10 N3\n\
+                   (MDOFF)\nG0 X5\nM30\n";
+    let mut expected = Path::from([0.; 3]);
+    for x in [0., 10., 20., 30.] {
+        expected = if x == 0. {
+            expected
+        } else {
+            expected.rapid([x, 0., 0.])
+        }
+        .line([x, 0., -1.])
+        .rapid([x, 0., 0.]);
+    }
+    check(program, &expected.rapid([35., 0., 0.]));
+}
+
+/// The subroutine leaves G91 and G0 behind.
+#[test]
+fn patterns_repeat_modal_subroutines() {
+    let subroutine = "(SUB 1)\nG90 G1 Z-1 F100\nG91 Y1\nG0 Z1\nY-1\n(RET)\n";
+    let slot = |path: Path, [x, y]: [f64; 2]| {
+        path.feed(100.)
+            .line([x, y, -1.])
+            .line([x, y + 1., -1.])
+            .rapid([x, y + 1., 0.])
+            .rapid([x, y, 0.])
+    };
+    let first = || slot(Path::from([0.; 3]).rapid([10., 0., 0.]), [10., 0.]);
+    let program = |pattern: &str| {
+        format!("{subroutine}G90 G0 X0 Y0 Z0\nX10\n(MCALL 1)\n{pattern}\n(MDOFF)\nM30\n")
+    };
+    let row = slot(first().rapid([15., 0., 0.]), [15., 0.]);
+    let row = slot(row.rapid([25., 0., 0.]), [25., 0.]);
+    check(&program("G60 I5 K4 P3"), &row);
+    let straight = slot(first().feed(50.).line([0., 10., 0.]), [0., 10.]);
+    check(&program("G64 X-10 Y0 B90 I90 C1 F50"), &straight);
+}
+
+#[test]
 fn patterns_that_are_no_patterns() {
     for (program, text) in [
         ("G60 X20 I10", "none is active"),
         ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I7", "make 3.857"),
         ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 K5", "two of X, I and K"),
         ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I0", "above 0"),
-        ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 Q2", "left out"),
-        ("G81 X0 Y0 Z2 I-8 F100\nG63 X20 Y0 K4 C2", "only C0"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 Q1", "places 1 to 5"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 P4.006", "places 1 to 5"),
+        (
+            "G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 P2.5",
+            "does not name places",
+        ),
+        (
+            "G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 P4.003",
+            "does not name places",
+        ),
+        ("G81 X0 Y0 Z2 I-8 F100\nG63 X20 Y0 K4 C2", "need F here"),
+        (
+            "G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 C2 F9",
+            "how the tool goes",
+        ),
+        ("G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 F9", "feed of C1"),
+        (
+            "G81 X0 Y0 Z2 I-8 F100\nG60 X20 I5 L2",
+            "not supported in a block",
+        ),
         ("G81 X0 Y0 Z2 I-8 F100\nG63 X20 K4", "centre are missing"),
         ("G81 X0 Y0 Z2 I-8 F100\nG60 X-20 K3", "above 0"),
         ("G81 X0 Y0 Z2 I-8 F100\nG64 X20 Y0 K4", "B, the angle"),
         ("G81 X0 Y0 Z2 I-8 F100\nG64 X20 Y0 B-60 K4", "above 0"),
         ("G81 X0 Y0 Z2 I-8 F100\nG63 X20 Y0 I0", "whole number"),
         ("G81 X0 Y0 Z2 I-8 F100\nG61 X20 I10", "two of Y, J and D"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG65 X20 I10", "centre are missing"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG65 X20 Y0", "either A or I"),
+        ("G81 X0 Y0 Z2 I-8 F100\nG65 X20 Y0 A5 I5", "either A or I"),
+        (
+            "G81 X0 Y0 Z2 I-8 F100\nG65 X20 Y0 I41",
+            "longer than the circle",
+        ),
+        (
+            "G81 X0 Y0 Z2 I-8 F100\nG65 X20 Y0 I4 K3",
+            "not supported in a block",
+        ),
     ] {
         let shown = super::errors(&format!("G90 G0 X0 Y0 Z20\n{program}\nM30\n"), &[]);
         assert!(shown.contains(text), "{program}\n{shown}");

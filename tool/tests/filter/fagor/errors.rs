@@ -46,9 +46,8 @@ fn functions_that_mean_something_else_to_linuxcnc_or_nothing() {
         (59, "added to G54"),
         (52, "up to a stop"),
         (74, "reference search"),
-        (66, "pockets"),
-        (87, "pockets"),
-        (65, "at the end of a chord"),
+        (67, "G66 R200 F300"),
+        (68, "an operation of an irregular pocket"),
         (77, "slaved"),
         (100, "is not supported"),
     ] {
@@ -62,9 +61,28 @@ fn functions_that_mean_something_else_to_linuxcnc_or_nothing() {
 }
 
 #[test]
+fn e_belongs_to_irregular_pockets_and_to_g51() {
+    one_error("G0 X1 E5\nM30\n", "1:7", "the address E is not supported");
+}
+
+#[test]
 fn statements() {
     one_error("(PIEZA 1)\nM30\n", "1:2", "not a statement that is known");
-    one_error("(GOT N10)\nM30\n", "1:2", "did you mean GOTO?");
+    one_error("(GOT N10)\nM30\n", "1:2", "did you mean (GOTO ..)?");
+    one_error(
+        "(TOR1=5, TOI1=0)\nM30\n",
+        "1:2",
+        "enter tools into LinuxCNC's tool table",
+    );
+    one_error("(MGS \"a\")\nM30\n", "1:2", "did you mean (MSG ..)?");
+    one_error("N10 GOTO N10\nM30\n", "1:5", "did you mean (GOTO ..)?");
+    one_error("(P1 = SNI 30)\nM30\n", "1:7", "did you mean SIN?");
+    one_error(
+        "(P1 = 5)\n(IF P1 GRT 3 GOTO N10)\nN10 M30\n",
+        "2:8",
+        "did you mean GT?",
+    );
+    one_error("(P1 = 5 MDO 3)\nM30\n", "1:9", "did you mean MOD?");
     one_error("(DIGIT 1,2)\nM30\n", "1:2", "(DIGIT ..) is not supported");
     one_error(
         "(P1 = POSX)\nM30\n",

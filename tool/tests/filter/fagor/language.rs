@@ -110,7 +110,7 @@ M30
 }
 
 #[test]
-fn modal_subroutines_run_after_each_motion() {
+fn modal_subroutines_run_at_once_and_after_each_motion() {
     let program = "\
 G90 G0 X0 Y0 Z10
 (MCALL 1, Z=-2)
@@ -129,6 +129,8 @@ G0 Z10
         translate(program, &[]),
         [
             "G0 X0 Y0 Z10",
+            "G1 Z-2 F100",
+            "G0 Z10",
             "G0 X10",
             "G1 Z-2 F100",
             "G0 Z10",

@@ -2,8 +2,10 @@
 
 mod cycles;
 mod errors;
+mod irregular_pockets;
 mod language;
 mod moves;
+mod pockets;
 mod random;
 mod seeds;
 

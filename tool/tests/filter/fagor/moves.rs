@@ -188,6 +188,103 @@ M30
 }
 
 #[test]
+fn compensation_begins_at_the_entry_and_ends_behind_the_exit() {
+    let program = "G90 G0 X-5 Y10 Z0\nT1 D1\nG43 G0 Z1\nG37 R5 G41 G1 X0 Y0 F100\nG38 R5 X30\nG40 X35 Y10\nM30\n";
+    let lines = super::translate(program, &["--backend", "program"]);
+    let wanted = [
+        "G41 G1 X-5 Y5 F100",
+        "G3 X0 Y0 I5 J0",
+        "G1 X30 Y0",
+        "G3 X35 Y5 I0 J5",
+        "G40 G1 X35 Y10",
+    ];
+    let begin = lines.iter().position(|line| line.contains("G41"));
+    let given = &lines[begin.expect("G41")..][..wanted.len()];
+    assert_eq!(given, wanted, "{lines:?}");
+}
+
+#[test]
+fn the_offset_beside_the_compensation_is_selected_before_it() {
+    for (offset, written) in [("D1", "G41 G1 X5 Y0"), ("D4", "G41 D4 G1 X5 Y0")] {
+        let program =
+            format!("T1 D1\nG43\nG90 G0 X0 Y0 Z0\nG1 G41 X5 Y0 {offset} F100\nX9\nG40 X0\nM30\n");
+        let lines = super::translate(&program, &["--backend", "program"]);
+        assert!(
+            lines.iter().any(|line| line.starts_with(written)),
+            "{lines:?}"
+        );
+    }
+}
+
+#[test]
+fn a_tool_that_is_never_changed_to_is_told() {
+    let told = |change: &str| {
+        let program = format!("T7 D7 {change}\nG43\nG90 G0 X0 Y0 Z0\nM30\n");
+        let lines = super::translate(&program, &[]);
+        lines
+            .iter()
+            .any(|line| line.contains("T7 is selected and not changed to"))
+    };
+    assert!(told("") && !told("M06"));
+}
+
+#[test]
+fn a_corner_and_the_arc_before_it_have_a_radius_each() {
+    let program =
+        |centre: &str| format!("G90 G0 X0 Y0 Z0\nG3 G36 R2 X10 Y10 {centre} F100\nG1 X0\nM30\n");
+    let by_centre = super::translate(&program("I0 J10"), &[]);
+    assert!(by_centre.iter().filter(|line| line.contains("G3 ")).count() == 2);
+    assert_eq!(super::translate(&program("R10"), &[]), by_centre);
+    let before = program("R10").replace("G36 R2 X10 Y10 R10", "X10 Y10 R10 G36 R2");
+    assert_eq!(super::translate(&before, &[]), by_centre);
+}
+
+/// K is the pitch; LinuxCNC's P counts the passages of the end.
+#[test]
+fn helices_of_several_turns() {
+    let head = "G90 G0 X25 Y0 Z0\n";
+    for (helix, written) in [
+        ("X25 Y0 I-25 J0 Z-15 K5", "G2 X25 Y0 Z-15 I-25 J0 P3"),
+        ("I-25 J0 Z-15 K5", "G2 X25 Y0 Z-15 I-25 J0 P3"),
+        ("X0 Y-25 I-25 J0 Z-5 K4", "G2 X0 Y-25 Z-5 I-25 J0 P2"),
+        ("I-25 J0 Z-5 K4", "G2 X0 Y-25 Z-5 I-25 J0 P2"),
+        ("G91 I-25 J0 Z-5 K4", "G2 X0 Y-25 Z-5 I-25 J0 P2"),
+        ("Q-90 I-25 J0 Z-5 K4", "G2 X0 Y-25 Z-5 I-25 J0 P2"),
+        ("X0 Y-25 I-25 J0 Z-1 K4", "G2 X0 Y-25 Z-1 I-25 J0"),
+    ] {
+        let lines = super::translate(&format!("{head}G2 {helix} F100\nM30\n"), &[]);
+        let found = lines.iter().find(|line| line.starts_with("G2"));
+        let found = found.expect("an arc").replace(" F100", "");
+        assert_eq!(found, written, "{helix}");
+    }
+    for (helix, text) in [
+        ("X0 Y-25 I-25 J0 Z-6 K4", "makes 1.5 turns"),
+        ("X0 Y-25 R25 Z-6 K4", "not both R and K"),
+        ("X0 Y-25 I-25 J0 K4", "a way along its axis"),
+        ("X0 Y-25 I-25 J0 Z-5 K-4", "K above 0"),
+    ] {
+        let shown = super::errors(&format!("{head}G2 {helix} F100\nM30\n"), &[]);
+        assert!(shown.contains(text), "{shown}");
+    }
+}
+
+#[test]
+fn lines_by_their_angle_and_one_coordinate() {
+    let program =
+        "G90 G0 X0 Y0 Z0\nG1 X10 Q45 F100\nG36 R1 Y20 Q-45\nY0 Q-90\nG91 X-10 Q180\nM30\n";
+    let plain = "G90 G0 X0 Y0 Z0\nG1 X10 Y10 F100\nG36 R1 X0 Y20\nX0 Y0\nG91 X-10 Y0\nM30\n";
+    assert_eq!(super::translate(program, &[]), super::translate(plain, &[]));
+    for (block, text) in [
+        ("G1 X0 Q45 F100", "does not lead to this coordinate"),
+        ("G1 X10 Q90 F100", "does not lead to this coordinate"),
+        ("G1 X10 Y10 Q45 F100", "polar and rectangular"),
+    ] {
+        let shown = super::errors(&format!("G90 G0 X0 Y0 Z0\n{block}\nM30\n"), &[]);
+        assert!(shown.contains(text), "{shown}");
+    }
+}
+
+#[test]
 fn corners_under_a_mirror() {
     let program = "G90 G0 X0 Y0 Z0\nG11\nG36 R5 G1 X20 Y0 F100\nY20\nM30\n";
     let expected = Path::from([0.0; 3])
@@ -239,7 +336,7 @@ M30
             "M6 G43 H8",
             "G49",
             "G53 G0 Z0",
-            "G64",
+            "G64 P0.01",
             "G61.1",
             "G94",
             "G4 P2.5",

@@ -1,0 +1,84 @@
+//! What is allowed of n = dm/dt, or of m, over a servo period.
+
+use super::state::State;
+
+/// Greatest rate change m, per period, where jerk is limited: from 0 to 1 takes four periods even where the limits leave
+/// more, which keeps a period's change of rate small against what the rows linearise.
+pub const RATE_CHANGE_LIMIT: f64 = 0.25;
+
+/// Greatest n, per period squared, for the same reason.
+pub const N_LIMIT: f64 = 0.25;
+
+/// An interval of n, per period squared, or of m, per period. Empty if `low > high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RateDerivativeInterval {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl RateDerivativeInterval {
+    pub fn is_empty(&self) -> bool {
+        self.low > self.high
+    }
+
+    pub fn contains(&self, n: f64) -> bool {
+        self.low <= n && n <= self.high
+    }
+
+    pub fn intersection(&self, other: &Self) -> Self {
+        Self {
+            low: self.low.max(other.low),
+            high: self.high.min(other.high),
+        }
+    }
+
+    /// `n` moved into the interval; the middle of an empty one.
+    pub fn nearest(&self, n: f64) -> f64 {
+        if self.is_empty() {
+            0.5 * (self.low + self.high)
+        } else {
+            n.max(self.low).min(self.high)
+        }
+    }
+
+    /// The n that keep the rate from 0 to 1 and |m| within [`RATE_CHANGE_LIMIT`] at the end of
+    /// the period. Never empty.
+    pub fn of_rate(state: State) -> Self {
+        let (rate, change) = (state.rate, state.rate_change);
+        let low = (-RATE_CHANGE_LIMIT - change).max(-2.0 * (rate + change));
+        let high = (RATE_CHANGE_LIMIT - change).min(2.0 * (1.0 - rate - change));
+        Self {
+            low: low.min(high),
+            high: high.max(low),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals() {
+        let interval = RateDerivativeInterval {
+            low: -1.0,
+            high: 2.0,
+        };
+        assert_eq!(interval.nearest(5.0), 2.0);
+        assert_eq!(interval.nearest(-5.0), -1.0);
+        assert_eq!(interval.nearest(0.5), 0.5);
+        let empty = interval.intersection(&RateDerivativeInterval {
+            low: 3.0,
+            high: 4.0,
+        });
+        assert!(empty.is_empty() && !empty.contains(2.5));
+        assert_eq!(empty.nearest(9.0), 2.5);
+        let standing = State {
+            time: 0.0,
+            rate: 0.0,
+            rate_change: 0.0,
+        };
+        let of_rate = RateDerivativeInterval::of_rate(standing);
+        assert_eq!((of_rate.low, of_rate.high), (0.0, RATE_CHANGE_LIMIT));
+    }
+}

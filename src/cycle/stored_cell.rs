@@ -1,0 +1,94 @@
+//! A cell as the table keeps it.
+
+use super::cell::Cell;
+use super::lanes::{LANE_COUNT, Lanes, scaled, single};
+
+/// A [`Cell`] in single precision, in units of the servo period.
+#[derive(Clone, Copy, Debug)]
+pub struct StoredCell {
+    pub velocity: Lanes,
+    pub acceleration: Lanes,
+    pub acceleration_min: Lanes,
+    pub acceleration_max: Lanes,
+    pub jerk_min: Lanes,
+    pub jerk_max: Lanes,
+    pub path_velocity: f32,
+    pub path_acceleration: f32,
+    pub feed_ratio: f32,
+    pub programmed_feed: f32,
+    pub override_kind: OverrideKind,
+}
+
+/// Which override applies to a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OverrideKind {
+    /// The feed override.
+    Feed,
+    /// The rapid override.
+    Rapid,
+    /// None: the programmed feed holds as it is.
+    None,
+    /// Feed per turn, with the feed override.
+    Turns,
+    /// Feed per turn, without it.
+    TurnsOnly,
+}
+
+impl StoredCell {
+    pub const STANDSTILL: Self = Self {
+        velocity: [0.0; LANE_COUNT],
+        acceleration: [0.0; LANE_COUNT],
+        acceleration_min: [0.0; LANE_COUNT],
+        acceleration_max: [0.0; LANE_COUNT],
+        jerk_min: [0.0; LANE_COUNT],
+        jerk_max: [0.0; LANE_COUNT],
+        path_velocity: 0.0,
+        path_acceleration: 0.0,
+        feed_ratio: 1.0,
+        programmed_feed: 0.0,
+        override_kind: OverrideKind::None,
+    };
+
+    pub fn new(cell: &Cell, period: f64) -> Self {
+        let (second, third) = (period * period, period * period * period);
+        let override_kind = match (cell.per_turn, cell.override_enabled, cell.rapid) {
+            (true, false, _) => OverrideKind::TurnsOnly,
+            (true, true, _) => OverrideKind::Turns,
+            (false, false, _) => OverrideKind::None,
+            (false, true, true) => OverrideKind::Rapid,
+            (false, true, false) => OverrideKind::Feed,
+        };
+        Self {
+            velocity: scaled(&cell.velocity, period),
+            acceleration: scaled(&cell.acceleration, second),
+            acceleration_min: scaled(&cell.acceleration_min, second),
+            acceleration_max: scaled(&cell.acceleration_max, second),
+            jerk_min: scaled(&cell.jerk_min, third),
+            jerk_max: scaled(&cell.jerk_max, third),
+            path_velocity: single(cell.path_velocity * period),
+            path_acceleration: single(cell.path_acceleration * second),
+            feed_ratio: single(cell.feed_ratio),
+            programmed_feed: single(cell.programmed_feed * period),
+            override_kind,
+        }
+    }
+
+    /// The feed at the start of the cell, at a rate of 1.
+    pub fn feed(&self) -> f64 {
+        f64::from(self.path_velocity) * f64::from(self.feed_ratio)
+    }
+
+    /// Lets the reference stand still in a part of the cell.
+    pub fn include_standstill(&mut self) {
+        for bound in [&mut self.acceleration_min, &mut self.jerk_min] {
+            for lane in bound.iter_mut() {
+                *lane = lane.min(0.0);
+            }
+        }
+        for bound in [&mut self.acceleration_max, &mut self.jerk_max] {
+            for lane in bound.iter_mut() {
+                *lane = lane.max(0.0);
+            }
+        }
+    }
+}

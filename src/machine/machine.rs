@@ -1,0 +1,68 @@
+//! One type for all machines, chosen once.
+
+use super::coordinates::Coordinates;
+use super::identity::Identity;
+use super::joints::JOINT_COUNT;
+use super::table_tilting::{TableTilting, TableTiltingParameters};
+use crate::axes::Axes;
+use crate::frame::FrameError;
+
+/// One of the kinematics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Machine {
+    /// Every joint is an axis.
+    Identity(Identity),
+    /// Five axes, the workpiece on a tilting rotary table.
+    TableTilting(TableTilting),
+}
+
+impl Machine {
+    /// Joint positions for axis positions. Joints that belong to no axis are left as they are.
+    #[inline]
+    pub fn inverse(&self, axes: &Axes, joints: &mut [f64; JOINT_COUNT]) {
+        match self {
+            Self::Identity(machine) => machine.inverse(axes, joints),
+            Self::TableTilting(machine) => machine.inverse(axes, joints),
+        }
+    }
+
+    /// Axis positions for joint positions. Axes without a joint are 0.
+    #[inline]
+    pub fn forward(&self, joints: &[f64; JOINT_COUNT]) -> Axes {
+        match self {
+            Self::Identity(machine) => machine.forward(joints),
+            Self::TableTilting(machine) => machine.forward(joints),
+        }
+    }
+
+    /// Which joint is which axis.
+    pub fn coordinates(&self) -> &Coordinates {
+        match self {
+            Self::Identity(machine) => machine.coordinates(),
+            Self::TableTilting(machine) => machine.coordinates(),
+        }
+    }
+
+    /// Whether X Y Z are the tool centre point on a workpiece that turns.
+    #[inline]
+    pub fn tool_centre_point(&self) -> bool {
+        match self {
+            Self::Identity(_) => false,
+            Self::TableTilting(machine) => machine.parameters().tool_centre_point,
+        }
+    }
+
+    /// Takes over the dimensions of a tilting table, all at once or, if one is refused, none of
+    /// them; a machine without a table has none and takes nothing. Joints follow at once where the
+    /// table is turned, so this is for a machine at rest.
+    ///
+    /// # Errors
+    ///
+    /// [`FrameError::NotFinite`], [`FrameError::TranslationTooLarge`].
+    pub fn set_parameters(&mut self, table: &TableTiltingParameters) -> Result<(), FrameError> {
+        match self {
+            Self::Identity(_) => Ok(()),
+            Self::TableTilting(machine) => machine.set_parameters(*table),
+        }
+    }
+}

@@ -1,0 +1,480 @@
+//! The blended path as the rest of the planner sees it.
+
+use nalgebra::ArrayStorage;
+
+use super::chain::Chain;
+use super::error::BlendError;
+use super::jump::PointSum;
+use super::leg::{Leg, ProgrammedMove};
+use super::line_merger::LineMerger;
+use super::metric::Metric;
+use super::settings::BlendSettings;
+use super::views::{LegView, MoveProgress, VertexView};
+use super::width_optimizer::WidthOptimizer;
+use crate::axes::{AXIS_COUNT, Axes};
+use crate::moves::shape::measure::LEAST_DISTANCE;
+use crate::moves::shape::{PathPoint, Shape};
+
+const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
+
+/// Legs that a single move may need room for: the lines that were waiting, and itself.
+const LEGS_A_MOVE: usize = 2;
+
+/// The path through the queued moves, over path distance s.
+///
+/// s is the arc length of the programmed path in machine units, a degree of A B C counting as much
+/// as [`BlendSettings`] says. It starts at 0 and grows over all moves. What the feed F counts
+/// (XYZ, else UVW, else ABC) is in proportion to s on each leg, see [`LegView::measure_rate`]:
+/// at ds/dt the programmed path is run through at `measure_rate ds/dt` in F's measure.
+///
+/// Three places divide the path:
+///
+/// - up to [`final_end`](Self::final_end) it never changes again, whatever moves are added;
+/// - up to [`known_end`](Self::known_end) it is within its tolerance and ends, on the programmed
+///   path, at the end of a leg: the machine may come to rest there;
+/// - up to [`programmed_end`](Self::programmed_end) moves were added; [`step`](Self::step) lets
+///   the known end follow.
+///
+/// It is large and made to lie in a static.
+#[derive(Debug)]
+pub struct BlendedPath {
+    settings: BlendSettings,
+    metric: Metric,
+    chain: Chain,
+    merger: LineMerger,
+    optimizer: WidthOptimizer,
+    /// Where the path starts.
+    start: Axes,
+    /// Where the moves that were added end.
+    goal: Axes,
+    /// Number of the newest move.
+    serial: Option<u64>,
+    /// Widths are to be chosen up to the end, however little is new.
+    hurry: bool,
+    /// The machine comes to rest at the end of what was added.
+    finished: bool,
+}
+
+impl BlendedPath {
+    /// An empty path from the origin.
+    pub const fn new() -> Self {
+        Self {
+            settings: BlendSettings::DEFAULT,
+            metric: Metric::new(BlendSettings::DEFAULT.rotary_weight()),
+            chain: Chain::new(),
+            merger: LineMerger::new(),
+            optimizer: WidthOptimizer::new(),
+            start: ORIGIN,
+            goal: ORIGIN,
+            serial: None,
+            hurry: false,
+            finished: false,
+        }
+    }
+
+    /// Drops everything: the machine is at rest at `position`, shape (9), where s is 0.
+    pub fn restart(&mut self, settings: &BlendSettings, position: &Axes) {
+        self.settings = *settings;
+        self.metric = Metric::new(settings.rotary_weight());
+        self.chain.clear();
+        self.merger.clear();
+        self.optimizer.restart(&self.chain);
+        self.start = *position;
+        self.goal = *position;
+        self.serial = None;
+        self.hurry = false;
+        self.finished = false;
+    }
+
+    /// Adds a move at the end.
+    ///
+    /// # Errors
+    /// See [`BlendError`].
+    pub fn add(&mut self, programmed: &ProgrammedMove) -> Result<(), BlendError> {
+        let away = (programmed.shape.position(0.0) - self.goal).amax();
+        if away.is_nan() || away > LEAST_DISTANCE {
+            return Err(BlendError::Gap);
+        }
+        if !(programmed.feed > 0.0 && programmed.feed.is_finite()) {
+            return Err(BlendError::Feed);
+        }
+        if self
+            .serial
+            .is_some_and(|newest| programmed.serial <= newest)
+        {
+            return Err(BlendError::Serial);
+        }
+        if self.chain.room() < LEGS_A_MOVE {
+            return Err(BlendError::Full);
+        }
+        let leg = Leg {
+            stop_before: programmed.stop_before || self.finished,
+            ..Leg::new(programmed, &self.settings, &self.metric)
+        };
+        if !(leg.length > 0.0 && leg.length.is_finite()) {
+            return Err(BlendError::ZeroLength);
+        }
+        let (settings, metric) = (&self.settings, &self.metric);
+        if !self.merger.merge(programmed, &leg, settings, metric) {
+            self.release_waiting();
+            if !self.merger.hold(programmed, &leg) {
+                self.chain.push(leg, &self.settings, &self.metric);
+            }
+        }
+        self.goal = programmed.shape.end();
+        self.serial = Some(programmed.serial);
+        self.hurry = false;
+        self.finished = false;
+        Ok(())
+    }
+
+    /// Nothing more came for a while: lines that wait to be merged wait no longer, and
+    /// [`step`](Self::step) takes the known end to the end of all moves. Later moves are blended
+    /// with these as far as the path is not yet final.
+    pub fn flush(&mut self) {
+        self.release_waiting();
+        self.hurry = true;
+    }
+
+    /// The machine will come to rest at the end of all moves: as [`flush`](Self::flush), and all
+    /// of the path becomes final.
+    pub fn finish(&mut self) {
+        self.flush();
+        self.finished = !self.chain.is_empty();
+        self.freeze_at_rest();
+    }
+
+    /// Chooses widths, for about `budget` kernel terms of 5 ns or so; at most
+    /// [`GREATEST_EXCESS`](super::GREATEST_EXCESS) more. Answers what it took: less than the
+    /// budget if there is nothing more to do.
+    pub fn step(&mut self, budget: usize) -> usize {
+        let spent = self.optimizer.step(
+            &mut self.chain,
+            &self.settings,
+            &self.metric,
+            self.hurry,
+            budget,
+        );
+        self.freeze_at_rest();
+        spent
+    }
+
+    /// Where the machine rests at the end nothing to come changes the path.
+    fn freeze_at_rest(&mut self) {
+        if self.rests_at_end() && self.optimizer.is_settled(&self.chain) {
+            self.optimizer.freeze(&self.chain);
+        }
+    }
+
+    fn release_waiting(&mut self) {
+        if let Some(leg) = self.merger.take() {
+            self.chain.push(leg, &self.settings, &self.metric);
+        }
+    }
+
+    /// Where the moves that were added end, without lines that wait to be merged; path distance.
+    pub fn programmed_end(&self) -> f64 {
+        self.chain.end()
+    }
+
+    /// Up to where the path is within its tolerance, path distance.
+    pub fn known_end(&self) -> f64 {
+        self.optimizer.stored_end()
+    }
+
+    /// Up to where the path never changes again, path distance.
+    pub fn final_end(&self) -> f64 {
+        self.optimizer.frozen()
+    }
+
+    /// Where all moves end, shape (9), exactly as given.
+    pub fn goal(&self) -> Axes {
+        self.goal
+    }
+
+    /// The path at `s`, held within what there is, with derivatives by s. At a stop: of the leg
+    /// that starts there.
+    pub fn point(&self, s: f64) -> PathPoint {
+        if self.chain.is_empty() {
+            return self.rest();
+        }
+        self.point_of_leg(self.chain.locate(s), s)
+    }
+
+    /// The same, but at a stop of the leg that ends there.
+    pub fn point_before(&self, s: f64) -> PathPoint {
+        if self.chain.is_empty() {
+            return self.rest();
+        }
+        let number = self.chain.locate(s);
+        let before = number.saturating_sub(1);
+        if before >= self.chain.first() && before < number && self.chain.leg(number).start >= s {
+            self.point_of_leg(before, s)
+        } else {
+            self.point_of_leg(number, s)
+        }
+    }
+
+    /// The programmed path at `s`, held within what there is, with derivatives by s.
+    pub fn programmed_point(&self, s: f64) -> PathPoint {
+        if self.chain.is_empty() {
+            return self.rest();
+        }
+        self.chain.leg(self.chain.locate(s)).point(s)
+    }
+
+    fn rest(&self) -> PathPoint {
+        PathPoint {
+            position: self.start,
+            first: ORIGIN,
+            second: ORIGIN,
+            third: ORIGIN,
+        }
+    }
+
+    #[inline]
+    fn point_of_leg(&self, number: u64, s: f64) -> PathPoint {
+        let leg = self.chain.leg(number);
+        let s = s.max(leg.start).min(leg.end());
+        let mut sum = PointSum::ZERO;
+        for k in 0..u64::from(leg.reached_from_left) {
+            let vertex = self.chain.vertex(number.saturating_sub(k));
+            vertex.add_to(&mut sum, s - vertex.s);
+        }
+        for k in 1..=u64::from(leg.reached_from_right) {
+            let vertex = self.chain.vertex(number.saturating_add(k));
+            vertex.add_to(&mut sum, -(vertex.s - s));
+        }
+        let mut point = leg.point(s);
+        sum.add_to(&mut point);
+        point
+    }
+
+    /// The places behind `from` and before `to` where the third derivative or its slope may jump, as many
+    /// as there is room for; answers how many.
+    pub fn breakpoints(&self, from: f64, to: f64, places: &mut [f64]) -> usize {
+        if self.chain.is_empty() {
+            return 0;
+        }
+        let (start, end) = (self.chain.locate(from), self.chain.locate(to));
+        let left = u64::from(self.chain.leg(start).reached_from_left);
+        let right = u64::from(self.chain.leg(end).reached_from_right);
+        let first = start.saturating_add(1).saturating_sub(left);
+        let mut room = places.iter_mut();
+        let mut count = 0;
+        for number in first..=end.saturating_add(right) {
+            for place in self.chain.vertex(number).breakpoints() {
+                if from < place
+                    && place < to
+                    && let Some(free) = room.next()
+                {
+                    *free = place;
+                    count += 1;
+                }
+            }
+        }
+        count
+    }
+
+    /// The leg at `s`, the later one where two meet; `None` if there is none at all.
+    pub fn leg(&self, s: f64) -> Option<LegView> {
+        (!self.chain.is_empty()).then(|| self.leg_view(self.chain.locate(s)))
+    }
+
+    /// The leg that `s` lies in, the earlier one where two meet; `None` if there is none or not
+    /// everything is kept that it depends on.
+    pub fn leg_before(&self, s: f64) -> Option<LegView> {
+        if self.chain.is_empty() {
+            return None;
+        }
+        let number = self.chain.locate(s);
+        let number = if self.chain.leg(number).start < s {
+            number
+        } else {
+            number.checked_sub(1)?
+        };
+        (number >= self.chain.oldest_whole()).then(|| self.leg_view(number))
+    }
+
+    fn leg_view(&self, number: u64) -> LegView {
+        let leg = self.chain.leg(number);
+        LegView {
+            serial: leg.serial,
+            first: leg.first,
+            start: leg.start,
+            end: leg.end(),
+            speed: leg.speed,
+            greatest_speed: leg.greatest_speed,
+            turning: leg.turning,
+            measure_rate: leg.measure_rate,
+            measure: leg.measure,
+        }
+    }
+
+    /// Which move runs at `s` and how far it is; `None` if there is none.
+    pub fn progress(&self, s: f64) -> Option<MoveProgress> {
+        (!self.chain.is_empty()).then(|| {
+            let leg = self.chain.leg(self.chain.locate(s));
+            let distance = leg.measured(s);
+            MoveProgress {
+                serial: leg.serial,
+                first: leg.first,
+                distance,
+                distance_to_go: leg.shape.length() - distance,
+            }
+        })
+    }
+
+    /// The leg that ends at `s`: number of its last move, and where that ends, shape (9), exactly as
+    /// given. `None` if none ends there.
+    pub fn leg_ending_at(&self, s: f64) -> Option<(u64, Axes)> {
+        if self.chain.is_empty() {
+            return None;
+        }
+        let number = self.chain.locate(s);
+        let number = if s >= self.chain.leg(number).end() {
+            number
+        } else {
+            number.checked_sub(1)?
+        };
+        let leg = self.chain.leg(number);
+        (number >= self.chain.first() && leg.end() == s).then(|| (leg.serial, leg.shape.end()))
+    }
+
+    /// How far the path may be from the programmed one on the leg at `s`, machine units; 0 if
+    /// nothing is known. Under G64 without P: but for corners that are cut by up to half of their
+    /// shorter leg.
+    pub fn tolerance(&self, s: f64) -> f64 {
+        if self.chain.is_empty() {
+            0.0
+        } else {
+            self.chain.leg(self.chain.locate(s)).tolerance()
+        }
+    }
+
+    /// The vertices from `from` on, the start of the path or its oldest leg included, in order.
+    pub fn vertices(&self, from: f64) -> impl Iterator<Item = VertexView> + '_ {
+        let first = if self.chain.is_empty() {
+            self.chain.next()
+        } else {
+            self.chain.locate(from)
+        };
+        (first..self.chain.next())
+            .map(|number| self.vertex_view(number))
+            .skip_while(move |vertex| vertex.s < from)
+    }
+
+    fn vertex_view(&self, number: u64) -> VertexView {
+        let vertex = self.chain.vertex(number);
+        let mut reach = vertex.stored().reach();
+        if vertex.turn_size <= 0.0 && !vertex.wall {
+            // In a smoothed run the path is as curved here as at its neighbours.
+            for neighbour in [number.saturating_sub(1), number.saturating_add(1)] {
+                if neighbour < self.chain.first() || neighbour >= self.chain.next() {
+                    continue;
+                }
+                let widths = self.chain.vertex(neighbour).stored();
+                if widths.mix > 0.0 {
+                    reach = reach.max(widths.kernel);
+                }
+            }
+        }
+        VertexView {
+            s: vertex.s,
+            reach,
+            core: vertex.stored().core(),
+            stop: vertex.stop,
+            speed_changes: number > self.chain.first() && {
+                let (before, after) = (self.chain.leg(number - 1), self.chain.leg(number));
+                before.speed != after.speed || before.greatest_speed != after.greatest_speed
+            },
+        }
+    }
+
+    /// The first vertex behind `s`.
+    pub fn vertex_after(&self, s: f64) -> Option<VertexView> {
+        if self.chain.is_empty() {
+            return None;
+        }
+        let number = self.chain.locate(s);
+        let number = if self.chain.leg(number).start > s {
+            number
+        } else {
+            number.saturating_add(1)
+        };
+        (number < self.chain.next()).then(|| self.vertex_view(number))
+    }
+
+    /// The last vertex before `s`.
+    pub fn vertex_before(&self, s: f64) -> Option<VertexView> {
+        if self.chain.is_empty() {
+            return None;
+        }
+        let number = self.chain.locate(s);
+        let number = if self.chain.leg(number).start < s {
+            Some(number)
+        } else {
+            number.checked_sub(1)
+        };
+        number
+            .filter(|number| *number >= self.chain.first())
+            .map(|number| self.vertex_view(number))
+    }
+
+    /// What no final vertex reaches beyond, so far.
+    pub fn greatest_reach(&self) -> f64 {
+        self.optimizer.greatest_reach()
+    }
+
+    /// The shape of the leg at `s`, the later one where two meet; `None` if there is none.
+    pub fn shape(&self, s: f64) -> Option<Shape> {
+        (!self.chain.is_empty()).then(|| self.chain.leg(self.chain.locate(s)).shape)
+    }
+
+    /// The leg that starts at a rest at `s`, if the machine comes to rest at its end too, and
+    /// that is final: then it is the programmed move itself.
+    pub fn move_between_rests(&self, s: f64) -> Option<(Shape, LegView)> {
+        let view = self.leg(s)?;
+        let number = self.chain.locate(s);
+        let leg = self.chain.leg(number);
+        let after = number.saturating_add(1);
+        let rests = leg.stop_after
+            || after < self.chain.next() && self.chain.vertex(after).stop
+            || after == self.chain.next() && self.finished;
+        (view.start == s && rests && self.final_end() >= view.end).then_some((leg.shape, view))
+    }
+
+    /// Whether the machine comes to rest at the [programmed end](Self::programmed_end).
+    pub fn rests_at_end(&self) -> bool {
+        self.finished || self.chain.last().is_some_and(|leg| leg.stop_after)
+    }
+
+    /// The length of a displacement, shape (9), as path distance counts it.
+    pub fn distance(&self, displacement: &Axes) -> f64 {
+        self.metric.norm(displacement)
+    }
+
+    /// The machine will not go back behind `s`: makes room.
+    pub fn discard_before(&mut self, s: f64) {
+        if !self.chain.is_empty() {
+            let number = self.chain.locate(s).min(self.optimizer.open());
+            self.chain.discard_before(number);
+        }
+    }
+
+    /// Whether [`step`](Self::step) has taken the known end to the programmed one.
+    pub fn is_settled(&self) -> bool {
+        self.optimizer.is_settled(&self.chain)
+    }
+
+    /// A shape's length in path distance.
+    pub fn path_length(&self, shape: &Shape) -> f64 {
+        shape.length() * self.metric.per_measure(shape)
+    }
+}
+
+impl Default for BlendedPath {
+    fn default() -> Self {
+        Self::new()
+    }
+}

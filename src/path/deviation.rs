@@ -1,0 +1,207 @@
+//! How far the blended path is from the programmed one, and the proof that it is no farther.
+//!
+//! On a stretch of length h without a vertex inside, a function d with `|d''| <= m` is nowhere
+//! larger than at the larger of its ends plus `h^2 m / 8`. The bound of d'' is a sum over the
+//! vertices that reach the stretch. Where the bound is too coarse the stretch is halved.
+//!
+//! Under G64 without P corners may be cut by up to half of the shorter leg. Kernels no wider than
+//! that do not count: each leg is touched in the middle, within what the others add.
+//!
+//! The deviation at equal path distance bounds the distance both ways, from the blended path to the
+//! programmed one and back.
+
+use super::chain::{Chain, NEIGHBOURS};
+use super::jump::JumpSum;
+use super::metric::Metric;
+use super::vertex::Vertex;
+
+/// Deviations evaluated for one leg at most; more count as a violation.
+const HALVINGS: u32 = 24;
+
+/// Greatest depth of nested halves, which the number of halvings bounds.
+const DEPTH: usize = 32;
+
+/// The most kernel terms that the check of a leg takes.
+pub(super) const GREATEST_COST: usize = 2 * NEIGHBOURS as usize * (3 * HALVINGS as usize + 7);
+
+/// The answer of a check.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DeviationVerdict {
+    /// A place where the tolerance is, or may be, violated.
+    pub violation: Option<f64>,
+    /// Kernel terms that it took.
+    pub cost: usize,
+}
+
+/// The vertices that reach into a leg with those of their trial widths that count.
+struct Reaching<'a> {
+    left: [Option<&'a Vertex>; NEIGHBOURS as usize],
+    right: [Option<&'a Vertex>; NEIGHBOURS as usize],
+    count: usize,
+}
+
+impl<'a> Reaching<'a> {
+    fn new(chain: &'a Chain, leg: u64, next: u64) -> Self {
+        let mut left = [None; NEIGHBOURS as usize];
+        let mut right = [None; NEIGHBOURS as usize];
+        let (start, end) = (chain.leg(leg).start, chain.leg(leg).end());
+        let mut count = 0;
+        let from_left = chain
+            .left_of(leg)
+            .filter(|(_, vertex)| vertex.s + vertex.counted.reach() > start);
+        for (place, (_, vertex)) in left.iter_mut().zip(from_left) {
+            *place = Some(vertex);
+            count += 1;
+        }
+        let from_right = chain
+            .right_of(leg, next)
+            .filter(|(_, vertex)| vertex.s - vertex.counted.reach() < end);
+        for (place, (_, vertex)) in right.iter_mut().zip(from_right) {
+            *place = Some(vertex);
+            count += 1;
+        }
+        Self { left, right, count }
+    }
+
+    fn left(&self) -> impl Iterator<Item = &Vertex> {
+        self.left.iter().map_while(|vertex| *vertex)
+    }
+
+    fn right(&self) -> impl Iterator<Item = &Vertex> {
+        self.right.iter().map_while(|vertex| *vertex)
+    }
+
+    fn deviation(&self, s: f64, metric: &Metric) -> f64 {
+        let mut sum = JumpSum::ZERO;
+        for vertex in self.left().chain(self.right()) {
+            vertex.add_deviation(&vertex.counted, s - vertex.s, &mut sum);
+        }
+        metric.norm(&sum.axes())
+    }
+
+    /// A bound of the second derivative of the deviation between `from` and `to`.
+    fn bend_bound(&self, from: f64, to: f64) -> f64 {
+        let left = self
+            .left()
+            .map(|vertex| vertex.bend_bound(&vertex.counted, (from - vertex.s).max(0.0)));
+        let right = self
+            .right()
+            .map(|vertex| vertex.bend_bound(&vertex.counted, (vertex.s - to).max(0.0)));
+        left.chain(right).sum()
+    }
+}
+
+/// Checks that the trial widths keep `share` of the tolerance everywhere on a leg. Vertices from
+/// `next` on do not count.
+pub(super) fn check(
+    chain: &Chain,
+    number: u64,
+    share: f64,
+    next: u64,
+    metric: &Metric,
+) -> DeviationVerdict {
+    let leg = chain.leg(number);
+    let reaching = Reaching::new(chain, number, next);
+    let mut search = Search {
+        reaching: &reaching,
+        metric,
+        tolerance: leg.tolerance() * share,
+        halvings: 0,
+        cost: 1 + reaching.count,
+    };
+    if reaching.count == 0 {
+        return DeviationVerdict {
+            violation: None,
+            cost: 1,
+        };
+    }
+    let (start, end) = (leg.start, leg.end());
+    // Up to where the vertices on the left reach, and from where those on the right do.
+    let from_left = reaching
+        .left()
+        .fold(start, |far, vertex| {
+            far.max(vertex.s + vertex.counted.reach())
+        })
+        .min(end);
+    let from_right = reaching
+        .right()
+        .fold(end, |near, vertex| {
+            near.min(vertex.s - vertex.counted.reach())
+        })
+        .max(start);
+    let violation = if from_left < from_right {
+        search
+            .first_violation(start, from_left)
+            .or_else(|| search.first_violation(from_right, end))
+    } else {
+        search.first_violation(start, end)
+    };
+    DeviationVerdict {
+        violation,
+        cost: search.cost,
+    }
+}
+
+struct Search<'a> {
+    reaching: &'a Reaching<'a>,
+    metric: &'a Metric,
+    tolerance: f64,
+    halvings: u32,
+    cost: usize,
+}
+
+impl Search<'_> {
+    fn deviation(&mut self, s: f64) -> f64 {
+        self.cost += self.reaching.count;
+        self.reaching.deviation(s, self.metric)
+    }
+
+    /// Goes from left to right, each time over the largest half of halves that the bound allows.
+    fn first_violation(&mut self, from: f64, to: f64) -> Option<f64> {
+        if from >= to {
+            return None;
+        }
+        // The right ends of the stretches still to be done, the nearest last, with the deviation
+        // there.
+        let mut waiting = [(0.0, 0.0); DEPTH];
+        let mut depth = 0usize;
+        let (mut left, mut at_left) = (from, self.deviation(from));
+        let (mut right, mut at_right) = (to, self.deviation(to));
+        if exceeds(at_left, self.tolerance) {
+            return Some(left);
+        }
+        loop {
+            if exceeds(at_right, self.tolerance) {
+                return Some(right);
+            }
+            let length = right - left;
+            self.cost += self.reaching.count;
+            let bound = at_left.max(at_right)
+                + 0.125 * length * length * self.reaching.bend_bound(left, right);
+            if bound <= self.tolerance {
+                depth = depth.checked_sub(1)?;
+                (left, at_left) = (right, at_right);
+                let Some(next) = waiting.get(depth) else {
+                    return Some(right);
+                };
+                (right, at_right) = *next;
+                continue;
+            }
+            let middle = 0.5 * (left + right);
+            self.halvings += 1;
+            let place = waiting.get_mut(depth);
+            let (Some(place), true) = (place, self.halvings <= HALVINGS) else {
+                return Some(middle);
+            };
+            *place = (right, at_right);
+            depth += 1;
+            right = middle;
+            at_right = self.deviation(middle);
+        }
+    }
+}
+
+/// Also if it is not a number.
+fn exceeds(deviation: f64, tolerance: f64) -> bool {
+    deviation.is_nan() || deviation > tolerance
+}

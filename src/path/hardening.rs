@@ -1,0 +1,199 @@
+//! Widths that always hold.
+//!
+//! The stored assignment keeps 98 % of the tolerance, and is the programmed path at its end. A new
+//! vertex there with a kernel of a hundredth of what would use up the tolerance on its own, no
+//! wider than half its shorter leg, adds less than 1 % to its two legs and nothing to others. Each
+//! leg has two ends: whatever comes, the next assignment keeps the tolerance too. Wider ones are
+//! tried before, with a check.
+
+use super::chain::Chain;
+use super::deviation;
+use super::metric::Metric;
+use super::vertex::Widths;
+use super::window::Window;
+use super::{easement, kernel};
+
+/// Of what would use up the tolerance, what is tried one after another.
+const SHARES: [f64; ATTEMPTS] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
+
+/// How many there are.
+pub(super) const ATTEMPTS: usize = 6;
+
+/// Of the tolerance, what a hardened vertex would use up with a share of 1.
+const TOLERANCE_SHARE: f64 = 0.98;
+
+/// Gives a new vertex trial widths of its attempt's share. The vertices after it must have none
+/// yet. Answers whether the tolerance is kept, and the kernel terms it took; the last attempt
+/// always keeps it.
+pub(super) fn harden(
+    chain: &mut Chain,
+    number: u64,
+    attempt: usize,
+    window: &Window,
+    metric: &Metric,
+) -> (bool, usize) {
+    let clip = window.clip(chain, number);
+    let share = SHARES.get(attempt).copied().unwrap_or(0.01);
+    let vertex = chain.vertex_mut(number);
+    if !vertex.is_smoothed() {
+        vertex.set_trial(Widths::NONE);
+        return (true, 1);
+    }
+    let room = vertex.half_leg.min(clip);
+    let tolerance = TOLERANCE_SHARE * vertex.tolerance;
+    let kernel = if vertex.turn_size > 0.0 {
+        (tolerance / (kernel::peak(vertex.corner_mix) * vertex.turn_size)).min(room)
+    } else {
+        0.0
+    };
+    let easement = if vertex.jump_size > 0.0 {
+        (tolerance / (easement::PEAK * vertex.jump_size))
+            .sqrt()
+            .min(room)
+    } else {
+        0.0
+    };
+    // Without a tolerance half legs always hold.
+    let free = vertex.free_kernel.min(clip);
+    let free_easement = vertex.free_easement.min(clip);
+    vertex.set_trial(Widths {
+        kernel: free.max(share * kernel),
+        mix: vertex.corner_mix,
+        easement: free_easement.max(share * easement),
+    });
+    if vertex.base.kernel > 0.0 {
+        vertex.factor = (vertex.trial.kernel / vertex.base.kernel).min(1.0);
+    }
+    let reach = vertex.trial.reach();
+    let mut cost = chain.touch(number, reach, window.next);
+    let mut holds = true;
+    for leg in [number.saturating_sub(1), number] {
+        let verdict = deviation::check(chain, leg, 1.0, window.next, metric);
+        cost += verdict.cost;
+        holds &= verdict.violation.is_none();
+    }
+    (holds, cost)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::jump::JumpSum;
+    use super::super::leg::{Leg, ProgrammedMove};
+    use super::super::settings::{Allowance, BlendSettings};
+    use super::*;
+    use crate::axes::Axes;
+    use crate::moves::TerminationCondition;
+    use crate::moves::shape::{Line9, Shape};
+
+    /// Lines in XYZ, each given by its displacement and tolerance.
+    fn lines(displacements: &[([f64; 3], f64)], settings: &BlendSettings, chain: &mut Chain) {
+        let metric = Metric::new(settings.rotary_weight());
+        let mut at = Axes::zeros();
+        for (displacement, tolerance) in displacements {
+            let mut end = at;
+            for (end, step) in end.iter_mut().zip(displacement) {
+                *end += step;
+            }
+            let Ok(line) = Line9::new(&at, &end) else {
+                continue;
+            };
+            let programmed = ProgrammedMove {
+                serial: 0,
+                shape: Shape::Line(line),
+                feed: 50.0,
+                greatest_feed: 50.0,
+                termination: TerminationCondition::Continuous {
+                    tolerance: *tolerance,
+                },
+                stop_before: false,
+                separate: false,
+            };
+            chain.push(Leg::new(&programmed, settings, &metric), settings, &metric);
+            at = end;
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_beside_a_wide_kernel_is_seen() {
+        let answers = std::thread::Builder::new()
+            .stack_size(16 << 20)
+            .spawn(|| {
+                let settings = BlendSettings::DEFAULT;
+                let metric = Metric::new(settings.rotary_weight());
+                let mut chain = Chain::new();
+                let bend = [
+                    ([10.0, 0.0, 0.0], 9.0),
+                    ([1.0, 1.0, 0.0], 9.0),
+                    ([0.0, 1.0, 0.0], 9.0),
+                ];
+                lines(&bend, &settings, &mut chain);
+                // The first corner alone uses 97 % of the tolerance at the second.
+                let wide = Widths {
+                    kernel: 5.0,
+                    mix: 0.0,
+                    easement: 0.0,
+                };
+                let (first, second) = (*chain.vertex(1), *chain.vertex(2));
+                let mut deviation = JumpSum::ZERO;
+                first.add_deviation(&wide, second.s - first.s, &mut deviation);
+                let tolerance = metric.norm(&deviation.axes()) / 0.97;
+                chain.vertex_mut(1).set_trial(wide);
+                chain.vertex_mut(2).tolerance = tolerance;
+                chain.leg_mut(2).allowance = Allowance::Tolerance(tolerance);
+                let window = Window {
+                    next: chain.next(),
+                    end: chain.end(),
+                    ..Window::EMPTY
+                };
+                [0, ATTEMPTS - 1].map(|attempt| harden(&mut chain, 2, attempt, &window, &metric).0)
+            })
+            .expect("a thread")
+            .join()
+            .expect("the test itself");
+        assert_eq!(answers, [false, true]);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig {
+            cases: 100,
+            failure_persistence: None,
+            ..ProptestConfig::default()
+        })]
+
+        #[test]
+        fn the_last_attempt_always_holds(
+            displacements in prop::collection::vec(
+                (prop::array::uniform3(-1.0..1.0f64), 0.0005..1.0f64),
+                2..60,
+            ),
+            attempt in 0..ATTEMPTS,
+        ) {
+            let failed = std::thread::Builder::new()
+                .stack_size(16 << 20)
+                .spawn(move || {
+                    let settings = BlendSettings::DEFAULT;
+                    let metric = Metric::new(settings.rotary_weight());
+                    let mut chain = Chain::new();
+                    lines(&displacements, &settings, &mut chain);
+                    let window = Window { next: chain.next(), end: chain.end(), ..Window::EMPTY };
+                    for number in chain.first()..chain.next() {
+                        let held = (attempt..ATTEMPTS).any(|attempt| {
+                            harden(&mut chain, number, attempt, &window, &metric).0
+                        });
+                        assert!(held, "vertex {number}");
+                    }
+                    (chain.first()..chain.next()).find(|leg| {
+                        deviation::check(&chain, *leg, 1.0, window.next, &metric)
+                            .violation
+                            .is_some()
+                    })
+                })
+                .expect("a thread")
+                .join()
+                .expect("the test itself");
+            prop_assert_eq!(failed, None);
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! One leg of the programmed path: a move, or several short lines merged into one.
+
+use super::metric::Metric;
+use super::settings::{Allowance, BlendSettings};
+use crate::moves::TerminationCondition;
+use crate::moves::shape::measure::{self, Measure};
+use crate::moves::shape::{PathPoint, Shape};
+
+/// Legs that turn by less, length of the difference of unit vectors, may be chords of a curve: 60
+/// degrees.
+const CHORD_TURN: f64 = 1.0;
+
+/// A move as the blended path takes it.
+#[derive(Clone, Copy, Debug)]
+pub struct ProgrammedMove {
+    /// Number of the move, growing from move to move; what
+    /// [`BlendedPath::progress`](super::BlendedPath::progress) reports.
+    pub serial: u64,
+    /// Where it goes. Starts where the move before ended.
+    pub shape: Shape,
+    /// What the program asks for at an override of 100 %, units of the shape's measure per
+    /// second, positive. Widths are chosen for it.
+    pub feed: f64,
+    /// What no override may exceed, in the same units; at least `feed`, equal to it where none
+    /// applies.
+    pub greatest_feed: f64,
+    /// How it meets the next move.
+    pub termination: TerminationCondition,
+    /// Whether the machine has to come to rest before it: it waits for a spindle, probes, or turns
+    /// a locked axis.
+    pub stop_before: bool,
+    /// Whether it must not be merged with the lines before it: something happens when it starts
+    /// (outputs), or other overrides apply.
+    pub separate: bool,
+}
+
+/// A leg of the programmed path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leg {
+    pub shape: Shape,
+    /// Number of the last move that it covers.
+    pub serial: u64,
+    /// Number of the first move that it covers.
+    pub first: u64,
+    /// Where it starts, path distance.
+    pub start: f64,
+    /// Path distance.
+    pub length: f64,
+    /// How much F counts for a unit of path distance.
+    pub measure_rate: f64,
+    /// What F counts.
+    pub measure: Measure,
+    /// How far its direction turns for a unit of path distance, radians: 0 on a line.
+    pub turning: f64,
+    /// Programmed speed, path distance per second.
+    pub speed: f64,
+    /// The speed that no override may exceed.
+    pub greatest_speed: f64,
+    /// How far the blended path may be from it.
+    pub allowance: Allowance,
+    /// See [`BlendSettings::design_width`].
+    pub design_width: f64,
+    pub stop_before: bool,
+    pub stop_after: bool,
+    /// Whether a trial assignment of widths has yet to be checked on it.
+    pub unchecked: bool,
+    /// How many vertices to the left, its own start included, reach into it at most.
+    pub reached_from_left: u32,
+    /// How many vertices to the right, its own end included, reach into it at most.
+    pub reached_from_right: u32,
+}
+
+impl Leg {
+    pub const VACANT: Self = Self {
+        shape: Shape::VACANT,
+        serial: 0,
+        first: 0,
+        start: 0.0,
+        length: 0.0,
+        measure_rate: 1.0,
+        measure: Measure::Linear,
+        turning: 0.0,
+        speed: 0.0,
+        greatest_speed: 0.0,
+        allowance: Allowance::Exact(0.0),
+        design_width: 0.0,
+        stop_before: false,
+        stop_after: false,
+        unchecked: false,
+        reached_from_left: 0,
+        reached_from_right: 0,
+    };
+
+    /// The leg of a single move, not yet placed: it starts at 0.
+    pub fn new(programmed: &ProgrammedMove, settings: &BlendSettings, metric: &Metric) -> Self {
+        let per_measure = metric.per_measure(&programmed.shape);
+        let length = programmed.shape.length() * per_measure;
+        let speed = programmed.feed * per_measure;
+        Self {
+            shape: programmed.shape,
+            serial: programmed.serial,
+            first: programmed.serial,
+            length,
+            measure_rate: 1.0 / per_measure,
+            measure: match &programmed.shape {
+                Shape::Line(line) => {
+                    let displacement = line.direction() * line.length();
+                    measure::of(&displacement).map_or(Measure::Linear, |(measure, _)| measure)
+                }
+                Shape::Arc(_) => Measure::Linear,
+            },
+            turning: turning(&programmed.shape) / per_measure,
+            speed,
+            greatest_speed: programmed.greatest_feed.max(programmed.feed) * per_measure,
+            allowance: match programmed.termination {
+                TerminationCondition::Continuous { tolerance } => settings.allowance(tolerance),
+                TerminationCondition::Exact | TerminationCondition::Stop => settings.exact(),
+            },
+            design_width: settings.design_width(speed),
+            stop_before: programmed.stop_before,
+            stop_after: programmed.termination == TerminationCondition::Stop,
+            ..Self::VACANT
+        }
+    }
+
+    /// Where it ends, path distance.
+    #[inline]
+    pub fn end(&self) -> f64 {
+        self.start + self.length
+    }
+
+    /// Whether the blended path has to pass through its ends exactly, and nothing of other corners
+    /// may reach into it.
+    pub fn is_exact(&self) -> bool {
+        matches!(self.allowance, Allowance::Exact(_))
+    }
+
+    /// Whether its corners may be cut by up to half of the shorter leg, without a tolerance.
+    pub fn allows_half_legs(&self) -> bool {
+        matches!(self.allowance, Allowance::HalfLegs(_))
+    }
+
+    /// How far the blended path may be from it, but for corners that are cut by half of a leg;
+    /// machine units.
+    pub fn tolerance(&self) -> f64 {
+        match self.allowance {
+            Allowance::Exact(tolerance)
+            | Allowance::Tolerance(tolerance)
+            | Allowance::HalfLegs(tolerance) => tolerance,
+        }
+    }
+
+    /// How far before its end the path may still change when the next leg comes: as far as a corner
+    /// with the next leg may want to reach, and where it may be one of the chords of a curve, two of
+    /// them. `turn_size` is that of the vertex at its start.
+    pub fn reserve(&self, settings: &BlendSettings, turn_size: f64) -> f64 {
+        let widest = if self.allows_half_legs() {
+            settings.greatest_free_width()
+        } else {
+            settings.greatest_design_width()
+        };
+        let reserve = (0.5 * self.length).min(widest);
+        if self.is_exact() {
+            reserve
+        } else {
+            let on_curve = turn_size < CHORD_TURN;
+            let chords = if on_curve { 2.0 * self.length } else { 0.0 };
+            let chords = chords.min(settings.greatest_design_width());
+            reserve.max(self.design_width).max(chords)
+        }
+    }
+
+    /// How far a corner with another leg may be rounded into this one if half legs are allowed:
+    /// half of it, on an arc not more than a radian.
+    pub fn half_for_corner(&self) -> f64 {
+        let curvature = self.point(self.start).second.norm();
+        let half = 0.5 * self.length;
+        if half * curvature > 1.0 {
+            curvature.recip()
+        } else {
+            half
+        }
+    }
+
+    /// How much F has counted at path distance `s`, held within the leg.
+    pub fn measured(&self, s: f64) -> f64 {
+        if s >= self.end() {
+            self.shape.length()
+        } else {
+            ((s - self.start) * self.measure_rate)
+                .max(0.0)
+                .min(self.shape.length())
+        }
+    }
+
+    /// The programmed path at path distance `s`, held within the leg, with derivatives by path
+    /// distance.
+    #[inline]
+    pub fn point(&self, s: f64) -> PathPoint {
+        let mut point = self.shape.point(self.measured(s));
+        let rate = self.measure_rate;
+        point.first *= rate;
+        point.second *= rate * rate;
+        point.third *= rate * rate * rate;
+        point
+    }
+}
+
+/// How far the direction of a shape turns where it starts for a unit of its length, radians.
+///
+/// Of a circle the second derivative is the radius times the square of that, the third one times its third
+/// power; what moves on evenly is in neither.
+fn turning(shape: &Shape) -> f64 {
+    let start = shape.point(0.0);
+    let (second, third) = (start.second.norm(), start.third.norm());
+    if second > 0.0 { third / second } else { 0.0 }
+}

@@ -1,0 +1,498 @@
+//! Chooses the widths of all vertices while the path grows, in small steps of bounded work.
+//!
+//! There are always two assignments of widths. The *stored* one is in force: it keeps the
+//! tolerance everywhere, and leaves the programmed path alone at the end of what is known. The
+//! *trial* one takes the path as far as it has grown since, at the widths that would be best. It
+//! is checked leg by leg; vertices that reach a place of violation are narrowed and their legs
+//! checked again. When all is within the tolerance it takes the place of the stored one, at once.
+//! When that fails, or takes too much work, the stored one stays and the new vertices are
+//! hardened (see there).
+//!
+//! Vertices become final from the oldest on, as soon as what is yet to come is beyond their reach.
+
+use super::chain::{Chain, NEIGHBOURS};
+use super::deviation::{self, GREATEST_COST};
+use super::hardening::{self, ATTEMPTS};
+use super::metric::Metric;
+use super::settings::BlendSettings;
+use super::vertex::Widths;
+use super::window::Window;
+use super::{base_width, deviation::DeviationVerdict};
+
+/// Path that has to come, in design widths, before widths are chosen anew.
+const CHUNK: f64 = 0.125;
+
+/// Vertices that have to come, or as many as are taken at a time.
+const GREATEST_CHUNK: u64 = 16;
+
+/// A vertex so many behind the newest is final whatever comes.
+const GREATEST_OPEN: u64 = 48;
+
+/// Distance of what is yet to come from the edge of a final kernel, in design widths.
+const LAG: f64 = 0.5;
+
+/// What of the tolerance a trial may use; the rest is for hardened vertices.
+const TRIAL_SHARE: f64 = 0.98;
+
+/// Ratio by which vertices at a violation are narrowed.
+const NARROWING: f64 = 0.85;
+
+/// Checks of the whole window before a trial is given up.
+const ROUNDS: u32 = 16;
+
+/// A violation so near to the end of what is known, in design widths, may be due to it.
+const NEAR_END: f64 = 2.0;
+
+/// What is final keeps this factor clear of kernels that are not, so that rounding never carries
+/// them into it.
+const AMPLE: f64 = 1.001;
+
+/// Kernel terms that a trial may take in its checks, and half as many in its base widths.
+const GREATEST_TRIAL: usize = 20_000;
+
+/// The most kernel terms by which a call of
+/// [`BlendedPath::step`](super::BlendedPath::step) exceeds its budget.
+pub const GREATEST_EXCESS: usize = 2 * GREATEST_COST + 4 * NEIGHBOURS as usize;
+
+#[derive(Clone, Copy, Debug)]
+enum OptimizerPhase {
+    /// No trial at hand.
+    Idle,
+    /// Looks for the base width of this vertex.
+    Widen(u64),
+    /// Gives this vertex its trial widths.
+    Assign(u64),
+    /// Checks this leg.
+    Check(u64),
+    /// Narrows this vertex if it is marked.
+    Narrow(u64),
+    /// The trial failed: this new vertex gets widths that depend on nothing else.
+    Harden { vertex: u64, attempt: usize },
+}
+
+/// See the module.
+#[derive(Debug)]
+pub(super) struct WidthOptimizer {
+    window: Window,
+    phase: OptimizerPhase,
+    /// Number of the first leg that the stored assignment does not know.
+    stored_next: u64,
+    /// Up to where the stored assignment is good, path distance.
+    stored_end: f64,
+    round: u32,
+    /// Kernel terms spent on the phase's part of the trial.
+    spent: usize,
+    violated: bool,
+    narrowed: bool,
+    /// Of all final vertices.
+    greatest_reach: f64,
+}
+
+impl WidthOptimizer {
+    pub const fn new() -> Self {
+        Self {
+            window: Window::EMPTY,
+            phase: OptimizerPhase::Idle,
+            stored_next: 0,
+            stored_end: 0.0,
+            round: 0,
+            spent: 0,
+            violated: false,
+            narrowed: false,
+            greatest_reach: 0.0,
+        }
+    }
+
+    /// Begins anew with an empty chain.
+    pub fn restart(&mut self, chain: &Chain) {
+        *self = Self {
+            stored_next: chain.next(),
+            window: Window {
+                open: chain.next(),
+                next: chain.next(),
+                ..Window::EMPTY
+            },
+            ..Self::new()
+        };
+    }
+
+    /// Up to where the path is within its tolerance, path distance.
+    pub fn stored_end(&self) -> f64 {
+        self.stored_end
+    }
+
+    /// Up to where the path never changes again, path distance.
+    pub fn frozen(&self) -> f64 {
+        self.window.frozen
+    }
+
+    /// The greatest reach of a final vertex.
+    pub fn greatest_reach(&self) -> f64 {
+        self.greatest_reach
+    }
+
+    /// Number of the first vertex whose widths may change.
+    pub fn open(&self) -> u64 {
+        self.window.open
+    }
+
+    /// Whether the stored assignment knows all legs there are.
+    pub fn is_settled(&self, chain: &Chain) -> bool {
+        matches!(self.phase, OptimizerPhase::Idle) && self.stored_next == chain.next()
+    }
+
+    /// The machine comes to rest at the end of the chain: nothing will change any more. Only when
+    /// settled.
+    pub fn freeze(&mut self, chain: &Chain) {
+        while self.window.open < self.stored_next {
+            self.close(chain);
+        }
+        self.window.frozen = self.stored_end;
+    }
+
+    /// Works for about `budget` kernel terms, at most [`GREATEST_EXCESS`] more. `hurry`: does not
+    /// wait until enough of the path is new. Answers what it took.
+    pub fn step(
+        &mut self,
+        chain: &mut Chain,
+        settings: &BlendSettings,
+        metric: &Metric,
+        hurry: bool,
+        budget: usize,
+    ) -> usize {
+        let mut spent = 0;
+        while spent < budget {
+            let cost = match self.phase {
+                OptimizerPhase::Idle => {
+                    if !self.begin(chain, hurry) {
+                        break;
+                    }
+                    2 * NEIGHBOURS as usize
+                }
+                OptimizerPhase::Widen(vertex) => self.widen(chain, vertex, settings, metric),
+                OptimizerPhase::Assign(vertex) => self.assign(chain, vertex),
+                OptimizerPhase::Check(leg) => self.check(chain, leg, settings, metric),
+                OptimizerPhase::Narrow(vertex) => self.narrow(chain, vertex),
+                OptimizerPhase::Harden { vertex, attempt } => {
+                    self.harden(chain, vertex, attempt, settings, metric)
+                }
+            };
+            spent += cost;
+        }
+        spent
+    }
+
+    /// Begins a trial if there is enough to be done.
+    fn begin(&mut self, chain: &mut Chain, hurry: bool) -> bool {
+        let fresh = chain.next().saturating_sub(self.stored_next);
+        let Some(last) = chain.last() else {
+            return false;
+        };
+        let enough = fresh >= GREATEST_CHUNK
+            || hurry
+            // The machine rests at its end, or may have to: nothing to come changes it.
+            || last.stop_after
+            || last.is_exact()
+            || chain.end() - self.stored_end >= CHUNK * last.design_width;
+        if fresh == 0 || !enough {
+            return false;
+        }
+        let next = self.stored_next + fresh.min(GREATEST_CHUNK);
+        self.window.next = next;
+        self.window.end = chain.leg(next.wrapping_sub(1)).end();
+        // Walls, from the right. The vertex at the end of the window may be known to be one.
+        let mut wall = if next < chain.next() && chain.vertex(next).wall {
+            self.window.end
+        } else {
+            f64::INFINITY
+        };
+        for number in (self.window.open..next).rev() {
+            let vertex = chain.vertex_mut(number);
+            vertex.right_wall = wall;
+            if vertex.wall {
+                wall = vertex.s;
+            }
+        }
+        for number in self.first_leg(chain)..next {
+            chain.leg_mut(number).unchecked = false;
+        }
+        self.spent = 0;
+        self.phase = OptimizerPhase::Widen(self.window.open);
+        true
+    }
+
+    /// The first leg that an open vertex may reach.
+    fn first_leg(&self, chain: &Chain) -> u64 {
+        self.window
+            .open
+            .saturating_sub(NEIGHBOURS)
+            .max(chain.first())
+    }
+
+    fn widen(
+        &mut self,
+        chain: &mut Chain,
+        vertex: u64,
+        settings: &BlendSettings,
+        metric: &Metric,
+    ) -> usize {
+        if vertex >= self.window.next || self.spent > GREATEST_TRIAL / 2 {
+            self.phase = OptimizerPhase::Assign(self.window.open);
+            return 1;
+        }
+        let (goes_on, cost) = base_width::widen(chain, vertex, &self.window, settings, metric);
+        self.spent += cost;
+        if !goes_on {
+            self.phase = OptimizerPhase::Widen(vertex + 1);
+        }
+        cost
+    }
+
+    fn assign(&mut self, chain: &mut Chain, number: u64) -> usize {
+        if number >= self.window.next {
+            self.spent = 0;
+            self.round = 0;
+            self.begin_check(chain);
+            return 1;
+        }
+        self.phase = OptimizerPhase::Assign(number + 1);
+        let vertex = chain.vertex_mut(number);
+        vertex.temporary_factor = 1.0;
+        vertex.marked = false;
+        vertex.marked_temporarily = false;
+        self.set_trial(chain, number);
+        let vertex = chain.vertex(number);
+        if vertex.trial == *vertex.stored() && number < self.stored_next {
+            return 1;
+        }
+        let reach = vertex.trial.reach().max(vertex.stored().reach());
+        chain.touch(number, reach, self.window.next)
+    }
+
+    /// Trial widths as the base widths, the factors and the surroundings allow.
+    fn set_trial(&self, chain: &mut Chain, number: u64) {
+        let clip = self.window.clip(chain, number);
+        let vertex = chain.vertex_mut(number);
+        let widths = if vertex.is_smoothed() {
+            let narrowed = vertex.temporary_factor;
+            let kernel = narrowed * clip.min(vertex.base.kernel * vertex.factor);
+            let easement = narrowed * clip.min(vertex.base.easement * vertex.factor.sqrt());
+            let kernel = kernel.max(vertex.free_kernel.min(clip));
+            Widths {
+                kernel,
+                mix: vertex.mix(kernel),
+                easement: easement.max(vertex.free_easement.min(clip)),
+            }
+        } else {
+            Widths::NONE
+        };
+        vertex.set_trial(widths);
+    }
+
+    fn begin_check(&mut self, chain: &Chain) {
+        self.violated = false;
+        self.phase = OptimizerPhase::Check(self.first_leg(chain));
+    }
+
+    fn check(
+        &mut self,
+        chain: &mut Chain,
+        leg: u64,
+        settings: &BlendSettings,
+        metric: &Metric,
+    ) -> usize {
+        if self.spent > GREATEST_TRIAL {
+            return self.give_up(chain);
+        }
+        if leg >= self.window.next {
+            if !self.violated {
+                return self.accept(chain, settings);
+            }
+            self.round += 1;
+            if self.round >= ROUNDS {
+                return self.give_up(chain);
+            }
+            self.narrowed = false;
+            self.phase = OptimizerPhase::Narrow(self.window.open);
+            return 1;
+        }
+        self.phase = OptimizerPhase::Check(leg + 1);
+        if !chain.leg(leg).unchecked {
+            return 1;
+        }
+        let DeviationVerdict { violation, cost } =
+            deviation::check(chain, leg, TRIAL_SHARE, self.window.next, metric);
+        self.spent += cost;
+        match violation {
+            None => chain.leg_mut(leg).unchecked = false,
+            Some(s) => {
+                self.violated = true;
+                self.mark(chain, leg, s);
+            }
+        }
+        cost
+    }
+
+    /// Marks the open vertices that reach a place on a leg.
+    fn mark(&self, chain: &mut Chain, leg: u64, s: f64) {
+        let last = chain.leg(self.window.next.wrapping_sub(1));
+        let near_end = self.window.is_near_end(s, NEAR_END * last.design_width);
+        let from = leg
+            .saturating_sub(NEIGHBOURS - 1)
+            .max(self.window.open)
+            .max(chain.first());
+        let to = leg.saturating_add(1 + NEIGHBOURS).min(self.window.next);
+        for number in from..to {
+            let vertex = chain.vertex_mut(number);
+            if (vertex.s - s).abs() < vertex.counted.reach() {
+                vertex.marked = true;
+                vertex.marked_temporarily |= near_end;
+            }
+        }
+    }
+
+    fn narrow(&mut self, chain: &mut Chain, number: u64) -> usize {
+        if number >= self.window.next {
+            if !self.narrowed {
+                return self.give_up(chain);
+            }
+            self.begin_check(chain);
+            return 1;
+        }
+        self.phase = OptimizerPhase::Narrow(number + 1);
+        if !chain.vertex(number).marked {
+            return 1;
+        }
+        self.narrowed = true;
+        let clip = self.window.clip(chain, number);
+        let vertex = chain.vertex_mut(number);
+        let reach = vertex.trial.reach();
+        let wanted =
+            (vertex.base.kernel * vertex.factor).max(vertex.base.easement * vertex.factor.sqrt());
+        // What the surroundings of this moment are to blame for is forgotten with the trial.
+        if wanted > clip || vertex.marked_temporarily {
+            vertex.temporary_factor *= NARROWING;
+        } else {
+            vertex.factor *= NARROWING;
+        }
+        vertex.marked = false;
+        vertex.marked_temporarily = false;
+        self.set_trial(chain, number);
+        chain.touch(number, reach, self.window.next)
+    }
+
+    /// Back to the stored assignment, which does not know the new vertices yet.
+    fn give_up(&mut self, chain: &mut Chain) -> usize {
+        for number in self.window.open..self.window.next {
+            let vertex = chain.vertex_mut(number);
+            vertex.set_trial(*vertex.stored());
+            vertex.factor = vertex.stored_factor();
+            if number < self.stored_next && vertex.base.kernel > 0.0 {
+                vertex.factor = vertex
+                    .factor
+                    .min(vertex.stored().kernel / vertex.base.kernel);
+            }
+        }
+        self.phase = OptimizerPhase::Harden {
+            vertex: self.stored_next,
+            attempt: 0,
+        };
+        2 * NEIGHBOURS as usize
+    }
+
+    fn harden(
+        &mut self,
+        chain: &mut Chain,
+        vertex: u64,
+        attempt: usize,
+        settings: &BlendSettings,
+        metric: &Metric,
+    ) -> usize {
+        if vertex >= self.window.next {
+            return self.accept(chain, settings);
+        }
+        let (holds, cost) = hardening::harden(chain, vertex, attempt, &self.window, metric);
+        self.phase = if holds || attempt + 1 >= ATTEMPTS {
+            OptimizerPhase::Harden {
+                vertex: vertex + 1,
+                attempt: 0,
+            }
+        } else {
+            OptimizerPhase::Harden {
+                vertex,
+                attempt: attempt + 1,
+            }
+        };
+        cost
+    }
+
+    /// Puts the trial assignment in force.
+    fn accept(&mut self, chain: &mut Chain, settings: &BlendSettings) -> usize {
+        for number in self.window.open..self.window.next {
+            chain.vertex_mut(number).store_trial();
+        }
+        self.stored_next = self.window.next;
+        self.stored_end = self.window.end;
+        self.phase = OptimizerPhase::Idle;
+        self.advance(chain, settings);
+        2 * NEIGHBOURS as usize
+    }
+
+    /// Makes the first open vertex final.
+    fn close(&mut self, chain: &Chain) {
+        let reach = chain.vertex(self.window.open).stored().reach();
+        self.greatest_reach = self.greatest_reach.max(reach);
+        self.window.open += 1;
+    }
+
+    /// Finds out what is final.
+    fn advance(&mut self, chain: &Chain, settings: &BlendSettings) {
+        let Window { next, end, .. } = self.window;
+        let last = chain.leg(next.wrapping_sub(1));
+        while self.window.open < next {
+            let vertex = chain.vertex(self.window.open);
+            // Closed before its search is over it would be narrow for good.
+            let searched = vertex.searched || vertex.wall || vertex.turn_size <= 0.0;
+            let beyond_reach =
+                searched && end - vertex.s >= vertex.stored().reach() + LAG * last.design_width;
+            let before_wall = vertex.right_wall <= end;
+            let too_many = next - self.window.open >= GREATEST_OPEN;
+            if !(vertex.is_bare_wall() || beyond_reach || before_wall || too_many) {
+                break;
+            }
+            self.close(chain);
+        }
+        self.window.frozen = self
+            .window
+            .frozen
+            .max(self.untouchable(chain, settings))
+            .min(end);
+    }
+
+    /// Up to where neither the open vertices nor those yet to come will have any effect.
+    fn untouchable(&self, chain: &Chain, settings: &BlendSettings) -> f64 {
+        let Window {
+            open, next, end, ..
+        } = self.window;
+        let newest = next.wrapping_sub(1);
+        let (last, vertex) = (chain.leg(newest), chain.vertex(newest));
+        let wall = if vertex.wall {
+            vertex.s
+        } else {
+            vertex.left_wall
+        };
+        let bare = next < chain.next() && chain.vertex(next).is_bare_wall();
+        let coming = if last.stop_after || bare {
+            end
+        } else {
+            (end - last.reserve(settings, vertex.turn_size)).max(wall)
+        };
+        (open..next)
+            .map(|number| chain.vertex(number))
+            .map(|vertex| {
+                let reach = AMPLE * vertex.possible_reach(settings);
+                (vertex.s - reach).max(vertex.left_wall)
+            })
+            .fold(coming, f64::min)
+    }
+}

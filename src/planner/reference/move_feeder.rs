@@ -1,0 +1,228 @@
+//! From the queue to the path: moves are added as they arrive, and the path is ended when nothing
+//! more is to be expected.
+
+use super::outlook::Outlook;
+use crate::moves::{MotionType, Move, SynchronisationMode, TerminationCondition};
+use crate::path::{BlendError, BlendedPath, ProgrammedMove};
+
+/// Moves that are added to the path in a cycle at most. LinuxCNC sends one a cycle; more wait only
+/// after a rest that dropped the path.
+const MOVES_A_CYCLE: usize = 16;
+
+/// Seconds without a move after which nothing more is expected, where moves came fast.
+const SHORTEST_SILENCE: f64 = 8e-3;
+/// A move is overdue after so many times the mean time between two.
+const OVERDUE: f64 = 1.5;
+/// Where they came slowly, nothing more is expected after so many times that.
+const SILENCE: f64 = 3.0;
+/// And at most, seconds.
+const LONGEST_SILENCE: f64 = 0.5;
+
+/// The share of a new interval in the mean one, where it is shorter than that ..
+const FORGETTING: f64 = 0.25;
+/// .. and where it is longer.
+const LEARNING: f64 = 0.5;
+
+/// What of the queue is on the path.
+#[derive(Debug)]
+pub(super) struct MoveFeeder {
+    /// Serial number of the first move of the path.
+    first: u64,
+    /// Serial number of the next move to be added.
+    next: u64,
+    /// Whether the path ends with its first move.
+    single: bool,
+    /// Whether the path has to end before the next move.
+    barred: bool,
+    /// Seconds since the last move came.
+    silence: f64,
+    /// Seconds between two moves, in the mean.
+    interval: f64,
+    /// What the last move added was like.
+    kind: Kind,
+    /// And what it was coupled to.
+    coupling: Coupling,
+}
+
+/// What tells moves apart that are not to be merged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Kind {
+    rapid: bool,
+    overridden: bool,
+    probes: bool,
+    /// Feed or pitch for a turn of the spindle, 0 without.
+    per_turn: f64,
+}
+
+/// What a move is coupled to: from one to another the machine comes to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Coupling {
+    /// Time only.
+    None,
+    /// The speed of a spindle (its number), which may change to and from time.
+    Speed(usize),
+    /// The angle of a spindle (its number).
+    Thread(usize),
+    /// By itself: a rigid tap, or a move of a locking indexer.
+    Alone,
+}
+
+impl Coupling {
+    fn of(queued: &Move) -> Self {
+        match queued.synchronisation {
+            _ if queued.indexer_joint.is_some() => Self::Alone,
+            None => Self::None,
+            Some(with) => match with.mode {
+                SynchronisationMode::Speed => Self::Speed(with.spindle),
+                SynchronisationMode::Thread { .. } => Self::Thread(with.spindle),
+                SynchronisationMode::Tap { .. } => Self::Alone,
+            },
+        }
+    }
+
+    /// Whether the machine may pass from a move of this kind to one of the next without a rest.
+    fn passes_to(self, next: Self) -> bool {
+        match (self, next) {
+            (Self::Alone, _) | (_, Self::Alone) => false,
+            (Self::None, Self::Speed(_)) | (Self::Speed(_), Self::None) => true,
+            (a, b) => a == b,
+        }
+    }
+}
+
+impl MoveFeeder {
+    pub const fn new() -> Self {
+        Self {
+            first: 0,
+            next: 0,
+            single: false,
+            barred: false,
+            silence: 0.0,
+            interval: 0.0,
+            kind: Kind {
+                rapid: false,
+                overridden: false,
+                probes: false,
+                per_turn: 0.0,
+            },
+            coupling: Coupling::None,
+        }
+    }
+
+    /// Begins with a move. `single`: and ends with it.
+    pub fn restart(&mut self, first: u64, single: bool) {
+        *self = Self {
+            first,
+            next: first,
+            single,
+            // How fast moves come does not depend on where the path begins.
+            interval: self.interval,
+            ..Self::new()
+        };
+    }
+
+    /// Serial number of the first move that is not on the path.
+    pub fn next(&self) -> u64 {
+        self.next
+    }
+
+    /// Whether the path ends with its first move.
+    pub fn is_single(&self) -> bool {
+        self.single
+    }
+
+    /// Whether the machine has to come to rest at the end of the path.
+    pub fn is_barred(&self) -> bool {
+        self.barred
+    }
+
+    /// Whether the next move is overdue, or not to be expected within `seconds`.
+    pub fn is_late(&self, seconds: f64) -> bool {
+        let overdue = self.silence >= OVERDUE * self.interval;
+        let far = self.interval - self.silence > seconds;
+        self.silence >= SHORTEST_SILENCE && (overdue || far)
+    }
+
+    /// Whether nothing more is to be expected for a while.
+    pub fn is_silent(&self) -> bool {
+        let silence = (SILENCE * self.interval).min(LONGEST_SILENCE);
+        self.silence >= silence.max(SHORTEST_SILENCE)
+    }
+
+    /// Adds what has come since the last cycle.
+    ///
+    /// # Errors
+    /// A move that the path refuses for another reason than lack of room.
+    pub fn feed(&mut self, path: &mut BlendedPath, outlook: &Outlook) -> Result<(), BlendError> {
+        self.silence += outlook.now.period;
+        for _ in 0..MOVES_A_CYCLE {
+            let Some(queued) = outlook.queue.released(self.next) else {
+                break;
+            };
+            let follows = self.next != self.first;
+            let coupling = Coupling::of(queued);
+            let passes = self.coupling.passes_to(coupling);
+            self.barred = follows && (self.single || queued.wait_for_spindle || !passes);
+            if self.barred {
+                break;
+            }
+            match path.add(&self.programmed(queued, follows, outlook)) {
+                Ok(()) => {}
+                Err(BlendError::Full) => break,
+                Err(error) => return Err(error),
+            }
+            self.kind = kind(queued);
+            self.coupling = coupling;
+            if follows {
+                let gap = self.silence.min(LONGEST_SILENCE);
+                let share = if gap > self.interval {
+                    LEARNING
+                } else {
+                    FORGETTING
+                };
+                self.interval += share * (gap - self.interval);
+            }
+            self.next += 1;
+            self.silence = 0.0;
+        }
+        self.barred |= self.single && self.next != self.first;
+        Ok(())
+    }
+
+    /// A move as the path takes it.
+    fn programmed(&self, queued: &Move, follows: bool, outlook: &Outlook) -> ProgrammedMove {
+        let feed = queued.feed.min(queued.max_velocity);
+        let new = kind(queued);
+        let greatest_feed = if new.overridden && !new.rapid && queued.synchronisation.is_none() {
+            queued.max_velocity
+        } else {
+            feed
+        };
+        ProgrammedMove {
+            serial: self.next,
+            shape: queued.shape,
+            feed,
+            greatest_feed,
+            termination: match queued.termination {
+                TerminationCondition::Continuous { tolerance } => {
+                    TerminationCondition::Continuous {
+                        tolerance: tolerance.min(outlook.now.greatest_tolerance),
+                    }
+                }
+                other => other,
+            },
+            // A probing move may end anywhere.
+            stop_before: follows && (new.probes || self.kind.probes),
+            separate: !queued.outputs.is_empty() || new != self.kind,
+        }
+    }
+}
+
+fn kind(queued: &Move) -> Kind {
+    Kind {
+        rapid: queued.motion_type.is_rapid(),
+        overridden: queued.override_enabled(),
+        probes: queued.motion_type == MotionType::Probing,
+        per_turn: queued.synchronisation.map_or(0.0, |with| with.per_turn),
+    }
+}

@@ -1,0 +1,233 @@
+//! A run: from rest to rest along the path, planned by the look-ahead.
+
+use super::creep;
+use super::outlook::Outlook;
+use super::path_route::PathRoute;
+use super::reference_segment::ProfiledMotion;
+use super::return_route::{ReturnRoute, may_go_back};
+use crate::moves::MoveQueue;
+use crate::path::BlendedPath;
+use crate::speed::look_ahead::{LookAhead, PlanProgress, PlanRefusal, PlannedSegment};
+
+/// Vertices that are looked at in a cycle, in search of the end of the run.
+const VERTICES_A_CYCLE: usize = 64;
+
+/// Seconds before the braking to an end that is to be moved on, at which the plan is still as easy
+/// to continue as anywhere else.
+const CONTINUED_BEFORE: f64 = 24e-3;
+
+/// Seconds that a plan which ends too soon is waited for at most.
+const LONGEST_WAIT: f64 = 0.06;
+
+/// A run, and where it ends as far as that is known.
+#[derive(Debug)]
+pub(super) struct RestToRest {
+    speed: LookAhead,
+    /// Whether it leads back along the path: the look-ahead then sees path distance with the other
+    /// sign.
+    backwards: bool,
+    /// Where it starts, path distance; `None` if there is no run.
+    start: Option<f64>,
+    /// Where the machine has to come to rest.
+    stop: Option<f64>,
+    /// Up to here no stop was found.
+    searched: f64,
+    /// Seconds since there is a plan.
+    ready_for: f64,
+}
+
+impl RestToRest {
+    pub const fn new() -> Self {
+        Self {
+            speed: LookAhead::new(),
+            backwards: false,
+            start: None,
+            stop: None,
+            searched: 0.0,
+            ready_for: 0.0,
+        }
+    }
+
+    /// There is no run.
+    pub fn clear(&mut self) {
+        self.start = None;
+    }
+
+    /// Begins a run at rest at `s`, on or back along the path.
+    pub fn begin(&mut self, s: f64, backwards: bool, outlook: &Outlook) {
+        self.backwards = backwards;
+        self.speed.start(
+            self.signed(s),
+            outlook.limits,
+            outlook.map,
+            outlook.now.period,
+        );
+        self.start = Some(s);
+        self.stop = None;
+        self.searched = s;
+        self.ready_for = 0.0;
+    }
+
+    /// Path distance as the look-ahead sees it, and back.
+    fn signed(&self, s: f64) -> f64 {
+        if self.backwards { -s } else { s }
+    }
+
+    /// Whether there is a run.
+    pub fn is_begun(&self) -> bool {
+        self.start.is_some()
+    }
+
+    /// Whether there is a run from `s` on.
+    pub fn starts_at(&self, s: f64) -> bool {
+        self.start == Some(s)
+    }
+
+    /// Whether there is a plan that may be run.
+    pub fn is_ready(&self) -> bool {
+        self.is_begun() && self.speed.progress() == PlanProgress::Ready
+    }
+
+    /// Whether the machine, at rest, may begin with the plan: one that ends at once for now is given
+    /// some time to be continued.
+    pub fn may_start(&self, path: &BlendedPath) -> bool {
+        self.is_ready() && (self.ready_for >= LONGEST_WAIT || !self.brakes_for_now(path))
+    }
+
+    /// Whether no plan was found.
+    fn is_refused(&self) -> bool {
+        self.is_begun() && matches!(self.speed.progress(), PlanProgress::Refused(_))
+    }
+
+    /// Whether no plan was found, nor will be one to creep.
+    pub fn is_unsound(&self) -> bool {
+        self.is_begun() && self.speed.progress() == PlanProgress::Refused(PlanRefusal::Unsound)
+    }
+
+    /// Whether the machine, at rest, may begin to creep where no plan was found.
+    pub fn may_creep(&self, path: &BlendedPath) -> bool {
+        let known = if self.backwards {
+            self.signed(self.searched)
+        } else {
+            path.final_end()
+        };
+        self.is_refused() && self.start.is_some_and(|start| known > self.signed(start))
+    }
+
+    /// How to creep where no plan was found, see [`creep::motion`].
+    pub fn creep(&self, path: &BlendedPath, outlook: &Outlook) -> Option<ProfiledMotion> {
+        let start = self.start.filter(|_| self.is_refused())?;
+        if self.backwards {
+            creep::motion(&self.way_back(path), -start, outlook)
+        } else {
+            creep::motion(&self.way_on(path), start, outlook)
+        }
+    }
+
+    /// Refuses the plan as if none had been found.
+    #[cfg(test)]
+    pub fn refuse(&mut self) {
+        self.speed.refuse();
+    }
+
+    fn way_on<'a>(&self, path: &'a BlendedPath) -> PathRoute<'a> {
+        let stop = self.stop.unwrap_or(f64::INFINITY);
+        PathRoute { path, stop }
+    }
+
+    fn way_back<'a>(&self, path: &'a BlendedPath) -> ReturnRoute<'a> {
+        ReturnRoute {
+            path,
+            end: self.searched,
+            complete: self.stop.is_some(),
+        }
+    }
+
+    /// Whether the machine is to come to rest within `seconds`, as far as the plan goes.
+    pub fn brakes_within(&self, seconds: f64) -> bool {
+        !self.is_ready() || self.speed.brakes_within(seconds)
+    }
+
+    /// Whether the machine is soon to brake to an end of the plan that is not the end of the run.
+    pub fn brakes_for_now(&self, path: &BlendedPath) -> bool {
+        let final_stop = self.final_stop(path);
+        let provisional = |stop| self.signed(self.end()) < self.signed(stop);
+        final_stop.is_none_or(provisional) && self.brakes_within(CONTINUED_BEFORE)
+    }
+
+    /// Where the machine will come to rest for sure, if that is known and final.
+    pub fn final_stop(&self, path: &BlendedPath) -> Option<f64> {
+        self.stop
+            .filter(|stop| self.backwards || path.final_end() >= *stop)
+    }
+
+    /// The next segment of the plan, which stays as it is; `None` at its end.
+    pub fn freeze(&mut self) -> Option<PlannedSegment> {
+        self.speed.freeze()
+    }
+
+    /// Where the plan ends so far.
+    pub fn end(&self) -> f64 {
+        self.signed(self.speed.end())
+    }
+
+    /// Looks where the path asks for a rest.
+    pub fn look_for_stop(&mut self, path: &BlendedPath, queue: &MoveQueue) {
+        if !self.is_begun() {
+            return;
+        }
+        for _ in 0..VERTICES_A_CYCLE {
+            if self.stop.is_some() {
+                return;
+            }
+            if self.backwards {
+                self.look_back(path, queue);
+                continue;
+            }
+            match path.vertex_after(self.searched) {
+                Some(vertex) => {
+                    self.searched = vertex.s;
+                    self.stop = vertex.stop.then_some(vertex.s);
+                }
+                None => {
+                    let end = path.programmed_end();
+                    if path.rests_at_end() && end > self.searched {
+                        self.stop = Some(end);
+                    }
+                    return;
+                }
+            }
+        }
+    }
+
+    /// The same for the next vertex on the way back.
+    fn look_back(&mut self, path: &BlendedPath, queue: &MoveQueue) {
+        let leg = may_go_back(path, queue, self.searched);
+        let vertex = leg.and_then(|_| path.vertex_before(self.searched));
+        match vertex {
+            Some(vertex) => {
+                self.searched = vertex.s;
+                self.stop = vertex.stop.then_some(vertex.s);
+            }
+            None => self.stop = Some(self.searched),
+        }
+    }
+
+    /// Works on the plan for `budget` units.
+    pub fn work(&mut self, path: &BlendedPath, outlook: &Outlook, budget: u32) {
+        if !self.is_begun() {
+            return;
+        }
+        self.speed.raise(outlook.now.feed_scale);
+        if self.backwards {
+            let route = self.way_back(path);
+            self.speed.slice(&route, budget);
+        } else {
+            let route = self.way_on(path);
+            let progress = self.speed.slice(&route, budget);
+            if progress == PlanProgress::Ready {
+                self.ready_for += outlook.now.period;
+            }
+        }
+    }
+}

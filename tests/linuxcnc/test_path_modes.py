@@ -1,0 +1,49 @@
+"""Part programs in continuous path mode: corners within the tolerance, holes as deep as they are programmed."""
+
+import math
+import unittest
+
+import harness
+from part_programs import convert
+
+RUN = ["run", "PROGRAMS/part.ngc"]
+
+HEAD = "G0 X0 Y0 Z0\nF3000\n"
+
+SQUARE = "G1 X20\nY20\nX0\nY0\nM30\n"
+CORNERS = [(20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]
+
+
+class PathModes(unittest.TestCase):
+    def rows(self, program, dialect):
+        """Where X Y Z were in each servo cycle."""
+        code, output, complaints = convert(program, dialect, "program")
+        self.assertEqual(code, 0, complaints)
+        result = harness.run([RUN], {"part.ngc": output})
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [], result.log)
+        return result.columns("joint.0", "joint.1", "joint.2")
+
+    def test_corners_are_rounded_within_the_tolerance_in_force(self):
+        for dialect, begin, tolerance in (("sinumerik", "CYCLE832(0.01,_FINISH,1)\nG642\n", 0.01), ("sinumerik", "G64\n", 0.01),
+                                          ("sinumerik", "CTOL=0.1\nG645\n", 0.1), ("fagor", "G05\n", 0.01), ("isg", "G261\n", 0.01)):
+            with self.subTest(dialect=dialect, begin=begin):
+                rows = self.rows(begin + HEAD + SQUARE, dialect)
+                missed = [min(math.dist(row[:2], corner) for row in rows) for corner in CORNERS]
+                # an arc of the tolerance is cut off, and not much less: it is rounded
+                self.assertLess(max(missed), 1.01 * tolerance + 1e-4, missed)
+                self.assertGreater(min(missed), 0.2 * tolerance, missed)
+
+    def test_holes_are_as_deep_as_they_are_programmed(self):
+        for dialect, program in (
+                ("sinumerik", f"G64\n{HEAD}MCALL CYCLE81(5,-1,5,-17.262)\nX10\nX20\nMCALL\nG0 X30\nM30\n"),
+                ("sinumerik", f"CTOL=0.5 G642\n{HEAD}Z4\nCYCLE81(5,-1,5,-17.262)\nG0 X30\nM30\n"),
+                ("fagor", f"G05\n{HEAD}G0 Z5\nG99 G81 X10 Y0 Z4 I-17.262\nX20\nG80\nG0 X30\nM30\n")):
+            with self.subTest(program):
+                rows = self.rows(program, dialect)
+                deepest = min(row[2] for row in rows)
+                self.assertAlmostEqual(deepest, -17.262, places=5)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,84 @@
+//! Which block comes next: jumps, conditions and loops.
+
+use super::interpreter::Interpreter;
+use super::routine::Routine;
+use super::syntax::{Block, Jump, Statement, Then};
+use super::values::number;
+use crate::diagnostics::Diagnostic;
+use crate::dialects::run::Next;
+use crate::source::Span;
+
+impl Interpreter<'_> {
+    /// A block with IF, GOTO, WHILE, DO or END.
+    pub(super) fn flow(
+        &mut self,
+        routine: &Routine,
+        at: usize,
+        block: &Block,
+    ) -> Result<Next, Diagnostic> {
+        let next = Next::Block(at + 1);
+        // Where its partner is missing, that has been reported.
+        let partner = routine.loop_at(at);
+        Ok(match &block.statement {
+            Statement::Goto(jump) => self.jump(jump, routine, at)?,
+            Statement::If(condition, then) => match (number(condition, self)? != 0.0, then) {
+                (false, _) => next,
+                (true, Then::Goto(jump)) => self.jump(jump, routine, at)?,
+                (true, Then::Assign(assignment)) => {
+                    self.assignment(assignment, block)?;
+                    next
+                }
+            },
+            Statement::Loop(condition, _) => {
+                let holds = match condition {
+                    Some(condition) => number(condition, self)? != 0.0,
+                    None => true,
+                };
+                match (holds, partner) {
+                    (true, _) => next,
+                    (false, Some(partner)) => Next::Block(partner.last + 1),
+                    (false, None) => Next::Abort,
+                }
+            }
+            Statement::End(_) => partner.map_or(Next::Abort, |partner| Next::Block(partner.first)),
+            _ => next,
+        })
+    }
+
+    fn jump(&mut self, jump: &Jump, routine: &Routine, at: usize) -> Result<Next, Diagnostic> {
+        let label = number(&jump.number, self)?;
+        if label.fract() != 0.0 || !(0.0..=99_999_999.0).contains(&label) {
+            return Err(Diagnostic::error(
+                jump.span,
+                format!("{label} is not the number of a block"),
+            ));
+        }
+        self.go_to_label(label as u32, jump.span, routine, at)
+    }
+
+    /// To the block with this number.
+    pub(super) fn go_to_label(
+        &mut self,
+        label: u32,
+        span: Span,
+        routine: &Routine,
+        at: usize,
+    ) -> Result<Next, Diagnostic> {
+        let (sources, diagnostics) = (&*self.control.sources, &mut *self.control.diagnostics);
+        let Some(target) = routine.label(label, at, sources, diagnostics) else {
+            return Err(Diagnostic::error(
+                span,
+                format!("there is no block N{label} in {}", routine.name),
+            )
+            .help("jumps stay in their program"));
+        };
+        if routine.jumps_into_loop(at, target) {
+            return Err(Diagnostic::error(
+                span,
+                format!("N{label} is inside of a loop, and this jump is not"),
+            )
+            .help("jump to the block with WHILE or DO"));
+        }
+        Ok(Next::Block(target))
+    }
+}

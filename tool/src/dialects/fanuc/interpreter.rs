@@ -1,0 +1,262 @@
+//! Running the syntax tree, block by block. The result is the plain list of what the program does.
+
+use super::block_words::BlockWords;
+use super::calls::ModalMacro;
+use super::cycles::{Cycle, is_cycle};
+use super::routine::Routine;
+use super::syntax::{Assignment, Block, Statement, Word};
+use super::tool_offsets::ToolOffsets;
+use super::transforms::Transforms;
+use super::values::{number, value};
+use super::variables::Variables;
+use crate::dialects::control::plain::PlainBlock;
+use crate::dialects::control::{About, Control, Done};
+use crate::dialects::library::Library;
+use crate::dialects::run::{Interpret, Next, Reached, reach};
+use crate::dialects::settings::{DecimalPoint, Settings};
+use crate::program::{Action, FrameScope};
+use crate::source::Span;
+use std::rc::Rc;
+
+/// Runs a program.
+pub struct Interpreter<'a> {
+    pub(super) control: Control<'a>,
+    pub(super) library: Library<Routine>,
+    pub(super) variables: Variables,
+    pub(super) transforms: Transforms,
+    pub(super) offsets: ToolOffsets,
+    pub(super) cycle: Option<Cycle>,
+    /// G99.
+    pub(super) to_return_level: bool,
+    /// M29: taps follow the spindle.
+    pub(super) rigid: bool,
+    /// G96.
+    pub(super) surface_speed: bool,
+    /// G92 S: the most turns a minute under G96.
+    pub(super) speed_limit: Option<f64>,
+    /// S of G96.
+    pub(super) metres_per_minute: Option<f64>,
+    /// G20.
+    pub(super) inch: bool,
+    /// T.
+    pub(super) tool: Option<f64>,
+    pub(super) modal_macro: Option<ModalMacro>,
+    /// The block of the caller that M99 P returns to.
+    pub(super) return_to: Option<(u32, Span)>,
+    /// Whether it has been said what numbers without a point are.
+    pub(super) point_explained: bool,
+}
+
+impl<'a> Interpreter<'a> {
+    /// Ready to run the main program of the library.
+    pub fn new(
+        settings: &'a Settings,
+        library: Library<Routine>,
+        about: About<'a>,
+    ) -> Interpreter<'a> {
+        Interpreter {
+            control: Control::new(settings, about, FrameScope::Block),
+            library,
+            variables: Variables::new(&settings.variables),
+            transforms: Transforms::default(),
+            offsets: ToolOffsets::default(),
+            cycle: None,
+            to_return_level: false,
+            rigid: false,
+            surface_speed: false,
+            speed_limit: None,
+            metres_per_minute: None,
+            inch: settings.machine_in_inch,
+            tool: None,
+            modal_macro: None,
+            return_to: None,
+            point_explained: false,
+        }
+    }
+
+    /// Runs a routine from its first block.
+    pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> Next {
+        let mut at = 0;
+        loop {
+            let block = match reach(self, &routine.blocks, &mut at, routine.blocks.len()) {
+                Reached::Block(block) => block,
+                Reached::End => return Next::Block(at),
+                Reached::Abort => return Next::Abort,
+            };
+            match self.run_block(routine, at, &block) {
+                Next::Block(next) => at = next,
+                other => return other,
+            }
+        }
+    }
+
+    fn run_block(&mut self, routine: &Rc<Routine>, at: usize, block: &Block) -> Next {
+        let next = Next::Block(at + 1);
+        if block.skip && self.control.settings.skip_blocks {
+            return next;
+        }
+        let done = match &block.statement {
+            Statement::Empty => Ok(next),
+            // Where the axes are after a block that was not understood is anybody's guess.
+            Statement::Invalid => {
+                self.control.modal.forget_position();
+                self.control.modal.has_feed = true;
+                Ok(next)
+            }
+            Statement::Words(words) => return self.words_block(words, routine, at, block),
+            Statement::Assign(assignment) => self
+                .assignment(assignment, block)
+                .map(|()| next)
+                .map_err(|error| (error, stops_itself(assignment))),
+            Statement::Noted(name) => {
+                self.control.note(name, block.place.span);
+                Ok(next)
+            }
+            Statement::If(..) | Statement::Goto(_) | Statement::Loop(..) | Statement::End(_) => {
+                let flow = self.flow(routine, at, block);
+                flow.map_err(|error| (error, true))
+            }
+        };
+        let next = done.unwrap_or_else(|(diagnostic, aborts)| {
+            self.control.fail(diagnostic);
+            if aborts { Next::Abort } else { next }
+        });
+        self.control.finish_block(&block.place);
+        next
+    }
+
+    /// `#1=5`.
+    pub(super) fn assignment(&mut self, assignment: &Assignment, block: &Block) -> Done {
+        let variable = number(&assignment.variable, self)?;
+        let value = value(&assignment.value, self)?;
+        let text = block.place.comment.as_deref().unwrap_or("");
+        self.assign(variable, value, assignment.span, text)
+    }
+
+    fn words_block(
+        &mut self,
+        list: &[Word],
+        routine: &Rc<Routine>,
+        at: usize,
+        block: &Block,
+    ) -> Next {
+        let next = Next::Block(at + 1);
+        let (list, call) = match self.split_macro_call(list) {
+            Ok(split) => split,
+            Err(diagnostic) => {
+                self.control.fail(diagnostic);
+                return next;
+            }
+        };
+        let words = self.collect(list);
+        let outcome = match words {
+            None => {
+                self.control.modal.forget_position();
+                self.control.modal.has_feed = true;
+                self.control.finish_block(&block.place);
+                return next;
+            }
+            Some(words) => self.run_words(words, block.place.span),
+        };
+        let outcome = outcome.unwrap_or_else(|diagnostic| {
+            self.control.fail(diagnostic);
+            self.control.modal.has_feed = true;
+            Outcome::GoesOn
+        });
+        let moved = |action: &Action| matches!(action, Action::Move(_));
+        let has_moved = self.control.actions.iter().any(moved);
+        self.control.finish_block(&block.place);
+        let called = match (outcome, call) {
+            (Outcome::End, _) => return Next::End,
+            (Outcome::Return, _) => return Next::Return,
+            (Outcome::Call(call), _) => self.subprogram(call, routine, at, block),
+            (Outcome::GoesOn, Some((call, arguments))) => {
+                self.macro_call(call, arguments, routine, at, block)
+            }
+            (Outcome::GoesOn, None) if has_moved => Ok(self.run_modal_macro(routine, at, block)),
+            (Outcome::GoesOn, None) => Ok(next),
+        };
+        called.unwrap_or_else(|diagnostic| {
+            self.control.fail(diagnostic);
+            next
+        })
+    }
+
+    fn collect(&mut self, list: &[Word]) -> Option<BlockWords> {
+        let mut found = crate::diagnostics::Diagnostics::default();
+        let length = if self.inch { 0.0001 } else { 0.001 };
+        let words = BlockWords::collect(list, self, length, &mut found);
+        self.control.diagnostics.append(found);
+        let mut words = words?;
+        if words.pointless.is_empty() {
+            return Some(words);
+        }
+        let cycle = words.g.iter().any(|g| is_cycle(g.value));
+        words.forget_counts(cycle || self.cycle.is_some());
+        let Some((letter, span)) = words.pointless.first().copied() else {
+            return Some(words);
+        };
+        match self.control.settings.decimal_point {
+            // The factors of G51 have their own rule.
+            DecimalPoint::Calculator if words.has_g(510) => {}
+            DecimalPoint::Calculator => self.explain_point(letter, span),
+            DecimalPoint::Increments => words.count_increments(length, 0.001),
+        }
+        Some(words)
+    }
+}
+
+/// Whether an assignment is that of an alarm: nothing follows it.
+fn stops_itself(assignment: &Assignment) -> bool {
+    use crate::dialects::expression::ExpressionKind::Number;
+    assignment.variable.kind == Number(3000.0)
+}
+
+/// How the words of a block leave it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Outcome {
+    /// To the next block.
+    GoesOn,
+    /// M98: by a subprogram.
+    Call(super::calls::Call),
+    /// M99.
+    Return,
+    /// M30 or M2.
+    End,
+}
+
+impl<'a> Interpret<'a> for Interpreter<'a> {
+    type Routine = Routine;
+
+    fn control(&mut self) -> &mut Control<'a> {
+        &mut self.control
+    }
+
+    fn library(&self) -> &Library<Routine> {
+        &self.library
+    }
+
+    fn parts(&mut self) -> (&Library<Routine>, &mut Control<'a>) {
+        (&self.library, &mut self.control)
+    }
+
+    fn run_main(&mut self, main: &Rc<Routine>) -> bool {
+        matches!(self.run_routine(main), Next::Block(_))
+    }
+
+    fn end_is_missing(&mut self, last: &Rc<Routine>) {
+        if let Some(last) = self.control.last_block(&last.blocks) {
+            self.control.end_is_missing(&last.place, "M99");
+        }
+    }
+
+    fn takes(&self, block: &PlainBlock) -> bool {
+        let whole = block.pointless
+            && (!self.point_explained
+                || self.control.settings.decimal_point != DecimalPoint::Calculator);
+        self.cycle.is_none()
+            && self.modal_macro.is_none()
+            && !self.transforms.is_unsettled()
+            && !whole
+    }
+}

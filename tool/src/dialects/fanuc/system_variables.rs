@@ -1,0 +1,119 @@
+//! Variables of the control, #1000 and up: those whose values the program itself has set can be read.
+//! (Fanuc, Series 30i, User's Manual, "Custom macro: system variables".)
+
+use super::interpreter::Interpreter;
+use super::values::{Lookup, Reading};
+use super::variables::{Place, place};
+use crate::diagnostics::Diagnostic;
+use crate::dialects::control::Done;
+use crate::dialects::control::modal::Motion;
+use crate::program::{Action, Compensation, FeedMode, Plane};
+use crate::source::Span;
+
+impl Lookup for Interpreter<'_> {
+    fn read(&self, number: f64, span: Span) -> Reading {
+        match place(number, span)? {
+            Place::System(number) => self.system_variable(number, span).map(Some),
+            place => self.variables.get(place, span),
+        }
+    }
+}
+
+impl Interpreter<'_> {
+    fn system_variable(&self, number: u32, span: Span) -> Result<f64, Diagnostic> {
+        let modal = &self.control.modal;
+        let known = match number {
+            4001 => modal.motion.map(|motion| match motion {
+                Motion::Rapid => 0.0,
+                Motion::Line => 1.0,
+                Motion::Clockwise => 2.0,
+                Motion::Counterclockwise => 3.0,
+            }),
+            4002 => Some(match modal.plane {
+                Plane::Xy => 17.0,
+                Plane::Zx => 18.0,
+                Plane::Yz => 19.0,
+            }),
+            4003 => Some(if modal.incremental { 91.0 } else { 90.0 }),
+            4005 => Some(match modal.feed_mode {
+                FeedMode::InverseTime => 93.0,
+                FeedMode::PerMinute => 94.0,
+                FeedMode::PerRevolution => 95.0,
+            }),
+            4006 => Some(if self.inch { 20.0 } else { 21.0 }),
+            4007 => Some(match modal.compensation {
+                Compensation::Off => 40.0,
+                Compensation::Left => 41.0,
+                Compensation::Right => 42.0,
+            }),
+            4010 => Some(if self.to_return_level { 99.0 } else { 98.0 }),
+            4109 => modal.feed.map(|feed| feed / modal.feed_factor),
+            4111 => self.offsets.length_row.map(f64::from),
+            4119 => modal.spindle_speed,
+            4120 => self.tool,
+            5001..=5009 | 5041..=5049 if modal.frame.is_empty() => {
+                self.control.present((number % 10) as usize - 1)
+            }
+            _ => None,
+        };
+        known.ok_or_else(|| unknown(number, span))
+    }
+
+    /// Gives any variable a value.
+    pub(super) fn assign(
+        &mut self,
+        number: f64,
+        value: Option<f64>,
+        span: Span,
+        text: &str,
+    ) -> Done {
+        let number = match place(number, span)? {
+            Place::System(number) => number,
+            place => return self.variables.set(place, value, span),
+        };
+        match number {
+            3000 => Err(Diagnostic::error(
+                span,
+                format!(
+                    "the program stops itself here with alarm {}: {text}",
+                    value.unwrap_or(0.0)
+                ),
+            )
+            .help("the values that lead here are in the program or were given with --set")),
+            3006 => {
+                if !text.is_empty() {
+                    self.control.actions.push(Action::Message(text.to_string()));
+                }
+                self.control.actions.push(Action::Pause { optional: false });
+                Ok(())
+            }
+            3003 | 3004 => {
+                self.control.note(&format!("#{number}"), span);
+                Ok(())
+            }
+            _ => Err(
+                Diagnostic::error(span, format!("#{number} cannot be assigned")).help(
+                    "offsets and tools are set at the machine; #3000 raises an alarm, #3006 stops \
+                     with a message",
+                ),
+            ),
+        }
+    }
+}
+
+fn unknown(number: u32, span: Span) -> Diagnostic {
+    let reason = match number {
+        2001..=2999 | 10_001..=19_999 => "tools are measured at the machine",
+        3001 | 3002 | 3011 | 3012 => "time passes while the program runs",
+        5001..=5009 | 5041..=5049 => {
+            "program the axis absolute before; under G51, G51.1, G68 and G68.2 it cannot be read"
+        }
+        5021..=5029 | 5061..=5069 => {
+            "where the machine or a probe is, is not known ahead of time: write the coordinates"
+        }
+        5201..=5349 | 7001..=7999 => "work offsets are set at the machine",
+        4001..=4130 => "program it before it is read",
+        _ => "write its value instead, or a variable with --set '#500=VALUE'",
+    };
+    Diagnostic::error(span, format!("#{number} cannot be evaluated ahead of time")).help(reason)
+}

@@ -1,0 +1,47 @@
+//! Section [FRAMEPATH] of the INI file of the LinuxCNC that runs the filter.
+
+use crate::machine::IniError;
+use crate::machine::ini::Ini;
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+const SECTION: &str = "FRAMEPATH";
+
+/// Tolerances that can be set, mm.
+pub const TOLERANCES: RangeInclusive<f64> = 0.001..=10.0;
+
+/// Places of an axis that can be set, mm.
+pub const PLACES: RangeInclusive<f64> = -100_000.0..=100_000.0;
+
+/// TOLERANCE, mm; `None` where it is not set.
+///
+/// # Errors
+///
+/// When the file cannot be read or the value is out of range.
+pub fn tolerance(file: &Path) -> Result<Option<f64>, IniError> {
+    let problem = "a tolerance from 0.001 to 10 mm is needed";
+    number(file, "TOLERANCE", &TOLERANCES, problem)
+}
+
+/// RETRACT_Z, mm; see [`tolerance`].
+///
+/// # Errors
+///
+/// When the file cannot be read or the value is out of range.
+pub fn retract_z(file: &Path) -> Result<Option<f64>, IniError> {
+    let problem = "a place of the machine in mm is needed";
+    number(file, "RETRACT_Z", &PLACES, problem)
+}
+
+fn number(
+    file: &Path,
+    key: &str,
+    range: &RangeInclusive<f64>,
+    problem: &str,
+) -> Result<Option<f64>, IniError> {
+    let ini = Ini::read(file)?;
+    match ini.number(SECTION, key)? {
+        Some(value) if !range.contains(&value) => Err(ini.bad_value(SECTION, key, problem)),
+        value => Ok(value),
+    }
+}

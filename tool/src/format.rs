@@ -1,0 +1,97 @@
+//! Numbers as people read them.
+
+use crate::path::rates::Quantity;
+
+/// A number with so many significant digits, never in scientific notation.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let magnitude = value.abs().log10().floor() as i64 + 1;
+    let decimals = (digits as i64 - magnitude).clamp(0, 12) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// The greatest speed along a path, in units of length per second and per minute, and where it is.
+pub fn greatest_speed(value: f64, length_unit: &str, time: f64, line: i64) -> String {
+    format!(
+        "{} {length_unit}/s ({} {length_unit}/min) at {time:.3} s, line {line}",
+        significant(value, 5),
+        significant(value * 60.0, 5)
+    )
+}
+
+/// A length with its unit: small ones in micrometres (um) or nanometres (nm), inches as they are.
+pub fn length(value: f64, unit: &str) -> String {
+    let size = value.abs();
+    if unit != "mm" {
+        return format!("{value:.6} {unit}");
+    }
+    if size >= 0.1 {
+        format!("{value:.3} mm")
+    } else if size >= 1e-4 {
+        format!("{:.2} um", value * 1e3)
+    } else if size >= 1e-8 {
+        format!("{:.2} nm", value * 1e6)
+    } else {
+        "0 um".to_owned()
+    }
+}
+
+/// The unit of a quantity: `mm/s`, `mm/s2`, `mm/s3`.
+pub fn unit(length_unit: &str, quantity: Quantity) -> String {
+    match quantity {
+        Quantity::Velocity => format!("{length_unit}/s"),
+        Quantity::Acceleration => format!("{length_unit}/s2"),
+        Quantity::Jerk => format!("{length_unit}/s3"),
+    }
+}
+
+/// Groups of three digits: 1,234,567.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// Minutes and seconds from one minute on, else seconds.
+pub fn duration(seconds: f64) -> String {
+    if seconds < 60.0 {
+        return format!("{seconds:.3} s");
+    }
+    let minutes = (seconds / 60.0).floor();
+    format!("{minutes:.0} min {:.1} s", seconds - 60.0 * minutes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_readable() {
+        assert_eq!(significant(19999.97, 6), "20000");
+        assert_eq!(significant(0.00123456, 3), "0.00123");
+        assert_eq!(significant(1234567.0, 3), "1234567");
+        assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(length(0.0049, "mm"), "4.90 um");
+        assert_eq!(length(2.5e-7, "mm"), "0.25 nm");
+        assert_eq!(length(12.0, "mm"), "12.000 mm");
+        assert_eq!(length(1e-15, "mm"), "0 um");
+        assert_eq!(length(0.0005, "in"), "0.000500 in");
+        assert_eq!(grouped(1234567), "1,234,567");
+        assert_eq!(grouped(12), "12");
+        assert_eq!(duration(75.25), "1 min 15.2 s");
+        assert_eq!(duration(7.5), "7.500 s");
+    }
+}

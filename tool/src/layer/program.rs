@@ -1,0 +1,106 @@
+//! A program as task controller and motion controller see it, and the path that it describes.
+
+use crate::canon::call::{PathMode, Tag};
+use crate::path::Position;
+use crate::path::segment::Segment;
+use serde::{Deserialize, Serialize};
+
+/// LinuxCNC's numbers for the kinds of motion (`EMC_MOTION_TYPE_..`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub(crate) enum MotionType {
+    Traverse = 1,
+    Feed = 2,
+    Arc = 3,
+    Probing = 5,
+}
+
+/// Shape of a move for the planner; it starts where the one before ended.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Shape {
+    Line,
+    Arc {
+        centre: [f64; 3],
+        normal: [f64; 3],
+        /// As `tpAddCircle` takes it: further turns, negative for clockwise.
+        turn: i32,
+    },
+    /// Down and back.
+    Tap,
+}
+
+/// A move that the planner is given.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Move {
+    /// Number of the move from 0; the planner gets this plus one.
+    pub index: usize,
+    pub line: i32,
+    pub shape: Shape,
+    pub end: Position,
+    pub motion_type: MotionType,
+    /// mm/s, or degrees per second where nothing but rotary axes moves.
+    pub velocity: f64,
+    /// What the axes allow.
+    pub greatest_velocity: f64,
+    pub acceleration: f64,
+    /// Waits for the spindle.
+    pub at_speed: bool,
+    pub tag: Tag,
+}
+
+/// What is done one after the other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Operation {
+    Move(Box<Move>),
+    /// Path mode of the moves to come, tolerance in mm.
+    Termination(PathMode, f64),
+    /// The next operation waits for the end of motion.
+    WaitForMotion,
+    /// Seconds.
+    Dwell(f64),
+    Synchronise {
+        per_revolution: f64,
+        velocity_mode: bool,
+    },
+    /// Revolutions per minute, negative for counter-clockwise, 0 for off.
+    Spindle(f64),
+}
+
+/// A piece of the path with the tolerance that rules it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    pub segment: Segment,
+    pub line: i32,
+    /// The move to which it belongs.
+    pub move_index: usize,
+    pub mode: PathMode,
+    /// G64 P, mm; 0 if none was given.
+    pub tolerance: f64,
+    /// How far merging may have taken the move from it, mm (Q; 0 where nothing was merged).
+    pub merged_within: f64,
+    /// Whether motion comes to its end here whatever the planner does.
+    pub stops: bool,
+}
+
+/// The program.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Program {
+    pub operations: Vec<Operation>,
+    /// As programmed.
+    pub programmed: Vec<Piece>,
+    /// As handed to the planner, one a move.
+    pub handed: Vec<Piece>,
+    /// For each move the range of programmed pieces, first and last.
+    pub ranges: Vec<(usize, usize)>,
+    /// Axes other than X Y Z move.
+    pub other_axes: bool,
+}
+
+impl Program {
+    /// Where the program ends.
+    pub(crate) fn end(&self) -> Position {
+        self.handed
+            .last()
+            .map_or([0.0; 9], |piece| piece.segment.end)
+    }
+}

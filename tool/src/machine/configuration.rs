@@ -1,0 +1,299 @@
+//! What the INI file says about the machine: servo period, joints, axes and their limits.
+
+use serde::Serialize;
+
+use super::error::IniError;
+use super::ini::Ini;
+
+/// Letters of LinuxCNC's axes, in its order.
+pub const AXIS_LETTERS: &str = "XYZABCUVW";
+
+/// MemberLimits of a joint or an axis, machine units or degrees, and seconds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MemberLimits {
+    /// Units per second, above 0.
+    pub velocity: f64,
+    /// Units per second squared, above 0.
+    pub acceleration: f64,
+    /// Units per second cubed, above 0; `None`: not limited.
+    pub jerk: Option<f64>,
+}
+
+/// A joint, or an axis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Member {
+    /// `joint.0` or `axis.x`: the name of the column in the recording.
+    pub name: String,
+    /// The letter of the axis that this is, or that this joint moves.
+    pub letter: char,
+    /// `mm`, `in` or `deg`.
+    pub unit: &'static str,
+    /// Its limits.
+    pub limits: MemberLimits,
+}
+
+/// Whose positions describe the path of the tool in machine coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PathSource {
+    /// The joints are X, Y and Z of the machine, whatever frame is programmed.
+    Joints,
+    /// Other kinematics: the planner's axes are all there is.
+    Axes,
+}
+
+/// The machine as far as a report needs it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    /// `[EMC]MACHINE`, empty if it has no name.
+    pub name: String,
+    /// Seconds, above 0.
+    pub servo_period: f64,
+    /// `mm` or `in`.
+    pub length_unit: &'static str,
+    /// In the order of their numbers.
+    pub joints: Vec<Member>,
+    /// In the order of [`AXIS_LETTERS`].
+    pub axes: Vec<Member>,
+    /// Whose positions are compared with the programmed path.
+    pub path_source: PathSource,
+}
+
+impl Machine {
+    /// Takes the machine from its INI file.
+    ///
+    /// # Errors
+    /// Missing or unusable sections, keys and limits, with the remedy.
+    pub fn from_ini(ini: &Ini) -> Result<Machine, IniError> {
+        let period = ini.required_positive(
+            "EMCMOT",
+            "SERVO_PERIOD",
+            "write the servo period in nanoseconds, for example SERVO_PERIOD = 1000000",
+        )?;
+        if !(1e4..=1e8).contains(&period) {
+            return Err(ini.bad_value(
+                "EMCMOT",
+                "SERVO_PERIOD",
+                "the servo period is in nanoseconds, 10000 to 100000000",
+            ));
+        }
+        let length_unit = length_unit(ini)?;
+        let (kinematics, letters) = coordinates(ini)?;
+        let mut joints = Vec::with_capacity(letters.len());
+        for (number, letter) in letters.iter().copied().enumerate() {
+            joints.push(joint(ini, number, letter, length_unit)?);
+        }
+        let mut axes = Vec::new();
+        for letter in AXIS_LETTERS.chars().filter(|l| letters.contains(l)) {
+            let section = format!("AXIS_{letter}");
+            axes.push(Member {
+                name: format!("axis.{}", letter.to_ascii_lowercase()),
+                letter,
+                unit: unit_of(letter, length_unit),
+                limits: limits(ini, &section, None)?,
+            });
+        }
+        let path_source = match kinematics {
+            "trivkins" | "framekins" => PathSource::Joints,
+            _ => PathSource::Axes,
+        };
+        Ok(Machine {
+            name: ini.text("EMC", "MACHINE").unwrap_or_default().to_owned(),
+            servo_period: period * 1e-9,
+            length_unit,
+            joints,
+            axes,
+            path_source,
+        })
+    }
+}
+
+fn length_unit(ini: &Ini) -> Result<&'static str, IniError> {
+    let text = ini.required_text(
+        "TRAJ",
+        "LINEAR_UNITS",
+        "write LINEAR_UNITS = mm (or inch); without it no number of the report has a unit",
+    )?;
+    match text.to_ascii_lowercase().as_str() {
+        "mm" | "metric" => Ok("mm"),
+        "in" | "inch" | "imperial" => Ok("in"),
+        _ => Err(ini.bad_value("TRAJ", "LINEAR_UNITS", "mm or inch are understood here")),
+    }
+}
+
+fn unit_of(letter: char, length_unit: &'static str) -> &'static str {
+    if matches!(letter, 'A' | 'B' | 'C') {
+        "deg"
+    } else {
+        length_unit
+    }
+}
+
+/// The name of the kinematics module, and the letter of each joint: `coordinates=` of
+/// `[KINS]KINEMATICS`, else all of [`AXIS_LETTERS`] as far as there are joints, like trivkins.
+fn coordinates(ini: &Ini) -> Result<(&str, Vec<char>), IniError> {
+    let text = ini.required_text(
+        "KINS",
+        "KINEMATICS",
+        "write for example KINEMATICS = framekins coordinates=XYZ",
+    )?;
+    let mut words = text.split_whitespace();
+    let module = words.next().unwrap_or_default();
+    let letters: Vec<char> = match words.find_map(|word| word.strip_prefix("coordinates=")) {
+        Some(letters) => letters.to_ascii_uppercase().chars().collect(),
+        None => {
+            let joints = (0..AXIS_LETTERS.len())
+                .take_while(|number| ini.has_section(&format!("JOINT_{number}")))
+                .count();
+            AXIS_LETTERS.chars().take(joints).collect()
+        }
+    };
+    if letters.iter().any(|letter| !AXIS_LETTERS.contains(*letter)) {
+        return Err(ini.bad_value(
+            "KINS",
+            "KINEMATICS",
+            "coordinates= takes letters out of XYZABCUVW, one for each joint",
+        ));
+    }
+    if letters.is_empty() {
+        return Err(ini.missing(
+            "JOINT_0",
+            "MAX_VELOCITY",
+            "the file describes no joint; add a section [JOINT_n] for each",
+        ));
+    }
+    Ok((module, letters))
+}
+
+fn joint(
+    ini: &Ini,
+    number: usize,
+    letter: char,
+    length_unit: &'static str,
+) -> Result<Member, IniError> {
+    let section = format!("JOINT_{number}");
+    let unit = match ini.text(&section, "TYPE") {
+        Some("ANGULAR") => "deg",
+        Some("LINEAR") => length_unit,
+        None => unit_of(letter, length_unit),
+        Some(_) => return Err(ini.bad_value(&section, "TYPE", "LINEAR or ANGULAR")),
+    };
+    // A joint that moves an axis one to one shares the jerk limit of the axis.
+    let axis_jerk = ini.optional_limit(&format!("AXIS_{letter}"), "MAX_JERK")?;
+    Ok(Member {
+        name: format!("joint.{number}"),
+        letter,
+        unit,
+        limits: limits(ini, &section, axis_jerk)?,
+    })
+}
+
+fn limits(ini: &Ini, section: &str, other_jerk: Option<f64>) -> Result<MemberLimits, IniError> {
+    Ok(MemberLimits {
+        velocity: ini.required_positive(
+            section,
+            "MAX_VELOCITY",
+            "write the greatest velocity in units per second, for example MAX_VELOCITY = 100",
+        )?,
+        acceleration: ini.required_positive(
+            section,
+            "MAX_ACCELERATION",
+            "write the greatest acceleration in units per second squared, for example \
+             MAX_ACCELERATION = 1000",
+        )?,
+        jerk: ini.optional_limit(section, "MAX_JERK")?.or(other_jerk),
+    })
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// A three-axis mill: 100 mm/s, 1000 mm/s2, 20000 mm/s3, 1 ms.
+    pub const MILL: &str = "\
+[EMC]
+MACHINE = Test mill
+[EMCMOT]
+SERVO_PERIOD = 1000000
+[TRAJ]
+LINEAR_UNITS = mm
+[KINS]
+KINEMATICS = framekins coordinates=XYZ
+[AXIS_X]
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 1000
+MAX_JERK = 20000
+[AXIS_Y]
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 1000
+MAX_JERK = 20000
+[AXIS_Z]
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 1000
+MAX_JERK = 20000
+[JOINT_0]
+TYPE = LINEAR
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 1000
+[JOINT_1]
+TYPE = LINEAR
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 1000
+MAX_JERK = 15000
+[JOINT_2]
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 1000
+";
+
+    /// The machine of an INI text.
+    pub fn machine(text: &str) -> Result<Machine, IniError> {
+        Machine::from_ini(&Ini::parse(Path::new("mill.ini"), text)?)
+    }
+
+    #[test]
+    fn limits_units_and_letters_come_from_the_file() {
+        let mill = machine(MILL).expect("a valid machine");
+        assert_eq!(mill.servo_period, 0.001);
+        assert_eq!(mill.path_source, PathSource::Joints);
+        assert_eq!(mill.joints.len(), 3);
+        assert_eq!(mill.joints[0].limits.jerk, Some(20000.0));
+        assert_eq!(mill.joints[1].limits.jerk, Some(15000.0));
+        assert_eq!(mill.axes[2].name, "axis.z");
+    }
+
+    #[test]
+    fn gantries_and_rotary_joints_are_understood() {
+        let text = MILL.replace("coordinates=XYZ", "coordinates=xyy");
+        let gantry = machine(&text).expect("a valid machine");
+        let letters: String = gantry.joints.iter().map(|joint| joint.letter).collect();
+        assert_eq!((letters.as_str(), gantry.axes.len()), ("XYY", 2));
+
+        let text = MILL
+            .replace("coordinates=XYZ", "coordinates=XYC")
+            .replace("AXIS_Z", "AXIS_C");
+        let rotary = machine(&text).expect("a valid machine");
+        assert_eq!((rotary.joints[2].unit, rotary.axes[2].unit), ("deg", "deg"));
+    }
+
+    #[test]
+    fn what_is_missing_or_wrong_is_named_with_the_remedy() {
+        let message = |from: &str, to: &str| {
+            let changed = MILL.replacen(from, to, 1);
+            assert_ne!(changed, MILL, "the change took place");
+            machine(&changed).expect_err("an error").to_string()
+        };
+        assert_eq!(
+            message("SERVO_PERIOD = 1000000", ""),
+            "mill.ini: [EMCMOT]SERVO_PERIOD is missing: write the servo period in nanoseconds, \
+             for example SERVO_PERIOD = 1000000"
+        );
+        assert!(message("SERVO_PERIOD = 1000000", "SERVO_PERIOD = 0.001").contains("nanoseconds"));
+        assert!(message("LINEAR_UNITS = mm", "LINEAR_UNITS = furlong").contains("mm or inch"));
+        assert!(message("[KINS]", "[KINEMA]").starts_with("mill.ini: [KINS]KINEMATICS"));
+        assert!(message("coordinates=XYZ", "coordinates=XYQ").contains("XYZABCUVW"));
+        assert!(message("[AXIS_Y]", "[AXIS_J]").starts_with("mill.ini: [AXIS_Y]MAX_VELOCITY"));
+        assert!(message("[JOINT_2]", "[JOINT_3]").starts_with("mill.ini: [JOINT_2]MAX_VELOCITY"));
+        assert!(message("TYPE = LINEAR", "TYPE = LINEA").contains("LINEAR or ANGULAR"));
+    }
+}

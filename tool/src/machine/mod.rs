@@ -1,0 +1,10 @@
+//! The machine: what its INI file says ([`ini`], [`configuration`]) and what its axes are able to do
+//! ([`limits`]).
+
+pub(crate) mod configuration;
+mod error;
+pub(crate) mod ini;
+#[cfg(feature = "linuxcnc")]
+pub(crate) mod limits;
+
+pub use error::IniError;

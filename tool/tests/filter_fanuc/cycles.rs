@@ -1,0 +1,116 @@
+//! Canned cycles: what LinuxCNC does with them is what it does with its own.
+
+use crate::path::assert_pair;
+
+/// Behind this, both programs are at Z50 with S and F in force.
+const BEFORE: &str = "G0 X0 Y0 Z50.\nS500 M3\nF100.\n";
+
+fn pair(program: &str, linuxcnc: &str) {
+    assert_pair(
+        &format!("{BEFORE}{program}\nM30\n"),
+        &format!("{BEFORE}{linuxcnc}\nM30\n"),
+    );
+}
+
+#[test]
+fn drilling_is_that_of_linuxcnc() {
+    for (program, linuxcnc) in [
+        (
+            "G99 G81 X10. Y10. Z-5. R2.\nX20.\nG80 G0 X0",
+            "G99 G81 X10 Y10 Z-5 R2\nX20\nG80\nG0 X0",
+        ),
+        (
+            "G98 G82 X10. Z-5. R2. P500\nX20.\nG80",
+            "G98 G82 X10 Z-5 R2 P.5\nX20\nG80",
+        ),
+        (
+            "G99 G83 X10. Z-12. R1. Q5.\nG80",
+            "G99 G83 X10 Z-12 R1 Q5\nG80",
+        ),
+        (
+            "G99 G73 X10. Z-12. R1. Q5.\nG80",
+            "G99 G73 X10 Z-12 R1 Q5\nG80",
+        ),
+        ("G98 G85 X10. Z-12. R1.\nG80", "G98 G85 X10 Z-12 R1\nG80"),
+        (
+            "G98 G86 X10. Z-12. R1. P100\nG80",
+            "G98 G86 X10 Z-12 R1 P.1\nG80",
+        ),
+        (
+            "G99 G89 X10. Z-12. R1. P1000\nG80",
+            "G99 G89 X10 Z-12 R1 P1\nG80",
+        ),
+        // Increments: R from the initial level, Z from R.
+        (
+            "G91 G99 G81 X5. Z-7. R-48. K3\nG80 G90",
+            "G91 G99 G81 X5 Z-7 R-48 L3\nG80 G90",
+        ),
+        // Levels change, and hold from one cycle to the next.
+        (
+            "G99 G81 X10. Z-5. R2.\nX20. Z-7.\nG82 X30. P200\nG80",
+            "G99 G81 X10 Z-5 R2\nX20 Z-7\nG82 X30 Z-7 R2 P.2\nG80",
+        ),
+        // K0 keeps the data; a block without a place does nothing.
+        (
+            "G99 G81 X10. Z-5. R2. K0\nG4 P500\nF50.\nX20.\nG80",
+            "G4 P.5\nF50\nG99 G81 X20 Z-5 R2\nG80",
+        ),
+        (
+            "G0 Y20.\nG18 G99 G81 X10. Z5. Y-5. R2.\nG80 G17",
+            "G0 Y20\nG18 G99 G81 X10 Z5 Y-5 R2\nG80 G17",
+        ),
+        // A motion ends the cycle.
+        (
+            "G99 G81 X10. Z-5. R2.\nG0 X20.\nX30.",
+            "G99 G81 X10 Z-5 R2\nG80\nG0 X20\nX30",
+        ),
+    ] {
+        pair(program, linuxcnc);
+    }
+}
+
+/// LinuxCNC's own cycles run with exact path whatever the mode: a hole reaches its bottom.
+#[test]
+fn holes_reach_their_bottom_in_cutting_mode() {
+    pair(
+        "G64\nG99 G81 X10. Z-5. R2.\nX20.\nG80\nG1 X0",
+        "G61\nG99 G81 X10 Z-5 R2\nX20\nG80\nG64 P.01\nG1 X0",
+    );
+}
+
+#[test]
+fn taps_follow_the_spindle_behind_m29() {
+    pair(
+        "G0 Z2.\nM29 S500\nG99 G84 X10. Z-10. R2. F500.\nX20.\nG80",
+        "G0 Z2\nX10\nS500 M3\nF500\nG33.1 Z-10 K1\nM5\nG0 X20\nM3\nG33.1 Z-10 K1\nM5",
+    );
+    pair(
+        "M5\nG0 Z2.\nG95 M29 S500\nG99 G74 X10. Z-10. R2. F1.25\nG80",
+        "M5\nG0 Z2\nX10\nM4\nG33.1 Z-10 K1.25\nM5",
+    );
+    pair(
+        "G98 G84 X10. Z-10. R2. P500 F500.\nG80",
+        "G0 X10\nZ2\nG1 Z-10 F500\nG4 P.5\nM4\nZ2\nM3\nG0 Z50",
+    );
+}
+
+#[test]
+fn fine_boring_leaves_the_wall() {
+    pair(
+        "G98 G76 X10. Y0 Z-10. R2. I0.5 P100\nG80",
+        "G0 X10\nZ2\nG1 Z-10\nG4 P.1\nM19 R0\nG0 X10.5\nZ50\nX10\nM3",
+    );
+}
+
+/// Steps and lifts are not scaled, the levels are.
+#[test]
+fn cycles_run_in_frames() {
+    pair(
+        "G51 X0 Y0 Z0 P500\nG99 G83 X20. Y0 Z-24. R2. Q5.\nG80 G50",
+        "F100\nG0 X10 Y0 Z50\nG99 G83 X10 Z-12 R1 Q5\nG80",
+    );
+    pair(
+        "G68 X0 Y0 R90.\nG99 G81 X10. Y0 Z-5. R2.\nX20. Y5.\nG80 G69",
+        "G99 G81 X0 Y10 Z-5 R2\nX-5 Y20\nG80",
+    );
+}

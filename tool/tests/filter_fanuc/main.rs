@@ -1,0 +1,18 @@
+//! Tests of `framepath filter` for programs of Fanuc-like controls.
+
+mod cycles;
+mod errors;
+mod frames;
+#[path = "../filter/front_end.rs"]
+mod front_end;
+mod language;
+mod moves;
+#[path = "../filter/one_error.rs"]
+mod one_error;
+mod path;
+mod random;
+mod robustness;
+#[path = "../filter/rs274.rs"]
+mod rs274;
+#[path = "../filter_isg_mefi/shop.rs"]
+mod shop;
