@@ -111,8 +111,8 @@ short: tool
 	$(PYTHON) -B tests/linuxcnc/short_programs.py --count $(SHORT) --seed $(SEED)
 
 soak: modules
-	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner_programs -- --nocapture
-	FRAMEPATH_CASES=1000000 $(CARGO) test --locked --release --test planner_short_programs -- --nocapture
+	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner programs:: -- --skip short_programs:: --nocapture
+	FRAMEPATH_CASES=1000000 $(CARGO) test --locked --release --test planner short_programs:: -- --nocapture
 	$(PYTHON) -B tests/linuxcnc/soak.py --seconds 7200
 
 bench: prerequisites

@@ -8,7 +8,8 @@ use framepath::cycle::cell::Cell;
 use framepath::cycle::{Demand, Executor, ExecutorStep};
 use std::time::{Duration, Instant};
 
-#[path = "../tests/executor_support/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../tests/executor/support/mod.rs"]
 mod executor_support;
 use executor_support::reference::{Move, Reference, Shape};
 use executor_support::uniform_limits;

@@ -1,6 +1,7 @@
 //! What the look-ahead costs in a servo period, and to its first plan.
 
-#[path = "../tests/look_ahead_routes/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../tests/look_ahead/routes/mod.rs"]
 mod look_ahead_routes;
 
 use std::hint::black_box;

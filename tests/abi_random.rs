@@ -2,12 +2,13 @@
 #![allow(unsafe_code)]
 
 mod abi_calls;
-mod planner_common;
+#[path = "planner/common/seeded_runner.rs"]
+mod seeded_runner;
 
 use std::path::PathBuf;
 
-use planner_common::seeded_runner;
 use proptest::prelude::*;
+use seeded_runner::seeded_runner;
 
 /// A case that takes longer has met an endless loop.
 const MOST_SECONDS: u32 = 300;

@@ -77,7 +77,9 @@ def errors():
 
 def programs(wanted):
     """The test programs by name, built."""
-    names = sorted(name[:-3] for name in os.listdir(os.path.join(ROOT, "tests")) if name.endswith(".rs"))
+    folder = os.path.join(ROOT, "tests")
+    names = sorted(name.removesuffix(".rs") for name in os.listdir(folder)
+                   if name.endswith(".rs") or os.path.exists(os.path.join(folder, name, "main.rs")))
     names = [name for name in names if name not in NOT_OF_THE_CORE and (not wanted or name in wanted)]
     arguments = [] if wanted and "lib" not in wanted else ["--lib"]
     for name in names:

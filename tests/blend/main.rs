@@ -1,0 +1,6 @@
+//! The path and its blends.
+
+mod common;
+mod modes;
+mod random;
+mod shapes;

@@ -1,0 +1,305 @@
+//! Frames on a running machine: commands, slots, refusals and switches, with motion played.
+
+use crate::common::Motion;
+use framepath::kinematics::FrameRefusal;
+use framepath::kinematics::check::check_sum;
+use framepath::kinematics::control::FrameInputs;
+
+fn xyz() -> Motion {
+    Motion::new("identity", "XYZ")
+}
+
+#[test]
+fn slots_are_used_in_turn() {
+    let mut motion = xyz();
+    let mut slots = Vec::new();
+    for n in 0..4 {
+        assert_eq!(motion.send(1, [f64::from(n), 0.0, 0.0]), None);
+        slots.push(motion.out.slot);
+    }
+    assert_eq!(motion.send(9, [0.0; 3]), None);
+    slots.push(motion.out.slot);
+    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), None);
+    slots.push(motion.out.slot);
+    assert_eq!(slots, [1, 2, 1, 2, 0, 1]);
+}
+
+#[test]
+fn commands_replace_or_add() {
+    let mut motion = xyz();
+    assert_eq!(motion.send(1, [55.0, 35.0, 0.0]), None);
+    assert_eq!(motion.send(103, [90.0, 2.0, 0.0]), None);
+    assert_eq!(motion.machine([10.0, 0.0, 0.0]), [55.0, 45.0, 0.0]);
+    assert_eq!((motion.out.operations, motion.out.active), (2, true));
+    assert_eq!(motion.send(107, [2.0, 2.0, 2.0]), None);
+    assert_eq!(motion.machine([10.0, 0.0, 0.0]), [55.0, 55.0, 0.0]);
+    // Scales alone are dropped.
+    assert_eq!(motion.send(10, [0.0; 3]), None);
+    assert_eq!(motion.machine([10.0, 0.0, 0.0]), [55.0, 45.0, 0.0]);
+    assert_eq!(motion.send(8, [1.0, 0.0, 0.0]), None);
+    assert_eq!(motion.machine([10.0, 0.0, 0.0]), [-10.0, 0.0, 0.0]);
+    assert_eq!(motion.out.operations, 1);
+    // A map, and what follows it starts anew.
+    motion.inputs.map[3] = 7.0;
+    assert_eq!(motion.send(12, [0.0; 3]), None);
+    assert_eq!(motion.machine([10.0, 0.0, 0.0]), [17.0, 0.0, 0.0]);
+    assert_eq!(motion.send(101, [1.0, 0.0, 0.0]), None);
+    assert_eq!(motion.machine([10.0, 0.0, 0.0]), [11.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_suspended_frame_comes_back() {
+    let mut motion = xyz();
+    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), None);
+    assert_eq!(motion.send(13, [0.0; 3]), None);
+    assert!(!motion.out.active);
+    assert_eq!(motion.machine([1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+    assert_eq!(motion.send(11, [0.0; 3]), None);
+    assert_eq!(motion.machine([1.0, 0.0, 0.0]), [6.0, 0.0, 0.0]);
+}
+
+#[test]
+fn removing_nothing_needs_no_switch() {
+    let mut motion = xyz();
+    motion.linked = false;
+    assert_eq!(motion.send(9, [0.0; 3]), None);
+    assert_eq!((motion.out.active, motion.out.slot), (false, 0));
+}
+
+#[test]
+fn a_refusal_keeps_the_old_frame() {
+    let mut motion = xyz();
+    assert_eq!(motion.send(1, [5.0, 6.0, 7.0]), None);
+    let refusals = [
+        (1, [f64::NAN, 0.0, 0.0], FrameRefusal::NotFinite),
+        (2, [0.0, f64::INFINITY, 0.0], FrameRefusal::NotFinite),
+        (3, [10.0, f64::NAN, 0.0], FrameRefusal::NotFinite),
+        (8, [f64::NAN, 0.0, 0.0], FrameRefusal::NotFinite),
+        (3, [10.0, 3.0, 0.0], FrameRefusal::UnknownCommand),
+        (3, [10.0, 0.5, 0.0], FrameRefusal::UnknownCommand),
+        (4, [10.0, 20.0, 2.0], FrameRefusal::UnknownCommand),
+        (0, [0.0; 3], FrameRefusal::UnknownCommand),
+        (14, [0.0; 3], FrameRefusal::UnknownCommand),
+        (109, [0.0; 3], FrameRefusal::UnknownCommand),
+        (999, [0.0; 3], FrameRefusal::UnknownCommand),
+        (107, [1.0, 0.0, 1.0], FrameRefusal::ZeroScale),
+        (101, [1e7, 0.0, 0.0], FrameRefusal::TranslationTooLarge),
+        (4, [90.0, 45.0, 0.0], FrameRefusal::ImpossibleAngles),
+        (7, [1.0, 1.0, 1000.0], FrameRefusal::IllConditioned),
+        (7, [2000.0, 2000.0, 2000.0], FrameRefusal::ScaleOutOfRange),
+    ];
+    for (code, value, refusal) in refusals {
+        assert_eq!(motion.send(code, value), Some(refusal), "{code} {value:?}");
+        assert_eq!(motion.machine([1.0, 1.0, 1.0]), [6.0, 7.0, 8.0]);
+        assert_eq!(motion.out.operations, 1);
+    }
+    motion.inputs.map[10] = 0.0;
+    assert_eq!(motion.send(12, [0.0; 3]), Some(FrameRefusal::Singular));
+    motion.inputs.work_offset[1] = f64::NAN;
+    assert_eq!(motion.send(11, [0.0; 3]), Some(FrameRefusal::NotFinite));
+    motion.inputs.work_offset[1] = 0.0;
+    // And the next command is carried out as if nothing had been.
+    assert_eq!(motion.send(101, [1.0, 0.0, 0.0]), None);
+    assert_eq!(motion.machine([1.0, 1.0, 1.0]), [7.0, 7.0, 8.0]);
+}
+
+#[test]
+fn alternating_operations_fill_the_list() {
+    let mut motion = xyz();
+    let mut refused = None;
+    for _ in 0..100 {
+        for (code, value) in [
+            (107, [1.5, 1.0, 1.0]),
+            (103, [30.0, 2.0, 0.0]),
+            (107, [1.0 / 1.5, 1.0, 1.0]),
+        ] {
+            refused = refused.or(motion.send(code, value));
+        }
+    }
+    assert!(matches!(
+        refused,
+        Some(FrameRefusal::TooManyOperations | FrameRefusal::IllConditioned)
+    ));
+}
+
+#[test]
+fn nonsense_on_the_command_pin_is_no_command() {
+    let mut motion = xyz();
+    for command in [
+        f64::NAN,
+        f64::INFINITY,
+        -1.0,
+        -77_001.0,
+        0.0,
+        999.0,
+        -f64::MAX,
+    ] {
+        motion.inputs.command = command;
+        let before = motion.out;
+        motion.period();
+        assert_eq!(motion.out, before, "{command}");
+    }
+    // A number with a code that is none.
+    for command in [77_000.5, 77_001.25, f64::MAX] {
+        motion.inputs.command = command;
+        motion.inputs.check = check_sum(&motion.inputs);
+        motion.period();
+        assert_eq!(
+            motion.out.refusal,
+            Some(FrameRefusal::UnknownCommand),
+            "{command}"
+        );
+        assert!(!motion.out.active);
+        motion.inputs.command = 88_009.0;
+        motion.period();
+        assert_eq!(motion.out.refusal, None);
+    }
+}
+
+#[test]
+fn numbers_may_start_again() {
+    let mut motion = xyz();
+    motion.number = 99_998.0;
+    assert_eq!(motion.send(1, [1.0, 0.0, 0.0]), None);
+    assert_eq!(motion.out.acknowledged, 99_999.0);
+    motion.number = 0.0;
+    assert_eq!(motion.send(1, [2.0, 0.0, 0.0]), None);
+    assert_eq!(motion.machine([0.0; 3]), [2.0, 0.0, 0.0]);
+    // The same number again is the same command.
+    motion.inputs.value = [9.0, 9.0, 9.0];
+    motion.period();
+    assert_eq!(motion.machine([0.0; 3]), [2.0, 0.0, 0.0]);
+}
+
+#[test]
+fn moving_and_teleop_refuse_at_both_ends() {
+    type Change = fn(&mut FrameInputs, bool);
+    let changes: [(Change, FrameRefusal); 2] = [
+        (|inputs, on| inputs.in_position = !on, FrameRefusal::Moving),
+        (|inputs, on| inputs.teleop = on, FrameRefusal::Teleop),
+    ];
+    for (change, refusal) in changes {
+        let mut motion = xyz();
+        assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), None);
+        // When the command comes.
+        change(&mut motion.inputs, true);
+        assert_eq!(motion.send(1, [6.0, 0.0, 0.0]), Some(refusal));
+        change(&mut motion.inputs, false);
+        // Between the request and the switch.
+        for code in [1, 9] {
+            motion.put(code, [0.0; 3]);
+            motion.out = motion.control.update(&motion.inputs);
+            change(&mut motion.inputs, true);
+            motion.period();
+            assert_eq!(motion.out.refusal, Some(refusal));
+            assert_eq!(motion.machine([0.0; 3]), [5.0, 0.0, 0.0]);
+            change(&mut motion.inputs, false);
+        }
+        // Motion remembers the number that it was refused: another one is asked for.
+        assert_eq!(motion.send(9, [0.0; 3]), None);
+        assert!(!motion.out.active);
+        assert_eq!(motion.send(1, [6.0, 0.0, 0.0]), None);
+        assert_eq!(motion.machine([0.0; 3]), [6.0, 0.0, 0.0]);
+    }
+}
+
+#[test]
+fn a_switch_that_nobody_makes_is_given_up() {
+    let mut motion = xyz();
+    motion.linked = false;
+    assert_eq!(
+        motion.send(1, [5.0, 0.0, 0.0]),
+        Some(FrameRefusal::NotSwitched)
+    );
+    // Linked later: nothing happens by itself.
+    motion.linked = true;
+    for _ in 0..5 {
+        motion.period();
+    }
+    assert!(!motion.out.active);
+    assert_eq!(motion.type_seen, 0);
+    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), None);
+    assert_eq!(motion.machine([0.0; 3]), [5.0, 0.0, 0.0]);
+}
+
+#[test]
+fn motion_may_take_a_hundred_periods_to_switch() {
+    for (periods, taken) in [
+        (0, true),
+        (1, true),
+        (100, true),
+        (101, false),
+        (200, false),
+    ] {
+        let mut motion = xyz();
+        motion.linked = false;
+        motion.put(1, [5.0, 0.0, 0.0]);
+        for _ in 0..=periods {
+            motion.period();
+        }
+        motion.linked = true;
+        motion.period();
+        assert_eq!(motion.out.active, taken, "after {periods} periods");
+        let refusal = (!taken).then_some(FrameRefusal::NotSwitched);
+        assert_eq!(motion.out.refusal, refusal, "after {periods} periods");
+    }
+}
+
+#[test]
+fn by_hand() {
+    let mut motion = xyz();
+    motion.inputs.map[3] = 3.0;
+    assert_eq!(motion.control.switch(1, &motion.inputs), Ok(()));
+    motion.out = motion.control.update(&motion.inputs);
+    assert_eq!((motion.out.slot, motion.out.active), (1, true));
+    assert_eq!(motion.machine([0.0; 3]), [3.0, 0.0, 0.0]);
+    for kind in [-1, 3, i32::MIN, i32::MAX] {
+        let result = motion.control.switch(kind, &motion.inputs);
+        assert_eq!(result, Err(FrameRefusal::UnknownType));
+    }
+    assert_eq!(motion.machine([0.0; 3]), [3.0, 0.0, 0.0]);
+    assert_eq!(motion.control.switch(0, &motion.inputs), Ok(()));
+    assert_eq!(motion.machine([0.0; 3]), [0.0; 3]);
+}
+
+#[test]
+fn a_lathe_has_no_y_to_turn_into() {
+    let mut lathe = Motion::new("identity", "XZ");
+    for (code, value) in [
+        (1, [10.0, 0.0, 5.0]),
+        (2, [0.0, 30.0, 0.0]),
+        (7, [2.0, 2.0, 2.0]),
+        (8, [0.0, 1.0, 1.0]),
+    ] {
+        assert_eq!(lathe.send(code, value), None, "{code}");
+    }
+    assert_eq!(lathe.send(1, [1.0, 0.0, 0.0]), None);
+    for (code, value) in [
+        (101, [0.0, 1.0, 0.0]),
+        (2, [0.0, 0.0, 30.0]),
+        (102, [30.0, 0.0, 0.0]),
+    ] {
+        assert_eq!(
+            lathe.send(code, value),
+            Some(FrameRefusal::MissingAxis),
+            "{code}"
+        );
+        assert_eq!(lathe.machine([0.0; 3]), [1.0, 0.0, 0.0]);
+    }
+}
+
+#[test]
+fn a_frame_is_removed_whatever_the_tool_offset_is() {
+    let mut motion = xyz();
+    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), None);
+    motion.inputs.tool_offset = [1.0, f64::NAN, f64::INFINITY];
+    for code in [13, 9] {
+        assert_eq!(motion.send(code, [0.0; 3]), None);
+        assert!(!motion.out.active);
+        assert_eq!(motion.out.tool_offset, [1.0, 0.0, 0.0]);
+    }
+    assert_eq!(
+        motion.send(1, [5.0, 0.0, 0.0]),
+        Some(FrameRefusal::NotFinite)
+    );
+}

@@ -1,0 +1,30 @@
+//! The planner driven cycle by cycle: what it keeps on ordinary and on random programs, and what was found there once.
+
+mod behind_frame;
+mod caps;
+mod chord_circles;
+mod common;
+mod faults;
+mod feed;
+mod history;
+mod holds;
+mod invariance;
+mod limits_changed;
+mod moves;
+mod operator;
+mod programs;
+mod queue;
+mod random_program;
+mod range_sweep;
+mod regressions_between;
+mod regressions_faults;
+mod regressions_limits;
+mod regressions_rests;
+mod regressions_short;
+mod regressions_standstill;
+mod reverse;
+mod short_program;
+mod short_programs;
+mod soft_limits;
+mod spindle;
+mod spindle_events;
