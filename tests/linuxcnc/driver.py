@@ -19,11 +19,10 @@ import linuxcnc
 
 TIMEOUT = float(os.environ.get("FRAMEPATH_TIMEOUT", "120"))
 
-
 #: kinds of messages that are errors
 ERRORS = (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR)
-
-
+#: Stops of frame_guard after which its heart has to be heard again.
+STOPS_BETWEEN_BEATS = 6
 #: numbers of the system calls in which a process sleeps: nanosleep, clock_nanosleep, select, pselect6, poll, ppoll
 ASLEEP = {"x86_64": ("35", "230", "23", "270", "7", "271"), "aarch64": ("101", "115", "72", "73")}[platform.machine()]
 
@@ -54,6 +53,11 @@ def guard_process():
     shown = subprocess.run(["halcmd", "-s", "show", "comp"], check=True, capture_output=True, text=True).stdout
     words = next(line.split() for line in shown.splitlines() if "frame-guard" in line.split())
     return next(int(word) for word in words[words.index("frame-guard") + 1:] if word.isdigit())
+
+
+def value_of(name):
+    """What a pin reads, as text."""
+    return subprocess.run(["halcmd", "getp", name], check=True, capture_output=True, text=True).stdout.strip()
 
 
 def read(path):
@@ -315,7 +319,11 @@ class Operator:
     def stop_guard_often(self, times):
         """Stops frame_guard at any moment; each time HAL has to answer others meanwhile."""
         process = guard_process()
-        for _ in range(times):
+        for number in range(times):
+            if number % STOPS_BETWEEN_BEATS == 0:
+                # its heart misses the beats in which it stands; where it stands in all of a second, the machine is held
+                beat = value_of("framekins.heartbeat")
+                self.wait_for("a heartbeat", lambda last=beat: value_of("framekins.heartbeat") != last)
             time.sleep(random.uniform(0, 0.007))
             os.kill(process, signal.SIGSTOP)
             try:
@@ -332,10 +340,9 @@ class Operator:
                 if file.read().strip() == "milltask":
                     send(int(process), getattr(signal, f"SIG{name}"))
 
-    def expect(self, pin, value, timeout=5):
+    def expect(self, name, value, timeout=5):
         """Waits until a pin reads as this text."""
-        self.wait_for(f"{pin} = {value}", lambda: subprocess.run(
-            ["halcmd", "getp", pin], check=True, capture_output=True, text=True).stdout.strip() == value, timeout)
+        self.wait_for(f"{name} = {value}", lambda: value_of(name) == value, timeout)
 
     def forget(self):
         """What has been said so far does not count for the next `recall`."""

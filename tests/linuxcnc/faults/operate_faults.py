@@ -36,6 +36,11 @@ def processes(name):
     return found
 
 
+def held():
+    """Whether framekins, where it is loaded, holds the machine."""
+    return hal.component_exists("framekins") and hal.get_value("framekins.hold")
+
+
 class FaultOperator(Operator):
     def __init__(self):
         super().__init__()
@@ -128,7 +133,8 @@ class FaultOperator(Operator):
             self.poll()
             now = self.status.joint_position
             idle = self.status.interp_state == linuxcnc.INTERP_IDLE and self.status.inpos and not self.status.queue
-            still = still + 1 if idle and now == last else 0
+            # a command that comes while a frame is removed is refused
+            still = still + 1 if idle and now == last and not held() else 0
             last = now
             if hal.get_value("threadtest.0.count") > limit:
                 raise Failure(f"{what}: no rest, interpreter {self.status.interp_state}, queue {self.status.queue}")
