@@ -76,19 +76,25 @@ lint:
 deny:
 	$(CARGO) deny check licenses advisories bans sources
 
+# A few at a time, each in a LinuxCNC of its own; what is busy by itself comes when all the others are done.
+LINUXCNC_TESTS = $(PYTHON) -B -m pytest -n 4 tests/linuxcnc
+RUN_LINUXCNC_TESTS = failed=0; $(LINUXCNC_TESTS) -m "not busy" || failed=1; $(LINUXCNC_TESTS) -m busy || failed=1; exit $$failed
+
 # The same random cases each time, so that what fails can be had again; make soak takes others.
 test: export PROPTEST_RNG_SEED ?= 1
 test: export TOOL_PROFILE = dev
 test: lint modules fault-modules
 	@./prerequisites browser
 	@./prerequisites sanitize
+	@./prerequisites test
 	$(CARGO) test --locked --workspace --no-fail-fast
 # The tool is there: its own tests run it.
-	$(PYTHON) -B tests/linuxcnc/run_all.py
+	$(RUN_LINUXCNC_TESTS)
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules fault-modules tool
-	$(PYTHON) -B tests/linuxcnc/run_all.py
+	@./prerequisites test
+	$(RUN_LINUXCNC_TESTS)
 
 # The C of the modules with sanitizers, the modules under valgrind; a part of make test.
 sanitize: modules
@@ -97,7 +103,8 @@ sanitize: modules
 
 # What comes last in make test: the table of promises, two minutes of soak, plan against LinuxCNC.
 contract: modules tool
-	$(PYTHON) -B tests/linuxcnc/run_all.py --last
+	@./prerequisites test
+	$(LINUXCNC_TESTS) -m busy
 
 # Processes killed and stopped, aborts, an INI file without sense, servo periods, full disks: half an hour; then a fault of
 # the planner in each servo period of a program: another half.

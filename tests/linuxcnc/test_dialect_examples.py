@@ -38,11 +38,15 @@ def nine_axes():
 
 
 class Examples(unittest.TestCase):
-    def joints(self, dialect, backend, axes):
+    """Those of one control."""
+
+    dialect = None
+
+    def joints(self, backend, axes):
         """{name of an example: how its joints lie beside its path} on the machine with these axes."""
-        table, sample = TABLES[dialect]
+        table, sample = TABLES[self.dialect]
         examples = [e for e in table.EXAMPLES if backend in e.backends and e.axes == axes]
-        programs = [example.before + quick(filtered(example.program, dialect, backend, example.options))
+        programs = [example.before + quick(filtered(example.program, self.dialect, backend, example.options))
                     for example in examples]
         ini, hal = nine_axes() if axes == LETTERS else ({}, "")
         beside = {}
@@ -54,45 +58,41 @@ class Examples(unittest.TestCase):
                 self.assertLess(found.missed, 5e-6)
         return beside
 
-    def run_table(self, dialect, axes):
+    def run_table(self, axes):
         """Each example runs along its path with both backends, and both take the joints the same way."""
-        program, kinematics = (self.joints(dialect, backend, axes) for backend in ("program", "kinematics"))
+        program, kinematics = (self.joints(backend, axes) for backend in ("program", "kinematics"))
         for name in program.keys() & kinematics.keys():
             with self.subTest(name):
                 self.assertLess(program[name].apart(kinematics[name]), NEAR)
 
-    def refuse(self, dialect):
+    def refuse(self):
         """What only one backend can do, the other refuses: it does something else in no case."""
-        for example in TABLES[dialect][0].EXAMPLES:
+        for example in TABLES[self.dialect][0].EXAMPLES:
             for backend in {"program", "kinematics"} - set(example.backends):
                 with self.subTest(example.name):
-                    code, output, complaints = convert(example.program, dialect, backend, example.options)
+                    code, output, complaints = convert(example.program, self.dialect, backend, example.options)
                     self.assertEqual((code, output), (1, ""))
                     self.assertIn("error", complaints)
 
-    def understood(self, dialect):
+    def understood(self):
         """LinuxCNC's interpreter reads the rewritten program; without a machine it knows no U, V and W."""
-        for example in TABLES[dialect][0].EXAMPLES:
+        for example in TABLES[self.dialect][0].EXAMPLES:
             readable = example.axes == "xyz" or not set("UVW") & set(example.program)
             if "program" in example.backends and readable:
                 with self.subTest(example.name):
-                    output = filtered(example.program, dialect, "program", example.options)
+                    output = filtered(example.program, self.dialect, "program", example.options)
                     self.assertIsNone(compare(canonical_shapes(example.before + output), example.shapes))
 
 
-def for_each_dialect():
-    """Gives the class its tests."""
-    def test(method, *arguments):
-        return lambda self: getattr(self, method)(*arguments)
-
-    for dialect in TABLES:
-        for axes in sorted({example.axes for example in TABLES[dialect][0].EXAMPLES}):
-            setattr(Examples, f"test_{dialect}_joints_of_{len(axes)}_axes", test("run_table", dialect, axes))
-        setattr(Examples, f"test_{dialect}_refused", test("refuse", dialect))
-        setattr(Examples, f"test_{dialect}_read_again", test("understood", dialect))
+def of(dialect):
+    """The class with the tests of a control."""
+    axes = sorted({example.axes for example in TABLES[dialect][0].EXAMPLES})
+    joints = {f"test_joints_of_{len(letters)}_axes": lambda self, letters=letters: self.run_table(letters) for letters in axes}
+    return type(dialect.capitalize(), (Examples,), {
+        "__module__": __name__, "dialect": dialect, "test_refused": Examples.refuse, "test_read_again": Examples.understood, **joints})
 
 
-for_each_dialect()
+Sinumerik, Fagor, Mefi, Isg, Fanuc = map(of, TABLES)
 
 
 class Own(unittest.TestCase):

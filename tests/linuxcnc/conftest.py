@@ -1,0 +1,22 @@
+"""In which order pytest runs the tests of this folder, a few at a time: each LinuxCNC has a world of its own and mostly
+waits."""
+
+import os
+
+import pytest
+
+#: Files whose tests are marked as busy.
+BUSY = ("test_contract_table", "test_contract_soak", "test_plan", "test_compare", "test_short_programs", "test_faults_table")
+#: What takes longest comes first.
+FIRST = ("test_dialect_examples", "test_spindle", "test_look_ahead")
+
+
+def pytest_collection_modifyitems(items):
+    def place(item):
+        return item.path.stem not in FIRST, -os.path.getsize(item.path)
+
+    for item in items:
+        if item.path.stem in BUSY:
+            item.add_marker(pytest.mark.busy)
+    # a stable sort: what belongs together stays so
+    items.sort(key=place)
