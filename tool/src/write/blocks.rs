@@ -59,11 +59,11 @@ pub fn begin(lines: &mut Lines, block: &Block, sources: &Sources) -> bool {
     let origin = block.origin;
     let frame = block.frame_text.as_deref().map(without_number);
     let comment = block.comment.as_deref().filter(|text| !text.is_empty());
-    let remark: String = [frame, comment]
-        .into_iter()
-        .flatten()
-        .map(|text| format!(": {text}"))
-        .collect();
+    let mut remark = String::new();
+    for text in [frame, comment].into_iter().flatten() {
+        remark.push_str(": ");
+        remark.push_str(&text);
+    }
     lines.begin_block(origin.number, origin.line, &remark);
     true
 }
