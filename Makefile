@@ -39,6 +39,7 @@ help:
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
+	@echo 'make book       docs, DESIGN and CONTRIBUTING as a book (mdbook)'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -184,6 +185,10 @@ figures: modules tool
 	$(TOOL) compare --generated trochoidal $(BLENDTP) --jerk 20A --queue 200,2000
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
+# docs, DESIGN and CONTRIBUTING as pages to read: target/book/index.html.
+book:
+	mdbook build
+
 header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
 
@@ -207,4 +212,4 @@ clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites modules fault-modules tool demo lint deny test linuxcnc-test sanitize contract faults short soak bench \
-    fuzz fuzz-filter mutants compare figures header install uninstall clean
+    fuzz fuzz-filter mutants compare figures book header install uninstall clean

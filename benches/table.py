@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The table of the README from what `cargo bench` has measured: table.py FOLDER, where FOLDER is target/criterion.
+"""The tables of docs/figures.md from what `cargo bench` has measured: table.py FOLDER, where FOLDER is target/criterion.
 
 Every time is criterion's mean. A benchmark that is missing is an error: the table would be taken for complete.
 """
