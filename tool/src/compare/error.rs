@@ -7,9 +7,6 @@ use std::path::PathBuf;
 /// Why there is no comparison.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
-    /// An option cannot be used: its name, and why.
-    #[error("--{0}: {1}")]
-    Option(&'static str, String),
     /// --optimum or --holds in a build that has no solver.
     #[error(
         "framepath compare --optimum and --holds: this framepath was built without its feature optimum: \

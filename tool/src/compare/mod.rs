@@ -37,7 +37,7 @@ use crate::host;
 use crate::host::operator::{Action, Event, at_time, random_events};
 use crate::layer::program::Program;
 use crate::layer::{LayerSettings, lay};
-use crate::machine::limits::{Jerk, Limits};
+use crate::machine::limits::{Jerk, LimitChanges, Limits};
 use figures::Figures;
 use progress::Progress;
 use ratios::{ProgramRuns, ratios};
@@ -75,7 +75,7 @@ pub struct CompareArguments {
     /// Limits of the axes, mm (degrees) and seconds: V=100,A=1000 for all, XY:V=50 for some, several
     /// separated by `;`
     #[arg(long, value_name = "LIMITS", default_value = "V=100,A=1000")]
-    pub limits: String,
+    pub limits: LimitChanges,
     /// Jerk limits to run those modules with that have one: `unlimited`, a number, or a number of
     /// accelerations per second (20A)
     #[arg(
@@ -84,7 +84,7 @@ pub struct CompareArguments {
         value_delimiter = ',',
         default_value = "unlimited"
     )]
-    pub jerk: Vec<String>,
+    pub jerk: Vec<Jerk>,
     /// Raise every F to at least this
     #[arg(long, value_name = "MM_MIN", value_parser = positive)]
     pub feed_at_least: Option<f64>,
@@ -176,17 +176,10 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
         return Err(CompareError::NoOptimum);
     }
     let mut limits = Limits::default();
-    limits
-        .apply(&arguments.limits)
-        .map_err(|problem| CompareError::Option("limits", problem))?;
-    let jerks = arguments
-        .jerk
-        .iter()
-        .map(|text| Jerk::parse(text).map_err(|problem| CompareError::Option("jerk", problem)))
-        .collect::<Result<Vec<_>, _>>()?;
+    limits.apply(&arguments.limits);
     let programs = programs(arguments, limits)?;
     let events = events(arguments);
-    let runner = Runner::new(arguments, limits, &jerks, &events)?;
+    let runner = Runner::new(arguments, limits, &arguments.jerk, &events)?;
     let mut output = std::io::stdout().lock();
     if !arguments.json {
         writeln!(output, "{}\n", headline(arguments)).map_err(CompareError::Write)?;

@@ -85,7 +85,7 @@ mod tests {
     fn only_on_the_limits_that_it_was_measured_with() {
         assert!(ratios(&squares(Jerk::Unlimited), &Limits::default()).is_empty());
         let mut limits = Limits::default();
-        limits.apply("A=500").expect("valid");
+        limits.apply(&"A=500".parse().expect("valid"));
         assert!(ratios(&squares(JERK), &limits).is_empty());
     }
 }

@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn the_slowest_axis_rules() {
         let mut limits = Limits::default();
-        limits.apply("Y:V=10,A=100").expect("valid");
+        limits.apply(&"Y:V=10,A=100".parse().expect("valid"));
         let to = [30.0, 40.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let straight = Straight::between(&[0.0; 9], &to, &limits);
         assert!((straight.velocity(1.0, 1.0) - 12.5).abs() < 1e-12);

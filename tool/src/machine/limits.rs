@@ -3,6 +3,7 @@
 use crate::arguments;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
 use serde::{Deserialize, Serialize};
+use std::str::FromStr;
 
 /// The axes that turn: A B C.
 pub(crate) fn is_rotary(axis: usize) -> bool {
@@ -26,36 +27,87 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// Applies `V=100,A=1000` (all axes) or `XY:V=50`; several are separated by `;`.
-    pub(crate) fn apply(&mut self, text: &str) -> Result<(), String> {
+    /// With the changes that an option asks for.
+    pub(crate) fn apply(&mut self, changes: &LimitChanges) {
+        for change in &changes.changes {
+            let limits = match change.quantity {
+                Quantity::Velocity => &mut self.velocity,
+                Quantity::Acceleration => &mut self.acceleration,
+            };
+            limits[change.axis] = change.limit;
+        }
+    }
+}
+
+/// Limits of some axes, as an option gives them: `V=100,A=1000` (all axes) or `XY:V=50`; several are separated
+/// by `;`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitChanges {
+    text: String,
+    changes: Vec<LimitChange>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct LimitChange {
+    axis: usize,
+    quantity: Quantity,
+    limit: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Quantity {
+    Velocity,
+    Acceleration,
+}
+
+impl FromStr for LimitChanges {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut changes = Vec::new();
         for part in text.split(';') {
             let (letters, values) = part.split_once(':').unwrap_or(("XYZABCUVW", part));
             for value in values.split(',') {
                 let (kind, number) = value
                     .split_once('=')
                     .ok_or_else(|| format!("`{value}`: V= or A= and a number is needed"))?;
-                let number = positive(number)?;
+                let limit = positive(number)?;
+                let quantity = match kind.trim() {
+                    "V" | "v" => Quantity::Velocity,
+                    "A" | "a" => Quantity::Acceleration,
+                    _ => return Err(format!("`{kind}` is neither V nor A; jerk is --jerk")),
+                };
                 for letter in letters.trim().chars() {
                     let axis = AXIS_LETTERS
                         .iter()
                         .position(|known| known.eq_ignore_ascii_case(&letter))
                         .ok_or_else(|| format!("`{letter}` is none of the axes XYZABCUVW"))?;
-                    match kind.trim() {
-                        "V" | "v" => self.velocity[axis] = number,
-                        "A" | "a" => self.acceleration[axis] = number,
-                        _ => return Err(format!("`{kind}` is neither V nor A; jerk is --jerk")),
-                    }
+                    changes.push(LimitChange {
+                        axis,
+                        quantity,
+                        limit,
+                    });
                 }
             }
         }
-        Ok(())
+        Ok(LimitChanges {
+            text: text.to_owned(),
+            changes,
+        })
+    }
+}
+
+impl std::fmt::Display for LimitChanges {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.text)
     }
 }
 
 /// A jerk limit to run a planner with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Jerk {
+pub enum Jerk {
+    /// None.
     Unlimited,
     /// Units per second cubed, the same for all axes.
     Value(f64),
@@ -63,9 +115,11 @@ pub(crate) enum Jerk {
     Accelerations(f64),
 }
 
-impl Jerk {
-    /// Reads `unlimited` (or 0), a number, or a number of accelerations: `20A`.
-    pub(crate) fn parse(text: &str) -> Result<Jerk, String> {
+/// Reads `unlimited` (or 0), a number, or a number of accelerations: `20A`.
+impl FromStr for Jerk {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Jerk, String> {
         let text = text.trim();
         if matches!(text, "unlimited" | "0") {
             return Ok(Jerk::Unlimited);
@@ -75,7 +129,9 @@ impl Jerk {
             None => Ok(Jerk::Value(positive(text)?)),
         }
     }
+}
 
+impl Jerk {
     /// The limit of each axis, 0 where it is not limited.
     pub(crate) fn of_axes(self, limits: &Limits) -> [f64; AXIS_COUNT] {
         match self {
@@ -107,7 +163,7 @@ mod tests {
     #[test]
     fn single_axes_differ() {
         let mut limits = Limits::default();
-        limits.apply("A=500;zc:V=20,A=300").expect("valid");
+        limits.apply(&"A=500;zc:V=20,A=300".parse().expect("valid"));
         assert_eq!(limits.velocity[..3], [100.0, 100.0, 20.0]);
         assert_eq!(
             limits.acceleration[..6],
@@ -117,7 +173,7 @@ mod tests {
 
     #[test]
     fn says_what_is_wrong() {
-        let refused = |text| Limits::default().apply(text).expect_err("refused");
+        let refused = |text: &str| text.parse::<LimitChanges>().expect_err("refused");
         assert!(refused("J=5").contains("--jerk"));
         assert!(refused("Q:V=1").contains('Q'));
         assert!(refused("V=-1").contains("-1"));
@@ -126,9 +182,9 @@ mod tests {
 
     #[test]
     fn jerk_in_accelerations() {
-        let jerk = Jerk::parse("20A").expect("valid");
+        let jerk = "20A".parse::<Jerk>().expect("valid");
         assert_eq!(jerk.of_axes(&Limits::default())[0], 20_000.0);
-        assert_eq!(Jerk::parse("0"), Ok(Jerk::Unlimited));
-        assert!(Jerk::parse("fast").is_err());
+        assert_eq!("0".parse(), Ok(Jerk::Unlimited));
+        assert!("fast".parse::<Jerk>().is_err());
     }
 }

@@ -34,6 +34,7 @@ pub use error::PlanError;
 use crate::arguments::{file_name, period, positive};
 use crate::layer::LayerSettings;
 use crate::layer::stream::LayerStream;
+use crate::machine::limits::{Jerk, LimitChanges};
 use crate::output::{OutputFile, named_twice};
 use arrivals::Arrivals;
 use collector::Collector;
@@ -63,11 +64,11 @@ pub struct PlanArguments {
     /// Limits of the axes in place of those of the machine, mm (degrees) and seconds: V=100,A=1000
     /// for all, XY:V=50 for some, several separated by `;`
     #[arg(long, value_name = "LIMITS")]
-    pub limits: Option<String>,
+    pub limits: Option<LimitChanges>,
     /// Jerk limits in place of those of the machine: `unlimited`, a number (mm/s3), or a number of
     /// accelerations per second (20A)
     #[arg(long, value_name = "JERK")]
-    pub jerk: Option<String>,
+    pub jerk: Option<Jerk>,
     /// Greatest velocity along the path, mm/s, in place of [TRAJ]MAX_LINEAR_VELOCITY
     #[arg(long, value_name = "V", value_parser = positive)]
     pub velocity_limit: Option<f64>,

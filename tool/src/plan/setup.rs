@@ -52,16 +52,13 @@ impl Setup {
             None => without_ini(),
         };
         let mut changed = Vec::new();
-        if let Some(text) = &arguments.limits {
-            let apply = setup.limits.apply(text);
-            apply.map_err(|problem| PlanError::Option(format!("--limits: {problem}")))?;
-            changed.push(format!("--limits {text}"));
+        if let Some(limits) = &arguments.limits {
+            setup.limits.apply(limits);
+            changed.push(format!("--limits {limits}"));
         }
-        if let Some(text) = &arguments.jerk {
-            let jerk = Jerk::parse(text);
-            let jerk = jerk.map_err(|problem| PlanError::Option(format!("--jerk: {problem}")))?;
+        if let Some(jerk) = arguments.jerk {
             setup.jerk = jerk.of_axes(&setup.limits).map(infinite_for_none);
-            changed.push(format!("--jerk {text}"));
+            changed.push(format!("--jerk {jerk}"));
         } else if setup.ini.is_none() {
             let jerk = Jerk::Accelerations(DEFAULT_JERK).of_axes(&setup.limits);
             setup.jerk = jerk.map(infinite_for_none);

@@ -62,7 +62,7 @@ pub fn begin(lines: &mut Lines, block: &Block, sources: &Sources) -> bool {
     let mut remark = String::new();
     for text in [frame, comment].into_iter().flatten() {
         remark.push_str(": ");
-        remark.push_str(&text);
+        remark.push_str(text);
     }
     lines.begin_block(origin.number, origin.line, &remark);
     true
