@@ -36,6 +36,7 @@ help:
 	@echo 'make fuzz       any calls of the C interface of both modules, ten minutes each (FUZZ_SECONDS); make fuzz-filter: of the filter'
 	@echo 'make mutants    faults drawn at random, put into the core: how many the Rust tests catch (MUTANTS=120, SEED=); an hour'
 	@echo 'make deny       licences, known faults and sources of the crates that are used (cargo-deny)'
+	@echo 'make ruff       the style of the Python'
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
@@ -70,7 +71,12 @@ lint:
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
 	$(WITHOUT_LINUXCNC) $(CARGO) clippy --locked -p framepath-tool --no-default-features --all-targets -- -D warnings
+	mypy
 	! $(CARGO) tree --locked -p framepath-tool --no-default-features --edges normal,build | grep -E 'bindgen|clang|clarabel'
+
+# The style of the Python, pyproject.toml. Wants ruff, which Debian 12 does not have: pip install ruff.
+ruff:
+	ruff check .
 
 # Licences, known faults and sources of all dependencies: deny.toml. Wants the network and cargo-deny:
 # cargo install cargo-deny --locked.
@@ -211,5 +217,5 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint deny test linuxcnc-test sanitize contract faults short soak bench \
+.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults short soak bench \
     fuzz fuzz-filter mutants compare figures book header install uninstall clean

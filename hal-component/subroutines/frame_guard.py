@@ -92,9 +92,9 @@ class Look:
         self.non_modal = status.gcodes[2]
         self.motion_type = status.motion_type
         self.tool_offset = tuple(status.tool_offset[:3])
-        # G92 turns with the work offset; the same sum as in frame_send.ngc
+        # G92 turns with the work offset; the same sum as in frame_send.ngc, of X Y Z
         turned = turn(status.rotation_xy, status.g92_offset)
-        self.work_offset = (*(a + b for a, b in zip(status.g5x_offset, turned)), status.rotation_xy)
+        self.work_offset = (*(a + b for a, b in zip(status.g5x_offset[:3], turned, strict=True)), status.rotation_xy)
         self.active = pins["active"]
         self.command = pins["command"]
         self.acknowledged = pins["acknowledged"]

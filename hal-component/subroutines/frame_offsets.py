@@ -33,10 +33,10 @@ class Offsets:
         """G10 that makes it so, in the units in which MDI is now."""
         unit = units_per_mm * UNITS.get(status.program_units, 1.0)
         words = [f"{letter}{value if letter in ANGLES else value / unit:.9f}"
-                 for axis, (letter, value) in enumerate(zip(AXES, self.g5x)) if status.axis_mask >> axis & 1]
+                 for axis, (letter, value) in enumerate(zip(AXES, self.g5x, strict=True)) if status.axis_mask >> axis & 1]
         return f"G10 L2 P{self.index} {' '.join(words)} R{self.rotation:.9f}"
 
 
 def differ(one, other):
     """Whether two lists of offsets are not equal."""
-    return any(abs(a - b) > SAME for a, b in zip(one, other))
+    return any(abs(a - b) > SAME for a, b in zip(one, other, strict=True))

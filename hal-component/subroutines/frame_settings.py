@@ -30,8 +30,8 @@ class IniFile:
         self.entries = []
         section, joined, begun = None, "", 0
         with open(path, encoding="utf-8", errors="replace") as file:
-            for number, line in enumerate(file, 1):
-                line = line.rstrip("\r\n")
+            for number, ended in enumerate(file, 1):
+                line = ended.rstrip("\r\n")
                 begun = begun if joined else number
                 if line.endswith("\\"):
                     joined += line[:-1]
@@ -108,6 +108,9 @@ class Settings:
     -1 if there is none.
     """
 
+    #: one of the keys, which are set by their names; a type checker learns of it here
+    clear_on_abort: bool
+
     def __init__(self, path):
         """Reads a file. Raises SettingsError, or OSError if it cannot be read."""
         ini = IniFile(path)
@@ -178,8 +181,8 @@ def _check_coordinates(ini):
     axes, _ = ini.find("TRAJ", "COORDINATES")
     missing = set("".join((axes or "").upper().split())) - set(letters)
     if missing:
-        raise SettingsError(f"{place}: [TRAJ]COORDINATES has an axis {sorted(missing)[0]} that moves no joint: write a letter for "
-                            "each axis")
+        raise SettingsError(f"{place}: [TRAJ]COORDINATES has an axis {sorted(missing)[0]} that moves no joint: "
+                            "write a letter for each axis")
 
 
 def _task_cycle(ini):

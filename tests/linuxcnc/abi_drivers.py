@@ -13,7 +13,8 @@ STUBS = os.path.join(harness.ROOT, "tool", "src", "host", "stubs.c")
 FLAGS = ["-g", "-O1", "-Wall", "-Wextra", "-Werror", "-DRTAPI", "-DUSPACE", "-D__MODULE__", "-D_GNU_SOURCE",
          "-DHOST_KEEPS_HEAP", "-isystem", HEADERS, "-I", os.path.join(harness.ROOT, "include"), "-I", DRIVERS]
 #: the driver of each module, and what it is compiled with
-MODULES = {"blendtp": ("drive_planner.c", []), "framekins": ("drive_kinematics.c", ["-DHOST_WITHOUT_KINEMATICS"])}
+MODULES: dict[str, tuple[str, list[str]]] = {
+    "blendtp": ("drive_planner.c", []), "framekins": ("drive_kinematics.c", ["-DHOST_WITHOUT_KINEMATICS"])}
 
 
 def _cc(name, output, *arguments):

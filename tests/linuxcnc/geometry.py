@@ -9,13 +9,13 @@ class Line:
 
     def nearest(self, point):
         """(distance of the point from the line, place on it from 0 to 1)"""
-        direction = [e - s for s, e in zip(self.start, self.end)]
+        direction = [e - s for s, e in zip(self.start, self.end, strict=True)]
         length = sum(d * d for d in direction)
         if length == 0:
             return math.dist(point, self.start), 1.0
-        t = sum((p - s) * d for p, s, d in zip(point, self.start, direction)) / length
+        t = sum((p - s) * d for p, s, d in zip(point, self.start, direction, strict=True)) / length
         t = min(1.0, max(0.0, t))
-        return math.dist(point, [s + t * d for s, d in zip(self.start, direction)]), t
+        return math.dist(point, [s + t * d for s, d in zip(self.start, direction, strict=True)]), t
 
 
 class Arc:
@@ -27,17 +27,16 @@ class Arc:
 
     def at(self, t):
         a = self.sweep * t
-        return [c + math.cos(a) * u + math.sin(a) * v for c, u, v in zip(self.centre, self.u, self.v)]
+        return [c + math.cos(a) * u + math.sin(a) * v for c, u, v in zip(self.centre, self.u, self.v, strict=True)]
 
     def nearest(self, point):
-        relative = [p - c for p, c in zip(point, self.centre)]
-        x = sum(r * u for r, u in zip(relative, self.u))
-        y = sum(r * v for r, v in zip(relative, self.v))
+        relative = [p - c for p, c in zip(point, self.centre, strict=True)]
+        x = sum(r * u for r, u in zip(relative, self.u, strict=True))
+        y = sum(r * v for r, v in zip(relative, self.v, strict=True))
         angle = math.atan2(y, x) % (2 * math.pi)
-        if angle > self.sweep:  # beyond an end: the nearer one
-            t = 1.0 if angle - self.sweep < 2 * math.pi - angle else 0.0
-        else:
-            t = angle / self.sweep
+        beyond = angle - self.sweep
+        # beyond an end: the nearer one
+        t = angle / self.sweep if beyond <= 0 else float(beyond < 2 * math.pi - angle)
         return math.dist(point, self.at(t)), t
 
 
@@ -57,7 +56,7 @@ class Frame:
         return [sum(v[k] * self.axes[k][i] for k in range(3)) for i in range(3)]
 
     def point(self, p):
-        return [o + d for o, d in zip(self.origin, self.vector(p))]
+        return [o + d for o, d in zip(self.origin, self.vector(p), strict=True)]
 
     def line(self, start, end):
         return Line(self.point(start), self.point(end))
@@ -85,7 +84,7 @@ def follow(points, shapes, corner=5e-6):
     nearest_end = math.inf
     for point in points:
         while n + 1 < len(shapes):
-            here, t = shapes[n].nearest(point)
+            here, _ = shapes[n].nearest(point)
             nearest_end = min(nearest_end, math.dist(point, shapes[n].end))
             there, _ = shapes[n + 1].nearest(point)
             # on to the next shape when this one has been run to its end and the point lies better on the next

@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """Runs a scenario in a real, headless LinuxCNC with our modules, and records every joint in every servo cycle.
 
 The configuration is the sample that users get (hal-component/configs/framepath-sim), with our driver in place of the
@@ -63,7 +64,7 @@ class Result:
             ratio.append(1 / divisor)
             value.append((6 * position - value[-1]) / divisor)
         result = [recorded[-1]]
-        for r, v in zip(reversed(ratio), reversed(value)):
+        for r, v in zip(reversed(ratio), reversed(value), strict=True):
             result.append(v - r * result[-1])
         return result[::-1]
 
@@ -222,7 +223,8 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
 
 def read_recording(path, ini_text, positions):
     """Rows of numbers in the order of Recorder.header: time in s, the integers, the positions in machine units."""
-    period = int(re.search(r"^SERVO_PERIOD\s*=\s*(\d+)", ini_text, re.MULTILINE).group(1)) * 1e-9
+    periods = re.findall(r"^SERVO_PERIOD\s*=\s*(\d+)", ini_text, re.MULTILINE)
+    period = int(periods[0]) * 1e-9
     rows, first = [], None
     with open(path, encoding="utf-8") as file:
         for line in file:

@@ -1,6 +1,7 @@
 """Loads kinematics modules into this process, without HAL and LinuxCNC, to call them many times a second."""
 
 import ctypes
+import functools
 import os
 import shutil
 import subprocess
@@ -11,23 +12,18 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 Pose = ctypes.c_double * 9
 Joints = ctypes.c_double * 16
 
-_host = None
-_folder = None
 
-
+@functools.cache
 def host():
-    """The stand-in for HAL, compiled once."""
-    global _host, _folder
-    if _host is None:
-        _folder = tempfile.TemporaryDirectory(prefix="framepath-host.")
-        library = os.path.join(_folder.name, "host.so")
-        subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", library, os.path.join(HERE, "kinematics_host.c")],
-                       check=True)
-        _host = ctypes.CDLL(library, mode=ctypes.RTLD_GLOBAL)
-        _host.host_find.restype = ctypes.c_void_p
-        _host.host_find.argtypes = [ctypes.c_char_p]
-        _host.host_messages.restype = ctypes.c_char_p
-    return _host
+    """The stand-in for HAL, compiled once, and a folder that stays as long."""
+    folder = tempfile.TemporaryDirectory(prefix="framepath-host.")
+    library = os.path.join(folder.name, "host.so")
+    subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", library, os.path.join(HERE, "kinematics_host.c")], check=True)
+    found = ctypes.CDLL(library, mode=ctypes.RTLD_GLOBAL)
+    found.host_find.restype = ctypes.c_void_p
+    found.host_find.argtypes = [ctypes.c_char_p]
+    found.host_messages.restype = ctypes.c_char_p
+    return found, folder
 
 
 class Module:
@@ -37,18 +33,19 @@ class Module:
         """What the module printed."""
 
     def __init__(self, path, prefix, **parameters):
-        self.host = host()
+        self.host, folder = host()
         self.prefix = prefix
         self.host.host_forget()
         # a copy of its own has variables of its own
-        copy = tempfile.NamedTemporaryFile(suffix=".so", dir=_folder.name, delete=False).name
+        handle, copy = tempfile.mkstemp(suffix=".so", dir=folder.name)
+        os.close(handle)
         shutil.copy(path, copy)
         self.library = ctypes.CDLL(copy, mode=ctypes.RTLD_LOCAL)
         # the module keeps the addresses of the texts
         self.texts = {name: ctypes.create_string_buffer(value.encode()) for name, value in parameters.items()}
         for name, text in self.texts.items():
-            address = ctypes.c_void_p.in_dll(self.library, f"rtapi_info_address_{name}").value
-            ctypes.c_void_p.from_address(address).value = ctypes.addressof(text)
+            pointer = ctypes.POINTER(ctypes.c_void_p).in_dll(self.library, f"rtapi_info_address_{name}")
+            pointer.contents.value = ctypes.addressof(text)
         if self.library.rtapi_app_main() != 0:
             raise Module.LoadError(self.host.host_messages().decode())
         self.pins = {}

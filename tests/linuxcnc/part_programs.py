@@ -21,7 +21,8 @@ class Path:
     """
 
     def __init__(self):
-        self.shapes, self.frame, self.local = [], Frame(), (0.0, 0.0, 0.0)
+        self.shapes, self.frame = [], Frame()
+        self.local: tuple[float, ...] = (0.0, 0.0, 0.0)
         self.end = [0.0, 0.0, 0.0]
 
     def under(self, frame):
@@ -128,6 +129,8 @@ SIGNAL, SIGNAL_PIN = 15, "motion.analog-out-15"
 def with_signal(program, number):
     """The program with an output that is set when all its motion is over."""
     found = re.search(r"^([^(;\n]*)\b(M2|M30)\b(.*)$", program, re.MULTILINE)
+    if not found:
+        raise AssertionError(f"the program has no end: {program[-500:]}")
     before, end, comment = found.groups()
     return f"{program[:found.start()]}{before}{comment}\nM68 E{SIGNAL} Q{number}\n{end}\n"
 
@@ -171,9 +174,9 @@ def run(programs, sample, ini=None, hal="", letters="xyz"):
                          integers={"part": ""})
     if result.failure or result.errors:
         raise AssertionError(f"{result.failure} {result.errors}\n{result.log}")
-    places = list(zip(*(result.commanded(joint) for joint in range(joints))))
+    places = list(zip(*(result.commanded(joint) for joint in range(joints)), strict=True))
     parts = result.column("part")
-    return [[place for place, part in zip(places, parts) if part == number + 1] for number in range(len(programs))]
+    return [[place for place, part in zip(places, parts, strict=True) if part == number + 1] for number in range(len(programs))]
 
 
 @dataclass
@@ -197,7 +200,7 @@ class Deviations:
             shape_0, t_0, before = other.beside[n]
             shape_1, t_1, after = other.beside[min(n + 1, len(other.beside) - 1)]
             share = (t - t_0) / (t_1 - t_0) if shape_0 == shape_1 == shape and t_1 > t_0 else 0.0
-            there = [b + share * (a - b) for b, a in zip(before, after)]
+            there = [b + share * (a - b) for b, a in zip(before, after, strict=True)]
             greatest = max(greatest, math.dist(vector, there))
         return greatest
 
@@ -205,7 +208,7 @@ class Deviations:
 def place(shape, t):
     if isinstance(shape, Arc):
         return shape.at(t)
-    return [s + t * (e - s) for s, e in zip(shape.start, shape.end)]
+    return [s + t * (e - s) for s, e in zip(shape.start, shape.end, strict=True)]
 
 
 def deviations(points, shapes, corner=5e-6):
@@ -224,7 +227,7 @@ def deviations(points, shapes, corner=5e-6):
             missed, nearest_end = max(missed, nearest_end), math.inf
             n += 1
         t = shapes[n].nearest(point)[1]
-        beside.append((n, t, [p - s for p, s in zip(point, place(shapes[n], t))]))
+        beside.append((n, t, [p - s for p, s in zip(point, place(shapes[n], t), strict=True)]))
     if n + 1 < len(shapes):
         raise AssertionError(f"the joints do not come behind shape {n} of {len(shapes)}, which ends at {shapes[n].end}")
     return Deviations(beside, max(missed, math.dist(points[-1], shapes[-1].end)))

@@ -56,13 +56,15 @@ class ShortProgram:
         self.source, self.axes = source, axes
         self.place = dict.fromkeys(axes, 0.0)
         self.incremental = self.inch = False
-        self.lines, self.moves = [], []
+        self.lines: list[str] = []
+        self.moves: list[tuple] = []
         self.add(HEAD)
         self.add(self.mode())
         self.set_feed()
         parts = {self.line: 10, self.rapid: 3, self.arc: 4, self.rotary: 1.5, self.set_feed: 5, self.zigzag: 1, self.dense: 0.7,
                  lambda: self.add(self.mode()): 1.5, lambda: self.add(f"G4 P{source.choice((0, 0.01, 0.1))}"): 0.7,
-                 lambda: self.add(source.choice(("M62 P0", "M63 P0", "M67 E0 Q1.5"))): 0.7, self.distances: 0.6, self.units: 0.4}
+                 lambda: self.add(source.choice(("M62 P0", "M63 P0", "M67 E0 Q1.5"))): 0.7,
+                 self.distances: 0.6, self.units: 0.4}
         # the very first move is what a planner has nothing before: more often than others it is tiny
         self.line(SHORTEST, log_uniform(source, 10 * SHORTEST, 10) if source.random() < 0.5 else LONGEST)
         for _ in range(source.randrange(1, 12)):
@@ -81,7 +83,8 @@ class ShortProgram:
         tolerance = log_uniform(self.source, 1e-4, 2)
         unit = MM_PER_INCH if self.inch else 1.0
         return self.source.choice(("G61", "G61.1", "G64", f"G64 P{tolerance / unit:.7f}", f"G64 P{tolerance / unit:.7f}",
-                                   f"G64 P{tolerance / unit:.7f} Q{tolerance / 2 / unit:.7f}", f"G64 P{tolerance / unit:.7f} Q0"))
+                                   f"G64 P{tolerance / unit:.7f} Q{tolerance / 2 / unit:.7f}",
+                                   f"G64 P{tolerance / unit:.7f} Q0"))
 
     def set_feed(self):
         self.feed = log_uniform(self.source, SLOWEST, FASTEST)
@@ -114,7 +117,7 @@ class ShortProgram:
     def to(self, code, axes, length):
         direction = [self.source.gauss(0, 1) for _ in axes]
         size = math.hypot(*direction) or 1.0
-        words = [self.word(axis, self.place[axis] + length * d / size) for axis, d in zip(axes, direction)]
+        words = [self.word(axis, self.place[axis] + length * d / size) for axis, d in zip(axes, direction, strict=True)]
         # F is that of X Y Z where one of them moves, however little: rotary axes take their time
         self.move(f"{code} {' '.join(words)}", None if code == "G0" or set(axes) & set("ABC") else self.feed)
 
@@ -216,7 +219,7 @@ def planned(part, jerk, options=()):
 
 def bulk(seeds, jerks=JERKS, options=()):
     """{jerk: {kind: [seeds]}} of programs, planned side by side; findings are printed as they come."""
-    found = {jerk: collections.defaultdict(list) for jerk in jerks}
+    found: dict = {jerk: collections.defaultdict(list) for jerk in jerks}
 
     def one(seed):
         part = program(seed)

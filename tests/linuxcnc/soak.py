@@ -38,7 +38,8 @@ def one_round(seed, seconds, planner, keep=None):
     if not failure and not (number and any(peaks.share)):
         failure = f"nothing was shown: {number} programs, {len(result.rows)} servo periods recorded"
     if planner == "blendtp" and not failure:
-        for found in (peaks, reverse):
+        checks: tuple[Peaks | Reverse, ...] = (peaks, reverse)
+        for found in checks:
             if not failure and found.failure():
                 failure, number = found.failure(), found.program
         failure = failure or (said[0] if said else None)
@@ -66,10 +67,11 @@ def soak(seconds, seed, planner="blendtp", keep=None):
         failure, answers, peaks, reverse = one_round(seed + rounds, length, planner, keep)
         for key in total:
             total[key] += answers.get(key, 0)
-        greatest = [max(a, b) for a, b in zip(greatest, peaks.share)]
+        greatest = [max(a, b) for a, b in zip(greatest, peaks.share, strict=True)]
         off, way_back = max(off, reverse.off), way_back + reverse.length
         if failure:
-            print(f"seed {seed + rounds}: {failure}\nonce more: {sys.argv[0]} --seed {seed + rounds} --seconds {ROUND}", flush=True)
+            print(f"seed {seed + rounds}: {failure}\n"
+                  f"once more: {sys.argv[0]} --seed {seed + rounds} --seconds {ROUND}", flush=True)
             return False
         rounds += 1
         print(f"seed {seed + rounds - 1}: {total['programs']} programs, {total['completed']} run to their end, "

@@ -105,7 +105,7 @@ def main():
             refused += 1
         else:
             made += 1
-        worst = max(worst, *(abs(a - b) for a, b in zip(switcher.positions(), switcher.start)))
+        worst = max(worst, *(abs(a - b) for a, b in zip(switcher.positions(), switcher.start, strict=True)))
     if switcher.table:
         switcher.set("tool-centre-point", 0)
     if switcher.send(9, [0, 0, 0]) != 0:

@@ -8,6 +8,7 @@ import math
 import os
 import re
 import tempfile
+from itertools import pairwise
 
 import harness
 
@@ -40,7 +41,7 @@ def program(*lines):
 
 
 def lines(points):
-    return ["G1 " + " ".join(f"{axis.upper()}{place:.6f}" for axis, place in zip(AXES, point)) for point in points]
+    return ["G1 " + " ".join(f"{axis.upper()}{place:.6f}" for axis, place in zip(AXES, point, strict=True)) for point in points]
 
 
 def curve(count, step):
@@ -96,7 +97,7 @@ class Recording:
     def longest_wait(self):
         """The longest time between two moves, cycles."""
         arrivals = [n for n in range(1, len(self.supply)) if self.supply[n][0] != self.supply[n - 1][0]]
-        return max((b - a for a, b in zip([0, *arrivals], arrivals)), default=0)
+        return max((b - a for a, b in pairwise([0, *arrivals])), default=0)
 
 
 def record(names, programs=None, axes=AXES, **machine):

@@ -6,8 +6,8 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "contract"))
 
-import table  # noqa: E402
-from row import all_rows  # noqa: E402
+import table
+from row import all_rows
 
 
 class Contract(unittest.TestCase):

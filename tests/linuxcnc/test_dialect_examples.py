@@ -40,7 +40,7 @@ def nine_axes():
 class Examples(unittest.TestCase):
     """Those of one control."""
 
-    dialect = None
+    dialect: str
 
     def joints(self, backend, axes):
         """{name of an example: how its joints lie beside its path} on the machine with these axes."""
@@ -50,7 +50,7 @@ class Examples(unittest.TestCase):
                     for example in examples]
         ini, hal = nine_axes() if axes == LETTERS else ({}, "")
         beside = {}
-        for example, joints in zip(examples, run(programs, sample, ini, hal, axes) if programs else []):
+        for example, joints in zip(examples, run(programs, sample, ini, hal, axes) if programs else [], strict=True):
             with self.subTest(example.name, backend=backend):
                 found = beside[example.name] = deviations(joints, example.shapes)
                 self.assertLess(found.worst(), NEAR)
@@ -89,7 +89,8 @@ def of(dialect):
     axes = sorted({example.axes for example in TABLES[dialect][0].EXAMPLES})
     joints = {f"test_joints_of_{len(letters)}_axes": lambda self, letters=letters: self.run_table(letters) for letters in axes}
     return type(dialect.capitalize(), (Examples,), {
-        "__module__": __name__, "dialect": dialect, "test_refused": Examples.refuse, "test_read_again": Examples.understood, **joints})
+        "__module__": __name__, "dialect": dialect, "test_refused": Examples.refuse,
+        "test_read_again": Examples.understood, **joints})
 
 
 Sinumerik, Fagor, Mefi, Isg, Fanuc = map(of, TABLES)
@@ -101,7 +102,7 @@ class Own(unittest.TestCase):
     def test_linuxcnc(self):
         examples = linuxcnc.EXAMPLES
         paths = run([quick(example.program) for example in examples], "framepath-sim")
-        for example, joints in zip(examples, paths):
+        for example, joints in zip(examples, paths, strict=True):
             with self.subTest(example.name):
                 if example.tolerance:
                     nearest = [min(shape.nearest(point)[0] for shape in example.shapes) for point in joints]

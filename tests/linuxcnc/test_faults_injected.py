@@ -3,6 +3,7 @@
 import math
 import os
 import unittest
+from itertools import pairwise
 
 import harness
 
@@ -42,6 +43,9 @@ OFF_THE_PATH = 0.02
 
 
 class FaultsInjected(unittest.TestCase):
+    periods: list[int]
+    result: harness.Result
+
     @classmethod
     def setUpClass(cls):
         cls.periods = list(range(1, ENOUGH, EVERY))
@@ -57,8 +61,8 @@ class FaultsInjected(unittest.TestCase):
 
     def runs(self):
         """(period of the fault, rows of its program) for each run, the one without a fault first."""
-        result, runs = self.result, {}
-        columns = result.columns("period", "injected", "joint.0", "joint.1", "joint.2")
+        runs: dict[int, list] = {}
+        columns = self.result.columns("period", "injected", "joint.0", "joint.1", "joint.2")
         for period, injected, *joints in columns:
             runs.setdefault(period, []).append((injected, joints))
         return runs
@@ -84,11 +88,11 @@ class FaultsInjected(unittest.TestCase):
                 self.assertTrue(any("fault of blendtp" in error for error in errors), errors)
                 self.assertEqual(answers[f"end {period}"]["interp_state"], 1)
                 behind = [joints for fault, joints in rows if fault]
-                travelled = sum(math.dist(a, b) for a, b in zip(behind, behind[1:]))
+                travelled = sum(math.dist(a, b) for a, b in pairwise(behind))
                 self.assertLess(travelled, GREATEST_STOP)
                 for joints in behind:
                     self.assertLess(min(math.dist(joints, place) for place in self.near(way, joints)), OFF_THE_PATH)
-                for before, after in zip(behind[-20:], behind[-19:]):
+                for before, after in pairwise(behind[-20:]):
                     self.assertEqual(before, after)
         self.assertGreater(injected, PERIODS // EVERY)
 
@@ -102,7 +106,7 @@ class FaultsInjected(unittest.TestCase):
                 p = [place[joint] for place in places]
                 # what the recorder's last digit does to the second difference
                 rounding = 4e-6 / period ** 2
-                worst = max(abs(a - 2 * b + c) / period ** 2 for a, b, c in zip(p, p[1:], p[2:]))
+                worst = max(abs(a - 2 * b + c) / period ** 2 for a, b, c in zip(p, p[1:], p[2:], strict=False))
                 self.assertLess(worst, 1001 + rounding, f"acceleration with a fault in period {number}")
 
     def way_without_fault(self):
@@ -119,13 +123,13 @@ class FaultsInjected(unittest.TestCase):
     @staticmethod
     def near(way, place):
         """Points of the way, and of the lines between them near the place."""
-        for a, b in zip(way, way[1:]):
+        for a, b in pairwise(way):
             if math.dist(a, place) > 1.0:
                 continue
             length = math.dist(a, b)
-            share = 0.0 if length == 0 else sum((p - x) * (y - x) for p, x, y in zip(place, a, b)) / length ** 2
+            share = 0.0 if length == 0 else sum((p - x) * (y - x) for p, x, y in zip(place, a, b, strict=True)) / length ** 2
             share = min(1.0, max(0.0, share))
-            yield [x + share * (y - x) for x, y in zip(a, b)]
+            yield [x + share * (y - x) for x, y in zip(a, b, strict=True)]
         yield [math.inf] * 3
 
 

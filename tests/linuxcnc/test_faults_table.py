@@ -6,12 +6,13 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "faults"))
 
-import fault_table  # noqa: E402
-from fault import all_rows  # noqa: E402
+import fault_table
+from fault import all_rows
 
-ROWS = ("TaskStopped", "TaskKilled", "GuiKilled", "GuardKilled", "GuardStopped", "Aborts", "FramedAborts", "RotaryAborts", "MachineOff",
-        "Refused_AXIS_X_MAX_VELOCITY_0", "Refused_TRAJ_MAX_LINEAR_VELOCITY_0", "Refused_EMCMOT_SERVO_PERIOD_1000000000",
-        "Refused_KINS_KINEMATICS_framekins_coordinates_XY", "Harmless_AXIS_X_MAX_JERK_1e9", "Period_0_25", "Period_5", "Reloaded",
+ROWS = ("TaskStopped", "TaskKilled", "GuiKilled", "GuardKilled", "GuardStopped", "Aborts", "FramedAborts", "RotaryAborts",
+        "MachineOff", "Refused_AXIS_X_MAX_VELOCITY_0", "Refused_TRAJ_MAX_LINEAR_VELOCITY_0",
+        "Refused_EMCMOT_SERVO_PERIOD_1000000000", "Refused_KINS_KINEMATICS_framekins_coordinates_XY",
+        "Harmless_AXIS_X_MAX_JERK_1e9", "Period_0_25", "Period_5", "Reloaded",
         "FullFilter", "FullPlan", "FullPlanCsv", "FullReport")
 
 

@@ -6,7 +6,7 @@ import harness
 
 #: A quick machine, so that many small moves take little time.
 QUICK = {}
-for _letter, _joint in zip("XYZ", "012"):
+for _letter, _joint in zip("XYZ", "012", strict=True):
     for _section in (f"AXIS_{_letter}", f"JOINT_{_joint}"):
         QUICK[(_section, "MAX_VELOCITY")] = "500"
         QUICK[(_section, "MAX_ACCELERATION")] = "20000"
@@ -77,7 +77,7 @@ class Positions(unittest.TestCase):
         found = said(result)
         for number, joints in expected.items():
             self.assertIn(number, found, result.messages)
-            for got, wanted in zip(found[number], joints):
+            for got, wanted in zip(found[number], joints, strict=True):
                 self.assertAlmostEqual(got, wanted, places=places, msg=f"{number}: {found[number]} {joints}")
 
     def test_the_frames_of_the_manual_in_a_program(self):
@@ -98,9 +98,9 @@ class Positions(unittest.TestCase):
         self.assertIsNone(result.failure, result.log)
         self.assertEqual(result.errors, [], result.log)
         for number in chosen:
-            joints = result.answers[str(number)]["joints"]
-            for got, wanted in zip(joints, CASES[number][2]):
-                self.assertAlmostEqual(got, wanted, places=5, msg=f"{number}: {joints[:3]}")
+            joints = result.answers[str(number)]["joints"][:3]
+            for got, wanted in zip(joints, CASES[number][2], strict=True):
+                self.assertAlmostEqual(got, wanted, places=5, msg=f"{number}: {joints}")
 
     def test_offsets_units_loops_and_read_ahead(self):
         lines = [SAY, """\
@@ -223,7 +223,8 @@ M2
         outputs = range(3, 3 + len(pins))
         hal = "".join(f"unlinkp framekins.{pin}\n" for pin in pins)
         hal += "".join(f"unlinkp motion.analog-out-{n:02}\n" for n in range(max(outputs) + 1))
-        hal += "".join(f"net test-{n} motion.analog-out-{n:02} => framekins.{pin}\n" for n, pin in zip(outputs, pins))
+        hal += "".join(f"net test-{n} motion.analog-out-{n:02} => framekins.{pin}\n"
+                       for n, pin in zip(outputs, pins, strict=True))
         lines = [SAY, "G21 G61.1 G17 G90 G94 F30000", "o<rots_xy> call [30] [20]", "G0 X10 Y0 Z0", "o<say> call [1]",
                  "M2", ""]
         result = harness.run([["run", "PROGRAMS/part.ngc"]], {"part.ngc": "\n".join(lines)}, hal=hal,
@@ -256,7 +257,7 @@ class WrongUse(unittest.TestCase):
             ("G77.1 X1 P5", "G77.1 takes X, Y and Z only"),
             ("G77 X5", "G77 takes no words"),
         ]
-        steps = [["mdi", "G21 G61.1 G17 G90"]]
+        steps: list[list] = [["mdi", "G21 G61.1 G17 G90"]]
         for number, (line, _) in enumerate(wrong):
             steps += [["forget"], ["mdi", line], ["sleep", 0.05], ["recall", str(number)]]
         # with cutter compensation on, nothing may change

@@ -6,6 +6,7 @@ Q0 keeps LinuxCNC's interpreter side from merging moves before the planner sees 
 import math
 import random
 import unittest
+from itertools import pairwise
 
 import harness
 from contract.row import MICROMETRE, PERIOD, difference, to_segment
@@ -17,7 +18,7 @@ def program(mode, *lines):
 
 
 def moves(points):
-    return ["G1 " + " ".join(f"{axis.upper()}{place:.6f}" for axis, place in zip(AXES, point)) for point in points]
+    return ["G1 " + " ".join(f"{axis.upper()}{place:.6f}" for axis, place in zip(AXES, point, strict=True)) for point in points]
 
 
 def zigzag(legs, width=10.0, height=20.0):
@@ -38,7 +39,7 @@ def deviations(executed, vertices):
         if to_segment(point, vertices[near], vertices[near + 1]) < here:
             n = near
         away = max(away, to_segment(point, vertices[n], vertices[n + 1]))
-    missed = max(min(to_segment(vertex, a, b) for a, b in zip(executed, executed[1:])) for vertex in vertices)
+    missed = max(min(to_segment(vertex, a, b) for a, b in pairwise(executed)) for vertex in vertices)
     return away, missed
 
 
@@ -51,8 +52,8 @@ class LookAhead(Case):
 
     def rests(self, points):
         """How many times the machine comes to rest on the way."""
-        still = [a == b for a, b in zip(points, points[1:])]
-        return sum(1 for before, now in zip(still, still[1:]) if now and not before)
+        still = [a == b for a, b in pairwise(points)]
+        return sum(1 for before, now in pairwise(still) if now and not before)
 
     def follows(self, points, vertices, tolerance):
         away, missed = deviations(points, vertices)
@@ -84,11 +85,11 @@ class Modes(LookAhead):
                                        ("G64 P0.5", 0.5, 0)):
             points = self.run_mode(mode, corners)
             times[mode] = len(points) * PERIOD
-            away, missed = self.follows(points, vertices, tolerance)
+            _, missed = self.follows(points, vertices, tolerance)
             if rests:
                 # the periods may fall so that none has both its ends at a rest
-                speeds = [math.dist(a, b) / PERIOD for a, b in zip(points, points[1:])]
-                slow = sum(1 for a, b, c in zip(speeds, speeds[1:], speeds[2:]) if b < 2 and b <= a and b <= c)
+                speeds = [math.dist(a, b) / PERIOD for a, b in pairwise(points)]
+                slow = sum(1 for a, b, c in zip(speeds, speeds[1:], speeds[2:], strict=False) if b < 2 and b <= a and b <= c)
                 self.assertGreaterEqual(slow, rests, mode)
             else:
                 self.assertEqual(self.rests(points), 0, mode)
@@ -102,7 +103,7 @@ class Modes(LookAhead):
         points = self.run_mode("G64", corners)
         self.assertEqual(self.rests(points), 0)
         vertices = [(0.0, 0.0, 0.0), *corners]
-        for start, end in zip(vertices, vertices[1:]):
+        for start, end in pairwise(vertices):
             nearest = min(to_segment(point, start, end) for point in points)
             self.assertLess(nearest, MICROMETRE)
 
@@ -114,10 +115,7 @@ class Modes(LookAhead):
         points = self.motion(result)
         self.assertEqual(self.rests(points), 0)
         for x, y, _ in points:
-            if x <= 40:
-                away = min(abs(y), abs(y - 20))
-            else:
-                away = abs(math.hypot(x - 40, y - 10) - 10)
+            away = min(abs(y), abs(y - 20)) if x <= 40 else abs(math.hypot(x - 40, y - 10) - 10)
             self.assertLess(away, 1.5 * MICROMETRE)
 
     def test_dense_code_keeps_its_speed(self):
@@ -129,7 +127,7 @@ class Modes(LookAhead):
         executed = self.run_mode("G64 P0.01 Q0", points)
         self.assertEqual(self.rests(executed), 0)
         self.follows(executed, [(0.0, 0.0, 0.0), *points], 0.01)
-        length = sum(math.dist(a, b) for a, b in zip(points, points[1:]))
+        length = sum(math.dist(a, b) for a, b in pairwise(points))
         self.assertLess(len(executed) * PERIOD, length / 100.0 + 0.5)
 
     def test_a_random_program(self):
@@ -139,7 +137,7 @@ class Modes(LookAhead):
             length = math.exp(source.uniform(math.log(0.01), math.log(15)))
             place = [max(-90.0, min(90.0, p + length * source.uniform(-1, 1))) for p in place]
             points.append(tuple(round(p, 4) for p in place))
-        points = [p for p, q in zip(points, [None, *points]) if p != q]
+        points = [p for p, q in zip(points, [None, *points], strict=False) if p != q]
         executed = self.run_mode("G64 P0.03 Q0", points)
         self.assertEqual(self.rests(executed), 0)
         self.follows(executed, [(0.0, 0.0, 0.0), *points], 0.03)
@@ -198,7 +196,7 @@ class InsideBlends(LookAhead):
 class Operator(LookAhead):
     def test_pause_override_and_resume_stay_on_the_path(self):
         corners = zigzag(30)
-        steps = [["start", "PROGRAMS/part.ngc"], ["wait_moving"]]
+        steps: list[list] = [["start", "PROGRAMS/part.ngc"], ["wait_moving"]]
         source = random.Random(5)
         for _ in range(8):
             steps += [["sleep", source.uniform(0.05, 0.5)], ["pause"], ["sleep", source.uniform(0.05, 0.4)], ["resume"],
@@ -217,7 +215,7 @@ class Operator(LookAhead):
         self.completed(result)
         self.within_limits(result)
         aborted = result.answers["aborted"]["position"][:3]
-        away = min(to_segment(aborted, a, b) for a, b in zip([(0.0, 0.0, 0.0), *corners], corners))
+        away = min(to_segment(aborted, a, b) for a, b in pairwise([(0.0, 0.0, 0.0), *corners]))
         self.assertLess(away, 0.1 + MICROMETRE)
         points = self.motion(result)
         self.assertLess(math.dist(points[-1], corners[-1]), 1e-9)
@@ -233,11 +231,11 @@ class Operator(LookAhead):
         self.assertGreater(len(paths[0]), 1.5 * len(paths[1]), "the override did nothing")
         for point in paths[1]:
             # chords between the samples of the slow run are flat
-            self.assertLess(min(to_segment(point, a, b) for a, b in zip(paths[0], paths[0][1:])), 2e-3)
+            self.assertLess(min(to_segment(point, a, b) for a, b in pairwise(paths[0])), 2e-3)
 
     def test_step_by_step(self):
         corners = zigzag(5)
-        steps = [["open", "PROGRAMS/part.ngc"]]
+        steps: list[list] = [["open", "PROGRAMS/part.ngc"]]
         for n in range(5):
             steps += [["step"], ["sleep", 0.8], ["note", f"step {n}"]]
         result = harness.run([*steps, ["resume"], ["finish"], ["note", "end"]],
@@ -257,7 +255,7 @@ class Operator(LookAhead):
         result = harness.run([["mdi", "G64 P0.1"], *steps, ["note", "end"]])
         self.completed(result)
         self.within_limits(result)
-        v = max(map(abs, difference(result.column("axis.x"))))
+        v = max(abs(value) for value in difference(result.column("axis.x")))
         self.assertLess(v, 50 * 1.001)
         self.assertGreater(v, 49)
 

@@ -1,5 +1,6 @@
 """Machines with a tilting rotary table: against LinuxCNC's own kinematics, and with frames in LinuxCNC itself."""
 
+import contextlib
 import ctypes
 import math
 import os
@@ -25,10 +26,8 @@ class AgainstStock(unittest.TestCase):
         stock = Module(os.path.join(STOCK, f"{machine}-trt-kins.so"), f"{machine}-trt-kins", coordinates=letters)
         for pin in DIMENSIONS[machine]:
             stock.find(pin, ctypes.c_double)
-        try:
+        with contextlib.suppress(KeyError):  # LinuxCNC 2.9 has one direction only
             stock.find("conventional-directions", ctypes.c_int)
-        except KeyError:
-            pass  # LinuxCNC 2.9 has one direction only
         ours = Module(os.path.join(harness.MODULES, "framekins.so"), "framekins", coordinates=letters, machine=machine)
         for pin in DIMENSIONS[machine]:
             ours.find(pin, ctypes.c_double)
@@ -58,11 +57,11 @@ class AgainstStock(unittest.TestCase):
                                                                          number.uniform(-720, 720)]
                 joints = values + [0.0] * 11
                 expected, found = stock.forward(joints), ours.forward(joints)
-                worst = max(worst, *(abs(a - b) for a, b in zip(expected, found)))
+                worst = max(worst, *(abs(a - b) for a, b in zip(expected, found, strict=True)))
                 pose = found
                 expected, back = stock.inverse(pose), ours.inverse(pose)
-                worst = max(worst, *(abs(a - b) for a, b in zip(expected[:5], back[:5])))
-                worst = max(worst, *(abs(a - b) for a, b in zip(joints[:5], back[:5])))
+                worst = max(worst, *(abs(a - b) for a, b in zip(expected[:5], back[:5], strict=True)))
+                worst = max(worst, *(abs(a - b) for a, b in zip(joints[:5], back[:5], strict=True)))
         self.assertLess(worst, 1e-9)
 
     def test_xyzac_with_the_tool_centre_point(self):
@@ -162,13 +161,13 @@ def on_the_table(point, a, c):
     of the sample: first about C, then with C about A."""
     centre = [sample_number("TABLE", f"{k}_ROT_POINT") for k in "XYZ"]
     tilting = [centre[0], centre[1] + sample_number("TABLE", "Y_OFFSET"), centre[2] + sample_number("TABLE", "Z_OFFSET")]
-    point = [p + q for p, q in zip(centre, turned([p - q for p, q in zip(point, centre)], 2, c))]
-    return [p + q for p, q in zip(tilting, turned([p - q for p, q in zip(point, tilting)], 0, a))]
+    point = [p + q for p, q in zip(centre, turned([p - q for p, q in zip(point, centre, strict=True)], 2, c), strict=True)]
+    return [p + q for p, q in zip(tilting, turned([p - q for p, q in zip(point, tilting, strict=True)], 0, a), strict=True)]
 
 
 def frame_point(point, origin, x, y, z):
     """TRANS origin, ROT x y z."""
-    return [o + p for o, p in zip(origin, turned(turned(turned(point, 0, x), 1, y), 2, z))]
+    return [o + p for o, p in zip(origin, turned(turned(turned(point, 0, x), 1, y), 2, z), strict=True)]
 
 
 RUN = ["run", "PROGRAMS/part.ngc"]
@@ -188,11 +187,10 @@ class InLinuxCNC(unittest.TestCase):
         self.assertEqual(result.errors, [], result.log)
 
     def near(self, found, expected, places=6):
-        for a, b in zip(found, expected):
+        for a, b in zip(found[:len(expected)], expected, strict=True):
             self.assertAlmostEqual(a, b, places=places, msg=f"{found} instead of {expected}")
 
     def test_the_tool_stands_normal_to_the_frame(self):
-        frame = {"origin": [15.0, -5.0, 8.0], "x": 20.0, "y": -35.0, "z": 50.0}
         length = 20.0
         corner = [7.0, 4.0, 0.0]
         result = run(
@@ -207,10 +205,9 @@ class InLinuxCNC(unittest.TestCase):
         joints = result.answers["end"]["joints"]
         a, c = joints[3], joints[4]
         # the frame's normal, once the table has turned, is the spindle's direction
-        origin = [o + w for o, w in zip(frame["origin"], (30.0, 20.0, 10.0))]
-        place = lambda p: on_the_table(frame_point(p, origin, frame["x"], frame["y"], frame["z"]), a, c)
-        tip, above = place(corner), place([7.0, 4.0, 1.0])
-        self.near([q - p for p, q in zip(tip, above)], [0, 0, 1])
+        origin = [15.0 + 30.0, -5.0 + 20.0, 8.0 + 10.0]
+        tip, above = (on_the_table(frame_point(p, origin, 20.0, -35.0, 50.0), a, c) for p in (corner, [7.0, 4.0, 1.0]))
+        self.near([q - p for p, q in zip(tip, above, strict=True)], [0, 0, 1])
         # and the tip is where the program says: the spindle a tool's length above
         self.near(joints[:3], [tip[0], tip[1], tip[2] + length])
 
@@ -258,7 +255,7 @@ class InLinuxCNC(unittest.TestCase):
         result = run([RUN, ["note", "end"]], *TOOL_CENTRE_POINT, "G1 X12 Y-7 Z30 A40 C70")
         self.good(result)
         joints = result.answers["end"]["joints"]
-        self.near(joints, on_the_table([12.0, -7.0, 30.0], 40, 70) + [40, 70])
+        self.near(joints, [*on_the_table([12.0, -7.0, 30.0], 40, 70), 40, 70])
 
 
 class ThreeAxes(unittest.TestCase):

@@ -52,6 +52,8 @@ def filtered():
 
 
 class MainJob(unittest.TestCase):
+    result: harness.Result
+
     @classmethod
     def setUpClass(cls):
         cls.result = harness.run([["run", "PROGRAMS/part.ngc"], ["note", "end"]], {"part.ngc": filtered()})
@@ -65,17 +67,17 @@ class MainJob(unittest.TestCase):
         for frame, x10, y10 in [(Frame.turned((55, 35, 0), 45), (62.0711, 42.0711), (47.9289, 42.0711)),
                                 (Frame.turned((20, 40, 0), 60), (25, 48.6603), (11.3397, 45))]:
             for point, value in [((10, 0, 0), x10), ((0, 10, 0), y10)]:
-                for a, b in zip(frame.point(point), value):
+                for a, b in zip(frame.point(point)[:2], value, strict=True):
                     self.assertAlmostEqual(a, b, delta=5.1e-5)
 
     def test_the_joints_follow_the_expected_path(self):
-        joints = list(zip(*(self.result.commanded(joint) for joint in range(3))))
+        joints = list(zip(*(self.result.commanded(joint) for joint in range(3)), strict=True))
         worst, missed = follow(joints, expected())
         self.assertLess(worst, 1e-6)
         self.assertLess(missed, 1e-6)
 
     def test_a_wrong_path_would_be_noticed(self):
-        joints = list(zip(*(self.result.commanded(joint) for joint in range(3))))
+        joints = list(zip(*(self.result.commanded(joint) for joint in range(3)), strict=True))
         moved = expected()
         # the first contour five micrometres aside; the second contour left out
         moved[4].end = moved[5].start = [moved[4].end[0] + 5e-3, *moved[4].end[1:]]

@@ -113,7 +113,8 @@ class Planner(unittest.TestCase):
         with self.assertRaises(RuntimeError) as raised:
             run_with([["mdi", "G0 X1"]], ("loadrt [KINS]KINEMATICS\n", "loadrt blendtp\nloadrt [KINS]KINEMATICS\n"),
                      ini={("TRAJ", "TPMOD"): None})
-        self.assertIn("tpmod.so is loaded already and would be taken in its place: write TPMOD = blendtp", str(raised.exception))
+        self.assertIn("tpmod.so is loaded already and would be taken in its place: write TPMOD = blendtp",
+                      str(raised.exception))
 
     def test_another_planner_behind_it(self):
         output, code = halrun(MOTION.replace("loadrt homemod\n", "loadrt homemod\nloadrt tpmod\n"))

@@ -9,7 +9,7 @@ import harness
 from test_gcode import QUICK, SAY, said
 
 sys.path.insert(0, os.path.join(harness.SAMPLES, "subroutines"))
-from frame_settings import Settings, SettingsError  # noqa: E402
+from frame_settings import Settings, SettingsError
 
 BEGIN = "G21 G61.1 G17 G90 G94 F3000\n"
 
@@ -41,7 +41,7 @@ class Case(unittest.TestCase):
         for key, wanted in (("joints", joints), ("position", position)):
             if wanted is not None:
                 got = result.answers[name][key][:3]
-                for one, other in zip(got, wanted):
+                for one, other in zip(got, wanted, strict=True):
                     self.assertAlmostEqual(one, other, places=5, msg=f"{name}: {key} {got} {wanted}")
 
 
@@ -180,7 +180,7 @@ M2
         expected = {1: (100, 10, 0), 2: (5, 6, 7), 3: (100, 20, 0), 4: (100, 20, 9), 5: (1, 2, 9), 6: (50, 51, 52),
                     7: (100, 20, 0), 8: (-30, -31, -32), 9: (100, 20, 0)}
         for number, joints in expected.items():
-            for got, wanted in zip(said(result)[number], joints):
+            for got, wanted in zip(said(result)[number], joints, strict=True):
                 self.assertAlmostEqual(got, wanted, places=5, msg=f"{number}: {said(result)[number]} {joints}")
 
     def test_what_is_refused(self):
@@ -200,7 +200,7 @@ M2
         machine = "G28, G30 and G53 mean the machine without its frame"
         words = {"g53": machine, "g28": machine, "g30": machine, "work": "work offset has changed",
                  "g92": "work offset has changed", "length": "tool offset has changed"}
-        steps = [["mdi", "G53 G0 X40 Y41 Z42"], ["mdi", "G28.1"], ["mdi", "G30.1"], ["mdi", "G10 L2 P2 X10 Y0 Z0"],
+        steps: list[list] = [["mdi", "G53 G0 X40 Y41 Z42"], ["mdi", "G28.1"], ["mdi", "G30.1"], ["mdi", "G10 L2 P2 X10 Y0 Z0"],
                  ["mdi", "G53 G0 X0 Y0 Z0"]]
         for name in texts:
             steps += [["forget"], ["note", f"{name} before"], run(name), OFF, ["sleep", 0.1], ["recall", name],
@@ -213,7 +213,7 @@ M2
             if name in words:
                 self.assertIn(words[name], said_then, name)
                 travel = [abs(a - b) for a, b in zip(result.answers[f"{name} before"]["joints"],
-                                                     result.answers[f"{name} after"]["joints"])]
+                                                     result.answers[f"{name} after"]["joints"], strict=True)]
                 # seen within some hundredths of a second: the move hardly begins
                 self.assertLess(max(travel), 1e-9 if words[name] == machine else 5, name)
             else:
@@ -254,8 +254,8 @@ net probe wall.out => motion.probe-input
         ], hal=probe, ini={**QUICK, ("JOINT_0", "HOME"): "0"})
         self.fine(result)
         self.at(result, "start", (100, 0, 0), (100, 0, 0))
-        text = [words for _, words in result.messages if words.startswith("PROBED")][0]
-        x, y, z, tripped = (float(word) for word in text.split()[1:])
+        text = next(words for _, words in result.messages if words.startswith("PROBED"))
+        x, y, _, tripped = (float(word) for word in text.split()[1:])
         self.assertEqual(tripped, 1)
         self.assertAlmostEqual(x, 20, delta=0.02)
         self.assertAlmostEqual(y, 0, places=5)

@@ -26,7 +26,8 @@ class PathModes(unittest.TestCase):
 
     def test_corners_are_rounded_within_the_tolerance_in_force(self):
         for dialect, begin, tolerance in (("sinumerik", "CYCLE832(0.01,_FINISH,1)\nG642\n", 0.01), ("sinumerik", "G64\n", 0.01),
-                                          ("sinumerik", "CTOL=0.1\nG645\n", 0.1), ("fagor", "G05\n", 0.01), ("isg", "G261\n", 0.01)):
+                                          ("sinumerik", "CTOL=0.1\nG645\n", 0.1), ("fagor", "G05\n", 0.01),
+                                          ("isg", "G261\n", 0.01)):
             with self.subTest(dialect=dialect, begin=begin):
                 rows = self.rows(begin + HEAD + SQUARE, dialect)
                 missed = [min(math.dist(row[:2], corner) for row in rows) for corner in CORNERS]

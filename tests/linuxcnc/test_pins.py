@@ -15,7 +15,8 @@ class Framekins(unittest.TestCase):
     def setUp(self):
         self.module = kinematics_host.Module(os.path.join(harness.MODULES, "framekins.so"), "framekins",
                                              coordinates="XYZAC", machine="xyzac")
-        for pin in ("command", "value.1", "value.2", "work-offset.y", "tool-offset.z", "x-rot-point", "y-offset", "tool-offset"):
+        for pin in ("command", "value.1", "value.2", "work-offset.y", "tool-offset.z", "x-rot-point", "y-offset",
+                    "tool-offset"):
             self.module.find(pin, FLOAT)
         for pin in ("in-position", "parameters-pending"):
             self.module.find(pin, BIT)
@@ -30,8 +31,8 @@ class Framekins(unittest.TestCase):
         return self.messages()[self.said:]
 
     def test_a_refused_frame_names_the_pin(self):
-        for number, (pin, value) in enumerate((("value.2", math.nan), ("work-offset.y", math.inf), ("tool-offset.z", -math.inf),
-                                               ("work-offset.y", 1e7))):
+        for pin, value in (("value.2", math.nan), ("work-offset.y", math.inf), ("tool-offset.z", -math.inf),
+                           ("work-offset.y", 1e7)):
             with self.subTest(pin=pin, value=value):
                 self.setUp()
                 before = self.module.pins[pin].value

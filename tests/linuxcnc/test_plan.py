@@ -12,6 +12,7 @@ import os
 import subprocess
 import tempfile
 import unittest
+from typing import ClassVar
 
 import harness
 from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, motion, record
@@ -31,7 +32,8 @@ def plan(*arguments, check=True):
 
 class AgainstLinuxCnc(unittest.TestCase):
     #: {name: text}, what they run on, and what it is recorded with
-    programs, ini, axes, machine = PROGRAMS, INI, AXES, {}
+    programs, ini, axes = PROGRAMS, INI, AXES
+    machine: ClassVar[dict] = {}
     #: Cycles between two moves from which on it may matter in what time the moves of earlier programs came.
     steady = math.inf
     #: Such up to which a program takes the time that was planned.
@@ -68,13 +70,16 @@ class AgainstLinuxCnc(unittest.TestCase):
         compared = positions[:recording.end + 1]
         if len(compared) <= recording.end:
             return cycles, math.inf
-        return cycles, max(math.dist(a, b) for a, b in zip(compared, recording.positions))
+        return cycles, max(math.dist(a, b) for a, b in zip(compared, recording.positions[:recording.end + 1], strict=True))
+
+    def recorded_with(self):
+        return self.machine
 
     def test_times_and_positions(self):
         left, planned = list(self.programs), {}
         for _ in range(ATTEMPTS):
             late = []
-            for name, recording in record(left, self.programs, self.axes, **self.machine).items():
+            for name, recording in record(left, self.programs, self.axes, **self.recorded_with()).items():
                 same, away = self.with_the_same_arrivals(name, recording)
                 if name not in planned:
                     planned[name] = self.planned(name)[1]

@@ -3,6 +3,7 @@
 import math
 import random
 import unittest
+from itertools import pairwise
 
 import harness
 from contract.row import ACCELERATION, JERK, PERIOD, VELOCITY, peaks
@@ -49,25 +50,26 @@ class Case(unittest.TestCase):
 class SingleMoves(Case):
     def test_times_are_the_optimum_to_one_cycle(self):
         source = random.Random(2)
-        moves, position = [], (0.0, 0.0, 0.0)
+        moves: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
+        position: tuple[float, ...] = (0.0, 0.0, 0.0)
         for length in (0.001, 0.01, 0.1, 0.5, 1, 3, 10, 40, 200):
             direction = [source.gauss(0, 1) for _ in AXES]
             size = math.hypot(*direction)
-            end = tuple(round(p + length * d / size, 9) for p, d in zip(position, direction))
+            end = tuple(round(p + length * d / size, 9) for p, d in zip(position, direction, strict=True))
             moves.append((position, end))
             position = end
         moves.append((position, (-300.0, -200.0, -400.0)))
         moves.append(((-300.0, -200.0, -400.0), (400.0, 300.0, 100.0)))
         lines = []
         for _, end in moves:
-            lines += ["G1 " + " ".join(f"{a.upper()}{e:.9f}" for a, e in zip(AXES, end)), "G4 P0.05"]
+            lines += ["G1 " + " ".join(f"{a.upper()}{e:.9f}" for a, e in zip(AXES, end, strict=True)), "G4 P0.05"]
         result = harness.run([RUN], program(*lines))
         self.completed(result)
         self.within_limits(result, jerk=1.001)
         positions = result.columns(*(f"axis.{axis}" for axis in AXES))
         cycle = 0
         for start, end in moves:
-            direction = [e - s for s, e in zip(start, end)]
+            direction = [e - s for s, e in zip(start, end, strict=True)]
             length = math.hypot(*direction)
             share = max(abs(d) for d in direction) / length
             expected = rest_to_rest(length, min(VELOCITY / share, PATH_VELOCITY), ACCELERATION / share, JERK / share)
@@ -77,7 +79,7 @@ class SingleMoves(Case):
             while positions[cycle] != positions[cycle + 1]:
                 cycle += 1
             self.assertAlmostEqual((cycle - first) * PERIOD, expected, delta=1.01 * PERIOD, msg=f"{length} mm")
-            for value, target in zip(positions[cycle], end):
+            for value, target in zip(positions[cycle], end, strict=True):
                 self.assertAlmostEqual(value, target, delta=1e-9)
 
     def test_arcs_and_helices(self):
@@ -86,7 +88,7 @@ class SingleMoves(Case):
             "G2 X60 Y0.5 R300"))
         self.completed(result)
         self.within_limits(result)
-        for value, target in zip(result.answers["end"]["joints"], (60, 0.5, 15)):
+        for value, target in zip(result.answers["end"]["joints"][:3], (60, 0.5, 15), strict=True):
             self.assertAlmostEqual(value, target, delta=1e-9)
 
 
@@ -102,7 +104,7 @@ class Events(Case):
 
     def at_end(self, result):
         self.assertEqual(result.errors, [])
-        for value, target in zip(result.answers["end"]["joints"], (0, 0, 0)):
+        for value, target in zip(result.answers["end"]["joints"][:3], (0, 0, 0), strict=True):
             self.assertAlmostEqual(value, target, delta=1e-9)
 
     def test_pause_and_resume(self):
@@ -143,7 +145,7 @@ class Events(Case):
         x, y, _ = stopped["joints"][:3]
         self.assertGreater(x, 1)
         self.assertAlmostEqual(y, x / 8, delta=1e-6)
-        for value, target in zip(result.answers["end"]["joints"], (5, 6, 7)):
+        for value, target in zip(result.answers["end"]["joints"][:3], (5, 6, 7), strict=True):
             self.assertAlmostEqual(value, target, delta=1e-9)
 
     def test_single_steps(self):
@@ -159,7 +161,7 @@ class Events(Case):
         result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["sleep", 0.2], ["machine_off"],
                               ["sleep", 0.2], ["on"], ["mdi", "G90 G0 X1 Y2 Z3"], ["note", "end"]], self.PROGRAM)
         self.assertIsNone(result.failure, result.log)
-        for value, target in zip(result.answers["end"]["joints"], (1, 2, 3)):
+        for value, target in zip(result.answers["end"]["joints"][:3], (1, 2, 3), strict=True):
             self.assertAlmostEqual(value, target, delta=1e-9)
 
 
@@ -171,7 +173,7 @@ class Found(Case):
         result = harness.run([RUN, ["note", "end"]], {"part.ngc": "\n".join(lines) + "\n"},
                              hal="".join(f"setp blendtp.axis.{axis}.max-jerk 0\n" for axis in AXES))
         self.completed(result)
-        for value, target in zip(result.answers["end"]["joints"], (100, 0, 50)):
+        for value, target in zip(result.answers["end"]["joints"][:3], (100, 0, 50), strict=True):
             self.assertAlmostEqual(value, target, delta=1e-9)
         for x, z in result.columns("axis.x", "axis.z"):
             self.assertTrue(x < 1.01 or z > 49.99, f"X {x} at Z {z}")
@@ -206,13 +208,14 @@ class Refused(Case):
     def test_a_jerk_that_changes_in_motion_holds_from_the_next_rest_on(self):
         # moves still come when the pin changes; 400 mm/s3 would lengthen the stop from some 0.15 s to 0.8
         lines = ["G64 P0.1 Q0.0001", *(f"G1 X{n} Y{0.01 * (n % 2)}" for n in range(1, 401))]
-        for change in ([], [["setp", "blendtp.axis.x.max-jerk", 400]]):
+        changes: tuple[list, list] = ([], [["setp", "blendtp.axis.x.max-jerk", 400]])
+        for change in changes:
             result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_place", 0, 8], ["note", "change"], *change,
                                   ["wait_place", 0, 60], ["abort"], ["sleep", 1.0], ["note", "end"]], program(*lines))
             self.completed(result)
             self.assertLess(result.answers["change"]["queue"], 389, "all moves had come before the change")
             places = result.column("axis.x")
-            speeds = [(b - a) / PERIOD for a, b in zip(places, places[1:])]
+            speeds = [(b - a) / PERIOD for a, b in pairwise(places)]
             last = max(n for n, speed in enumerate(speeds) if speed > 1e-3)
             first = last
             while speeds[first - 1] >= speeds[first]:

@@ -10,7 +10,8 @@ import unittest.mock
 
 import abi_drivers
 
-SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize=object-size", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"]
+SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize=object-size", "-fno-sanitize-recover=all",
+              "-fno-omit-frame-pointer"]
 MACHINES = (("XYZ", "identity", "frame"), ("xyyzabcuvw", "identity", "machine"), ("XYZAC", "xyzac", "frame"),
             ("XYZBC", "xyzbc", "machine"))
 REFUSED = (("", "identity", "frame", "coordinates="), ("XYQ", "identity", "frame", "coordinates=XYQ"),
@@ -18,8 +19,21 @@ REFUSED = (("", "identity", "frame", "coordinates="), ("XYQ", "identity", "frame
            ("XYZ", "xyzac", "frame", "coordinates=XYZ"), ("XYZ", "identity", "long", "tool_length=long"))
 
 
-class Driven(unittest.TestCase):
-    """What is the same for both tools."""
+class Watched(unittest.TestCase):
+    """The tests; a subclass says who watches, and for how many periods."""
+
+    folder: str
+    drivers: dict[str, str]
+    #: what the watcher is called with, and what it says of a fault
+    WRAPPER: tuple[str, ...]
+    FINDING: str
+    SEEDS: int
+    PLANNER_PERIODS: int
+    KINEMATICS_PERIODS: int
+
+    @classmethod
+    def compiled(cls, name, output):
+        raise NotImplementedError
 
     @classmethod
     def setUpClass(cls):
@@ -39,10 +53,6 @@ class Driven(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         return done.stdout
 
-
-class Watched:
-    """The tests; a subclass says who watches, and for how many periods."""
-
     def test_planner(self):
         for seed in range(self.SEEDS):
             with self.subTest(seed=seed):
@@ -61,8 +71,8 @@ class Watched:
     def test_ini(self):
         ini = os.path.join(self.folder, "machine.ini")
         with open(ini, "wb") as file:
-            file.write(b"[AXIS_" + b"X" * 5000 + b"\n[AXIS_]\nMAX_JERK\n[AXIS_\xff]\nMAX_JERK = 5\n[\n[AXIS_X]\nMAX_JERK =" + b" " * 4000
-                       + b"7\n[AXIS_Y]\n MAX_JERK=1e999\nMAX_JERK = x\n[AXIS_Z]\n\x00\nMAX_JERK = nan")
+            file.write(b"[AXIS_" + b"X" * 5000 + b"\n[AXIS_]\nMAX_JERK\n[AXIS_\xff]\nMAX_JERK = 5\n[\n[AXIS_X]\nMAX_JERK ="
+                       + b" " * 4000 + b"7\n[AXIS_Y]\n MAX_JERK=1e999\nMAX_JERK = x\n[AXIS_Z]\n\x00\nMAX_JERK = nan")
         with unittest.mock.patch.dict(os.environ, INI_FILE_NAME=ini):
             self.fine("blendtp", "1", "20")
 
@@ -73,10 +83,10 @@ class Watched:
             self.assertIn(self.FINDING, done.stdout)
 
 
-class Sanitizers(Watched, Driven):
+class Sanitizers(Watched):
     """Address and undefined behaviour in the C of the modules, linked with the library."""
 
-    WRAPPER, FINDING = [], "heap-buffer-overflow"
+    WRAPPER, FINDING = (), "heap-buffer-overflow"
     SEEDS, PLANNER_PERIODS, KINEMATICS_PERIODS = 4, 20000, 100000
 
     @classmethod
@@ -88,16 +98,19 @@ class Sanitizers(Watched, Driven):
         return dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
 
 
-class Valgrind(Watched, Driven):
+class Valgrind(Watched):
     """The modules as they are installed."""
 
-    WRAPPER, FINDING = ["valgrind", "--quiet", "--error-exitcode=9"], "Invalid read"
+    WRAPPER, FINDING = ("valgrind", "--quiet", "--error-exitcode=9"), "Invalid read"
     SEEDS, PLANNER_PERIODS, KINEMATICS_PERIODS = 1, 3000, 5000
 
     @classmethod
     def compiled(cls, name, output):
         return abi_drivers.with_module(name, output)
 
+
+# without a watcher it is nothing to run
+del Watched
 
 if __name__ == "__main__":
     unittest.main()

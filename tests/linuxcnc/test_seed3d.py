@@ -50,7 +50,7 @@ def slot(frame):
 
 
 def path(result):
-    return list(zip(*(result.commanded(joint) for joint in range(3))))
+    return list(zip(*(result.commanded(joint) for joint in range(3)), strict=True))
 
 
 class Seed3d(unittest.TestCase):
@@ -77,8 +77,8 @@ class Seed3d(unittest.TestCase):
         self.assertAlmostEqual(corner[0], 49.3301270 + 8.6602540 - 0.5, places=6)
         radii, heights = [], []
         for point in path(result):
-            relative = [p - c for p, c in zip(point, centre)]
-            x, z = (sum(r * a for r, a in zip(relative, TILTED.axes[k])) for k in (0, 2))
+            relative = [p - c for p, c in zip(point, centre, strict=True)]
+            x, z = (sum(r * a for r, a in zip(relative, TILTED.axes[k], strict=True)) for k in (0, 2))
             if x > 0.01 and math.hypot(*relative) < 5.5:
                 radii.append(math.hypot(*relative))
                 heights.append(z)
@@ -100,8 +100,8 @@ class ToolLength(unittest.TestCase):
         return result.answers["end"]["joints"][:3]
 
     def check(self, rule, direction):
-        expected = [p + 20 * d for p, d in zip(TILTED.point((7, 4, 3)), direction)]
-        for found, wanted in zip(self.end(rule), expected):
+        expected = [p + 20 * d for p, d in zip(TILTED.point((7, 4, 3)), direction, strict=True)]
+        for found, wanted in zip(self.end(rule), expected, strict=True):
             self.assertAlmostEqual(found, wanted, places=9)
 
     def test_it_lies_along_the_tilted_z(self):
@@ -114,8 +114,8 @@ class ToolLength(unittest.TestCase):
 class Mirror(unittest.TestCase):
     """Cutter compensation on the left of a contour, and its mirror image: a tool of radius 3."""
 
-    CONTOUR = ["G0 X0 Y-20", "G41 D1", "G1 Y0 F3000", "Y30", "G2 X10 Y40 I10 J0", "G1 X40", "Y0", "X0", "G40",
-               "G1 X-20 Y-20", "M2"]
+    CONTOUR = ("G0 X0 Y-20", "G41 D1", "G1 Y0 F3000", "Y30", "G2 X10 Y40 I10 J0", "G1 X40", "Y0", "X0", "G40",
+               "G1 X-20 Y-20", "M2")
 
     def shapes(self, frame):
         line, arc = frame.line, frame.arc

@@ -5,6 +5,7 @@ import math
 import os
 import shutil
 import unittest
+from typing import ClassVar
 
 import harness
 import short_programs
@@ -18,9 +19,9 @@ RUN = range(1, 41)
 #: X Y Z and a rotary axis that lock nothing, with what a random program wants of room.
 CONTRACT = os.path.join(harness.HERE, "contract", "machine")
 FAR = 1e4
-CHANGES = {(f"{section}_{name}", key): sign * FAR for section, names in (("AXIS", "XYZAB"), ("JOINT", "01234")) for name in names
-           for key, sign in (("MIN_LIMIT", -1), ("MAX_LIMIT", 1))}
-CHANGES.update({("AXIS_Y", "OFFSET_AV_RATIO"): None, ("TASK", "CYCLE_TIME"): 0.001})
+CHANGES = {("AXIS_Y", "OFFSET_AV_RATIO"): None, ("TASK", "CYCLE_TIME"): 0.001,
+           **{(f"{section}_{name}", key): sign * FAR for section, names in (("AXIS", "XYZAB"), ("JOINT", "01234"))
+              for name in names for key, sign in (("MIN_LIMIT", -1), ("MAX_LIMIT", 1))}}
 JERK = 20000
 
 
@@ -49,7 +50,7 @@ class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
     prompt = 1
     #: Of moves of nanometres the first and the last cycles are less than what a recording shows.
     same, same_cycles = 1e-6, 3
-    machine = {"sample": "machine", "configuration": CONTRACT, "ini": CHANGES, "timeout": 600,
+    machine: ClassVar[dict] = {"sample": "machine", "configuration": CONTRACT, "ini": CHANGES, "timeout": 600,
                "hal": "".join(f"setp blendtp.axis.{axis}.max-jerk {JERK}\n" for axis in "xyzab")}
 
     def setUp(self):
@@ -61,11 +62,13 @@ class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
             text = harness.edit_ini(file.read(), CHANGES)
         with open(self.ini, "w", encoding="utf-8") as file:
             file.write(text)
-        self.machine = dict(self.machine, recorder=Recorder())
         # what has no plan is the other test's
         texts = {f"short{seed}": short_programs.program(seed).text for seed in RUN}
         self.programs = {name: text for name, text in texts.items() if self.has_plan(name, text)}
         self.assertGreater(len(self.programs), len(RUN) // 2)
+
+    def recorded_with(self):
+        return dict(self.machine, recorder=Recorder())
 
     def with_the_same_arrivals(self, name, recording):
         """The nearer of two plans: how long the planner waits for a move has to do with the programs before, and a wait of
@@ -77,7 +80,7 @@ class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
         """Cycles, and how far any position is from the recorded one, both from the first motion on."""
         positions, cycles = self.planned(name, *options)
         begins = [motion([places[0], *places])[0] - 1 for places in (positions, recording.positions)]
-        pairs = list(zip(positions[begins[0]:], recording.positions[begins[1]:recording.end + 1]))
+        pairs = list(zip(positions[begins[0]:], recording.positions[begins[1]:recording.end + 1], strict=False))
         away = max(math.dist(a, b) for a, b in pairs)
         return cycles, away if len(pairs) == recording.end + 1 - begins[1] else math.inf
 

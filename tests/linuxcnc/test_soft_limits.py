@@ -72,8 +72,8 @@ setp spindle.0.at-speed 1
 class Robot(unittest.TestCase):
     """A machine of these kinematics, at home with these joints."""
 
-    kinematics = None
-    home = ()
+    kinematics: str | None = None
+    home: tuple[float, ...] = ()
     letters = "XYZABC"
     world_home = ""
     hal = ""
@@ -103,7 +103,7 @@ class Robot(unittest.TestCase):
         return result.answers[note]["joints"][:len(self.home)]
 
     def assert_joints(self, result, expected, note="end"):
-        for found, joint in zip(self.joints(result, note), expected):
+        for found, joint in zip(self.joints(result, note), expected, strict=True):
             self.assertAlmostEqual(found, joint, delta=self.precision, msg=result.log)
 
     def runs(self, *moves, **limits):

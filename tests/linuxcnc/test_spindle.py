@@ -2,6 +2,7 @@
 every servo cycle."""
 
 import unittest
+from itertools import pairwise
 
 import harness
 from contract.row import MICROMETRE, PERIOD
@@ -45,7 +46,7 @@ class Spindle(Case):
         """Greatest distance of Z from a whole number of turns, on the ways down from top to bottom; only where the
         spindle's speed has been the same for so many cycles."""
         track = self.track(result)
-        speeds = [later[1] - earlier[1] for earlier, later in zip(track, track[1:])]
+        speeds = [later[1] - earlier[1] for earlier, later in pairwise(track)]
         errors = []
         for n in range(steady + 1, len(track)):
             z, turns = track[n]
@@ -97,7 +98,7 @@ class Threads(Spindle):
     def test_multi_start_by_an_offset_of_the_start(self):
         result = self.run_spindle([RUN], "M3 S300", "G4 P1", "G33 Z-30 K3", "G0 X5", "G0 Z1.5", "G0 X0", "G33 Z-30 K3")
         self.completed(result)
-        phases = [[], []]
+        phases: list[list[float]] = [[], []]
         passes, last = 0, 0.0
         for z, turns in self.track(result):
             passes += last > -20 >= z
@@ -117,7 +118,7 @@ class Threads(Spindle):
         self.completed(result)
         self.within_limits(result)
         track = self.track(result)
-        phases = [(-z + 5) / 1.5 - turns for (before, _), (z, turns) in zip(track, track[1:]) if -16 < z < -3 and z < before]
+        phases = [(-z + 5) / 1.5 - turns for (before, _), (z, turns) in pairwise(track) if -16 < z < -3 and z < before]
         self.assertGreater(len(phases), 2000)
         self.assertLess(max(abs(phase - round(phase)) for phase in phases) * 1.5, MICROMETRE)
 
@@ -195,7 +196,7 @@ class Taps(Spindle):
             self.assertAlmostEqual(end[0], 20)
             self.assertAlmostEqual(end[2], 5)
             x = result.column("joint.0")
-            self.assertLess(max(b - a for a, b in zip(x, x[1:])) / PERIOD, 20.01)
+            self.assertLess(max(b - a for a, b in pairwise(x)) / PERIOD, 20.01)
 
 
 class FeedPerTurn(Spindle):
@@ -222,7 +223,7 @@ class FeedPerTurn(Spindle):
         rows = self.columns_of(result)
         checked = 0
         for n in range(100, len(rows) - 100, 20):
-            x, turns = rows[n]
+            x, _ = rows[n]
             if 8 < x < 38 and rows[n + 20][0] < x:
                 fed = rows[n - 50][0] - rows[n + 50][0]
                 turned = rows[n + 50][1] - rows[n - 50][1]

@@ -2,11 +2,15 @@
 
 import itertools
 import unittest
+from typing import ClassVar
 
 import harness
 from test_gcode import QUICK
 from test_operation import OFF, ON, Case, clearing, programs
-from frame_offsets import Offsets  # the path is that of test_operation
+
+# isort: split
+# test_operation has put its folder into the path
+from frame_offsets import Offsets
 
 #: servo periods in which a frame is gone: behind an error, an abort, machine off; behind the end under a screen
 AT_ONCE, UNDER_A_SCREEN = 10, 50
@@ -46,13 +50,13 @@ def longest(flags):
 def at_switches(result):
     """The greatest travel of a joint at any change of the frame: from its request on where it goes, which may be in the
     period behind a stop; up to the change where it comes, behind which the program moves on."""
-    joints = list(zip(*(result.column(f"joint.{n}") for n in range(3))))
+    joints = list(zip(*(result.column(f"joint.{n}") for n in range(3)), strict=True))
     slots = result.column("slot")
     worst = 0.0
     for n in range(3, len(slots) - 3):
         if slots[n] != slots[n - 1]:
             first, last = (n - 1, n + 3) if slots[n] == 0 else (n - 3, n)
-            worst = max(worst, *(abs(a - b) for a, b in zip(joints[first], joints[last])))
+            worst = max(worst, *(abs(a - b) for a, b in zip(joints[first], joints[last], strict=True)))
     return worst
 
 
@@ -68,8 +72,8 @@ class EndOfAFrame(Case):
     def test_a_refused_frame_and_touch_off_behind_it(self):
         steps = [["forget"]]
         for number in range(8):
-            steps += [["run_as_a_screen", "PROGRAMS/refused.ngc"], OFF, KNOWN, ["touch_off", "X0"], ["note", f"touched {number}"],
-                      ["mdi", "G10 L2 P1 X0"], ["switch_mode", "auto"]]
+            steps += [["run_as_a_screen", "PROGRAMS/refused.ngc"], OFF, KNOWN, ["touch_off", "X0"],
+                      ["note", f"touched {number}"], ["mdi", "G10 L2 P1 X0"], ["switch_mode", "auto"]]
         result = watched([*steps, ["recall", "errors"], OFF], {"refused": REFUSED})
         self.fine(result)
         self.assertIn("frame was refused", "\n".join(result.answers["errors"]))
@@ -112,7 +116,7 @@ class EndOfAFrame(Case):
         self.fine(result)
         self.at(result, "off", (1, 52, 0), (1, 52, 0))
         for key in ("joints", "position"):
-            for got, wanted in zip(result.answers["jogged"][key], (6, 52, 0)):
+            for got, wanted in zip(result.answers["jogged"][key][:3], (6, 52, 0), strict=True):
                 self.assertAlmostEqual(got, wanted, delta=1e-3)
 
     def test_a_jog_is_not_disturbed(self):
@@ -122,13 +126,13 @@ class EndOfAFrame(Case):
                           ["sleep", 0.3], ["note", "end"]], {})
         self.fine(result)
         for key in ("joints", "position"):
-            for got, wanted in zip(result.answers["end"][key], (21, 52, 0)):
+            for got, wanted in zip(result.answers["end"][key][:3], (21, 52, 0), strict=True):
                 self.assertAlmostEqual(got, wanted, delta=1e-3)
         self.assertLess(at_switches(result), 1e-6)
 
     def test_a_program_that_starts_too_early_does_not_move(self):
         # the interpreter still has the position in the frame: its first move would go somewhere else
-        steps = [["mdi", "G0 X0 Y7 Z3"], ["open", "PROGRAMS/part.ngc"], ["forget"]]
+        steps: list[list] = [["mdi", "G0 X0 Y7 Z3"], ["open", "PROGRAMS/part.ngc"], ["forget"]]
         for _ in range(3):
             steps += [["start", "PROGRAMS/part.ngc"], ON, ["wait_place", 0, 15], ["guard", "STOP"], ["abort"], OFF,
                       ["cycle_start"], ["sleep", 0.3], ["guard", "CONT"], ["sleep", 0.5], KNOWN, ["finish"]]
@@ -191,8 +195,8 @@ class PutBack(unittest.TestCase):
 
 
 class Dead(Case):
-    LONG = {"long": "o<trans> call [10] [20] [0]\nG1 X1 Y2\nG1 X400 F1800\nM2\n",
-            "dwell": "o<trans> call [10] [20] [0]\nG1 X1 Y2\nG4 P1000\nG1 X400\nM2\n"}
+    LONG: ClassVar = {"long": "o<trans> call [10] [20] [0]\nG1 X1 Y2\nG1 X400 F1800\nM2\n",
+                      "dwell": "o<trans> call [10] [20] [0]\nG1 X1 Y2\nG4 P1000\nG1 X400\nM2\n"}
 
     def at_rest_in_time(self, result, acceleration=1.05 * 20000):
         """From the last beat on: held, and at rest in time, no harder than the machine brakes."""
@@ -270,7 +274,7 @@ class Living(Case):
                           ["sleep", 0.3], ["note", "end"]], {})
         self.fine(result)
         beats = result.column("beat")
-        self.assertLess(longest(one == other for one, other in zip(beats, beats[1:])), 1000)
+        self.assertLess(longest(one == other for one, other in itertools.pairwise(beats)), 1000)
         rows = result.columns("slot", "on", "teleop")
         self.assertTrue(all(on for slot, on, _ in rows if slot))
         # the frame was in force all the while
@@ -292,7 +296,7 @@ class Nets(Case):
                    "framekins.value.3": "frame-value-3", "framekins.work-offset.x": "frame-work-x",
                    "framekins.work-offset.y": "frame-work-y", "framekins.work-offset.z": "frame-work-z",
                    "framekins.work-offset.rotation": "frame-work-r", "framekins.check": "frame-check"}
-        steps = [["mdi", "G10 L2 P1 X1 Y2 Z3 R4"], ["mdi", "G54"]]
+        steps: list[list] = [["mdi", "G10 L2 P1 X1 Y2 Z3 R4"], ["mdi", "G54"]]
         for pin, net in missing.items():
             steps += [["force", pin, 0], ["forget"], ["mdi", "o<trans> call [10] [5] [1]"], ["sleep", 0.05],
                       ["recall", pin], OFF, ["halcmd", "net", net, pin]]

@@ -21,7 +21,7 @@ class Switching(unittest.TestCase):
             programs = {"switcher.py": file.read()}
         number = random.Random(7)
         pins = LINKED + (["tool-offset", "tool-centre-point"] if table else [])
-        steps = [["halcmd", "unlinkp", f"framekins.{pin}"] for pin in pins]
+        steps: list[list] = [["halcmd", "unlinkp", f"framekins.{pin}"] for pin in pins]
         for place in range(PLACES):
             words = [f"{axis}{number.uniform(-100, 100):.6f}" for axis in ("XYZAC" if table else "XYZ")]
             arguments = [str(place), str(SWITCHES)] + (["table"] if table else [])

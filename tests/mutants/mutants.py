@@ -45,7 +45,8 @@ def digest(text):
 
 def identified(mutants):
     """The mutants by a name that stays the same when other lines of a file change."""
-    counts, found = collections.Counter(), {}
+    counts: collections.Counter = collections.Counter()
+    found = {}
     for mutant in sorted(mutants, key=lambda mutant: (mutant["file"], mutant["span"]["start"]["line"],
                                                       mutant["span"]["start"]["column"], mutant["name"])):
         changed = "\n".join(line for line in mutant["diff"].splitlines()[2:] if not line.startswith("@@"))
@@ -159,7 +160,7 @@ def run_all(source, names, found, results, wanted):
 
 def report(names, found, results, known):
     """The table, and each survivor. Returns the share that was caught."""
-    counts = collections.defaultdict(collections.Counter)
+    counts: dict = collections.defaultdict(collections.Counter)
     survivors, same = [], []
     for name in names:
         word, mutant = results.word(name), found[name]
@@ -217,7 +218,7 @@ def main():
     known = equivalents()
     left = [name for name in names
             if results.word(name) is None
-            or results.word(name) == "missed" and described(found[name]) not in known]
+            or (results.word(name) == "missed" and described(found[name]) not in known)]
     if left:
         run_all(source, left, found, results, options.tests.split(",") if options.tests else [])
     share = report(names, found, results, known)

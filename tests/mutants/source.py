@@ -113,7 +113,7 @@ class Copy:
 
     def put_in(self, mutants):
         """Writes the source with all of these. Returns the numbers of those that stand in no function."""
-        by_file = {}
+        by_file: dict = {}
         for number, mutant in mutants.items():
             by_file.setdefault(mutant["file"], {})[number] = mutant
         self.places, outside = {}, []

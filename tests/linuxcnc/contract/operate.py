@@ -7,6 +7,7 @@ import time
 
 import hal
 import linuxcnc
+
 from delays import Witness
 from driver import ERRORS, Failure, Operator, main, write_result
 from row import PERIOD, Broken, all_rows

@@ -76,7 +76,8 @@ class RandomProgram:
             self.place[2] = self.inside(2, self.place[2] + self.length() / 4)
             height = f" Z{self.place[2]:.4f}"
         self.place[:2] = end
-        self.lines.append(f"{'G3' if sweep > 0 else 'G2'} X{end[0]:.4f} Y{end[1]:.4f}{height} I{offsets[0]:.6f} J{offsets[1]:.6f}")
+        self.lines.append(f"{'G3' if sweep > 0 else 'G2'} X{end[0]:.4f} Y{end[1]:.4f}{height} "
+                          f"I{offsets[0]:.6f} J{offsets[1]:.6f}")
 
     def dense(self):
         step, heading = self.source.uniform(0.01, 0.4), self.source.uniform(0, 2 * math.pi)

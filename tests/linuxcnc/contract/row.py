@@ -2,6 +2,7 @@
 
 import importlib
 import math
+from itertools import pairwise
 
 PERIOD = 1e-3
 VELOCITY, ACCELERATION, JERK = 100.0, 1000.0, 20000.0
@@ -41,6 +42,7 @@ class Row:
 
     @classmethod
     def promise(cls):
+        assert cls.__doc__, f"{cls.__name__} does not say what it promises"
         return " ".join(cls.__doc__.split())
 
 
@@ -60,7 +62,7 @@ def all_rows():
 
 
 def difference(values):
-    return [(b - a) / PERIOD for a, b in zip(values, values[1:])]
+    return [(b - a) / PERIOD for a, b in pairwise(values)]
 
 
 def peaks(values):
@@ -73,16 +75,16 @@ def peaks(values):
 
 def to_segment(point, start, end):
     """Distance of a point from the leg between two others."""
-    direction = [e - s for s, e in zip(start, end)]
+    direction = [e - s for s, e in zip(start, end, strict=True)]
     square = sum(d * d for d in direction)
-    t = sum((p - s) * d for p, s, d in zip(point, start, direction)) / square if square else 0.0
+    t = sum((p - s) * d for p, s, d in zip(point, start, direction, strict=True)) / square if square else 0.0
     t = min(1.0, max(0.0, t))
-    return math.dist(point, [s + t * d for s, d in zip(start, direction)])
+    return math.dist(point, [s + t * d for s, d in zip(start, direction, strict=True)])
 
 
 def from_route(points, route):
     """Greatest distance of the points from a polyline."""
-    return max(min(to_segment(point, a, b) for a, b in zip(route, route[1:])) for point in points)
+    return max(min(to_segment(point, a, b) for a, b in pairwise(route)) for point in points)
 
 
 class Seen:
@@ -121,13 +123,13 @@ class Seen:
     def rests(self, *axes):
         """How often these axes come to rest between their first and their last motion."""
         points = self.moving(*axes)
-        still = [a == b for a, b in zip(points, points[1:])]
-        return sum(1 for before, now in zip(still, still[1:]) if now and not before)
+        still = [a == b for a, b in pairwise(points)]
+        return sum(1 for before, now in pairwise(still) if now and not before)
 
     def speed(self, *axes):
         """Speed of these axes in each period."""
         points = self.columns(*axes)
-        return [math.dist(a, b) / PERIOD for a, b in zip(points, points[1:])]
+        return [math.dist(a, b) / PERIOD for a, b in pairwise(points)]
 
     def top_speed(self, *axes):
         return max(self.speed(*axes), default=0.0)

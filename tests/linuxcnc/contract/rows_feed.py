@@ -1,5 +1,7 @@
 """Overrides, holds and limits of the speed."""
 
+from itertools import pairwise
+
 from row import Row, from_route, to_segment
 
 SECTION = "Feed"
@@ -76,7 +78,7 @@ class ShapeWithoutOverride(Row):
     def check(self, seen):
         rows = seen.columns("x", "y", "analog")
         slow, fast = ([row[:2] for row in rows if row[2] == number] for number in (1, 2))
-        off = max(min(to_segment(point, a, b) for a, b in zip(slow, slow[1:])) for point in fast[::3])
+        off = max(min(to_segment(point, a, b) for a, b in pairwise(slow)) for point in fast[::3])
         seen.require(off < 0.005, f"{off * 1000:.0f} micrometres apart")
         return f"{off * 1000:.1f} micrometres apart"
 
@@ -96,7 +98,7 @@ class Slider(Row):
     def check(self, seen):
         seen.near(seen.during(2).top_speed("x"), 30, 0.1, "mm/s of a rapid")
         seen.near(seen.during(3).top_speed("b"), 30, 0.1, "degrees/s of a rotary move")
-        late = [speed for x, speed in zip(seen.column("x"), seen.speed("x")) if 32 < x < 38]
+        late = [speed for x, speed in zip(seen.column("x"), seen.speed("x"), strict=False) if 32 < x < 38]
         seen.near(max(late), 12, 0.1, "mm/s after the slider was moved")
 
 
@@ -193,7 +195,8 @@ class ReverseRun(Row):
 
     def check(self, seen):
         back, reverse = seen.kept["back"]
-        seen.require(reverse and back < seen.kept["paused"] - 5, f"at X {back:.1f} from {seen.kept['paused']:.1f}, reverse {reverse}")
+        paused = seen.kept["paused"]
+        seen.require(reverse and back < paused - 5, f"at X {back:.1f} from {paused:.1f}, reverse {reverse}")
         seen.near(seen.column("x")[-1], 40, 1e-6, "end")
         return f"{seen.kept['paused'] - back:.1f} mm back in a second"
 

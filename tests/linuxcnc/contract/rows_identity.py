@@ -24,7 +24,7 @@ class NumbersInBlends(Row):
     def check(self, seen):
         points = zigzag(8)
         last = 0
-        for line, x, y in seen.columns("line", "x", "y"):
+        for line in seen.column("line"):
             if line <= 0:
                 seen.require(line == 0, f"number {line}")
                 continue
@@ -65,7 +65,7 @@ class MergedMoves(Row):
         behind = [line for line, x in seen.columns("line", "x") if 5 < x < 10 and line > 0]
         xs = [x for line, x in seen.columns("line", "x") if 5 < x < 10 and line > 0]
         # X of a line's end is (line - 2) * .05
-        off = max(max(x - (line - 2) * 0.05, 0) for line, x in zip(behind, xs))
+        off = max(max(x - (line - 2) * 0.05, 0) for line, x in zip(behind, xs, strict=True))
         seen.require(off < 0.06, f"{off:.2f} mm beyond the move that is reported")
         return f"{len(set(lines))} of 300 numbers seen"
 
@@ -89,7 +89,7 @@ class Steps(Row):
         places = [point for n, point in enumerate(points[:-60]) if points[n + 60] == point]
         corners = [(0.0, 0.0), *zigzag(4)]
         reached = sorted({min(range(5), key=lambda n: abs(place[0] - corners[n][0])) for place in places})
-        off = max(min(max(abs(a - b) for a, b in zip(place, corner)) for corner in corners) for place in places)
+        off = max(min(max(abs(a - b) for a, b in zip(place, corner, strict=True)) for corner in corners) for place in places)
         seen.require(len(reached) >= 4, f"stood at corners {reached}")
         seen.require(off < 0.51, f"{off:.2f} mm from the corner")
         return f"rests {off:.3f} mm from corners"
@@ -124,10 +124,10 @@ class EnablesPerMove(Row):
 
     def check(self, seen):
         speeds = [seen.during(line).top_speed("x") for line in (3, 5, 7)]
-        for line, speed, wanted in zip((3, 5, 7), speeds, (25, 50, 25)):
-            if line == 7:
-                # it begins at the speed of the move before it
-                speed = sorted(seen.during(7).speed("x"))[len(seen.during(7).speed("x")) // 2]
+        # the last one begins at the speed of the move before it
+        last = sorted(seen.during(7).speed("x"))
+        speeds[-1] = last[len(last) // 2]
+        for line, speed, wanted in zip((3, 5, 7), speeds, (25, 50, 25), strict=True):
             seen.require(speed < wanted * 1.03 and speed > wanted * 0.8, f"line {line} at {speed:.1f} mm/s for {wanted}")
         return "25, 50, 25 mm/s"
 
@@ -162,6 +162,7 @@ class NoBlendOfKinds(Row):
     def check(self, seen):
         away = from_route(seen.columns("x", "y"), [(0, 0), (40, 0), (40, 20), (20, 20)])
         seen.require(away < 0.501, f"{away:.2f} mm from the program, P is 0.5")
-        slowest = min(speed for (x, y), speed in zip(seen.columns("x", "y"), seen.speed("x", "y")) if 15 < x < 39 and y == 0)
+        slowest = min(speed for (x, y), speed in zip(seen.columns("x", "y"), seen.speed("x", "y"), strict=False)
+                      if 15 < x < 39 and y == 0)
         seen.require(slowest > 10, f"slows down to {slowest:.1f} mm/s between G0 and G1 on one line")
         return f"slowest {slowest:.0f} mm/s"

@@ -1,6 +1,7 @@
 """G61, G61.1 and G64."""
 
 import math
+from itertools import pairwise
 
 from row import MICROMETRE, PERIOD, Row, from_route, to_segment
 
@@ -11,7 +12,7 @@ LINES = [f"G1 X{x} Y{y}" for x, y in CORNERS[1:]]
 
 def nearest(seen, corner):
     points = seen.moving("x", "y")
-    return min(to_segment(corner, a, b) for a, b in zip(points, points[1:]))
+    return min(to_segment(corner, a, b) for a, b in pairwise(points))
 
 
 class ExactStop(Row):
@@ -25,7 +26,8 @@ class ExactStop(Row):
     def check(self, seen):
         points, speeds = seen.columns("x", "y"), seen.speed("x", "y")
         for corner in [*CORNERS[1:], (30.0, 0.0)]:
-            there = [speed for point, speed in zip(points, speeds) if abs(point[0] - corner[0]) + abs(point[1] - corner[1]) < 0.002]
+            there = [speed for point, speed in zip(points, speeds, strict=False)
+                     if abs(point[0] - corner[0]) + abs(point[1] - corner[1]) < 0.002]
             seen.require(there and min(there) < 3, f"no rest at {corner}")
 
 
@@ -40,7 +42,8 @@ class ExactPath(Row):
     def check(self, seen):
         off = max(nearest(seen, corner) for corner in ((10, 0), (20, 0), (20, 20), (10, 20), (0, 20)))
         seen.require(off < MICROMETRE, f"misses a point by {off:.3f} mm")
-        inner = [speed for (x, y), speed in zip(seen.columns("x", "y"), seen.speed("x", "y")) if 5 < x < 19 and abs(y) < 1e-3]
+        inner = [speed for (x, y), speed in zip(seen.columns("x", "y"), seen.speed("x", "y"), strict=False)
+                 if 5 < x < 19 and abs(y) < 1e-3]
         seen.require(min(inner) > 20, f"{min(inner):.1f} mm/s where the path is straight")
         return f"slowest {min(inner):.0f} of 50 mm/s where the path is straight"
 
@@ -76,7 +79,7 @@ class WithoutTolerance(Row):
 
     def check(self, seen):
         cut = max(nearest(seen, corner) for corner in CORNERS[1:4])
-        for a, b in zip(CORNERS, CORNERS[1:]):
+        for a, b in pairwise(CORNERS):
             middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
             off = nearest(seen, middle)
             seen.require(off < 0.01, f"the middle of a move is missed by {off:.2f} mm")
@@ -94,7 +97,7 @@ class ChangesOnTheWay(Row):
     def check(self, seen):
         off = [nearest(seen, corner) for corner in ((10, 0), (20, 10), (20, 0), (30, 0))]
         wanted = (0.501, 0.001, 0.001, 0.201)
-        seen.require(all(a < b for a, b in zip(off, wanted)), f"{off}")
+        seen.require(all(a < b for a, b in zip(off, wanted, strict=True)), f"{off}")
         return "cut by " + ", ".join(f"{value:.2f}" for value in off)
 
 
@@ -110,7 +113,7 @@ class RotaryTolerance(Row):
         route = [(0, 0), (20, 0), (40, 10), (60, 0), (80, 0)]
         away = from_route(seen.moving("x", "b"), route)
         points = seen.moving("x", "b")
-        missed = max(min(to_segment(corner, a, b) for a, b in zip(points, points[1:])) for corner in route)
+        missed = max(min(to_segment(corner, a, b) for a, b in pairwise(points)) for corner in route)
         seen.require(max(away, missed) < 0.101, f"{max(away, missed):.3f} mm or degrees from the program, P is 0.1")
         rests = seen.rests("x", "b")
         seen.require(rests == 0, f"{rests} rests")
@@ -127,7 +130,7 @@ class DenseCode(Row):
         op.go_loaded(200, "G64 P0.02 Q0 F4800", *lines)
 
     def check(self, seen):
-        middle = [speed for x, speed in zip(seen.column("x"), seen.speed("x", "y")) if 10 < x < 32]
+        middle = [speed for x, speed in zip(seen.column("x"), seen.speed("x", "y"), strict=False) if 10 < x < 32]
         mean = sum(middle) / len(middle)
         seen.require(mean > 72, f"{mean:.0f} mm/s for 80 in the mean")
         return f"{mean:.1f} mm/s for 80", 1 / mean

@@ -1,6 +1,7 @@
 """What an operator does in the middle of it all."""
 
 import math
+from itertools import pairwise
 
 from row import MICROMETRE, Broken, Row, difference, from_route
 
@@ -51,7 +52,7 @@ class AbortIsSmooth(Row):
 
     def check(self, seen):
         acceleration = difference(difference(seen.column("x")))
-        step = max(abs(b - a) for a, b in zip(acceleration, acceleration[1:]))
+        step = max(abs(b - a) for a, b in pairwise(acceleration))
         seen.require(step < 30, f"the acceleration jumps by {step:.0f} mm/s2 in a period")
         return f"steps of {step:.0f} mm/s2 a period", step
 

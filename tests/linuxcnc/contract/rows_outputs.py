@@ -1,5 +1,7 @@
 """Outputs that the program synchronises with its moves."""
 
+from itertools import pairwise
+
 from row import Row
 
 SECTION = "Outputs"
@@ -25,9 +27,9 @@ class AtTheirMoves(Row):
         for got, wanted, what in ((digital, [(5, 1), (10, 0)], "P0"), (second, [(10, 1), (15, 0)], "P1"),
                                   (analog, [(5, 3), (15, 7)], "E0")):
             seen.require(len(got) == len(wanted), f"{what} changes {len(got)} times")
-            for (place, value), (where, to) in zip(got, wanted):
+            for (place, value), (where, to) in zip(got, wanted, strict=True):
                 seen.require(value == to and abs(place - where) < 0.2, f"{what} becomes {value} at {place:.2f}")
-        return f"within {max(abs(p - w) for p, w in zip([p for p, _ in digital], (5, 10))):.3f} mm"
+        return f"within {max(abs(p - w) for p, w in zip([p for p, _ in digital], (5, 10), strict=True)):.3f} mm"
 
 
 class InDenseCode(Row):
@@ -49,7 +51,7 @@ class InDenseCode(Row):
         wanted = [0.1 * (n - 1) for n in range(10, 121, 10)]
         wanted = wanted[1:] if len(got) == 11 else wanted
         seen.require(len(got) in (11, 12), f"{len(got)} changes")
-        off = max(abs(place - where) for (place, _), where in zip(got, wanted[-len(got):]))
+        off = max(abs(place - where) for (place, _), where in zip(got, wanted[-len(got):], strict=True))
         seen.require(off < 0.15, f"off by {off:.2f} mm")
         return f"within {off:.3f} mm"
 
@@ -100,12 +102,12 @@ class Indexer(Row):
 
     def check(self, seen):
         rows = seen.columns("a", "x", "unlock", "unlocked")
-        for before, now in zip(rows, rows[1:]):
+        for before, now in pairwise(rows):
             if now[0] != before[0]:
                 seen.require(now[3], "A moves while it is locked")
             if now[1] != before[1]:
                 seen.require(not now[3], "X moves while A is unlocked")
-        unlocks = sum(1 for before, now in zip(rows, rows[1:]) if now[2] and not before[2])
+        unlocks = sum(1 for before, now in pairwise(rows) if now[2] and not before[2])
         seen.require(unlocks in (2, 3), f"unlocked {unlocks} times")
         seen.near(rows[-1][0], 20, 1e-6, "A")
         return f"unlocked {unlocks} times for 3 moves"

@@ -1,5 +1,7 @@
 """Waiting for the spindle, and feeds that follow its speed."""
 
+from itertools import pairwise
+
 from row import PERIOD, Row
 
 SECTION = "Spindle"
@@ -69,7 +71,7 @@ class PauseWhileWaitingForSpeed(Row):
 def fed_per_turn(seen, low, high, turns="turns"):
     """Way in X for a turn of the spindle between two places."""
     rows = seen.columns("x", turns)
-    rows = [row for before, row in zip(rows, rows[1:]) if before[1] != row[1]]
+    rows = [row for before, row in pairwise(rows) if before[1] != row[1]]
     rows = [(x, turn) for x, turn in rows if low < x < high]
     seen.require(len(rows) > 20, f"not seen between {low} and {high}")
     return abs(rows[-1][0] - rows[0][0]) / abs(rows[-1][1] - rows[0][1])
@@ -90,7 +92,7 @@ class FeedPerTurn(Row):
         first, second = fed_per_turn(seen, 1.5, 4.5), fed_per_turn(seen, 7, 11)
         seen.near(first, 0.5, 0.005, "mm a turn")
         seen.near(second, 0.25, 0.0025, "mm a turn at 50 %")
-        last = [speed for x, speed in zip(seen.column("x"), seen.speed("x")) if 13.5 < x < 17]
+        last = [speed for x, speed in zip(seen.column("x"), seen.speed("x"), strict=False) if 13.5 < x < 17]
         seen.near(sum(last) / len(last), 15, 0.2, "mm/s under G94 at 50 %")
         return f"{first:.4f} mm a turn for 0.5"
 
@@ -109,7 +111,7 @@ class FeedPerTurnAborted(Row):
         op.say("G94 G1 F1200 X0")
 
     def check(self, seen):
-        back = [speed for before, now, speed in zip(seen.column("x"), seen.column("x")[1:], seen.speed("x")) if now < before]
+        back = [speed for (before, now), speed in zip(pairwise(seen.column("x")), seen.speed("x"), strict=True) if now < before]
         seen.near(max(back, default=0), 20, 0.1, "mm/s")
         seen.near(seen.column("x")[-1], 0, 1e-6, "end")
 

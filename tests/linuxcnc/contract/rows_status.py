@@ -1,6 +1,7 @@
 """What the status says in every servo period."""
 
 import math
+from itertools import pairwise
 
 from row import MICROMETRE, PERIOD, Row, from_route
 
@@ -17,10 +18,10 @@ class Velocity(Row):
 
     def check(self, seen):
         off = 0.0
-        for velocity, speed in zip(seen.column("velocity")[1:], seen.speed("x", "y")):
+        for velocity, speed in zip(seen.column("velocity")[1:], seen.speed("x", "y"), strict=True):
             off = max(off, abs(velocity - speed))
         feeds = [seen.during(line).column("feed") for line in (3, 4, 6)]
-        for feed, wanted in zip(feeds, (50, 30, 10)):
+        for feed, wanted in zip(feeds, (50, 30, 10), strict=True):
             seen.near(sorted(feed)[len(feed) // 2], wanted, 0.01, "requested_vel")
         seen.require(off < 2.5, f"current_vel is off by {off:.2f} mm/s")
         return f"within {off:.2f} mm/s"
@@ -76,8 +77,12 @@ class EnablesQueued(Row):
     def operate(self, op):
         op.begin("M48", "G1 X12 F1800", "M49", "G1 X24", "M48", "G1 X26")
         seen = []
-        op.until("the end", lambda: seen.append((op.status.motion_line, bool(op.status.feed_override_enabled)))
-                 or (op.status.motion_line >= 7 or len(seen) > 50) and op.status.inpos)
+
+        def over():
+            seen.append((op.status.motion_line, bool(op.status.feed_override_enabled)))
+            return (op.status.motion_line >= 7 or len(seen) > 50) and op.status.inpos
+
+        op.until("the end", over)
         op.keep("seen", [pair for n, pair in enumerate(seen) if n == 0 or seen[n - 1] != pair])
 
     def check(self, seen):
@@ -179,7 +184,7 @@ class LateMoves(Row):
     def check(self, seen):
         seen.near(seen.column("x")[-1], 24, 1e-6, "end")
         xs = seen.column("x")
-        seen.require(all(b >= a - 1e-9 for a, b in zip(xs, xs[1:])), "goes back")
+        seen.require(all(b >= a - 1e-9 for a, b in pairwise(xs)), "goes back")
         return f"{seen.rests('x')} rests"
 
 

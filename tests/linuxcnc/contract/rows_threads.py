@@ -1,5 +1,7 @@
 """Motion in step with the angle of a spindle."""
 
+from itertools import pairwise
+
 from row import Row
 from rows_spindle import fed_per_turn
 
@@ -11,8 +13,8 @@ def groove(seen, top, bottom, pitch, turns="turns"):
     """How far apart Z and the angle of the spindle drift on the ways down between two heights, from the least to the
     greatest, mm; a whole number of turns does not count."""
     rows = seen.columns("joint_z", turns)
-    phases = []
-    for (before, _), (z, turn) in zip(rows, rows[1:]):
+    phases: list[float] = []
+    for (before, _), (z, turn) in pairwise(rows):
         if bottom < z < top and z < before:
             phase = -z / pitch - turn
             phases.append(phase - round(phase - (phases[0] if phases else 0.0)))
@@ -61,7 +63,7 @@ class Chained(Row):
         op.finish(40)
 
     def check(self, seen):
-        down = [speed for z, speed in zip(seen.column("z"), seen.speed("z")) if -28 < z < -6]
+        down = [speed for z, speed in zip(seen.column("z"), seen.speed("z"), strict=False) if -28 < z < -6]
         seen.require(min(down) > 10, f"slows down to {min(down):.1f} mm/s between two threads")
         off = groove(seen, -4, -23, 2)
         seen.require(off < 0.05, f"{off * 1000:.0f} micrometres off")
@@ -206,7 +208,7 @@ class EstopInThread(Row):
 
     def check(self, seen):
         rows = seen.columns("x", "z")
-        speeds = [abs(b[0] - a[0]) * 1000 for a, b in zip(rows, rows[1:]) if 1 < a[0] < 9 and b[0] > a[0]]
+        speeds = [abs(b[0] - a[0]) * 1000 for a, b in pairwise(rows) if 1 < a[0] < 9 and b[0] > a[0]]
         seen.near(max(speeds), 20, 0.1, "mm/s in X")
         off = groove(seen, -9, -14, 2)
         seen.require(off < 0.05, f"{off * 1000:.0f} micrometres off")
@@ -242,7 +244,7 @@ class TapAborted(Row):
             op.begin(*START, "G0 Z2", "G33.1 Z-12 K1.25", "G0 X50")
             op.until("Z 2", lambda: op.status.position[2] > 1.999)
             if phase != "wait":
-                op.until("the way down", lambda: op.status.position[2] < (-4 if phase == "down" else -12))
+                op.until("the way down", lambda depth=-4 if phase == "down" else -12: op.status.position[2] < depth)
             if phase == "up":
                 op.until("the way up", lambda: op.status.position[2] > -9)
             op.abort()

@@ -34,7 +34,7 @@ ATTEMPTS = {"tpmod": 2, "blendtp": 3}
 class Recorder:
     """What harness.run records in every servo period."""
 
-    header = ["time", *(name for name, _, _ in FLOATS), *(name for name, _ in INTEGERS), *(name for name, _ in BITS)]
+    header = ("time", *(name for name, _, _ in FLOATS), *(name for name, _ in INTEGERS), *(name for name, _ in BITS))
 
     def hal(self):
         count = len(FLOATS)
@@ -44,9 +44,9 @@ class Recorder:
             lines += [f"setp scale.{n}.gain {gain:.0f}", f"net scaled-{name} scale.{n}.out => sampler.0.pin.{n}",
                       f"net {SIGNALS.get(pin, f'recorded-{name}')} {'' if pin in SIGNALS else pin} => scale.{n}.in",
                       f"addf scale.{n} servo-thread"]
-        for n, (name, pin) in enumerate(INTEGERS + BITS, count):
-            lines.append(f"net row => sampler.0.pin.{n}" if pin is None else
-                         f"net {SIGNALS.get(pin, f'recorded-{name}')} {'' if pin in SIGNALS else pin} => sampler.0.pin.{n}")
+        for n, (name, source) in enumerate(INTEGERS + BITS, count):
+            signal = SIGNALS.get(source, f"recorded-{name}") if source else name
+            lines.append(f"net {signal} {'' if source in SIGNALS else source or ''} => sampler.0.pin.{n}")
         return "\n".join([*lines, "addf sampler.0 servo-thread"]) + "\n"
 
     def read(self, path, _ini):
@@ -60,14 +60,14 @@ class Recorder:
                 if len(words) != len(self.header):
                     continue  # cut off in the middle of a line
                 first = int(words[0]) if first is None else first
-                floats = [float(word) * scale for word, scale in zip(words[1:], scales)]
+                floats = [float(word) * scale for word, scale in zip(words[1:], scales, strict=False)]
                 rows.append([(int(words[0]) - first) * PERIOD, *floats, *(int(word) for word in words[1 + len(floats):])])
         return rows
 
 
 #: pins that are on a signal of the machine already
-SIGNALS = {"joint.2.motor-pos-cmd": "joint-2", "spindle.0.revs": "turns", "spindle.1.revs": "second-turns", "joint.3.unlock": "unlock",
-           "joint.3.is-unlocked": "unlocked"}
+SIGNALS = {"joint.2.motor-pos-cmd": "joint-2", "spindle.0.revs": "turns", "spindle.1.revs": "second-turns",
+           "joint.3.unlock": "unlock", "joint.3.is-unlocked": "unlocked"}
 
 
 class Outcome:

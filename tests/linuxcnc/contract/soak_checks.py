@@ -7,7 +7,8 @@ from row import ACCELERATION, JERK, VELOCITY, difference
 #: What the limits of a period allow: all of them; velocity and acceleration (LinuxCNC's own jogs); nothing (emergency
 #: stop and machine off, where LinuxCNC drops the motion). PROGRAM and above are ALL: a random program, each with a number.
 INTERRUPTED, ALL, JOGGING, PROGRAM = 0, 1, 2, 3
-#: What velocity, acceleration and jerk may exceed their limits by: differences of positions recorded in nanometres.
+KINDS = ("velocity", "acceleration", "jerk")
+#: What they may exceed their limits by: differences of positions recorded in nanometres.
 SHARES = (1.001, 1.002, 1.06)
 #: A way back may be off the way there by this, mm or degrees: both are polylines through their periods.
 OFF_THE_WAY = 2e-3
@@ -21,7 +22,7 @@ class Peaks:
     def __init__(self, result):
         #: number of the program in which a limit was exceeded, if in one
         self.program = None
-        self.share, self.place = [0.0, 0.0, 0.0], [None, None, None]
+        self.share, self.place = [0.0, 0.0, 0.0], [("", 0.0, 0)] * 3
         states = result.column("row")
         for axis in "xyzab":
             values = result.column(axis)
@@ -29,9 +30,9 @@ class Peaks:
             # a tenth of what Y is able to do is for external offsets
             factor = 0.9 if axis == "y" else 1.0
             order = values
-            for degree, limit in enumerate(limits):
+            for degree, of_most in enumerate(limits):
                 order = difference(order)
-                limit *= factor if degree < 2 else 1.0
+                limit = of_most * (factor if degree < 2 else 1.0)
                 for n, value in enumerate(order):
                     if abs(value) > self.share[degree] * limit and self.counts(states, n, degree):
                         self.share[degree] = abs(value) / limit
@@ -46,7 +47,7 @@ class Peaks:
         return INTERRUPTED not in window
 
     def failure(self):
-        for what, share, allowed, place in zip(("velocity", "acceleration", "jerk"), self.share, SHARES, self.place):
+        for what, share, allowed, place in zip(KINDS, self.share, SHARES, self.place, strict=True):
             if share > allowed:
                 self.program = place[2]
                 return f"{what} is {share:.4f} of its limit: axis {place[0]} at {place[1]:.3f} s"
@@ -65,10 +66,10 @@ class WayThere:
     def project(self, point, index):
         """How far a point is off one leg, and the length of the way up to there."""
         start, end = self.points[index], self.points[index + 1]
-        direction = [e - s for s, e in zip(start, end)]
+        direction = [e - s for s, e in zip(start, end, strict=True)]
         square = sum(d * d for d in direction)
-        t = min(1.0, max(0.0, sum((p - s) * d for p, s, d in zip(point, start, direction)) / square))
-        return (math.dist(point, [s + t * d for s, d in zip(start, direction)]),
+        t = min(1.0, max(0.0, sum((p - s) * d for p, s, d in zip(point, start, direction, strict=True)) / square))
+        return (math.dist(point, [s + t * d for s, d in zip(start, direction, strict=True)]),
                 self.lengths[index] + t * (self.lengths[index + 1] - self.lengths[index]))
 
     def follow(self, point, backwards):
@@ -85,14 +86,15 @@ class WayThere:
         way = -1 if backwards else 1
         expected, reach = self.length + way * step, 1.5 * step + 0.02
         index = min(max(self.index - 2 * way, 0), len(self.points) - 2)
-        best = None
+        # where nothing of the way is within reach
+        best = (math.inf, math.inf, index, self.length)
         while 0 <= index < len(self.points) - 1:
             if min(abs(self.lengths[n] - self.length) for n in (index, index + 1)) > reach and abs(index - self.index) > 2:
                 break
             off, length = self.project(point, index)
             # where it runs back over itself, the place that continues the last one
             found = (off + 0.05 * abs(length - expected), off, index, length)
-            best = min(best or found, found)
+            best = min(best, found)
             index += way
         _, off, self.index, self.length = best
         # not sooner, or the way would go back and forth there
@@ -119,7 +121,7 @@ class Reverse:
         self.program = None
         place = [result.header.index(name) for name in "xyzab"]
         state, line, backwards = (result.header.index(name) for name in ("row", "line", "reverse"))
-        way, last, before, program = None, 0, None, None
+        way, last, before, program = WayThere([]), 0, [], None
         for n, row in enumerate(result.rows):
             if row[state] < PROGRAM:
                 program = None

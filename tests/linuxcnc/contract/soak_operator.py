@@ -7,6 +7,7 @@ import time
 
 import hal
 import linuxcnc
+
 from driver import ERRORS, Failure, main, write_result
 from operate import RowOperator
 from random_program import RandomProgram
@@ -28,7 +29,8 @@ class SoakOperator(RowOperator):
         self.recover()
         limit = time.monotonic() + seconds
         while time.monotonic() < limit:
-            program, self.actions = RandomProgram(self.source, self.place()), []
+            program = RandomProgram(self.source, self.place())
+            self.actions: list[list] = []
             self.answers["programs"] += 1
             self.answers["log"].append({"program": program.lines, "actions": self.actions})
             write_result(self, "LinuxCNC did not answer any more")
@@ -67,7 +69,7 @@ class SoakOperator(RowOperator):
             self.undo()
             self.at_the_end(END)
             self.without_errors()
-            off = max(abs(a - b) for a, b in zip(self.place(), program.place))
+            off = max(abs(a - b) for a, b in zip(self.place(), program.place, strict=True))
             if off > 1e-5:
                 at = self.place()
                 self.sleep(1.0)
@@ -177,9 +179,9 @@ class SoakOperator(RowOperator):
                 self.did(name, value)
                 self.pin(name, value)
             elif action == "adaptive":
-                value = source.choice((0, 0.2, 0.7, 1))
-                self.did("adaptive feed", value)
-                self.pin("motion.adaptive-feed", value)
+                scale = source.choice((0, 0.2, 0.7, 1))
+                self.did("adaptive feed", scale)
+                self.pin("motion.adaptive-feed", scale)
             elif action == "limits":
                 axis = source.choice("xyz")
                 self.did("limits", axis)

@@ -1,5 +1,7 @@
 #!/usr/bin/python3
-"""The outcome table: every promise, with LinuxCNC's own planner and with blendtp. table.py [--verbose] [--markdown] [ROW ...]"""
+"""The outcome table: every promise, with LinuxCNC's own planner and with blendtp.
+
+table.py [--verbose] [--markdown] [ROW ...]"""
 
 import concurrent.futures
 import os
@@ -7,8 +9,8 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-import session  # noqa: E402
-from row import all_rows  # noqa: E402
+import session
+from row import all_rows
 
 STOCK, OURS = "tpmod", "blendtp"
 SECTIONS = ("Identity", "Status", "Path modes", "Feed", "Operator", "Outputs", "Probing", "Indexer", "Spindle", "Threads")
@@ -21,7 +23,7 @@ BETTER = 0.8
 def outcomes(names=None, verbose=False):
     """{planner: {row: Outcome}} for both planners, in some LinuxCNCs side by side, which mostly wait."""
     names = names or [row.name() for row in all_rows()]
-    found = {STOCK: {}, OURS: {}}
+    found: dict = {STOCK: {}, OURS: {}}
     with concurrent.futures.ThreadPoolExecutor(2 * AT_A_TIME) as pool:
         running = [(planner, pool.submit(session.run, planner, names[part::AT_A_TIME], verbose))
                    for planner in found for part in range(AT_A_TIME) if names[part::AT_A_TIME]]

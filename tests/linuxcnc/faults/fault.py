@@ -4,6 +4,7 @@ import importlib
 import math
 import os
 import sys
+from itertools import pairwise
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.dirname(HERE), os.path.join(os.path.dirname(HERE), "contract")]
@@ -46,7 +47,7 @@ MODULES = ("rows_processes", "rows_motion", "rows_ini", "rows_period", "rows_mod
 
 def all_rows():
     """Every row, in the order of the table."""
-    rows = []
+    rows: list[type[Fault]] = []
     for name in MODULES:
         module = importlib.import_module(name)
         rows += getattr(module, "ROWS", None) or \
@@ -89,7 +90,7 @@ def trial_was_right(result, name="trial"):
 
 
 def differences(values, period):
-    return [(b - a) / period for a, b in zip(values, values[1:])]
+    return [(b - a) / period for a, b in pairwise(values)]
 
 
 class Peaks:

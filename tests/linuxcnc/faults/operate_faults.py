@@ -10,6 +10,7 @@ import time
 
 import hal
 import linuxcnc
+
 from driver import ERRORS, Failure, Operator, main, send, write_result
 
 #: What the processes are called on their command lines.
@@ -95,7 +96,7 @@ class FaultOperator(Operator):
         self.command.mdi(text)
         self.after_periods(1500)
         after = [hal.get_value(pin) for pin in pins]
-        self.answers["moved"] = max(abs(a - b) for a, b in zip(before, after))
+        self.answers["moved"] = max(abs(a - b) for a, b in zip(before, after, strict=True))
 
     def aborts(self, names, count, seed, folder):
         """Starts programs and aborts each at a random moment; where it rests then is kept as [name, from, rest]."""

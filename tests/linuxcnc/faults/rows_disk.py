@@ -42,9 +42,10 @@ class Full(Fault):
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     file.write(text)
             self.prepare(folder)
-            text = SCRIPT.format(room=ROOM, before=BEFORE.strip() + "\\n", command=self.command.format(tool=harness.TOOL, folder=folder, ini=INI,
-                                 modules=harness.MODULES))
-            done = subprocess.run(["unshare", "--mount", *([] if os.getuid() == 0 else ["--user", "--map-root-user"]), "bash", "-c", text],
+            command = self.command.format(tool=harness.TOOL, folder=folder, ini=INI, modules=harness.MODULES)
+            text = SCRIPT.format(room=ROOM, before=BEFORE.strip() + "\\n", command=command)
+            as_root = [] if os.getuid() == 0 else ["--user", "--map-root-user"]
+            done = subprocess.run(["unshare", "--mount", *as_root, "bash", "-c", text],
                                   env=dict(os.environ, DISK=disk), capture_output=True, text=True, timeout=300, check=False)
         require("code 1" in done.stdout, f"{done.stdout} {done.stderr[-200:]}")
         require("No space left" in done.stderr, f"it says: {done.stderr[-200:]}")
@@ -78,12 +79,13 @@ class FullReport(Full):
             file.write("\n".join(rows) + "\n")
 
 
-ROWS = [row("FullFilter", "{tool} filter --dialect sinumerik {folder}/part.mpf > new", "`framepath filter` on a full disk", False, TO_A_SHELL),
+ROWS = [row("FullFilter", "{tool} filter --dialect sinumerik {folder}/part.mpf > new", "`framepath filter` on a full disk",
+            False, TO_A_SHELL),
         row("FullPlan", PLAN + " > new", "`framepath plan` on a full disk", False, TO_A_SHELL),
         row("FullPlanJson", PLAN + " --json > new", "`framepath plan --json` on a full disk", False, TO_A_SHELL),
         row("FullGenerate", "{tool} generate dense > new", "`framepath generate` on a full disk", False, TO_A_SHELL),
-        row("FullCompare", "{tool} compare --generated zigzag --with {modules}/blendtp.so > new", "`framepath compare` on a full disk",
-            False, TO_A_SHELL)]
+        row("FullCompare", "{tool} compare --generated zigzag --with {modules}/blendtp.so > new",
+            "`framepath compare` on a full disk", False, TO_A_SHELL)]
 ROWS += [row(f"FullPlan{kind}", PLAN + f" --{kind.lower()} out", f"`framepath plan --{kind.lower()}` on a full disk")
          for kind in ("Csv", "Html", "Svg")]
 ROWS.append(FullReport)

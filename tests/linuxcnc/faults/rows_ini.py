@@ -1,5 +1,7 @@
 """Keys of the INI file with values that make no sense, one by one, and a forgotten line of the HAL file."""
 
+from typing import ClassVar
+
 from fault import Fault, operated, recovered, require, said, trial_was_right, without_failure
 
 SECTION = "INI"
@@ -72,7 +74,8 @@ class Refused(Fault):
     """LinuxCNC does not start, or no move is taken; a message names the key or the value; no joint moves"""
 
     section = SECTION
-    ini, words = {}, ()
+    ini: ClassVar[dict] = {}
+    words: tuple = ()
 
     def run(self):
         try:
@@ -98,7 +101,7 @@ class Harmless(Fault):
     """The program runs to its end, without an error"""
 
     section = SECTION
-    ini = {}
+    ini: ClassVar[dict] = {}
 
     def run(self):
         result = operated(NEXT, ini=self.ini, timeout=PATIENCE, record=False)

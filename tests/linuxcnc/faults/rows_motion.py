@@ -4,8 +4,7 @@ import concurrent.futures
 import math
 import os
 
-from fault import (HEAD, OFF, TOLERANCE, Fault, Peaks, from_route, harness, operated, require, trial_was_right,
-                 without_failure)
+from fault import HEAD, OFF, TOLERANCE, Fault, Peaks, from_route, harness, operated, require, trial_was_right, without_failure
 
 SECTION = "Motion"
 #: LinuxCNCs side by side for the aborts, and how many aborts there are.
@@ -13,13 +12,13 @@ SESSIONS, ABORTS, FEW = 4, 1000, 40
 
 
 def lines(points, letters="XYZ"):
-    return ["G1 " + " ".join(f"{letter}{value:.5f}" for letter, value in zip(letters, point)) for point in points]
+    return ["G1 " + " ".join(f"{letter}{value:.5f}" for letter, value in zip(letters, point, strict=True)) for point in points]
 
 
 ZIGZAG = [(7.0 * n, 6.0 * (n % 2), 1.5 * (n % 3)) for n in range(13)]
 DENSE = [(0.15 * n, 12 * math.sin(0.02 * n), 2 * math.cos(0.013 * n)) for n in range(500)]
 #: Half circles, one behind the other, alternately to both sides.
-ARCS = ["G3 X{0} Y0 I5".format(10 * n) if n % 2 else "G2 X{0} Y0 I5".format(10 * n) for n in range(1, 8)]
+ARCS = [f"G3 X{10 * n} Y0 I5" if n % 2 else f"G2 X{10 * n} Y0 I5" for n in range(1, 8)]
 ARC_POINTS = [(5 + 10 * n - 5 * math.cos(a), (-1 if n % 2 == 0 else 1) * 5 * math.sin(a), 0.0)
               for n in range(7) for a in (math.pi * k / 90 for k in range(91))]
 ROTARY = [(4.0 * n, 3.0 * (n % 2), 0.0, 0.0, 10.0 * (n % 4)) for n in range(1, 15)]
@@ -43,15 +42,16 @@ SHAPES = {
     "frame": (text("G0 X0 Y0 Z0", "o<trans> call [20] [5] [0]", "o<arot> call [0] [0] [30]", *lines(ZIGZAG)),
               [(0.0, 0.0, 0.0), *turned(ZIGZAG)]),
 }
-ROTARY_SHAPES = {"rotary": (text("G0 X0 Y0 Z0 B0", *lines([(*xyz, b) for *xyz, _, b in ROTARY], "XYZB")), [(0.0,) * 5, *ROTARY])}
+ROTARY_SHAPES = {"rotary": (text("G0 X0 Y0 Z0 B0", *lines([(*xyz, b) for *xyz, _, b in ROTARY], "XYZB")),
+                            [(0.0,) * 5, *ROTARY])}
 CONTRACT = os.path.join(harness.HERE, "contract", "machine")
 
 
 def abort_session(shapes, count, seed, joints, **options):
     """Peaks, and the greatest distance of a rest from the route of its program, mm."""
     programs = {f"{name}.ngc": program for name, (program, _) in shapes.items()}
-    result = operated([["aborts", sorted(shapes), count, seed, "PROGRAMS"], ["run", "PROGRAMS/trial.ngc"], ["note", "trial"]], programs,
-                      timeout=120 + 6 * count, **options)
+    result = operated([["aborts", sorted(shapes), count, seed, "PROGRAMS"], ["run", "PROGRAMS/trial.ngc"], ["note", "trial"]],
+                      programs, timeout=120 + 6 * count, **options)
     without_failure(result)
     require(len(result.answers["stops"]) == count, "not all of them were done")
     trial_was_right(result)
@@ -65,17 +65,19 @@ class Aborts(Fault):
 
     section = SECTION
     done = "1,000 aborts at random periods of programs of blends, arcs and dense code"
-    shapes = {name: shape for name, shape in SHAPES.items() if name != "frame"}
+    shapes: tuple[str, ...] = ("arcs", "blends", "dense")
     parts = SESSIONS
 
     def sessions(self):
+        shapes = {name: SHAPES[name] for name in self.shapes}
         if self.short:
-            return [abort_session(self.shapes, FEW, 0, range(3))]
+            return [abort_session(shapes, FEW, 0, range(3))]
         with concurrent.futures.ThreadPoolExecutor(SESSIONS) as pool:
-            return list(pool.map(lambda seed: abort_session(self.shapes, ABORTS // SESSIONS, seed, range(3)), range(self.parts)))
+            return list(pool.map(lambda seed: abort_session(shapes, ABORTS // SESSIONS, seed, range(3)),
+                                 range(self.parts)))
 
     def run(self):
-        peaks, off = zip(*self.sessions())
+        peaks, off = zip(*self.sessions(), strict=True)
         shares = [max(peak.shares[degree] for peak in peaks) for degree in range(3)]
         return "v {:.3f}, a {:.3f}, j {:.3f}, rests within {:.3f} mm of the program".format(*shares, max(off))
 
@@ -83,7 +85,7 @@ class Aborts(Fault):
 class FramedAborts(Aborts):
     __doc__ = Aborts.__doc__
     done = "250 aborts at random periods of a program in a frame"
-    shapes = {"frame": SHAPES["frame"]}
+    shapes = ("frame",)
     parts = 1
 
 
@@ -96,8 +98,8 @@ class RotaryAborts(Aborts):
         del recorder.integers["slot"]
         recorder.header.remove("slot")
         jerk = "".join(f"setp blendtp.axis.{axis}.max-jerk 20000\n" for axis in "xyzab")
-        return [abort_session(ROTARY_SHAPES, FEW if self.short else ABORTS // SESSIONS, 9, range(5), hal=jerk, recorder=recorder,
-                              sample="machine", configuration=CONTRACT)]
+        return [abort_session(ROTARY_SHAPES, FEW if self.short else ABORTS // SESSIONS, 9, range(5), hal=jerk,
+                              recorder=recorder, sample="machine", configuration=CONTRACT)]
 
 
 class MachineOff(Fault):
@@ -110,7 +112,8 @@ class MachineOff(Fault):
     def run(self):
         times = 3 if self.short else 10
         programs = {f"{name}.ngc": program for name, (program, _) in SHAPES.items()}
-        result = operated([["off_and_on", times, "PROGRAMS", "blends", 1], ["off_and_on", times, "PROGRAMS", "frame", 2]], programs)
+        result = operated([["off_and_on", times, "PROGRAMS", "blends", 1], ["off_and_on", times, "PROGRAMS", "frame", 2]],
+                          programs)
         without_failure(result)
         for name in result.answers:
             if name.startswith("trial"):

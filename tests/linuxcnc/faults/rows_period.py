@@ -21,7 +21,8 @@ class Period(Fault):
             steps += [["run", f"PROGRAMS/{name}.ngc"], ["note", name]]
         result = operated([*steps, ["run", "PROGRAMS/trial.ngc"], ["note", "trial"]],
                           {f"{name}.ngc": text for name, (text, _) in SHAPES.items()},
-                          ini={("EMCMOT", "SERVO_PERIOD"): round(self.period * NANOSECONDS), ("TASK", "CYCLE_TIME"): max(self.period, PERIOD)})
+                          ini={("EMCMOT", "SERVO_PERIOD"): round(self.period * NANOSECONDS),
+                               ("TASK", "CYCLE_TIME"): max(self.period, PERIOD)})
         without_failure(result)
         require(not result.errors, f"LinuxCNC says: {result.errors[:1]}")
         trial_was_right(result)
@@ -29,4 +30,5 @@ class Period(Fault):
 
 
 ROWS = [type(f"Period_{period}".replace(".", "_"), (Period,),
-             {"__doc__": Period.__doc__, "done": f"`[EMCMOT]SERVO_PERIOD` of {period} ms", "period": period * 1e-3}) for period in PERIODS]
+             {"__doc__": Period.__doc__, "done": f"`[EMCMOT]SERVO_PERIOD` of {period} ms", "period": period * 1e-3})
+        for period in PERIODS]

@@ -1,7 +1,20 @@
 """LinuxCNC's processes are killed and stopped while a program runs."""
 
-from fault import (HEAD, OFF, TOLERANCE, Fault, Peaks, at_rest_from, from_route, operated, recovered, require, said,
-                 trial_was_right, without_failure)
+from fault import (
+    HEAD,
+    OFF,
+    TOLERANCE,
+    Fault,
+    Peaks,
+    at_rest_from,
+    from_route,
+    operated,
+    recovered,
+    require,
+    said,
+    trial_was_right,
+    without_failure,
+)
 
 SECTION = "Processes"
 #: Some seconds of corners, and few enough that all of them are queued.
@@ -20,7 +33,7 @@ GUARDED_WITHIN = 2.0
 
 def on_its_path(result, points=POINTS, until=None):
     """That X Y Z of the joints stayed on the route."""
-    places = list(zip(*(result.commanded(joint)[:until] for joint in range(3))))
+    places = list(zip(*(result.commanded(joint)[:until] for joint in range(3)), strict=True))
     off = from_route(places, [(0.0, 0.0, 0.0), *points])
     require(off <= TOLERANCE + OFF, f"{off:.3f} mm off the path")
     return f"{off:.3f} mm off the program"
@@ -147,8 +160,8 @@ class GuardKilledAtRest(ProcessFault):
     done = "`kill -9` of frame_guard at rest, with a frame of MDI"
 
     def run(self):
-        result = operated([["mdi", "G61 G21 G90 F3000"], ["mdi", "o<rot> call [0] [0] [90]"], ["kill", "frame_guard"], ["sleep", 2.0],
-                           ["refused_mdi", "G1 X5"], ["getp", "active", "framekins.active"]], PROGRAMS)
+        result = operated([["mdi", "G61 G21 G90 F3000"], ["mdi", "o<rot> call [0] [0] [90]"], ["kill", "frame_guard"],
+                           ["sleep", 2.0], ["refused_mdi", "G1 X5"], ["getp", "active", "framekins.active"]], PROGRAMS)
         without_failure(result)
         moved = result.answers["moved"]
         require(moved == 0 or result.answers["active"] == "FALSE", f"a joint moves by {moved:.3f} mm in the frame")

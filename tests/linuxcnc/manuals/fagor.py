@@ -172,9 +172,10 @@ NINE = "xyzabcuvw"
 
 def nine(*points):
     """Lines of nine axes from zero through points of some of them."""
-    shapes, last = [], 9 * (0.0,)
+    shapes: list[Line] = []
+    last: tuple[float, ...] = 9 * (0.0,)
     for point in points:
-        end = tuple(point.get(letter, value) for letter, value in zip(NINE, last))
+        end = tuple(point.get(letter, value) for letter, value in zip(NINE, last, strict=True))
         shapes.append(Line(last, end))
         last = end
     return shapes

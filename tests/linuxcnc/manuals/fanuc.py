@@ -3,9 +3,8 @@
 import math
 
 from geometry import Frame
-from part_programs import Example, Path
-
 from manuals.isg import compensated, tilted
+from part_programs import Example, Path
 
 TURNED = """\
 %

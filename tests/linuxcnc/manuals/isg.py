@@ -1,9 +1,8 @@
 """ISG and TwinCAT: mirroring in the plane."""
 
 from geometry import Frame
-from part_programs import Example, Path, both, scaled, turn
-
 from manuals.mefi import G53, MODAL_G53, WORK_OFFSET
+from part_programs import Example, Path, both, scaled, turn
 
 MIRROR = """\
 %L DREIECK            (Subroutine)
