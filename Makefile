@@ -71,7 +71,7 @@ lint:
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
 	$(WITHOUT_LINUXCNC) $(CARGO) clippy --locked -p framepath-tool --no-default-features --all-targets -- -D warnings
-	mypy
+	$(PYTHON) -m mypy
 	! $(CARGO) tree --locked -p framepath-tool --no-default-features --edges normal,build | grep -E 'bindgen|clang|clarabel'
 
 # The style of the Python, pyproject.toml. Wants ruff, which Debian 12 does not have: pip install ruff.
