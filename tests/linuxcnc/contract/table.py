@@ -59,7 +59,7 @@ def lines(found, names=None):
 
 
 def markdown(found):
-    """The same for the README."""
+    """The same for docs/promises.md."""
     yield "| | with blendtp | LinuxCNC's own planner |\n|---|---|---|"
     section = None
     for row in sorted(all_rows(), key=lambda row: SECTIONS.index(row.section)):
