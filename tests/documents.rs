@@ -1,0 +1,82 @@
+//! Every file that the documents name is there: names change, and documents are forgotten.
+
+use std::path::{Path, PathBuf};
+
+/// Folders that hold what is named.
+const FOLDERS: [&str; 8] = [
+    "benches",
+    "demo",
+    "docs",
+    "fuzz",
+    "hal-component",
+    "src",
+    "tests",
+    "tool",
+];
+
+const ENDINGS: [&str; 7] = [".rs", ".py", ".md", ".c", ".h", ".ini", ".ngc"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files below a folder of the project, as paths from its root with `/`.
+fn files(folder: &Path, found: &mut Vec<String>) {
+    for entry in folder.read_dir().expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() && !path.ends_with("target") {
+            files(&path, found);
+        } else {
+            let inside = path.strip_prefix(root()).expect("inside");
+            found.push(inside.display().to_string());
+        }
+    }
+}
+
+fn documents() -> Vec<PathBuf> {
+    let pages = root().join("docs").read_dir().expect("docs");
+    let pages = pages.map(|entry| entry.expect("an entry").path());
+    ["README.md", "DESIGN.md", "CONTRIBUTING.md"]
+        .map(|name| root().join(name))
+        .into_iter()
+        .chain(pages.filter(|path| path.extension().is_some_and(|ending| ending == "md")))
+        .collect()
+}
+
+/// What stands between backquotes and reads as a file of the project.
+fn named(text: &str) -> impl Iterator<Item = &str> {
+    text.lines()
+        .flat_map(|line| line.split('`').skip(1).step_by(2))
+        .filter(|name| ENDINGS.iter().any(|ending| name.ends_with(ending)))
+        .filter(|name| !name.contains([' ', '*', '<', '(', '=']) && !name.starts_with('/'))
+}
+
+#[test]
+fn files_that_are_named_exist() {
+    let mut there = Vec::new();
+    for folder in FOLDERS {
+        files(&root().join(folder), &mut there);
+    }
+    let exists = |name: &str| {
+        root().join(name).exists()
+            || there
+                .iter()
+                .any(|path| path == name || path.ends_with(&format!("/{name}")))
+    };
+    let mut count = 0;
+    let mut missing = Vec::new();
+    for document in documents() {
+        let text = std::fs::read_to_string(&document).expect("a text");
+        for name in named(&text) {
+            count += 1;
+            if !exists(name) {
+                missing.push(format!("{}: {name}", document.display()));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{missing:#?}");
+    assert!(
+        count > 100,
+        "{count} files are named: are they found at all?"
+    );
+}
