@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 import harness
-from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, record
+from ten_programs import ATTEMPTS, AXES, NCFILES, PROGRAMS, PROMPT, record
 
 SAMPLE = "framepath-sim"
 PLANNER = "tpmod"
@@ -22,6 +22,7 @@ MODULE = f"/usr/lib/linuxcnc/modules/{PLANNER}.so"
 PERIOD = 1e-3
 #: share of the time by which compare and LinuxCNC may differ
 ALLOWED = 0.005
+OURS = os.path.join(harness.MODULES, "blendtp.so")
 
 
 def without_jerk(folder):
@@ -47,6 +48,14 @@ def machine():
             "--max-feed-override", ini["DISPLAY"]["MAX_FEED_OVERRIDE"]]
 
 
+def compare(*arguments):
+    """What `framepath compare` says of each program."""
+    done = subprocess.run([harness.TOOL, "compare", "--json", *arguments], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise AssertionError(done.stderr)
+    return json.loads(done.stdout)["programs"]
+
+
 def compared(folder):
     """{name: time in cycles} by compare."""
     files = []
@@ -54,12 +63,8 @@ def compared(folder):
         files.append(os.path.join(folder, f"{name}.ngc"))
         with open(files[-1], "w", encoding="utf-8") as file:
             file.write(text)
-    done = subprocess.run([harness.TOOL, "compare", *files, "--with", MODULE, "--json", *machine()],
-                          capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise AssertionError(done.stderr)
     times = {}
-    for program in json.loads(done.stdout)["programs"]:
+    for program in compare(*files, "--with", MODULE, *machine()):
         figures, = program["runs"]
         if figures["state"] != "complete":
             raise AssertionError(f"{program['program']}: {figures['state']}")
@@ -93,6 +98,25 @@ class AgainstLinuxCnc(unittest.TestCase):
         with self.subTest(program=name):
             self.fail(f"compare says {100 * off / recording.cycles:+.2f} %, although the moves came promptly")
         return False
+
+
+class LongerPlans(unittest.TestCase):
+    """A plan that is refused to be made longer by much is made longer by less: otherwise the machine brakes for the
+    end of what is planned."""
+
+    def test_no_rest_in_the_middle(self):
+        chips = os.path.join(NCFILES, "3D_Chips.ngc")
+        for program in compare(chips, "--with", OURS, "--feed-at-least", "6000"):
+            figures, = program["runs"]
+            self.assertEqual((figures["state"], figures["rests"]["count"]), ("complete", 0), figures["rests"])
+
+    def test_an_operator_who_raises_the_speed(self):
+        spiral = os.path.join(NCFILES, "arcspiral.ngc")
+        for operator in ("3", "5"):
+            for program in compare(spiral, "--with", MODULE, "--with", OURS, "--feed-at-least", "6000",
+                                   "--velocity-limit", "200", "--operator", operator):
+                stock, ours = (run["motion"]["time"] for run in program["runs"])
+                self.assertLess(ours, 1.02 * stock, f"operator {operator}")
 
 
 if __name__ == "__main__":

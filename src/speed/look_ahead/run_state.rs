@@ -39,7 +39,7 @@ pub(super) struct RunState {
     pub quiet: u32,
     /// Seconds behind the frozen part at which a candidate leaves the plan at the earliest.
     pub lead: f64,
-    /// How often a first plan was refused.
+    /// How often a candidate was refused since one was adopted.
     pub failures: u32,
     /// Slices until the next extension may be tried.
     pub pause: u32,
