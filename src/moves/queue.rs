@@ -32,6 +32,8 @@ pub struct MoveQueue {
     cleared: u64,
     /// Serial number of the first move that must not run yet.
     released: u64,
+    /// Serial number of the first move that has not begun.
+    begun: u64,
 }
 
 const VACANT: Move = Move {
@@ -62,6 +64,7 @@ impl MoveQueue {
             next: 0,
             cleared: 0,
             released: 0,
+            begun: 0,
         }
     }
 
@@ -129,6 +132,20 @@ impl MoveQueue {
         if self.oldest() <= serial && serial < self.first {
             self.first = serial;
         }
+    }
+
+    /// Whether the oldest move has begun.
+    pub fn has_begun(&self) -> bool {
+        self.first < self.begun
+    }
+
+    /// The oldest move begins, or goes on after a run back. It, and whether this is the first time.
+    pub fn begin_front(&mut self) -> Option<(&Move, bool)> {
+        let first_time = self.first >= self.begun;
+        if !self.is_empty() {
+            self.begun = self.begun.max(self.first + 1);
+        }
+        self.front().map(|front| (front, first_time))
     }
 
     /// Serial number of the first move since the queue was last cleared, come or to come.
@@ -207,6 +224,32 @@ mod tests {
             queue.return_to(oldest);
             assert_eq!(queue.len(), SLOTS);
             assert_eq!(queue.front().map(|m| m.id), Some(oldest as i32));
+        });
+    }
+
+    #[test]
+    fn a_move_begins_once() {
+        with_queue(|queue| {
+            assert!(queue.begin_front().is_none() && !queue.has_begun());
+            for id in 0..3 {
+                queue.push(Move { id, ..VACANT }).expect("room");
+            }
+            for _ in 0..2 {
+                assert!(!queue.has_begun());
+                assert!(
+                    queue
+                        .begin_front()
+                        .is_some_and(|(_, first_time)| first_time)
+                );
+                assert!(queue.has_begun());
+                queue.pop();
+            }
+            queue.return_to(0);
+            assert!(queue.has_begun());
+            let again = queue.begin_front().map(|(front, first)| (front.id, first));
+            assert_eq!(again, Some((0, false)));
+            queue.clear();
+            assert!(!queue.has_begun());
         });
     }
 

@@ -12,8 +12,10 @@
 
 mod blending;
 mod direction;
+mod error_stop;
 mod inputs;
 mod jerk_limit;
+mod motion_state;
 #[allow(clippy::module_inception)]
 mod planner;
 pub mod range;

@@ -3,7 +3,9 @@
 use nalgebra::{ArrayStorage, Matrix3};
 
 use super::blending::{Blending, BlendingError};
+use super::error_stop::ErrorStop;
 use super::inputs::SpindleInputs;
+use super::motion_state::MotionState;
 use super::range::RangeCheck;
 use super::reference::Reference;
 use super::request::{AddError, Added, LEAST_LIMITS, LEAST_VELOCITY, MoveRequest};
@@ -37,14 +39,9 @@ pub struct Planner {
     pub(super) queue: MoveQueue,
     pub(super) reference: Reference,
     pub(super) executor: Executor,
-    /// Whether the executor runs the reference. If not, the machine is at rest.
-    pub(super) running: bool,
-    /// Whether the machine stands still, although the executor runs the reference.
-    pub(super) at_rest: bool,
-    /// Whether the reference has been handed out to its end.
-    pub(super) closed: bool,
-    /// Serial number of the first move that has not been entered.
-    pub(super) entered: u64,
+    pub(super) motion: MotionState,
+    /// Why the motion was stopped, if it was: no move is taken before an abort.
+    error_stop: Option<ErrorStop>,
     pub(super) status: Status,
     /// What the axes may do in the motion that runs: what they were able to do when it began.
     pub(super) limits: AxisLimits,
@@ -71,8 +68,6 @@ pub struct Planner {
     /// The spindles as they were in the last cycle.
     pub(super) spindles: [SpindleInputs; SPINDLE_COUNT],
     pub(super) thread: Option<Thread>,
-    /// Whether the motion was stopped for an error: no move is taken before an abort.
-    tripped: bool,
     /// Whether the indexer of the next move was told to unlock.
     pub(super) unlocking: bool,
     /// A locking indexer that is to be locked before the next move.
@@ -92,10 +87,8 @@ impl Planner {
             queue: MoveQueue::new(),
             reference: Reference::new(),
             executor: Executor::new(),
-            running: false,
-            at_rest: true,
-            closed: false,
-            entered: 0,
+            motion: MotionState::Standing,
+            error_stop: None,
             status: Status::IDLE,
             limits: UNLIMITED_AXES,
             next_limits: UNLIMITED_AXES,
@@ -112,7 +105,6 @@ impl Planner {
             trackers: [Tracker::NEW; SPINDLE_COUNT],
             spindles: [SpindleInputs::STANDSTILL; SPINDLE_COUNT],
             thread: None,
-            tripped: false,
             unlocking: false,
             locking: None,
             outputs: SynchronisedOutputs::NONE,
@@ -124,7 +116,8 @@ impl Planner {
     /// Sets the duration of a cycle in seconds. `false`, and nothing changes, if it is not
     /// positive and finite or a move runs.
     pub fn set_cycle_time(&mut self, seconds: f64) -> bool {
-        let accepted = !self.running && self.executor.configure(&self.limits, seconds).is_ok();
+        let accepted =
+            !self.motion.is_running() && self.executor.configure(&self.limits, seconds).is_ok();
         if accepted {
             self.period = seconds;
         }
@@ -309,7 +302,7 @@ impl Planner {
         mode: SynchronisationMode,
         request: &MoveRequest,
     ) -> Result<Added, AddError> {
-        if self.tripped {
+        if self.error_stop.is_some() {
             return Err(AddError::Tripped);
         }
         if self.status.aborting {
@@ -406,18 +399,20 @@ impl Planner {
 
     /// Stops for an error: what follows in the program must not run. No move is taken before the
     /// operator, or task for him, has aborted.
-    pub(super) fn stop_for_error(&mut self) {
+    pub(super) fn stop_for_error(&mut self, error: ErrorStop) {
         self.stop();
-        self.tripped = true;
+        let error = error.after(self.error_stop);
+        self.error_stop = Some(error);
+        self.status.fault = error.fault();
     }
 
     /// Whether an error has stopped the motion, and nothing has been aborted since.
     pub fn is_stopped_for_error(&self) -> bool {
-        self.tripped
+        self.error_stop.is_some()
     }
 
     fn forget_error(&mut self) {
-        self.tripped = false;
+        self.error_stop = None;
         self.status.fault = None;
     }
 
@@ -452,7 +447,7 @@ impl Planner {
         self.queue.clear();
         self.executor.reset();
         self.reference.clear();
-        self.running = false;
+        self.motion.stand();
         self.status.backwards = false;
         self.thread = None;
         self.sequence = None;
@@ -464,11 +459,9 @@ impl Planner {
         self.report_rest();
     }
 
-    /// Stops for a fault of the planner itself. Of several the first is reported: the others may
-    /// follow from it.
+    /// Stops for a fault of the planner itself.
     pub(super) fn fail(&mut self, fault: Fault) {
-        self.status.fault.get_or_insert(fault);
-        self.stop_for_error();
+        self.stop_for_error(ErrorStop::Fault(fault));
     }
 
     /// Has the planner fail, as if it had broken its own rules in the next cycle: only in builds

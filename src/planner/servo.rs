@@ -1,6 +1,7 @@
 //! The servo period: which move runs, what is reported, what is written.
 
 use super::inputs::CycleInputs;
+use super::motion_state::{HandedOut, Pace};
 use super::planner::Planner;
 use super::reference::{Ahead, Conditions, Outlook, ReferencePoint};
 use super::status::{Fault, Status};
@@ -27,11 +28,11 @@ impl Planner {
         self.status.outputs = SynchronisedOutputs::NONE;
         self.status.indexer = None;
         self.track_spindles(inputs);
-        if !self.running {
+        if !self.motion.is_running() {
             self.stand(inputs);
         }
         self.plan(inputs);
-        if self.running {
+        if self.motion.is_running() {
             self.run(inputs);
         }
         &self.status
@@ -56,7 +57,7 @@ impl Planner {
             !backwards && (next.wait_for_spindle || begins_thread) && !inputs.spindles_at_speed;
         // The path may have left the program, and rest beside the place where its next move begins.
         let beside = (next.shape.position(0.0) - self.status.position).amax() > LEAST_DISTANCE;
-        let begun = beside || self.queue.first_serial() < self.entered;
+        let begun = beside || self.queue.has_begun();
         let stale = self.limits_changed() || inputs.stepping != self.reference.is_single();
         if self.queue.released(self.queue.first_serial()).is_none() {
             return;
@@ -93,8 +94,7 @@ impl Planner {
             return;
         }
         self.executor.reset();
-        self.running = true;
-        self.closed = false;
+        self.motion.start();
         if !backwards {
             self.enter();
         }
@@ -118,10 +118,10 @@ impl Planner {
         {
             self.fail(fault);
         }
-        if !self.running {
+        if !self.motion.is_running() {
             self.start(inputs);
         }
-        if self.running {
+        if self.motion.is_running() {
             if !self.build(inputs) {
                 self.reference.take_back();
                 self.brake_for(Fault::CellRefused, inputs);
@@ -143,10 +143,15 @@ impl Planner {
         if self.reference.coast(&outlook) {
             self.fail(fault);
             // What follows a missing period would be a jump.
-            self.closed = !self.build(inputs);
+            let handed_out = if self.build(inputs) {
+                HandedOut::Partly
+            } else {
+                HandedOut::ToTheEnd
+            };
+            self.motion.hand_out(handed_out);
         } else if fault == Fault::CellRefused {
             self.fail(fault);
-            self.closed = true;
+            self.motion.hand_out(HandedOut::ToTheEnd);
         }
     }
 
@@ -177,27 +182,24 @@ impl Planner {
         let needed = self.executor.cells_needed();
         let mut refused = false;
         for _ in 0..CELLS_A_CYCLE {
-            if self.closed || refused || self.executor.cells_ahead() >= self.executor.cells_wanted()
-            {
+            let ahead = self.executor.cells_ahead();
+            if !self.motion.takes_more() || refused || ahead >= self.executor.cells_wanted() {
                 break;
             }
             // What the executor cannot do without takes as many pieces as it takes: beside a rest they may
             // be many times shorter than a period.
             let mut whole_ring = usize::MAX;
-            let budget = if self.executor.cells_ahead() < LEAST_CELLS {
+            let budget = if ahead < LEAST_CELLS {
                 &mut whole_ring
             } else {
                 &mut budget
             };
-            let mut ahead = self.reference.next_cell(&outlook, needed, budget);
+            let mut next = self.reference.next_cell(&outlook, needed, budget);
             // How it goes on is not known in time: the machine rests until it is.
-            if matches!(ahead, Ahead::Later)
-                && self.reference.is_resting()
-                && self.executor.cells_ahead() < LEAST_CELLS
-            {
-                ahead = self.reference.end_here();
+            if matches!(next, Ahead::Later) && self.reference.is_resting() && ahead < LEAST_CELLS {
+                next = self.reference.end_here();
             }
-            let (cell, end) = match ahead {
+            let (cell, end) = match next {
                 Ahead::Later => break,
                 Ahead::Cell(cell) => (Some(cell), None),
                 Ahead::Last { cell, duration } => (Some(cell), Some(duration)),
@@ -208,7 +210,7 @@ impl Planner {
             }
             if let Some(end) = end {
                 refused |= self.executor.close(end).is_err();
-                self.closed = true;
+                self.motion.hand_out(HandedOut::ToTheEnd);
             }
         }
         !refused
@@ -220,13 +222,17 @@ impl Planner {
         let demand = self.demand(inputs);
         self.status.following_spindle = demand.follow.is_some();
         let step = self.executor.cycle(&demand);
-        self.at_rest = step.at_rest;
+        self.motion.set_pace(if step.at_rest {
+            Pace::StandingStill
+        } else {
+            Pace::Moving
+        });
         if step.starved {
             self.fail(Fault::Starved);
         }
         let Some(point) = self.reference.advance(&self.queue, step.advance) else {
             // Nothing was planned, so nothing was run: the machine is where it was.
-            self.running = false;
+            self.motion.stand();
             return;
         };
         if step.end_reached {
@@ -309,7 +315,7 @@ impl Planner {
         if self.tap_overran() && !self.status.aborting {
             self.stop_overrun_tap();
         }
-        self.running = false;
+        self.motion.stand();
         if self.reference.is_backwards() {
             self.pass_to(rest.next);
             if self.status.aborting {
@@ -386,14 +392,12 @@ impl Planner {
 
     /// The first move of the queue starts, or goes on: its outputs are written once.
     fn enter(&mut self) {
-        let first = self.queue.first_serial();
-        if let Some(started) = self.queue.front() {
+        if let Some((started, first_time)) = self.queue.begin_front() {
             self.status.tag = started.tag;
             // An abort takes back what was to be written.
-            if first >= self.entered && !self.status.aborting {
+            if first_time && !self.status.aborting {
                 self.status.outputs.merge(&started.outputs);
             }
-            self.entered = self.entered.max(first + 1);
         }
     }
 

@@ -1,5 +1,6 @@
 //! The servo cycle of a thread: index, start in step, where to be, and what goes wrong.
 
+use super::super::error_stop::ErrorStop;
 use super::super::inputs::CycleInputs;
 use super::super::planner::Planner;
 use super::error::SpindleError;
@@ -72,7 +73,7 @@ impl Planner {
             return false;
         };
         let first = with.mode == SynchronisationMode::Thread { turns_before: 0.0 };
-        let begun = self.queue.first_serial() < self.entered;
+        let begun = self.queue.has_begun();
         thread.spindle == with.spindle && (thread.stage != Stage::Running || begun || !first)
     }
 
@@ -269,7 +270,7 @@ impl Planner {
 
     /// Stops for the sake of the spindle: what follows a broken thread must not run.
     pub(super) fn trip(&mut self, error: SpindleError) {
-        self.stop_for_error();
+        self.stop_for_error(ErrorStop::Spindle(error));
         self.status.spindle_error = Some(error);
     }
 

@@ -115,7 +115,7 @@ impl Planner {
         }
         self.reference.clear();
         self.executor.reset();
-        self.running = false;
+        self.motion.stand();
         self.report_rest();
     }
 
