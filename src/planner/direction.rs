@@ -48,6 +48,8 @@ impl Planner {
                 || front.indexer_joint.is_some()
                 || front.motion_type == MotionType::Probing
         });
-        self.queue.has_begun() && coupled || self.thread.is_some() || self.locking.is_some()
+        self.queue.has_begun() && coupled
+            || self.spindle.has_thread()
+            || self.indexer.locking().is_some()
     }
 }

@@ -4,6 +4,7 @@ use super::inputs::CycleInputs;
 use super::motion_state::{HandedOut, Pace};
 use super::planner::Planner;
 use super::reference::{Ahead, Conditions, Outlook, ReferencePoint};
+use super::spindle::SpindleError;
 use super::status::{Fault, Status};
 use crate::axes::Axes;
 use crate::cycle::{Demand, ExecutorStep};
@@ -49,7 +50,8 @@ impl Planner {
         }
         self.report_rest();
         let backwards = self.reference.is_backwards();
-        let begins_thread = self.begins_thread();
+        let at_hand = self.move_at_hand();
+        let begins_thread = at_hand.is_some_and(|next| self.spindle.begins_thread(&next));
         let Some(next) = self.queue.front() else {
             return;
         };
@@ -58,7 +60,7 @@ impl Planner {
         // The path may have left the program, and rest beside the place where its next move begins.
         let beside = (next.shape.position(0.0) - self.status.position).amax() > LEAST_DISTANCE;
         let begun = beside || self.queue.has_begun();
-        let stale = self.limits_changed() || inputs.stepping != self.reference.is_single();
+        let stale = self.axes.limits_changed() || inputs.stepping != self.reference.is_single();
         if self.queue.released(self.queue.first_serial()).is_none() {
             return;
         }
@@ -66,7 +68,7 @@ impl Planner {
         if !self.reference.is_active() || stale && !begun && !backwards {
             self.take_limits();
             let first = self.queue.first_serial();
-            let Some(settings) = self.blending.settings(&self.queue, &self.limits) else {
+            let Some(settings) = self.blending.settings(&self.queue, self.axes.limits()) else {
                 self.fail(Fault::SettingsRefused);
                 return;
             };
@@ -78,7 +80,7 @@ impl Planner {
 
     /// At rest: starts if there is a plan and nothing holds the machine.
     fn start(&mut self, inputs: &CycleInputs) {
-        let held = if self.is_tapping() {
+        let held = if self.spindle.is_tapping() {
             self.status.aborting
         } else {
             self.status.waiting_for_spindle || self.is_held(inputs)
@@ -89,7 +91,7 @@ impl Planner {
         // On the way back it is not the next move that starts, but one that has been run.
         let backwards = self.reference.is_backwards();
         let permitted =
-            backwards || self.indexer_permits_start(inputs) && self.spindle_permits_start(inputs);
+            backwards || self.indexer_permits_start(inputs) && self.spindle_permits_start();
         if !permitted {
             return;
         }
@@ -104,8 +106,8 @@ impl Planner {
     fn plan(&mut self, inputs: &CycleInputs) {
         let outlook = Outlook {
             queue: &self.queue,
-            limits: &self.limits,
-            map: &self.map,
+            limits: self.axes.limits(),
+            map: self.axes.map(),
             now: self.conditions(inputs),
         };
         let fault = match self.reference.work(&outlook) {
@@ -136,8 +138,8 @@ impl Planner {
     fn brake_for(&mut self, fault: Fault, inputs: &CycleInputs) {
         let outlook = Outlook {
             queue: &self.queue,
-            limits: &self.limits,
-            map: &self.map,
+            limits: self.axes.limits(),
+            map: self.axes.map(),
             now: self.conditions(inputs),
         };
         if self.reference.coast(&outlook) {
@@ -161,11 +163,11 @@ impl Planner {
             period: self.period,
             feed_scale: inputs.feed_scale,
             rapid_scale: inputs.rapid_scale,
-            velocity_limit: self.velocity_limit,
-            velocity_share: self.velocity_share(),
+            velocity_limit: self.slider.limit(),
+            velocity_share: self.slider.share(),
             greatest_tolerance: self.blending.greatest_tolerance(),
             stepping: inputs.stepping,
-            limits_changed: self.limits_changed(),
+            limits_changed: self.axes.limits_changed(),
         }
     }
 
@@ -173,8 +175,8 @@ impl Planner {
     fn build(&mut self, inputs: &CycleInputs) -> bool {
         let outlook = Outlook {
             queue: &self.queue,
-            limits: &self.limits,
-            map: &self.map,
+            limits: self.axes.limits(),
+            map: self.axes.map(),
             now: self.conditions(inputs),
         };
         let mut budget = PIECES_A_CYCLE;
@@ -255,8 +257,10 @@ impl Planner {
         let running = self.queue.front();
         let scale = further_scale(inputs, running, &self.status);
         let overridden = running.is_none_or(|running| running.override_enabled());
-        let slider = self.slider();
-        let follow = self.follow();
+        let slider = self.slider_for(running);
+        let follow = self
+            .move_at_hand()
+            .and_then(|running| self.spindle.follow(&running, &self.status));
         // In a thread nothing but an abort may part the machine from the spindle.
         let hold = if follow.is_some() {
             self.status.aborting
@@ -275,26 +279,27 @@ impl Planner {
             hold,
             feed_override: inputs.feed_scale * scale,
             rapid_override: inputs.rapid_scale * scale,
-            turns: self.feed_turns() * if overridden { 1.0 } else { scale },
+            turns: self.spindle.feed_turns(running) * if overridden { 1.0 } else { scale },
             max_velocity: slider.min(fixed),
             follow,
         }
     }
 
     /// The operator's slider for the running move.
-    fn slider(&self) -> f64 {
-        match self.queue.front() {
+    fn slider_for(&self, running: Option<&Move>) -> f64 {
+        match running {
             Some(running) if running.shape.is_rotary() => {
-                running.max_velocity * self.velocity_share()
+                running.max_velocity * self.slider.share()
             }
-            _ => self.velocity_limit,
+            _ => self.slider.limit(),
         }
     }
 
     /// Whether pause, abort, feed hold or a slider at 0 hold the machine, unless it is in a thread.
     fn is_held(&self, inputs: &CycleInputs) -> bool {
         let held = inputs.net_feed_scale.is_nan() || inputs.net_feed_scale <= 0.0;
-        self.status.pausing || self.status.aborting || held || self.slider() <= 0.0
+        let slider = self.slider_for(self.queue.front());
+        self.status.pausing || self.status.aborting || held || slider <= 0.0
     }
 
     /// Whether the next move may start: a locking indexer has to be unlocked for it.
@@ -304,7 +309,7 @@ impl Planner {
         };
         self.status.indexer = Some((joint, true));
         // What was asked for in this cycle is answered in a later one.
-        std::mem::replace(&mut self.unlocking, true) && inputs.indexer_unlocked
+        self.indexer.unlock() && inputs.indexer_unlocked
     }
 
     /// The end of the reference is reached: at rest, exactly where its last move ends, or in the
@@ -312,8 +317,9 @@ impl Planner {
     fn finish(&mut self) {
         let rest = self.reference.come_to_rest(&self.queue);
         self.status.position = rest.position;
-        if self.tap_overran() && !self.status.aborting {
-            self.stop_overrun_tap();
+        // The turns are over that the spindle may take to turn back.
+        if self.spindle.has_tap() && !self.status.aborting {
+            self.stop_for_spindle(SpindleError::NotReversed);
         }
         self.motion.stand();
         if self.reference.is_backwards() {
@@ -327,8 +333,11 @@ impl Planner {
         }
         self.leave_moves_before(rest.next.saturating_sub(1));
         if self.queue.first_serial() < rest.next {
-            self.locking = self.queue.front().and_then(|ended| ended.indexer_joint);
-            if self.locking.is_none() || self.status.aborting {
+            let turned = self.queue.front().and_then(|ended| ended.indexer_joint);
+            if let Some(joint) = turned {
+                self.indexer.lock(joint);
+            }
+            if turned.is_none() || self.status.aborting {
                 self.queue.pop();
             }
         }
@@ -344,11 +353,9 @@ impl Planner {
     /// At rest after an abort: goes on from here with no moves and nothing synchronised.
     fn end_abort(&mut self) {
         // What was unlocked for a move that does not come is locked again.
-        let unlocked = self
-            .indexer_joint()
-            .filter(|_| self.unlocking || self.locking.is_some());
+        let unlocked = self.indexer_joint().filter(|_| self.indexer.is_open());
         self.drop_moves();
-        self.end_synchronisation();
+        self.spindle.set_command(None);
         if let Some(joint) = unlocked {
             self.status.indexer = Some((joint, false));
         }
@@ -356,15 +363,14 @@ impl Planner {
 
     /// At rest behind a move of a locking indexer: whether it is locked, so that the move is over.
     fn is_locked(&mut self, inputs: &CycleInputs) -> bool {
-        let Some(joint) = self.locking else {
+        let Some(joint) = self.indexer.locking() else {
             return true;
         };
         self.status.indexer = Some((joint, false));
-        self.unlocking = false;
         if inputs.indexer_unlocked {
             return false;
         }
-        self.locking = None;
+        self.indexer.reset();
         self.queue.pop();
         true
     }
