@@ -3,12 +3,12 @@
 use super::queued_move::Move;
 use super::shape::Shape;
 use super::{MotionType, StateTag, SynchronisedOutputs, TerminationCondition};
+use crate::ring::Ring;
 
 /// From this length on the queue reports itself full.
 pub const CAPACITY: usize = 2000;
 
-/// A power of two, so that a masked index is in range for the compiler too. What is above
-/// [`CAPACITY`] remembers moves that have left the queue, and is the margin for moves that were on
+/// What is above [`CAPACITY`] remembers moves that have left the queue, and is the margin for moves that were on
 /// their way when the queue reported itself full.
 const SLOTS: usize = 4096;
 
@@ -23,7 +23,7 @@ pub struct QueueFull;
 /// the queue is consumed.
 #[derive(Debug)]
 pub struct MoveQueue {
-    slots: [Move; SLOTS],
+    slots: Ring<Move, SLOTS>,
     /// Serial number of the oldest move that waits or runs.
     first: u64,
     /// Serial number of the next move to come; at most `SLOTS` above `first`.
@@ -51,15 +51,11 @@ const VACANT: Move = Move {
     outputs: SynchronisedOutputs::NONE,
 };
 
-const fn slot(serial: u64) -> usize {
-    serial as usize & (SLOTS - 1)
-}
-
 impl MoveQueue {
     /// An empty queue.
     pub const fn new() -> Self {
         Self {
-            slots: [VACANT; SLOTS],
+            slots: Ring::filled_with(VACANT),
             first: 0,
             next: 0,
             cleared: 0,
@@ -96,7 +92,7 @@ impl MoveQueue {
     /// The move with this serial number, also if it has left; `None` if it is not remembered any
     /// more or has not come yet.
     pub fn get(&self, serial: u64) -> Option<&Move> {
-        (self.oldest() <= serial && serial < self.next).then(|| &self.slots[slot(serial)])
+        (self.oldest() <= serial && serial < self.next).then(|| self.slots.at(serial))
     }
 
     /// The oldest move that has not left.
@@ -106,7 +102,7 @@ impl MoveQueue {
 
     /// The same, to be changed.
     pub fn front_mut(&mut self) -> Option<&mut Move> {
-        (!self.is_empty()).then(|| &mut self.slots[slot(self.first)])
+        (!self.is_empty()).then(|| self.slots.at_mut(self.first))
     }
 
     /// Appends a move. Refused only when the margin above [`CAPACITY`] is used up too.
@@ -114,7 +110,7 @@ impl MoveQueue {
         if self.len() >= SLOTS {
             return Err(QueueFull);
         }
-        self.slots[slot(self.next)] = queued;
+        *self.slots.at_mut(self.next) = queued;
         self.next += 1;
         Ok(())
     }
