@@ -27,4 +27,5 @@ pub mod machine;
 pub mod moves;
 pub mod path;
 pub mod planner;
+mod ring;
 pub mod speed;

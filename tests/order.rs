@@ -8,9 +8,10 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, ItemMod, ItemUse, UseTree, Visibility};
 
 /// No folder imports one that comes behind it. What both modules use; framekins; blendtp; the edge to C.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 12] = [
     "axes",
-    "cube_root", // both
+    "cube_root",
+    "ring", // both
     "frame",
     "machine",
     "kinematics", // framekins

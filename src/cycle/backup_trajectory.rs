@@ -5,8 +5,9 @@
 //! it is, which is feasible for ever. As long as one is stored, nothing can go wrong.
 
 use super::rows::{PeriodLimits, Span};
+use super::simulation::Simulation;
 use super::state::State;
-use super::table::{Node, Table};
+use super::table::Node;
 
 /// Longest backup trajectory, servo periods. A power of two.
 const LONGEST: usize = 256;
@@ -137,24 +138,26 @@ impl BackupTrajectory {
     }
 
     /// Simulates the fastest backup trajectory from `state`, reached with `previous_n`, and stores it.
-    /// `budget` counts down by the periods simulated.
     #[inline(never)]
     pub fn find(
         &mut self,
-        table: &Table,
-        limits: &PeriodLimits,
+        simulation: &mut Simulation,
         reserve: Reserve,
-        mut state: State,
+        state: State,
         previous_n: f64,
-        budget: &mut usize,
     ) -> Result<(), BackupRefusal> {
         self.start();
+        let table = simulation.table;
         if !table.knows(state.time) {
             return Err(BackupRefusal::Wall);
         }
-        let mut start = table.node(state.time);
-        let mut previous_n = previous_n;
+        let mut here = Place {
+            n: previous_n,
+            state,
+            node: table.node(state.time),
+        };
         for _ in 0..=LONGEST {
+            let state = here.state;
             let behind_end = table.is_behind_end(state.time);
             if state.is_steady() || behind_end {
                 self.end_time = state.time;
@@ -163,46 +166,49 @@ impl BackupTrajectory {
             }
             let reduced;
             let limits = match reserve {
-                Reserve::Used => limits,
+                Reserve::Used => simulation.limits,
                 Reserve::Kept => {
-                    reduced = limits.with_jerk_part(kept_part(state.rate));
+                    reduced = simulation.limits.with_jerk_part(kept_part(state.rate));
                     &reduced
                 }
             };
-            let (n, next, end) = fastest_step(table, limits, state, &start, previous_n, budget)?;
-            if !self.append(n) {
+            here = fastest_step(simulation, limits, &here)?;
+            if !self.append(here.n) {
                 return Err(BackupRefusal::Budget);
             }
-            previous_n = n;
-            state = next;
-            start = end;
         }
         Err(BackupRefusal::Budget)
     }
 }
 
-/// One period of the fastest backup trajectory from `state`: its n, the state after it, and the reference
-/// there. The rows are linearised around the n of the period before; where that is far off, as at
-/// the start of a backup trajectory, they are once more, around what they gave.
+/// Where a backup trajectory is between two periods.
+struct Place {
+    /// The n that led here.
+    n: f64,
+    state: State,
+    /// The reference here.
+    node: Node,
+}
+
+/// One period of the fastest backup trajectory. The rows are linearised around the n of the period before; where
+/// that is far off, as at the start of a backup trajectory, they are once more, around what they gave.
 #[inline(always)]
 fn fastest_step(
-    table: &Table,
+    simulation: &mut Simulation,
     limits: &PeriodLimits,
-    state: State,
-    start: &Node,
-    previous_n: f64,
-    budget: &mut usize,
-) -> Result<(f64, State, Node), BackupRefusal> {
+    start: &Place,
+) -> Result<Place, BackupRefusal> {
+    let (table, state) = (simulation.table, start.state);
     let wanted = -state.rate_change;
-    let mut predicted_n = previous_n;
+    let mut predicted_n = start.n;
     for _ in 0..PREDICTIONS {
-        *budget = budget.checked_sub(1).ok_or(BackupRefusal::Budget)?;
+        simulation.spend().ok_or(BackupRefusal::Budget)?;
         let predicted = state.step(predicted_n);
         if !table.knows(predicted.time) {
             return Err(BackupRefusal::Wall);
         }
-        let end = table.node(predicted.time);
-        let span = Span::new(table, limits, start, &end);
+        let node = table.node(predicted.time);
+        let span = Span::new(table, limits, &start.node, &node);
         let interval = span.jerk_interval(state, predicted);
         if interval.is_empty() {
             return Err(BackupRefusal::Limits);
@@ -219,7 +225,11 @@ fn fastest_step(
             return Err(BackupRefusal::Limits);
         }
         if span.keeps_limits(state, next, n) {
-            return Ok((n, next, end));
+            return Ok(Place {
+                n,
+                state: next,
+                node,
+            });
         }
         predicted_n = n;
     }
@@ -229,6 +239,7 @@ fn fastest_step(
 #[cfg(test)]
 mod tests {
     use super::super::cell::Cell;
+    use super::super::table::Table;
     use super::*;
     use crate::axes::{Axes, AxisLimits};
 
@@ -274,6 +285,21 @@ mod tests {
         PeriodLimits::new(&limits, 1.0)
     }
 
+    fn find(
+        backup: &mut BackupTrajectory,
+        table: &Table,
+        (reserve, state): (Reserve, State),
+        budget: &mut usize,
+    ) -> Result<(), BackupRefusal> {
+        let mut simulation = Simulation {
+            table,
+            limits: &limits(),
+            servo_period: 1.0,
+            budget,
+        };
+        backup.find(&mut simulation, reserve, state, 0.0)
+    }
+
     const BRAKING: State = State {
         time: 0.0,
         rate: 0.7,
@@ -282,10 +308,10 @@ mod tests {
 
     #[test]
     fn it_takes_the_time_that_the_jerk_asks_for() {
-        let (table, limits) = (cruise(200), limits());
+        let table = cruise(200);
         let mut backup = BackupTrajectory::EMPTY;
         let mut budget = 100;
-        let found = backup.find(&table, &limits, Reserve::Used, BRAKING, 0.0, &mut budget);
+        let found = find(&mut backup, &table, (Reserve::Used, BRAKING), &mut budget);
         assert_eq!(found, Ok(()));
         // 0.0008 of acceleration at 2e-5 of jerk.
         assert!((58..=60).contains(&budget), "{budget}");
@@ -303,13 +329,10 @@ mod tests {
 
     #[test]
     fn what_is_held_back_makes_it_longer() {
-        let (table, limits) = (cruise(200), limits());
+        let table = cruise(200);
         let periods = |reserve| {
-            let mut budget = 100;
-            BackupTrajectory::EMPTY
-                .clone()
-                .find(&table, &limits, reserve, BRAKING, 0.0, &mut budget)
-                .unwrap();
+            let (mut backup, mut budget) = (BackupTrajectory::EMPTY, 100);
+            find(&mut backup, &table, (reserve, BRAKING), &mut budget).unwrap();
             f64::from(100 - budget as u32)
         };
         // The rate goes from 0.7 to 0.5.
@@ -319,10 +342,9 @@ mod tests {
 
     #[test]
     fn refusals_are_told_apart() {
-        let limits = limits();
         let find = |table: &Table, state, mut budget: usize| {
             let mut backup = BackupTrajectory::EMPTY;
-            backup.find(table, &limits, Reserve::Used, state, 0.0, &mut budget)
+            find(&mut backup, table, (Reserve::Used, state), &mut budget)
         };
         let long = cruise(200);
         assert_eq!(find(&long, BRAKING, 20), Err(BackupRefusal::Budget));
@@ -348,14 +370,7 @@ mod tests {
             ..BRAKING
         };
         let mut backup = BackupTrajectory::EMPTY;
-        let found = backup.find(
-            &table,
-            &limits(),
-            Reserve::Used,
-            nearly_there,
-            0.0,
-            &mut 100,
-        );
+        let found = find(&mut backup, &table, (Reserve::Used, nearly_there), &mut 100);
         assert_eq!(found, Ok(()));
         assert!(backup.relies_on_end());
     }

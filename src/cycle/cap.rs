@@ -13,6 +13,7 @@ use super::demand::Demand;
 use super::feed_block::FeedBlock;
 use super::rate_derivative_interval::RateDerivativeInterval;
 use super::rows::{PeriodLimits, Span};
+use super::simulation::Simulation;
 use super::state::State;
 use super::stored_cell::{OverrideKind, StoredCell};
 use super::table::{Node, Table, USABLE};
@@ -238,13 +239,11 @@ impl Caps {
     #[inline(never)]
     pub fn guard(
         &self,
-        table: &Table,
-        limits: &PeriodLimits,
+        simulation: &mut Simulation,
         mut state: State,
         mut previous_n: f64,
-        period: f64,
-        budget: &mut usize,
     ) -> Result<bool, BackupRefusal> {
+        let (table, period) = (simulation.table, simulation.servo_period);
         let mut start = table.node(state.time);
         let mut last_feed = 0.0;
         let as_programmed = self.ratio_at_programmed(table, state.time);
@@ -268,17 +267,16 @@ impl Caps {
             {
                 return Ok(true);
             }
-            match budget.checked_sub(1) {
-                Some(left) => *budget = left,
-                None => return Ok(false),
+            if simulation.spend().is_none() {
+                return Ok(false);
             }
             last_feed = feed;
-            let brake = if limits.limit_jerk() {
+            let brake = if simulation.limits.limit_jerk() {
                 brake
             } else {
                 brake_without_jerk_limit
             };
-            let (next, end) = brake(table, limits, &start, state, &mut previous_n)?;
+            let (next, end) = brake(simulation, &start, state, &mut previous_n)?;
             state = next;
             state.rate = state.rate.clamp(0.0, 1.0);
             start = end;
@@ -289,12 +287,12 @@ impl Caps {
 
 /// One period of hard braking: the state behind it, and about where the reference is then.
 fn brake(
-    table: &Table,
-    limits: &PeriodLimits,
+    simulation: &Simulation,
     start: &Node,
     state: State,
     previous_n: &mut f64,
 ) -> Result<(State, Node), BackupRefusal> {
+    let (table, limits) = (simulation.table, simulation.limits);
     let predicted = state.step(*previous_n);
     if !table.knows(predicted.time) {
         return Err(BackupRefusal::Wall);
@@ -310,12 +308,12 @@ fn brake(
 
 /// The same where the rate change may jump between periods.
 fn brake_without_jerk_limit(
-    table: &Table,
-    limits: &PeriodLimits,
+    simulation: &Simulation,
     start: &Node,
     state: State,
     previous_change: &mut f64,
 ) -> Result<(State, Node), BackupRefusal> {
+    let (table, limits) = (simulation.table, simulation.limits);
     let changing = |rate_change: f64| {
         let step = State {
             rate_change,

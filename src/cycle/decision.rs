@@ -7,6 +7,7 @@ use super::demand::Demand;
 use super::goal::Goal;
 use super::rate_derivative_interval::RateDerivativeInterval;
 use super::rows::Span;
+use super::simulation::Simulation;
 use super::table::Node;
 
 /// The reference counts as too fast for a cap from this ratio on.
@@ -149,13 +150,13 @@ impl Executor {
 
     /// Whether braking keeps the caps behind a period with this n.
     fn keeps_caps(&mut self, n: f64) -> Result<bool, BackupRefusal> {
-        self.caps.guard(
-            &self.table,
-            &self.limits,
-            self.state.step(n),
-            n,
-            self.servo_period,
-            &mut self.budget,
-        )
+        let state = self.state.step(n);
+        let mut simulation = Simulation {
+            table: &self.table,
+            limits: &self.limits,
+            servo_period: self.servo_period,
+            budget: &mut self.budget,
+        };
+        self.caps.guard(&mut simulation, state, n)
     }
 }

@@ -35,6 +35,7 @@ mod lanes;
 mod rate_derivative_interval;
 mod rows;
 mod search;
+mod simulation;
 mod state;
 mod stored_cell;
 mod table;

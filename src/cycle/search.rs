@@ -9,6 +9,7 @@ use super::executor::BUDGET;
 use super::goal::Goal;
 use super::rate_derivative_interval::{N_LIMIT, RATE_CHANGE_LIMIT, RateDerivativeInterval};
 use super::rows::Span;
+use super::simulation::Simulation;
 use super::table::Node;
 
 /// Candidates that are tried in one cycle.
@@ -136,14 +137,13 @@ impl Executor {
         let rises = next.rate_change > 0.0 && matches!(self.goal, Goal::Run | Goal::Cap(_));
         let reserve = if rises { Reserve::Kept } else { Reserve::Used };
         let spare = 1 - (self.stored & 1);
-        let found = self.backups[spare].find(
-            &self.table,
-            &self.limits,
-            reserve,
-            next,
-            n,
-            &mut self.budget,
-        );
+        let mut simulation = Simulation {
+            table: &self.table,
+            limits: &self.limits,
+            servo_period: self.servo_period,
+            budget: &mut self.budget,
+        };
+        let found = self.backups[spare].find(&mut simulation, reserve, next, n);
         match found {
             Ok(()) => self.stored = spare,
             Err(refusal) => self.wall |= refusal == BackupRefusal::Wall,

@@ -5,16 +5,18 @@ use super::feed_block::{BLOCK_LENGTH, FeedBlock};
 use super::lanes::{LANE_COUNT, Lanes};
 use super::stored_cell::StoredCell;
 use crate::axes::{AXIS_COUNT, Axes};
+use crate::ring::Ring;
 
-/// Cells that the table holds, the one that runs included. A power of two.
+/// Cells that the table holds, the one that runs included.
 pub const CAPACITY: usize = 1024;
-
-const MASK: usize = CAPACITY - 1;
 
 /// Cells that can be pushed: what is behind the last one must not reach into the block of the first.
 pub const USABLE: usize = CAPACITY - BLOCK_LENGTH;
 
 const BLOCK_COUNT: usize = CAPACITY / BLOCK_LENGTH;
+
+/// As the numbers of cells count.
+const BLOCK_CELLS: u64 = BLOCK_LENGTH as u64;
 
 /// Why a cell was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,9 +79,9 @@ pub struct Along {
 /// never grows large and a program may run for days.
 #[derive(Clone, Debug)]
 pub struct Table {
-    cells: [StoredCell; CAPACITY],
-    blocks: [FeedBlock; BLOCK_COUNT],
-    /// Cells discarded since the last clear: the place of the first cell in the ring.
+    cells: Ring<StoredCell, CAPACITY>,
+    blocks: Ring<FeedBlock, BLOCK_COUNT>,
+    /// Cells discarded since the last clear: the number of the first one.
     first: u64,
     length: usize,
     end: Option<f64>,
@@ -88,8 +90,8 @@ pub struct Table {
 impl Table {
     pub const fn new() -> Self {
         Self {
-            cells: [StoredCell::STANDSTILL; CAPACITY],
-            blocks: [FeedBlock::EMPTY; BLOCK_COUNT],
+            cells: Ring::filled_with(StoredCell::STANDSTILL),
+            blocks: Ring::filled_with(FeedBlock::EMPTY),
             first: 0,
             length: 0,
             end: None,
@@ -140,13 +142,12 @@ impl Table {
         }
         check(cell)?;
         let stored = StoredCell::new(cell, period);
-        let place = self.place(self.length);
-        if let Some(block) = self.blocks.get_mut(place / BLOCK_LENGTH) {
-            if place.is_multiple_of(BLOCK_LENGTH) || self.length == 0 {
-                *block = FeedBlock::EMPTY;
-            }
-            block.include(&stored);
+        let number = self.number(self.length);
+        let block = self.blocks.at_mut(number / BLOCK_CELLS);
+        if number.is_multiple_of(BLOCK_CELLS) || self.length == 0 {
+            *block = FeedBlock::EMPTY;
         }
+        block.include(&stored);
         self.write(stored);
         self.length += 1;
         Ok(())
@@ -165,10 +166,8 @@ impl Table {
             return Err(CloseError::OutsideLastCell);
         }
         self.end = Some(end);
-        let last = self.place(self.length - 1);
-        if let Some(cell) = self.cells.get_mut(last) {
-            cell.include_standstill();
-        }
+        let last = self.number(self.length - 1);
+        self.cells.at_mut(last).include_standstill();
         self.write(StoredCell::STANDSTILL);
         Ok(())
     }
@@ -191,8 +190,7 @@ impl Table {
     /// The cell with this index from the first one, or the last one that is known.
     #[inline(always)]
     pub fn cell(&self, index: usize) -> &StoredCell {
-        // Provably inside: the mask is one less than the length of the array.
-        &self.cells[self.place(index.min(self.length)) & MASK]
+        self.cells.at(self.number(index.min(self.length)))
     }
 
     /// Velocity and acceleration at `time`: a cubic position in each cell has a linear
@@ -241,24 +239,23 @@ impl Table {
     /// enough for `cells` cells.
     pub fn blocks(&self, time: f64, cells: usize) -> impl Iterator<Item = &FeedBlock> {
         let first = (time as usize).min(self.length);
-        let offset = self.place(first) % BLOCK_LENGTH;
+        let number = self.number(first);
+        let offset = (number % BLOCK_CELLS) as usize;
         let known = self.length - first;
         let count = (known.min(cells) + offset).div_ceil(BLOCK_LENGTH);
-        let block = self.place(first) / BLOCK_LENGTH;
-        (0..count.min(BLOCK_COUNT)).map(move |i| &self.blocks[(block + i) & (BLOCK_COUNT - 1)])
+        let block = number / BLOCK_CELLS;
+        (0..count.min(BLOCK_COUNT) as u64).map(move |i| self.blocks.at(block.wrapping_add(i)))
     }
 
     #[inline(always)]
-    fn place(&self, index: usize) -> usize {
-        (self.first as usize).wrapping_add(index) & MASK
+    fn number(&self, index: usize) -> u64 {
+        self.first.wrapping_add(index as u64)
     }
 
     /// Writes the slot behind the last cell.
     fn write(&mut self, cell: StoredCell) {
-        let place = self.place(self.length);
-        if let Some(slot) = self.cells.get_mut(place) {
-            *slot = cell;
-        }
+        let number = self.number(self.length);
+        *self.cells.at_mut(number) = cell;
     }
 }
 

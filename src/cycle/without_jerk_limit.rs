@@ -8,6 +8,7 @@ use super::cap::Caps;
 use super::goal::Goal;
 use super::rows::Span;
 use super::search::LEAST_FRACTION;
+use super::simulation::Simulation;
 use super::state::State;
 
 /// How often the rows are linearised around what they gave.
@@ -64,14 +65,13 @@ impl Executor {
         if !Caps::needs_guard(next, ratio, self.servo_period) {
             return false;
         }
-        let answer = self.caps.guard(
-            &self.table,
-            &self.limits,
-            next,
-            0.0,
-            self.servo_period,
-            &mut self.budget,
-        );
+        let mut simulation = Simulation {
+            table: &self.table,
+            limits: &self.limits,
+            servo_period: self.servo_period,
+            budget: &mut self.budget,
+        };
+        let answer = self.caps.guard(&mut simulation, next, 0.0);
         self.wall |= answer.is_err();
         answer == Ok(false)
     }

@@ -3,12 +3,12 @@
 use super::queued_move::Move;
 use super::shape::Shape;
 use super::{MotionType, StateTag, SynchronisedOutputs, TerminationCondition};
+use crate::ring::Ring;
 
 /// From this length on the queue reports itself full.
 pub const CAPACITY: usize = 2000;
 
-/// A power of two, so that a masked index is in range for the compiler too. What is above
-/// [`CAPACITY`] remembers moves that have left the queue, and is the margin for moves that were on
+/// What is above [`CAPACITY`] remembers moves that have left the queue, and is the margin for moves that were on
 /// their way when the queue reported itself full.
 const SLOTS: usize = 4096;
 
@@ -23,7 +23,7 @@ pub struct QueueFull;
 /// the queue is consumed.
 #[derive(Debug)]
 pub struct MoveQueue {
-    slots: [Move; SLOTS],
+    slots: Ring<Move, SLOTS>,
     /// Serial number of the oldest move that waits or runs.
     first: u64,
     /// Serial number of the next move to come; at most `SLOTS` above `first`.
@@ -32,6 +32,8 @@ pub struct MoveQueue {
     cleared: u64,
     /// Serial number of the first move that must not run yet.
     released: u64,
+    /// Serial number of the first move that has not begun.
+    begun: u64,
 }
 
 const VACANT: Move = Move {
@@ -49,19 +51,16 @@ const VACANT: Move = Move {
     outputs: SynchronisedOutputs::NONE,
 };
 
-const fn slot(serial: u64) -> usize {
-    serial as usize & (SLOTS - 1)
-}
-
 impl MoveQueue {
     /// An empty queue.
     pub const fn new() -> Self {
         Self {
-            slots: [VACANT; SLOTS],
+            slots: Ring::filled_with(VACANT),
             first: 0,
             next: 0,
             cleared: 0,
             released: 0,
+            begun: 0,
         }
     }
 
@@ -93,7 +92,7 @@ impl MoveQueue {
     /// The move with this serial number, also if it has left; `None` if it is not remembered any
     /// more or has not come yet.
     pub fn get(&self, serial: u64) -> Option<&Move> {
-        (self.oldest() <= serial && serial < self.next).then(|| &self.slots[slot(serial)])
+        (self.oldest() <= serial && serial < self.next).then(|| self.slots.at(serial))
     }
 
     /// The oldest move that has not left.
@@ -103,7 +102,7 @@ impl MoveQueue {
 
     /// The same, to be changed.
     pub fn front_mut(&mut self) -> Option<&mut Move> {
-        (!self.is_empty()).then(|| &mut self.slots[slot(self.first)])
+        (!self.is_empty()).then(|| self.slots.at_mut(self.first))
     }
 
     /// Appends a move. Refused only when the margin above [`CAPACITY`] is used up too.
@@ -111,7 +110,7 @@ impl MoveQueue {
         if self.len() >= SLOTS {
             return Err(QueueFull);
         }
-        self.slots[slot(self.next)] = queued;
+        *self.slots.at_mut(self.next) = queued;
         self.next += 1;
         Ok(())
     }
@@ -129,6 +128,20 @@ impl MoveQueue {
         if self.oldest() <= serial && serial < self.first {
             self.first = serial;
         }
+    }
+
+    /// Whether the oldest move has begun.
+    pub fn has_begun(&self) -> bool {
+        self.first < self.begun
+    }
+
+    /// The oldest move begins, or goes on after a run back. It, and whether this is the first time.
+    pub fn begin_front(&mut self) -> Option<(&Move, bool)> {
+        let first_time = self.first >= self.begun;
+        if !self.is_empty() {
+            self.begun = self.begun.max(self.first + 1);
+        }
+        self.front().map(|front| (front, first_time))
     }
 
     /// Serial number of the first move since the queue was last cleared, come or to come.
@@ -207,6 +220,32 @@ mod tests {
             queue.return_to(oldest);
             assert_eq!(queue.len(), SLOTS);
             assert_eq!(queue.front().map(|m| m.id), Some(oldest as i32));
+        });
+    }
+
+    #[test]
+    fn a_move_begins_once() {
+        with_queue(|queue| {
+            assert!(queue.begin_front().is_none() && !queue.has_begun());
+            for id in 0..3 {
+                queue.push(Move { id, ..VACANT }).expect("room");
+            }
+            for _ in 0..2 {
+                assert!(!queue.has_begun());
+                assert!(
+                    queue
+                        .begin_front()
+                        .is_some_and(|(_, first_time)| first_time)
+                );
+                assert!(queue.has_begun());
+                queue.pop();
+            }
+            queue.return_to(0);
+            assert!(queue.has_begun());
+            let again = queue.begin_front().map(|(front, first)| (front.id, first));
+            assert_eq!(again, Some((0, false)));
+            queue.clear();
+            assert!(!queue.has_begun());
         });
     }
 

@@ -6,8 +6,9 @@ use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
 use super::vertex::Vertex;
+use crate::ring::Ring;
 
-/// A power of two, so that a masked index is in range for the compiler too.
+/// How many legs are kept, with those behind the machine.
 const SLOTS: usize = 4096;
 
 /// A kernel reaches no farther than this many vertices to either side.
@@ -24,8 +25,8 @@ const HISTORY: u64 = 512 + REACHING;
 /// life; the vertex at the start of a leg has the leg's number.
 #[derive(Debug)]
 pub(super) struct Chain {
-    legs: [Leg; SLOTS],
-    vertices: [Vertex; SLOTS],
+    legs: Ring<Leg, SLOTS>,
+    vertices: Ring<Vertex, SLOTS>,
     first: u64,
     next: u64,
     /// Number of the leg that the path began with.
@@ -34,15 +35,11 @@ pub(super) struct Chain {
     found: Cell<u64>,
 }
 
-const fn slot(number: u64) -> usize {
-    number as usize & (SLOTS - 1)
-}
-
 impl Chain {
     pub const fn new() -> Self {
         Self {
-            legs: [Leg::VACANT; SLOTS],
-            vertices: [Vertex::VACANT; SLOTS],
+            legs: Ring::filled_with(Leg::VACANT),
+            vertices: Ring::filled_with(Vertex::VACANT),
             first: 0,
             next: 0,
             begin: 0,
@@ -86,23 +83,23 @@ impl Chain {
     /// Only asked for numbers from the first to before the next.
     #[inline]
     pub fn leg(&self, number: u64) -> &Leg {
-        &self.legs[slot(number)]
+        self.legs.at(number)
     }
 
     #[inline]
     pub fn leg_mut(&mut self, number: u64) -> &mut Leg {
-        &mut self.legs[slot(number)]
+        self.legs.at_mut(number)
     }
 
     /// The start of the leg with this number.
     #[inline]
     pub fn vertex(&self, number: u64) -> &Vertex {
-        &self.vertices[slot(number)]
+        self.vertices.at(number)
     }
 
     #[inline]
     pub fn vertex_mut(&mut self, number: u64) -> &mut Vertex {
-        &mut self.vertices[slot(number)]
+        self.vertices.at_mut(number)
     }
 
     /// The newest leg.

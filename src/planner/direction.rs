@@ -27,15 +27,14 @@ impl Planner {
         if backwards == self.reference.is_backwards() {
             return Ok(());
         }
-        if self.running && !self.at_rest || self.status.aborting {
+        if self.motion.is_moving() || self.status.aborting {
             return Err(DirectionError::Moving);
         }
         if !self.reference.is_active() || self.is_coupled() {
             return Err(DirectionError::NoWayBack);
         }
         self.executor.reset();
-        self.running = false;
-        self.closed = false;
+        self.motion.stand();
         self.reference.turn(backwards);
         self.status.backwards = backwards;
         self.report_rest();
@@ -44,12 +43,13 @@ impl Planner {
 
     /// Whether the machine is within a move that cannot be run backwards.
     fn is_coupled(&self) -> bool {
-        let begun = self.queue.first_serial() < self.entered;
         let coupled = self.queue.front().is_some_and(|front| {
             front.synchronisation.is_some()
                 || front.indexer_joint.is_some()
                 || front.motion_type == MotionType::Probing
         });
-        begun && coupled || self.thread.is_some() || self.locking.is_some()
+        self.queue.has_begun() && coupled
+            || self.spindle.has_thread()
+            || self.indexer.locking().is_some()
     }
 }

@@ -12,8 +12,13 @@
 
 mod blending;
 mod direction;
+mod error_stop;
+mod indexer;
 mod inputs;
 mod jerk_limit;
+mod machine_axes;
+mod motion_state;
+mod next_move;
 #[allow(clippy::module_inception)]
 mod planner;
 pub mod range;
@@ -23,6 +28,8 @@ mod servo;
 mod soft_limits;
 mod spindle;
 mod status;
+mod velocity_slider;
+mod with_spindle;
 
 pub use blending::{Blending, BlendingError};
 pub use direction::DirectionError;

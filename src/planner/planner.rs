@@ -1,35 +1,29 @@
 //! The planner's state, its settings and commands.
 
-use nalgebra::{ArrayStorage, Matrix3};
+use nalgebra::Matrix3;
 
 use super::blending::{Blending, BlendingError};
-use super::inputs::SpindleInputs;
+use super::error_stop::ErrorStop;
+use super::indexer::Indexer;
+use super::machine_axes::MachineAxes;
+use super::motion_state::MotionState;
+use super::next_move::NextMove;
 use super::range::RangeCheck;
 use super::reference::Reference;
-use super::request::{AddError, Added, LEAST_LIMITS, LEAST_VELOCITY, MoveRequest};
-use super::spindle::{SpindleCommand, Thread, Tracker};
-use super::status::{Fault, Status};
-use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
+use super::request::{AddError, Added, LEAST_VELOCITY, MoveRequest};
+use super::spindle::SpindleFollower;
+use super::status::{Fault, ORIGIN, Status};
+use super::velocity_slider::VelocitySlider;
+use crate::axes::{Axes, AxisLimits};
 use crate::cycle::Executor;
 use crate::moves::shape::{Arc9, Circle, Line9, Shape, ShapeError};
 use crate::moves::{
-    Move, MoveQueue, QueueFull, SPINDLE_COUNT, StateTag, Synchronisation, SynchronisationMode,
-    SynchronisedOutputs, TerminationCondition,
+    Move, MoveQueue, QueueFull, StateTag, SynchronisationMode, TerminationCondition,
 };
 
 /// A position with a coordinate that is infinite or not a number was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PositionError;
-
-const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
-
-const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
-
-const UNLIMITED_AXES: AxisLimits = AxisLimits {
-    velocity: UNLIMITED,
-    acceleration: UNLIMITED,
-    jerk: UNLIMITED,
-};
 
 /// The trajectory planner. About 12 MB, without a heap: it belongs in a static.
 #[derive(Debug)]
@@ -37,48 +31,19 @@ pub struct Planner {
     pub(super) queue: MoveQueue,
     pub(super) reference: Reference,
     pub(super) executor: Executor,
-    /// Whether the executor runs the reference. If not, the machine is at rest.
-    pub(super) running: bool,
-    /// Whether the machine stands still, although the executor runs the reference.
-    pub(super) at_rest: bool,
-    /// Whether the reference has been handed out to its end.
-    pub(super) closed: bool,
-    /// Serial number of the first move that has not been entered.
-    pub(super) entered: u64,
+    pub(super) motion: MotionState,
+    /// Why the motion was stopped, if it was: no move is taken before an abort.
+    error_stop: Option<ErrorStop>,
     pub(super) status: Status,
-    /// What the axes may do in the motion that runs: what they were able to do when it began.
-    pub(super) limits: AxisLimits,
-    /// What they are able to do now: in force from the next rest on.
-    next_limits: AxisLimits,
-    /// How the axes of the program lie to those of the machine.
-    pub(super) map: MachineMap,
-    /// Which axes have had usable limits the last time.
-    limited: [bool; AXIS_COUNT],
+    /// What the axes may do, and how they lie to those of the program.
+    pub(super) axes: MachineAxes,
     /// Duration of a cycle, seconds; 0 before it is known.
     pub(super) period: f64,
-    pub(super) velocity_limit: f64,
+    pub(super) slider: VelocitySlider,
     pub(super) blending: Blending,
-    /// The greatest finite velocity limit there has been: the range of the operator's slider.
-    velocity_range: f64,
-    termination: TerminationCondition,
-    next_id: i32,
-    /// The spindle that the moves to come follow.
-    pub(super) synchronisation: Option<SpindleCommand>,
-    /// Where the last queued move belongs to a sequence of threads: its spindle, and the turns from
-    /// the start of the sequence to its end.
-    pub(super) sequence: Option<(usize, f64)>,
-    pub(super) trackers: [Tracker; SPINDLE_COUNT],
-    /// The spindles as they were in the last cycle.
-    pub(super) spindles: [SpindleInputs; SPINDLE_COUNT],
-    pub(super) thread: Option<Thread>,
-    /// Whether the motion was stopped for an error: no move is taken before an abort.
-    tripped: bool,
-    /// Whether the indexer of the next move was told to unlock.
-    pub(super) unlocking: bool,
-    /// A locking indexer that is to be locked before the next move.
-    pub(super) locking: Option<i32>,
-    /// For the next move.
-    outputs: SynchronisedOutputs,
+    next_move: NextMove,
+    pub(super) spindle: SpindleFollower,
+    pub(super) indexer: Indexer,
     /// Whether the joints stay within their soft limits.
     pub(super) range_check: RangeCheck,
     /// Where the last queued move ends.
@@ -92,30 +57,16 @@ impl Planner {
             queue: MoveQueue::new(),
             reference: Reference::new(),
             executor: Executor::new(),
-            running: false,
-            at_rest: true,
-            closed: false,
-            entered: 0,
+            motion: MotionState::Standing,
+            error_stop: None,
             status: Status::IDLE,
-            limits: UNLIMITED_AXES,
-            next_limits: UNLIMITED_AXES,
-            map: MachineMap::IDENTITY,
-            limited: [false; AXIS_COUNT],
+            axes: MachineAxes::UNLIMITED,
             period: 0.0,
-            velocity_limit: f64::INFINITY,
+            slider: VelocitySlider::UNLIMITED,
             blending: Blending::DEFAULT,
-            velocity_range: 0.0,
-            termination: TerminationCondition::Continuous { tolerance: 0.0 },
-            next_id: 0,
-            synchronisation: None,
-            sequence: None,
-            trackers: [Tracker::NEW; SPINDLE_COUNT],
-            spindles: [SpindleInputs::STANDSTILL; SPINDLE_COUNT],
-            thread: None,
-            tripped: false,
-            unlocking: false,
-            locking: None,
-            outputs: SynchronisedOutputs::NONE,
+            next_move: NextMove::FIRST,
+            spindle: SpindleFollower::NEW,
+            indexer: Indexer::Locked,
             range_check: RangeCheck::OFF,
             goal: ORIGIN,
         }
@@ -124,7 +75,9 @@ impl Planner {
     /// Sets the duration of a cycle in seconds. `false`, and nothing changes, if it is not
     /// positive and finite or a move runs.
     pub fn set_cycle_time(&mut self, seconds: f64) -> bool {
-        let accepted = !self.running && self.executor.configure(&self.limits, seconds).is_ok();
+        let standing = !self.motion.is_running();
+        let limits = self.axes.limits();
+        let accepted = standing && self.executor.configure(limits, seconds).is_ok();
         if accepted {
             self.period = seconds;
         }
@@ -143,58 +96,28 @@ impl Planner {
     /// An axis one of whose limits is next to zero, negative or not a number keeps the limits it had,
     /// and new moves of it are refused.
     pub fn set_limits(&mut self, limits: &AxisLimits) {
-        let next = &mut self.next_limits;
-        for axis in 0..AXIS_COUNT {
-            let new = [
-                limits.velocity[axis],
-                limits.acceleration[axis],
-                limits.jerk[axis],
-            ];
-            let usable = new
-                .iter()
-                .zip(LEAST_LIMITS)
-                .all(|(limit, least)| *limit >= least);
-            self.limited[axis] = usable;
-            if usable {
-                [
-                    next.velocity[axis],
-                    next.acceleration[axis],
-                    next.jerk[axis],
-                ] = new;
-            }
-        }
+        self.axes.set_next_limits(limits);
         if !self.reference.is_active() {
             self.take_limits();
         }
     }
 
-    /// Whether the axes are able to do something else than when the motion began.
-    pub(super) fn limits_changed(&self) -> bool {
-        self.next_limits != self.limits
-    }
-
     /// At rest: what the axes are able to do now is what they may do.
     pub(super) fn take_limits(&mut self) {
-        if !self.limits_changed() {
+        if !self.axes.limits_changed() {
             return;
         }
-        self.limits = self.next_limits;
-        if self.period > 0.0 && self.executor.set_limits(&self.limits).is_err() {
+        self.axes.take_limits();
+        if self.period > 0.0 && self.executor.set_limits(self.axes.limits()).is_err() {
             self.fail(Fault::LimitsRefused);
         }
     }
 
     /// Sets how X Y Z of the program lie to those of the machine, shape (3, 3): the limits hold for
-    /// the machine. `false`, and nothing changes, if it is not one of [`MachineMap`], or while anything
+    /// the machine. `false`, and nothing changes, if it is not one of [`MachineMap`](crate::axes::MachineMap), or while anything
     /// is queued: a frame changes only at standstill.
     pub fn set_machine_map(&mut self, linear: &Matrix3<f64>) -> bool {
-        match MachineMap::new(linear) {
-            Some(map) if self.status.done => {
-                self.map = map;
-                true
-            }
-            _ => false,
-        }
+        self.status.done && self.axes.set_map(linear)
     }
 
     /// Sets what no move may exceed along its path, machine units per second, from the operator's
@@ -202,19 +125,7 @@ impl Planner {
     /// axes only is slowed in proportion: to the same share of its greatest velocity as the limit
     /// is of the greatest limit that was ever set.
     pub fn set_velocity_limit(&mut self, velocity: f64) {
-        self.velocity_limit = velocity.max(0.0);
-        if velocity.is_finite() {
-            self.velocity_range = self.velocity_range.max(velocity);
-        }
-    }
-
-    /// The operator's slider as a share of its range.
-    pub(super) fn velocity_share(&self) -> f64 {
-        if self.velocity_limit < self.velocity_range {
-            self.velocity_limit / self.velocity_range
-        } else {
-            1.0
-        }
+        self.slider.set(velocity);
     }
 
     /// Sets how far paths may leave the program where it does not say, see [`Blending`]. Holds from
@@ -234,34 +145,34 @@ impl Planner {
 
     /// Sets how the moves to come meet the next one.
     pub fn set_termination(&mut self, termination: TerminationCondition) {
-        self.termination = termination;
+        self.next_move.termination = termination;
     }
 
     /// How the moves to come meet the next one.
     pub fn termination(&self) -> TerminationCondition {
-        self.termination
+        self.next_move.termination
     }
 
     /// Sets LinuxCNC's number for the next move; each further move gets the next number.
     pub fn set_id(&mut self, id: i32) {
-        self.next_id = id;
+        self.next_move.id = id;
     }
 
     /// Gives the next move a digital output to write at its start (M62, M63). `false` if there is
     /// no output of this number.
     pub fn set_digital_output(&mut self, index: usize, value: bool) -> bool {
-        self.outputs.set_digital(index, value)
+        self.next_move.outputs.set_digital(index, value)
     }
 
     /// Gives the next move an analog output to write at its start (M67). `false` if there is no
     /// output of this number or the value is not finite.
     pub fn set_analog_output(&mut self, index: usize, value: f64) -> bool {
-        self.outputs.set_analog(index, value)
+        self.next_move.outputs.set_analog(index, value)
     }
 
     /// Drops the outputs given for the next move.
     pub fn clear_outputs(&mut self) {
-        self.outputs = SynchronisedOutputs::NONE;
+        self.next_move.clear_outputs();
     }
 
     /// Queues a line to `end`, shape (9).
@@ -269,7 +180,7 @@ impl Planner {
     /// # Errors
     /// See [`AddError`]; nothing changes then.
     pub fn add_line(&mut self, end: &Axes, request: &MoveRequest) -> Result<Added, AddError> {
-        let mode = self.motion_mode();
+        let mode = self.spindle.mode_of_next(self.queue.is_empty());
         self.add(self.line_to(end), mode, request)
     }
 
@@ -283,7 +194,7 @@ impl Planner {
         circle: &Circle,
         request: &MoveRequest,
     ) -> Result<Added, AddError> {
-        let mode = self.motion_mode();
+        let mode = self.spindle.mode_of_next(self.queue.is_empty());
         self.add(self.arc_to(end, circle), mode, request)
     }
 
@@ -309,7 +220,7 @@ impl Planner {
         mode: SynchronisationMode,
         request: &MoveRequest,
     ) -> Result<Added, AddError> {
-        if self.tripped {
+        if self.error_stop.is_some() {
             return Err(AddError::Tripped);
         }
         if self.status.aborting {
@@ -324,21 +235,20 @@ impl Planner {
             Err(ShapeError::ZeroLength) => return Ok(Added::ZeroLength),
             Err(error) => return Err(AddError::Shape(error)),
         };
-        let synchronisation = self.synchronisation_in(mode)?;
+        let synchronisation = self.spindle.synchronisation_in(mode)?;
         let max_velocity = request.max_velocity;
-        let feed =
-            synchronisation.map_or(request.feed, |with| self.planned_feed(&with, max_velocity));
+        let feed = synchronisation.map_or(request.feed, |with| {
+            self.spindle.planned_feed(&with, max_velocity)
+        });
         let usable = |velocity: f64| velocity >= LEAST_VELOCITY && velocity.is_finite();
         if !(usable(feed) && usable(max_velocity)) {
             return Err(AddError::Feed { feed, max_velocity });
         }
-        let mut axes = (0..AXIS_COUNT).zip(self.limited);
-        let moves = |axis| self.map.axes_of(axis).any(|from| shape.moves(from));
-        if let Some((axis, _)) = axes.find(|(axis, limited)| !limited && moves(*axis)) {
+        if let Some(axis) = self.axes.unusable_axis(&shape) {
             return Err(AddError::AxisLimits { axis });
         }
         let queued = Move {
-            id: self.next_id,
+            id: self.next_move.id,
             tag: request.tag,
             motion_type: request.motion_type,
             shape,
@@ -348,8 +258,8 @@ impl Planner {
             wait_for_spindle: request.wait_for_spindle,
             synchronisation,
             indexer_joint: request.indexer_joint,
-            termination: self.termination,
-            outputs: self.outputs,
+            termination: self.next_move.termination,
+            outputs: self.next_move.outputs,
         };
         self.queue
             .push(queued)
@@ -357,16 +267,8 @@ impl Planner {
         if !self.range_check.is_on() {
             self.queue.release_all();
         }
-        self.sequence = match synchronisation {
-            Some(Synchronisation {
-                spindle,
-                per_turn,
-                mode: SynchronisationMode::Thread { turns_before },
-            }) => Some((spindle, turns_before + shape.length() / per_turn)),
-            _ => None,
-        };
-        self.next_id = self.next_id.wrapping_add(1);
-        self.clear_outputs();
+        self.spindle.take_note_of(&queued);
+        self.next_move.pass_on();
         self.goal = shape.end();
         self.status.done = false;
         self.report_queue();
@@ -406,18 +308,20 @@ impl Planner {
 
     /// Stops for an error: what follows in the program must not run. No move is taken before the
     /// operator, or task for him, has aborted.
-    pub(super) fn stop_for_error(&mut self) {
+    pub(super) fn stop_for_error(&mut self, error: ErrorStop) {
         self.stop();
-        self.tripped = true;
+        let error = error.after(self.error_stop);
+        self.error_stop = Some(error);
+        self.status.fault = error.fault();
     }
 
     /// Whether an error has stopped the motion, and nothing has been aborted since.
     pub fn is_stopped_for_error(&self) -> bool {
-        self.tripped
+        self.error_stop.is_some()
     }
 
     fn forget_error(&mut self) {
-        self.tripped = false;
+        self.error_stop = None;
         self.status.fault = None;
     }
 
@@ -440,9 +344,9 @@ impl Planner {
     /// condition. For the end of a program, when nothing moves.
     pub fn clear(&mut self) {
         self.drop_moves();
-        self.synchronisation = None;
+        self.spindle.set_command(None);
         self.forget_error();
-        self.next_id = 0;
+        self.next_move.id = 0;
         self.status.tag = StateTag::EMPTY;
         self.clear_outputs();
     }
@@ -452,23 +356,19 @@ impl Planner {
         self.queue.clear();
         self.executor.reset();
         self.reference.clear();
-        self.running = false;
+        self.motion.stand();
         self.status.backwards = false;
-        self.thread = None;
-        self.sequence = None;
-        self.locking = None;
-        self.unlocking = false;
+        self.spindle.drop_moves();
+        self.indexer.reset();
         self.goal = self.status.position;
         self.status.pausing = false;
         self.status.aborting = false;
         self.report_rest();
     }
 
-    /// Stops for a fault of the planner itself. Of several the first is reported: the others may
-    /// follow from it.
+    /// Stops for a fault of the planner itself.
     pub(super) fn fail(&mut self, fault: Fault) {
-        self.status.fault.get_or_insert(fault);
-        self.stop_for_error();
+        self.stop_for_error(ErrorStop::Fault(fault));
     }
 
     /// Has the planner fail, as if it had broken its own rules in the next cycle: only in builds
@@ -481,7 +381,7 @@ impl Planner {
     /// The joint of the locking indexer that the next move waits for, or that is being locked.
     pub fn indexer_joint(&self) -> Option<i32> {
         let next = || self.queue.front().and_then(|queued| queued.indexer_joint);
-        self.locking.or_else(next)
+        self.indexer.locking().or_else(next)
     }
 
     /// Where the last queued move ends, shape (9): the start of the next one.

@@ -1,8 +1,10 @@
 //! The servo period: which move runs, what is reported, what is written.
 
 use super::inputs::CycleInputs;
+use super::motion_state::{HandedOut, Pace};
 use super::planner::Planner;
 use super::reference::{Ahead, Conditions, Outlook, ReferencePoint};
+use super::spindle::SpindleError;
 use super::status::{Fault, Status};
 use crate::axes::Axes;
 use crate::cycle::{Demand, ExecutorStep};
@@ -27,11 +29,11 @@ impl Planner {
         self.status.outputs = SynchronisedOutputs::NONE;
         self.status.indexer = None;
         self.track_spindles(inputs);
-        if !self.running {
+        if !self.motion.is_running() {
             self.stand(inputs);
         }
         self.plan(inputs);
-        if self.running {
+        if self.motion.is_running() {
             self.run(inputs);
         }
         &self.status
@@ -48,7 +50,8 @@ impl Planner {
         }
         self.report_rest();
         let backwards = self.reference.is_backwards();
-        let begins_thread = self.begins_thread();
+        let at_hand = self.move_at_hand();
+        let begins_thread = at_hand.is_some_and(|next| self.spindle.begins_thread(&next));
         let Some(next) = self.queue.front() else {
             return;
         };
@@ -56,8 +59,8 @@ impl Planner {
             !backwards && (next.wait_for_spindle || begins_thread) && !inputs.spindles_at_speed;
         // The path may have left the program, and rest beside the place where its next move begins.
         let beside = (next.shape.position(0.0) - self.status.position).amax() > LEAST_DISTANCE;
-        let begun = beside || self.queue.first_serial() < self.entered;
-        let stale = self.limits_changed() || inputs.stepping != self.reference.is_single();
+        let begun = beside || self.queue.has_begun();
+        let stale = self.axes.limits_changed() || inputs.stepping != self.reference.is_single();
         if self.queue.released(self.queue.first_serial()).is_none() {
             return;
         }
@@ -65,7 +68,7 @@ impl Planner {
         if !self.reference.is_active() || stale && !begun && !backwards {
             self.take_limits();
             let first = self.queue.first_serial();
-            let Some(settings) = self.blending.settings(&self.queue, &self.limits) else {
+            let Some(settings) = self.blending.settings(&self.queue, self.axes.limits()) else {
                 self.fail(Fault::SettingsRefused);
                 return;
             };
@@ -77,7 +80,7 @@ impl Planner {
 
     /// At rest: starts if there is a plan and nothing holds the machine.
     fn start(&mut self, inputs: &CycleInputs) {
-        let held = if self.is_tapping() {
+        let held = if self.spindle.is_tapping() {
             self.status.aborting
         } else {
             self.status.waiting_for_spindle || self.is_held(inputs)
@@ -88,13 +91,12 @@ impl Planner {
         // On the way back it is not the next move that starts, but one that has been run.
         let backwards = self.reference.is_backwards();
         let permitted =
-            backwards || self.indexer_permits_start(inputs) && self.spindle_permits_start(inputs);
+            backwards || self.indexer_permits_start(inputs) && self.spindle_permits_start();
         if !permitted {
             return;
         }
         self.executor.reset();
-        self.running = true;
-        self.closed = false;
+        self.motion.start();
         if !backwards {
             self.enter();
         }
@@ -104,8 +106,8 @@ impl Planner {
     fn plan(&mut self, inputs: &CycleInputs) {
         let outlook = Outlook {
             queue: &self.queue,
-            limits: &self.limits,
-            map: &self.map,
+            limits: self.axes.limits(),
+            map: self.axes.map(),
             now: self.conditions(inputs),
         };
         let fault = match self.reference.work(&outlook) {
@@ -118,10 +120,10 @@ impl Planner {
         {
             self.fail(fault);
         }
-        if !self.running {
+        if !self.motion.is_running() {
             self.start(inputs);
         }
-        if self.running {
+        if self.motion.is_running() {
             if !self.build(inputs) {
                 self.reference.take_back();
                 self.brake_for(Fault::CellRefused, inputs);
@@ -136,17 +138,22 @@ impl Planner {
     fn brake_for(&mut self, fault: Fault, inputs: &CycleInputs) {
         let outlook = Outlook {
             queue: &self.queue,
-            limits: &self.limits,
-            map: &self.map,
+            limits: self.axes.limits(),
+            map: self.axes.map(),
             now: self.conditions(inputs),
         };
         if self.reference.coast(&outlook) {
             self.fail(fault);
             // What follows a missing period would be a jump.
-            self.closed = !self.build(inputs);
+            let handed_out = if self.build(inputs) {
+                HandedOut::Partly
+            } else {
+                HandedOut::ToTheEnd
+            };
+            self.motion.hand_out(handed_out);
         } else if fault == Fault::CellRefused {
             self.fail(fault);
-            self.closed = true;
+            self.motion.hand_out(HandedOut::ToTheEnd);
         }
     }
 
@@ -156,11 +163,11 @@ impl Planner {
             period: self.period,
             feed_scale: inputs.feed_scale,
             rapid_scale: inputs.rapid_scale,
-            velocity_limit: self.velocity_limit,
-            velocity_share: self.velocity_share(),
+            velocity_limit: self.slider.limit(),
+            velocity_share: self.slider.share(),
             greatest_tolerance: self.blending.greatest_tolerance(),
             stepping: inputs.stepping,
-            limits_changed: self.limits_changed(),
+            limits_changed: self.axes.limits_changed(),
         }
     }
 
@@ -168,8 +175,8 @@ impl Planner {
     fn build(&mut self, inputs: &CycleInputs) -> bool {
         let outlook = Outlook {
             queue: &self.queue,
-            limits: &self.limits,
-            map: &self.map,
+            limits: self.axes.limits(),
+            map: self.axes.map(),
             now: self.conditions(inputs),
         };
         let mut budget = PIECES_A_CYCLE;
@@ -177,27 +184,24 @@ impl Planner {
         let needed = self.executor.cells_needed();
         let mut refused = false;
         for _ in 0..CELLS_A_CYCLE {
-            if self.closed || refused || self.executor.cells_ahead() >= self.executor.cells_wanted()
-            {
+            let ahead = self.executor.cells_ahead();
+            if !self.motion.takes_more() || refused || ahead >= self.executor.cells_wanted() {
                 break;
             }
             // What the executor cannot do without takes as many pieces as it takes: beside a rest they may
             // be many times shorter than a period.
             let mut whole_ring = usize::MAX;
-            let budget = if self.executor.cells_ahead() < LEAST_CELLS {
+            let budget = if ahead < LEAST_CELLS {
                 &mut whole_ring
             } else {
                 &mut budget
             };
-            let mut ahead = self.reference.next_cell(&outlook, needed, budget);
+            let mut next = self.reference.next_cell(&outlook, needed, budget);
             // How it goes on is not known in time: the machine rests until it is.
-            if matches!(ahead, Ahead::Later)
-                && self.reference.is_resting()
-                && self.executor.cells_ahead() < LEAST_CELLS
-            {
-                ahead = self.reference.end_here();
+            if matches!(next, Ahead::Later) && self.reference.is_resting() && ahead < LEAST_CELLS {
+                next = self.reference.end_here();
             }
-            let (cell, end) = match ahead {
+            let (cell, end) = match next {
                 Ahead::Later => break,
                 Ahead::Cell(cell) => (Some(cell), None),
                 Ahead::Last { cell, duration } => (Some(cell), Some(duration)),
@@ -208,7 +212,7 @@ impl Planner {
             }
             if let Some(end) = end {
                 refused |= self.executor.close(end).is_err();
-                self.closed = true;
+                self.motion.hand_out(HandedOut::ToTheEnd);
             }
         }
         !refused
@@ -220,13 +224,17 @@ impl Planner {
         let demand = self.demand(inputs);
         self.status.following_spindle = demand.follow.is_some();
         let step = self.executor.cycle(&demand);
-        self.at_rest = step.at_rest;
+        self.motion.set_pace(if step.at_rest {
+            Pace::StandingStill
+        } else {
+            Pace::Moving
+        });
         if step.starved {
             self.fail(Fault::Starved);
         }
         let Some(point) = self.reference.advance(&self.queue, step.advance) else {
             // Nothing was planned, so nothing was run: the machine is where it was.
-            self.running = false;
+            self.motion.stand();
             return;
         };
         if step.end_reached {
@@ -249,8 +257,10 @@ impl Planner {
         let running = self.queue.front();
         let scale = further_scale(inputs, running, &self.status);
         let overridden = running.is_none_or(|running| running.override_enabled());
-        let slider = self.slider();
-        let follow = self.follow();
+        let slider = self.slider_for(running);
+        let follow = self
+            .move_at_hand()
+            .and_then(|running| self.spindle.follow(&running, &self.status));
         // In a thread nothing but an abort may part the machine from the spindle.
         let hold = if follow.is_some() {
             self.status.aborting
@@ -269,26 +279,27 @@ impl Planner {
             hold,
             feed_override: inputs.feed_scale * scale,
             rapid_override: inputs.rapid_scale * scale,
-            turns: self.feed_turns() * if overridden { 1.0 } else { scale },
+            turns: self.spindle.feed_turns(running) * if overridden { 1.0 } else { scale },
             max_velocity: slider.min(fixed),
             follow,
         }
     }
 
     /// The operator's slider for the running move.
-    fn slider(&self) -> f64 {
-        match self.queue.front() {
+    fn slider_for(&self, running: Option<&Move>) -> f64 {
+        match running {
             Some(running) if running.shape.is_rotary() => {
-                running.max_velocity * self.velocity_share()
+                running.max_velocity * self.slider.share()
             }
-            _ => self.velocity_limit,
+            _ => self.slider.limit(),
         }
     }
 
     /// Whether pause, abort, feed hold or a slider at 0 hold the machine, unless it is in a thread.
     fn is_held(&self, inputs: &CycleInputs) -> bool {
         let held = inputs.net_feed_scale.is_nan() || inputs.net_feed_scale <= 0.0;
-        self.status.pausing || self.status.aborting || held || self.slider() <= 0.0
+        let slider = self.slider_for(self.queue.front());
+        self.status.pausing || self.status.aborting || held || slider <= 0.0
     }
 
     /// Whether the next move may start: a locking indexer has to be unlocked for it.
@@ -298,7 +309,7 @@ impl Planner {
         };
         self.status.indexer = Some((joint, true));
         // What was asked for in this cycle is answered in a later one.
-        std::mem::replace(&mut self.unlocking, true) && inputs.indexer_unlocked
+        self.indexer.unlock() && inputs.indexer_unlocked
     }
 
     /// The end of the reference is reached: at rest, exactly where its last move ends, or in the
@@ -306,10 +317,11 @@ impl Planner {
     fn finish(&mut self) {
         let rest = self.reference.come_to_rest(&self.queue);
         self.status.position = rest.position;
-        if self.tap_overran() && !self.status.aborting {
-            self.stop_overrun_tap();
+        // The turns are over that the spindle may take to turn back.
+        if self.spindle.has_tap() && !self.status.aborting {
+            self.stop_for_spindle(SpindleError::NotReversed);
         }
-        self.running = false;
+        self.motion.stand();
         if self.reference.is_backwards() {
             self.pass_to(rest.next);
             if self.status.aborting {
@@ -321,8 +333,11 @@ impl Planner {
         }
         self.leave_moves_before(rest.next.saturating_sub(1));
         if self.queue.first_serial() < rest.next {
-            self.locking = self.queue.front().and_then(|ended| ended.indexer_joint);
-            if self.locking.is_none() || self.status.aborting {
+            let turned = self.queue.front().and_then(|ended| ended.indexer_joint);
+            if let Some(joint) = turned {
+                self.indexer.lock(joint);
+            }
+            if turned.is_none() || self.status.aborting {
                 self.queue.pop();
             }
         }
@@ -338,11 +353,9 @@ impl Planner {
     /// At rest after an abort: goes on from here with no moves and nothing synchronised.
     fn end_abort(&mut self) {
         // What was unlocked for a move that does not come is locked again.
-        let unlocked = self
-            .indexer_joint()
-            .filter(|_| self.unlocking || self.locking.is_some());
+        let unlocked = self.indexer_joint().filter(|_| self.indexer.is_open());
         self.drop_moves();
-        self.end_synchronisation();
+        self.spindle.set_command(None);
         if let Some(joint) = unlocked {
             self.status.indexer = Some((joint, false));
         }
@@ -350,15 +363,14 @@ impl Planner {
 
     /// At rest behind a move of a locking indexer: whether it is locked, so that the move is over.
     fn is_locked(&mut self, inputs: &CycleInputs) -> bool {
-        let Some(joint) = self.locking else {
+        let Some(joint) = self.indexer.locking() else {
             return true;
         };
         self.status.indexer = Some((joint, false));
-        self.unlocking = false;
         if inputs.indexer_unlocked {
             return false;
         }
-        self.locking = None;
+        self.indexer.reset();
         self.queue.pop();
         true
     }
@@ -386,14 +398,12 @@ impl Planner {
 
     /// The first move of the queue starts, or goes on: its outputs are written once.
     fn enter(&mut self) {
-        let first = self.queue.first_serial();
-        if let Some(started) = self.queue.front() {
+        if let Some((started, first_time)) = self.queue.begin_front() {
             self.status.tag = started.tag;
             // An abort takes back what was to be written.
-            if first >= self.entered && !self.status.aborting {
+            if first_time && !self.status.aborting {
                 self.status.outputs.merge(&started.outputs);
             }
-            self.entered = self.entered.max(first + 1);
         }
     }
 

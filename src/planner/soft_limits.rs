@@ -1,5 +1,6 @@
 //! Moves wait until it is known that the joints stay within their soft limits.
 
+use super::error_stop::ErrorStop;
 use super::planner::Planner;
 use super::range::{Finding, JointRange, JointSolver, Joints};
 
@@ -30,7 +31,7 @@ impl Planner {
             .range_check
             .go_on(&mut self.queue, range, machine, solver);
         if let Some(Finding::Leaves { .. }) = finding {
-            self.stop_for_error();
+            self.stop_for_error(ErrorStop::SoftLimit);
         }
         finding
     }

@@ -6,7 +6,7 @@ use super::spindle::SpindleError;
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::moves::{MotionType, StateTag, SynchronisedOutputs};
 
-const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
+pub(super) const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
 
 /// What must never happen: the planner broke its own rules and stopped the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -77,7 +77,7 @@ pub struct Reference {
     pub(super) cell: CellBuilder,
     /// Where the servo period began that was handed out last: the number of its first segment, and how many
     /// seconds of it had been handed out before.
-    pub(super) cell_start: (u32, f64),
+    pub(super) cell_start: (u64, f64),
     /// Hands out nothing more.
     #[cfg(test)]
     pub dry: bool,

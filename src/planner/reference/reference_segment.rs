@@ -3,6 +3,7 @@
 use super::coast::Coast;
 use crate::moves::shape::PathPoint;
 use crate::path::BlendedPath;
+use crate::ring::Ring;
 use crate::speed::{JerkLimitedProfile, ProfileState, look_ahead};
 
 /// How s depends on time in a segment.
@@ -119,26 +120,21 @@ impl ReferenceSegment {
     }
 }
 
-/// A power of two, so that a masked index is in range for the compiler too. Enough for 100 ms of
-/// a servo period of 1 ms with two short moves in each.
-const SLOTS: u32 = 256;
+/// Enough for 100 ms of a servo period of 1 ms with two short moves in each.
+const SLOTS: usize = 256;
 
 /// A ring of segments in the order of the reference.
 #[derive(Debug)]
 pub(super) struct ReferenceSegments {
-    slots: [ReferenceSegment; SLOTS as usize],
-    first: u32,
-    count: u32,
-}
-
-const fn slot(number: u32) -> usize {
-    (number & (SLOTS - 1)) as usize
+    slots: Ring<ReferenceSegment, SLOTS>,
+    first: u64,
+    count: u64,
 }
 
 impl ReferenceSegments {
     pub const fn new() -> Self {
         Self {
-            slots: [ReferenceSegment::VACANT; SLOTS as usize],
+            slots: Ring::filled_with(ReferenceSegment::VACANT),
             first: 0,
             count: 0,
         }
@@ -148,7 +144,7 @@ impl ReferenceSegments {
         self.count = 0;
     }
 
-    pub fn len(&self) -> u32 {
+    pub fn len(&self) -> u64 {
         self.count
     }
 
@@ -156,7 +152,7 @@ impl ReferenceSegments {
     pub fn lasts(&self, seconds: f64) -> bool {
         let mut left = seconds;
         for number in 0..self.count {
-            left -= self.slots[slot(self.first.wrapping_add(number))].duration;
+            left -= self.slots.at(self.first.wrapping_add(number)).duration;
             if left < 0.0 {
                 return true;
             }
@@ -166,19 +162,19 @@ impl ReferenceSegments {
 
     /// Whether no segment can be pushed: the last slot is for [`Self::push_last`].
     pub fn is_full(&self) -> bool {
-        self.count >= SLOTS - 1
+        self.count >= SLOTS as u64 - 1
     }
 
     pub fn front(&self) -> Option<&ReferenceSegment> {
-        (self.count > 0).then(|| &self.slots[slot(self.first)])
+        (self.count > 0).then(|| self.slots.at(self.first))
     }
 
     pub fn back(&self) -> Option<&ReferenceSegment> {
-        (self.count > 0).then(|| &self.slots[slot(self.last())])
+        (self.count > 0).then(|| self.slots.at(self.last()))
     }
 
     pub fn back_mut(&mut self) -> Option<&mut ReferenceSegment> {
-        (self.count > 0).then(|| &mut self.slots[slot(self.last())])
+        (self.count > 0).then(|| self.slots.at_mut(self.last()))
     }
 
     /// Appends a segment; does nothing if the ring is full.
@@ -190,9 +186,9 @@ impl ReferenceSegments {
 
     /// Appends a segment that no other follows, for which there is always room.
     pub fn push_last(&mut self, segment: ReferenceSegment) {
-        if self.count < SLOTS {
+        if self.count < SLOTS as u64 {
             self.count += 1;
-            self.slots[slot(self.last())] = segment;
+            *self.slots.at_mut(self.last()) = segment;
         }
     }
 
@@ -204,13 +200,13 @@ impl ReferenceSegments {
     }
 
     /// Drops all segments behind the one with this number, which is one of them or the one before.
-    pub fn truncate(&mut self, last: u32) {
+    pub fn truncate(&mut self, last: u64) {
         let kept = last.wrapping_sub(self.first).wrapping_add(1);
         self.count = self.count.min(kept);
     }
 
     /// Number of the last segment; only asked for if there is one.
-    pub fn last(&self) -> u32 {
+    pub fn last(&self) -> u64 {
         self.first.wrapping_add(self.count).wrapping_sub(1)
     }
 }
@@ -237,7 +233,7 @@ mod tests {
             );
             assert_eq!(
                 segments.back().map(|segment| segment.duration),
-                Some(f64::from(SLOTS - 2))
+                Some((SLOTS - 2) as f64)
             );
             segments.pop();
         }

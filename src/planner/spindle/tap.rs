@@ -5,6 +5,7 @@
 //! same, and a short move to where it began.
 
 use crate::axes::Axes;
+use crate::moves::Move;
 use crate::moves::shape::{Line9, Shape, ShapeError};
 
 /// How many turns the spindle may take to turn back, as in LinuxCNC's own planner.
@@ -39,7 +40,7 @@ pub struct Tap {
 
 impl Tap {
     /// From `start`, shape (9), by `depth` along `direction`.
-    pub fn new(start: &Axes, direction: &Axes, depth: f64) -> Self {
+    fn new(start: &Axes, direction: &Axes, depth: f64) -> Self {
         Self {
             stage: TapStage::Down,
             start: *start,
@@ -47,6 +48,16 @@ impl Tap {
             way: depth,
             turned_at: 0.0,
         }
+    }
+
+    /// The tap that a move begins which starts from rest at `start`, shape (9).
+    pub fn of(queued: &Move, start: &Axes) -> Option<Self> {
+        let per_turn = queued.synchronisation?.per_turn;
+        let Shape::Line(line) = &queued.shape else {
+            return None;
+        };
+        let depth = line.length() - MOST_TURNS * per_turn;
+        Some(Self::new(start, line.direction(), depth))
     }
 
     /// Whether the machine is on its way up, so that the spindle's angle counts down.

@@ -2,6 +2,7 @@
 
 use super::lead_in::LeadIn;
 use super::tap::Tap;
+use crate::moves::{Synchronisation, SynchronisationMode};
 
 /// How far a thread is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +57,17 @@ impl Thread {
             under_way: true,
             outrun: 0.0,
             tap,
+        }
+    }
+
+    /// Turns of the sequence at a distance from the start of a move.
+    pub fn turns_on(&self, with: &Synchronisation, distance: f64) -> f64 {
+        match (with.mode, &self.tap) {
+            (SynchronisationMode::Thread { turns_before }, _) => {
+                turns_before + distance / with.per_turn
+            }
+            (_, Some(tap)) => tap.turns_at(distance, with.per_turn),
+            _ => distance / with.per_turn,
         }
     }
 }
