@@ -6,6 +6,7 @@
 pub(crate) mod arguments;
 #[cfg(feature = "linuxcnc")]
 pub mod canon;
+pub mod check;
 #[cfg(feature = "linuxcnc")]
 pub mod compare;
 pub mod diagnostics;
@@ -15,6 +16,7 @@ pub mod filter;
 pub(crate) mod format;
 pub mod generate;
 pub mod generated;
+pub(crate) mod hal;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod host;
 #[cfg(feature = "linuxcnc")]
@@ -33,4 +35,5 @@ pub mod plan;
 pub mod program;
 pub mod report;
 pub mod source;
+pub(crate) mod wiring;
 pub mod write;

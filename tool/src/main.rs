@@ -1,6 +1,7 @@
 //! The command line of the tool.
 
 use clap::{Parser, Subcommand};
+use framepath_tool::check::{self, CheckArguments};
 #[cfg(feature = "linuxcnc")]
 use framepath_tool::compare::{self, CompareArguments};
 use framepath_tool::filter::{FilterArguments, Told, filter};
@@ -39,6 +40,8 @@ enum Command {
     #[cfg(not(feature = "linuxcnc"))]
     #[command(disable_help_flag = true)]
     Compare(NotBuilt),
+    /// Look at the INI and HAL files of a machine: what is missing, contradictory or unwise
+    Check(CheckArguments),
     /// Print a G-code program that shows what a planner does
     Generate(GenerateArguments),
     /// Drive a planner module in a process of its own
@@ -85,6 +88,7 @@ fn main() -> ExitCode {
         Command::Plan(asked) => asked.refuse("plan"),
         #[cfg(not(feature = "linuxcnc"))]
         Command::Compare(asked) => asked.refuse("compare"),
+        Command::Check(arguments) => run_check(&arguments),
         Command::Generate(arguments) => finish(generate::run(&arguments)),
         #[cfg(feature = "linuxcnc")]
         Command::CompareHost => compare::serve_as_host(),
@@ -99,6 +103,30 @@ fn finish<E: Display>(result: Result<(), E>) -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn run_check(arguments: &CheckArguments) -> ExitCode {
+    match check::run(arguments, &refusal_of_filter) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => finish(Err(error)),
+    }
+}
+
+/// What `framepath filter` says to these arguments: the line behind "error: ".
+fn refusal_of_filter(words: &[String]) -> Result<(), String> {
+    /// As if it were a program of its own.
+    #[derive(Debug, Parser)]
+    struct Alone {
+        #[command(flatten)]
+        _arguments: FilterArguments,
+    }
+    let Err(error) = Alone::try_parse_from(words) else {
+        return Ok(());
+    };
+    let text = error.to_string();
+    let line = text.lines().next().unwrap_or("");
+    Err(line.trim_start_matches("error: ").to_owned())
 }
 
 fn run_filter(arguments: &FilterArguments) -> ExitCode {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What the commands share, and what each is for.
-const ROOMS: [(&str, &str); 19] = [
+const ROOMS: [(&str, &str); 21] = [
     (
         "arguments",
         "what the commands share in reading their arguments",
@@ -21,6 +21,11 @@ const ROOMS: [(&str, &str); 19] = [
     ("source", "texts, places in them"),
     ("diagnostics", "what is wrong, and where"),
     ("machine", "INI files, limits of joints and axes"),
+    ("hal", "HAL files, and what is there when they have run"),
+    (
+        "wiring",
+        "what the modules need in INI and HAL files, line by line",
+    ),
     (
         "program",
         "a part program as blocks without a dialect; its contour",
@@ -50,7 +55,7 @@ const ROOMS: [(&str, &str); 19] = [
 ];
 
 /// Each imports rooms only, and nothing but `main.rs` imports them.
-const COMMANDS: [&str; 5] = ["filter", "generate", "report", "plan", "compare"];
+const COMMANDS: [&str; 6] = ["filter", "generate", "report", "plan", "compare", "check"];
 
 /// Holds the rooms together.
 const FRAME: [&str; 2] = ["lib", "main"];

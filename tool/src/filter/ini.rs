@@ -2,16 +2,11 @@
 
 use crate::machine::IniError;
 use crate::machine::ini::Ini;
+use crate::wiring::settings::SECTION;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-const SECTION: &str = "FRAMEPATH";
-
-/// Tolerances that can be set, mm.
-pub const TOLERANCES: RangeInclusive<f64> = 0.001..=10.0;
-
-/// Places of an axis that can be set, mm.
-pub const PLACES: RangeInclusive<f64> = -100_000.0..=100_000.0;
+pub use crate::wiring::settings::{PLACES, TOLERANCES};
 
 /// TOLERANCE, mm; `None` where it is not set.
 ///

@@ -121,8 +121,13 @@ fn length_unit(ini: &Ini) -> Result<&'static str, IniError> {
     }
 }
 
+/// The axes that turn.
+pub(crate) fn is_rotary(letter: char) -> bool {
+    matches!(letter, 'A' | 'B' | 'C')
+}
+
 fn unit_of(letter: char, length_unit: &'static str) -> &'static str {
-    if matches!(letter, 'A' | 'B' | 'C') {
+    if is_rotary(letter) {
         "deg"
     } else {
         length_unit

@@ -1,26 +1,51 @@
-//! Reads LinuxCNC's INI files: `[SECTION]`, `KEY = value`, comments from `#` or `;`.
+//! Reads LinuxCNC's INI files: `[SECTION]`, `KEY = value`, comments from `#` or `;`, `#INCLUDE FILE`.
 //!
 //! The general INI crates treat a backslash or a repeated key differently from LinuxCNC, where
-//! `HALFILE` may come many times and the first of several equal keys counts.
+//! `HALFILE` may come many times, the first of several equal keys counts, and so does the first of
+//! several equal sections.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::error::IniError;
+use super::include;
+use super::place::Place;
+use super::text_file;
 
 /// One `KEY = value`.
-#[derive(Debug, PartialEq)]
-struct Entry {
-    section: String,
-    key: String,
-    value: String,
-    line: usize,
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Where it stands.
+    pub section: String,
+    /// Left of the equal sign.
+    pub key: String,
+    /// Right of it, without a comment behind it.
+    pub value: String,
+    /// The same as HAL files and LinuxCNC's programs get it: with the comment.
+    pub raw: String,
+    /// The place of the key.
+    pub place: Place,
+    /// Whether LinuxCNC reads it: not in the second section of the same name.
+    pub is_read: bool,
 }
 
-/// The content of an INI file, in the order of the file.
+/// One `[SECTION]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heading {
+    /// What stands between the brackets.
+    pub name: String,
+    /// The place of the bracket.
+    pub place: Place,
+    /// The place of the first section of this name, if this is another one: then LinuxCNC does not read this one.
+    pub first: Option<Place>,
+}
+
+/// The content of an INI file and of those that it includes, in the order in which LinuxCNC reads them.
 #[derive(Debug)]
 pub struct Ini {
     file: PathBuf,
     entries: Vec<Entry>,
+    headings: Vec<Heading>,
 }
 
 impl Ini {
@@ -29,78 +54,82 @@ impl Ini {
     /// # Errors
     /// [`IniError::Read`] or the errors of [`Ini::parse`].
     pub fn read(file: &Path) -> Result<Ini, IniError> {
-        let bytes = std::fs::read(file).map_err(|source| IniError::Read {
-            file: file.to_owned(),
-            source,
-        })?;
-        Ini::parse(file, &String::from_utf8_lossy(&bytes))
+        Ini::without_problems(Ini::read_all(file)?)
     }
 
-    /// Reads `text`; `file` is its name in messages.
+    /// Reads `text`; `file` is its name in messages, and its folder that of the files that it includes.
     ///
     /// # Errors
     /// [`IniError::Line`] for a line that is no section, no key and no comment, for a key
-    /// before the first section, and for `#INCLUDE`.
+    /// before the first section, and for an `#INCLUDE` of what cannot be read.
+    #[cfg(test)]
     pub fn parse(file: &Path, text: &str) -> Result<Ini, IniError> {
-        let mut entries = Vec::new();
-        let mut section: Option<String> = None;
-        for (line, content) in joined_lines(text) {
-            let fail = |problem: String| IniError::Line {
-                file: file.to_owned(),
-                line,
-                problem,
-            };
-            let content = content.trim();
-            if content.starts_with("#INCLUDE") {
-                return Err(fail(
-                    "#INCLUDE is not followed: put the sections EMCMOT, KINS, TRAJ, JOINT_n and \
-                     AXIS_L into one file, or write one with `inifile` or by hand"
-                        .to_owned(),
-                ));
-            }
-            if content.is_empty() || content.starts_with(['#', ';']) {
-                continue;
-            }
-            if let Some(rest) = content.strip_prefix('[') {
-                let Some((name, _)) = rest.split_once(']') else {
-                    return Err(fail(format!("the bracket of `{content}` is not closed")));
-                };
-                section = Some(name.trim().to_owned());
-                continue;
-            }
-            let Some((key, value)) = content.split_once('=') else {
-                return Err(fail(format!(
-                    "`{content}` is neither a [SECTION] nor KEY = value nor a comment"
-                )));
-            };
-            let Some(section) = &section else {
-                return Err(fail(format!(
-                    "`{}` stands before the first [SECTION]",
-                    key.trim()
-                )));
-            };
-            entries.push(Entry {
-                section: section.clone(),
-                key: key.trim().to_owned(),
-                value: without_comment(value).to_owned(),
-                line,
-            });
-        }
-        Ok(Ini {
-            file: file.to_owned(),
-            entries,
-        })
+        Ini::without_problems(Ini::parse_all(file, text))
     }
 
-    fn entry(&self, section: &str, key: &str) -> Option<&Entry> {
+    fn without_problems((ini, problems): (Ini, Vec<IniError>)) -> Result<Ini, IniError> {
+        problems.into_iter().next().map_or(Ok(ini), Err)
+    }
+
+    /// Reads a file as LinuxCNC does, which passes over lines that are nothing; these are told beside it.
+    ///
+    /// # Errors
+    /// [`IniError::Read`].
+    pub fn read_all(file: &Path) -> Result<(Ini, Vec<IniError>), IniError> {
+        let text = text_file::read(file).map_err(|source| IniError::Read {
+            file: file.to_owned(),
+            source,
+        })?;
+        Ok(Ini::parse_all(file, &text))
+    }
+
+    /// The same with a text; see [`Ini::parse`].
+    pub fn parse_all(file: &Path, text: &str) -> (Ini, Vec<IniError>) {
+        let mut reader = Reader {
+            ini: Ini {
+                file: file.to_owned(),
+                entries: Vec::new(),
+                headings: Vec::new(),
+            },
+            problems: Vec::new(),
+            section: None,
+        };
+        reader.take(&Arc::from(file), text, true);
+        (reader.ini, reader.problems)
+    }
+
+    /// The file itself.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// All keys, also those that LinuxCNC does not read.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// All sections, also those that LinuxCNC does not read.
+    pub fn headings(&self) -> &[Heading] {
+        &self.headings
+    }
+
+    /// The keys of this name that LinuxCNC reads, in their order.
+    pub fn all(&self, section: &str, key: &str) -> Vec<&Entry> {
+        let named = |entry: &&Entry| entry.is_read && entry.section == section && entry.key == key;
+        self.entries.iter().filter(named).collect()
+    }
+
+    /// The key that counts.
+    pub fn entry(&self, section: &str, key: &str) -> Option<&Entry> {
         self.entries
             .iter()
-            .find(|entry| entry.section == section && entry.key == key)
+            .find(|entry| entry.is_read && entry.section == section && entry.key == key)
     }
 
     /// Whether the section has at least one key.
     pub fn has_section(&self, section: &str) -> bool {
-        self.entries.iter().any(|entry| entry.section == section)
+        let named = |entry: &Entry| entry.is_read && entry.section == section;
+        self.entries.iter().any(named)
     }
 
     /// The text of a key, if it is there.
@@ -176,15 +205,97 @@ impl Ini {
 
     /// The error for a key whose value cannot be used.
     pub fn bad_value(&self, section: &str, key: &str, problem: &str) -> IniError {
-        let (value, line) = self
-            .entry(section, key)
-            .map_or(("", 0), |entry| (entry.value.as_str(), entry.line));
+        let entry = self.entry(section, key);
+        let value = entry.map_or("", |entry| entry.value.as_str());
         IniError::Value {
-            file: self.file.clone(),
-            line,
+            file: entry.map_or(self.file.clone(), |entry| entry.place.file.to_path_buf()),
+            line: entry.map_or(0, |entry| entry.place.line),
             entry: format!("[{section}]{key} = {value}"),
             problem: problem.to_owned(),
         }
+    }
+}
+
+/// What is read so far.
+struct Reader {
+    ini: Ini,
+    problems: Vec<IniError>,
+    /// The section, and whether LinuxCNC reads it.
+    section: Option<(String, bool)>,
+}
+
+impl Reader {
+    /// Reads one file; those that it includes only if it `may_include`.
+    fn take(&mut self, file: &Arc<Path>, text: &str, may_include: bool) {
+        for (line, content) in joined_lines(text) {
+            let indent = content.chars().take_while(|c| c.is_whitespace()).count();
+            let place = Place::new(file, line, indent + 1);
+            let content = content.trim();
+            if let Some(name) = include::included(content) {
+                match may_include {
+                    true => self.include(&place, name),
+                    false => self.refuse(
+                        &place,
+                        "#INCLUDE in a file that is included itself is a comment for LinuxCNC: put it into the first file",
+                    ),
+                }
+            } else if !content.is_empty() && !content.starts_with(['#', ';']) {
+                self.take_line(place, content);
+            }
+        }
+    }
+
+    fn include(&mut self, place: &Place, name: &str) {
+        match include::read(&self.ini.file, name) {
+            Ok((path, text)) => self.take(&Arc::from(path), &text, false),
+            Err(problem) => self.refuse(place, &format!("#INCLUDE {name}: {problem}")),
+        }
+    }
+
+    fn take_line(&mut self, place: Place, content: &str) {
+        if let Some(rest) = content.strip_prefix('[') {
+            let Some((name, _)) = rest.split_once(']') else {
+                return self.refuse(&place, &format!("the bracket of `{content}` is not closed"));
+            };
+            return self.begin_section(place, name);
+        }
+        let Some((key, value)) = content.split_once('=') else {
+            let problem =
+                format!("`{content}` is neither a [SECTION] nor KEY = value nor a comment");
+            return self.refuse(&place, &problem);
+        };
+        let Some((section, is_read)) = self.section.clone() else {
+            let problem = format!("`{}` stands before the first [SECTION]", key.trim());
+            return self.refuse(&place, &problem);
+        };
+        self.ini.entries.push(Entry {
+            section,
+            key: key.trim().to_owned(),
+            value: without_comment(value).to_owned(),
+            raw: value.trim().to_owned(),
+            place,
+            is_read,
+        });
+    }
+
+    fn begin_section(&mut self, place: Place, name: &str) {
+        let headings = &mut self.ini.headings;
+        let first = headings.iter().find(|heading| heading.name == name);
+        let first = first.map(|heading| heading.place.clone());
+        self.section = Some((name.to_owned(), first.is_none()));
+        headings.push(Heading {
+            name: name.to_owned(),
+            place,
+            first,
+        });
+    }
+
+    fn refuse(&mut self, place: &Place, problem: &str) {
+        self.problems.push(IniError::Line {
+            file: place.file.to_path_buf(),
+            line: place.line,
+            problem: problem.to_owned(),
+        });
     }
 }
 

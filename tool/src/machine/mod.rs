@@ -3,8 +3,11 @@
 
 pub(crate) mod configuration;
 mod error;
+mod include;
 pub(crate) mod ini;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod limits;
+pub(crate) mod place;
+pub(crate) mod text_file;
 
 pub use error::IniError;

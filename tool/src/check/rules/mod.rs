@@ -1,0 +1,54 @@
+//! What a configuration has to be like, one concern to a file.
+
+mod files;
+mod filters;
+mod folders;
+mod frame_nets;
+mod frame_settings;
+mod guard;
+mod kinematics;
+mod limits;
+mod planner;
+mod planner_module;
+mod remaps;
+mod sections;
+mod subroutines;
+mod table;
+mod threads;
+
+use super::finding::Findings;
+use super::subject::Subject;
+
+/// Says why the arguments of a `framepath` in `[FILTER]` would be refused.
+pub type FilterCheck<'a> = &'a dyn Fn(&[String]) -> Result<(), String>;
+
+/// Looks at everything.
+pub fn apply(subject: &Subject, filter: FilterCheck) -> Findings {
+    let mut findings = Findings::default();
+    sections::look(subject, &mut findings);
+    if !sections::is_current(subject) {
+        // update_ini writes INI and HAL files anew.
+        return findings;
+    }
+    files::look(subject, &mut findings);
+    planner_module::look(subject, &mut findings);
+    kinematics::look(subject, &mut findings);
+    if subject.has_planner() {
+        planner::look(subject, &mut findings);
+    }
+    if subject.has_planner() || subject.has_frames() {
+        threads::look(subject, &mut findings);
+    }
+    if subject.has_frames() {
+        frame_nets::look(subject, &mut findings);
+        table::look(subject, &mut findings);
+        guard::look(subject, &mut findings);
+        subroutines::look(subject, &mut findings);
+        remaps::look(subject, &mut findings);
+    }
+    frame_settings::look(subject, &mut findings);
+    limits::look(subject, &mut findings);
+    filters::look(subject, filter, &mut findings);
+    folders::look(subject, &mut findings);
+    findings
+}

@@ -1,0 +1,74 @@
+//! Which planner is loaded: `[TRAJ]TPMOD`, and `loadrt` in HAL files.
+
+use crate::check::finding::{Findings, Remedy, add, advice, replace};
+use crate::check::subject::Subject;
+
+pub fn look(subject: &Subject, findings: &mut Findings) {
+    let chosen = subject.planner() == "blendtp";
+    if let Some(module) = subject.state.module("blendtp") {
+        let place = &module.statement.place;
+        if chosen {
+            findings.error(
+                place,
+                "blendtp is loaded already, by [TRAJ]TPMOD, and loadrt fails",
+                Remedy::Remove,
+            );
+        } else {
+            let found = format!(
+                "[TRAJ]TPMOD has loaded {} before the HAL files, and loadrt blendtp fails behind it",
+                subject.planner()
+            );
+            findings.error(
+                place,
+                found,
+                advice("remove this line, and write TPMOD = blendtp under [TRAJ]"),
+            );
+        }
+    } else if !chosen {
+        not_loaded(subject, findings);
+    }
+    if let Some(module) = subject
+        .state
+        .module("tpmod")
+        .filter(|_| subject.has_planner())
+    {
+        findings.warning(
+            &module.statement.place,
+            "tpmod is loaded beside blendtp and has nothing to do",
+            Remedy::Remove,
+        );
+    }
+}
+
+fn not_loaded(subject: &Subject, findings: &mut Findings) {
+    let line = "TPMOD = blendtp";
+    let remedy = match subject.ini.entry("TRAJ", "TPMOD") {
+        Some(_) => replace(line),
+        None => add("[TRAJ]", line),
+    };
+    if let Some(statement) = subject.first_naming("blendtp") {
+        let place = match subject.ini.entry("TRAJ", "TPMOD") {
+            Some(entry) => entry.place.clone(),
+            None => statement.place.clone(),
+        };
+        let found = format!(
+            "`{}` needs blendtp, and [TRAJ]TPMOD loads {}",
+            statement.text,
+            subject.planner()
+        );
+        return findings.error(&place, found, remedy);
+    }
+    for letter in &subject.axes {
+        let section = format!("AXIS_{letter}");
+        if subject.planner() == "tpmod" && subject.ini.entry(&section, "MAX_JERK").is_some() {
+            let found = format!(
+                "[{section}]MAX_JERK has no effect: LinuxCNC's own planner does not know it"
+            );
+            findings.note(
+                &subject.place_of(&section, "MAX_JERK"),
+                found,
+                remedy.clone(),
+            );
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Lines and sections of the INI file that LinuxCNC reads otherwise than they look, and what it cannot do without.
+
+use crate::check::finding::{Findings, add, advice, replace};
+use crate::check::subject::{Subject, shared};
+use crate::machine::IniError;
+use crate::machine::place::Place;
+
+pub fn look(subject: &Subject, findings: &mut Findings) {
+    for problem in &subject.ini_problems {
+        if let IniError::Line {
+            file,
+            line,
+            problem,
+        } = problem
+        {
+            let place = Place::new(&shared(file), *line, 0);
+            findings.warning(
+                &place,
+                format!("LinuxCNC passes over this line: {problem}"),
+                advice("correct or remove it"),
+            );
+        }
+    }
+    for heading in subject.ini.headings() {
+        if let Some(first) = &heading.first {
+            let found = format!(
+                "LinuxCNC does not read this section: [{}] is there already, in line {}",
+                heading.name, first.line
+            );
+            findings.warning(
+                &heading.place,
+                found,
+                advice("move its keys to the first one"),
+            );
+        }
+        if heading.name.trim() != heading.name {
+            let found = format!(
+                "LinuxCNC does not find the section [{}], with blanks in its brackets",
+                heading.name
+            );
+            findings.warning(
+                &heading.place,
+                found,
+                replace(format!("[{}]", heading.name.trim())),
+            );
+        }
+    }
+    needed(subject, findings);
+}
+
+/// Whether the file is for this LinuxCNC.
+pub fn is_current(subject: &Subject) -> bool {
+    subject.text("EMC", "VERSION") == Some("1.1")
+}
+
+/// The script `linuxcnc` ends without these.
+fn needed(subject: &Subject, findings: &mut Findings) {
+    // update_ini writes what is missing.
+    match subject.ini.entry("EMC", "VERSION") {
+        Some(entry) if entry.value == "1.1" => {}
+        Some(entry) => {
+            let found = "the file is for another LinuxCNC, which changes it by update_ini first";
+            let remedy = advice("start LinuxCNC once with a screen, or run update_ini");
+            return findings.warning(&entry.place, found, remedy);
+        }
+        None => {
+            let found = "without [EMC]VERSION LinuxCNC wants to change the file by update_ini";
+            return findings.warning(
+                &subject.place_of("EMC", "VERSION"),
+                found,
+                add("[EMC]", "VERSION = 1.1"),
+            );
+        }
+    }
+    if subject.text("KINS", "JOINTS").is_none() {
+        let count = subject.joints.len().max(subject.axes.len()).clamp(1, 16);
+        findings.error(
+            &subject.place_of("KINS", "JOINTS"),
+            "LinuxCNC does not start without [KINS]JOINTS, the number of joints",
+            add("[KINS]", format!("JOINTS = {count}")),
+        );
+    }
+    if subject.text("KINS", "KINEMATICS").is_none() && !subject.has_frames() {
+        let letters: String = subject.axes.iter().collect();
+        findings.error(
+            &subject.place_of("KINS", "KINEMATICS"),
+            "LinuxCNC does not start without [KINS]KINEMATICS",
+            add(
+                "[KINS]",
+                format!("KINEMATICS = trivkins coordinates={letters}"),
+            ),
+        );
+    }
+}

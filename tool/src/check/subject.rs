@@ -1,0 +1,286 @@
+//! The machine that is looked at: its INI file, what its HAL files leave behind, and what follows from both.
+
+use super::finding::Level;
+use crate::hal::{Module, Script, State, Statement};
+use crate::machine::IniError;
+use crate::machine::configuration::AXIS_LETTERS;
+use crate::machine::ini::{Entry, Ini};
+use crate::machine::place::Place;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Everything that the rules look at.
+#[derive(Debug)]
+pub struct Subject {
+    /// The INI file.
+    pub ini: Ini,
+    /// Its lines that are nothing.
+    pub ini_problems: Vec<IniError>,
+    /// What is given to halcmd.
+    pub script: Script,
+    /// What is there behind it.
+    pub state: State,
+    /// Letters of the axes, in LinuxCNC's order.
+    pub axes: Vec<char>,
+    /// The letter of each joint, where each joint is an axis; empty behind other kinematics.
+    pub joints: Vec<char>,
+}
+
+impl Subject {
+    /// Brings it all together.
+    pub fn new(ini: Ini, ini_problems: Vec<IniError>, script: Script) -> Subject {
+        let state = State::run(&script.statements);
+        let axes = axes(&ini);
+        let joints = joints(&ini);
+        Subject {
+            ini,
+            ini_problems,
+            script,
+            state,
+            axes,
+            joints,
+        }
+    }
+
+    /// The folder in which LinuxCNC runs.
+    pub fn folder(&self) -> PathBuf {
+        match self.ini.file().parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+            _ => PathBuf::from("."),
+        }
+    }
+
+    /// A file or folder that the INI file or a HAL file names.
+    pub fn path(&self, name: &str) -> PathBuf {
+        match (name.strip_prefix("~/"), std::env::var_os("HOME")) {
+            (Some(rest), Some(home)) => Path::new(&home).join(rest),
+            _ => self.folder().join(name),
+        }
+    }
+
+    /// The text of a key that is not empty.
+    pub fn text(&self, section: &str, key: &str) -> Option<&str> {
+        self.ini.text(section, key).filter(|text| !text.is_empty())
+    }
+
+    /// The number that LinuxCNC reads: what stands behind it does not count.
+    pub fn number(&self, section: &str, key: &str) -> Option<f64> {
+        leading_number(self.text(section, key)?)
+    }
+
+    /// The place of a key, else of its section, else of the file.
+    pub fn place_of(&self, section: &str, key: &str) -> Place {
+        if let Some(entry) = self.ini.entry(section, key) {
+            return entry.place.clone();
+        }
+        let heading = self
+            .ini
+            .headings()
+            .iter()
+            .find(|heading| heading.name == section);
+        heading.map_or_else(
+            || Place::file(self.ini.file()),
+            |heading| heading.place.clone(),
+        )
+    }
+
+    /// Whether LinuxCNC plans with blendtp.
+    pub fn has_planner(&self) -> bool {
+        self.planner() == "blendtp" || self.state.module("blendtp").is_some()
+    }
+
+    /// `[TRAJ]TPMOD`, without parameters.
+    pub fn planner(&self) -> &str {
+        let words = self.text("TRAJ", "TPMOD").unwrap_or("tpmod");
+        words.split_whitespace().next().unwrap_or("tpmod")
+    }
+
+    /// The module of `[KINS]KINEMATICS`.
+    pub fn kinematics(&self) -> &str {
+        let words = self.text("KINS", "KINEMATICS").unwrap_or("");
+        words.split_whitespace().next().unwrap_or("")
+    }
+
+    /// A parameter of `[KINS]KINEMATICS`.
+    pub fn kinematics_parameter(&self, name: &str) -> Option<&str> {
+        parameter(self.text("KINS", "KINEMATICS")?, name)
+    }
+
+    /// Whether the machine is to have frames: something names framekins.
+    pub fn has_frames(&self) -> bool {
+        self.kinematics() == "framekins"
+            || self.state.module("framekins").is_some()
+            || self.first_naming("framekins").is_some()
+    }
+
+    /// The axis that tilts the table, `A` or `B`.
+    pub fn tilt(&self) -> Option<char> {
+        let module = self.state.module("framekins");
+        let loaded = module.and_then(|module| module.parameter("machine"));
+        match loaded.or(self.kinematics_parameter("machine")) {
+            Some("xyzac") => Some('A'),
+            Some("xyzbc") => Some('B'),
+            _ => None,
+        }
+    }
+
+    /// The first line of the HAL files with a word that is this name, or begins with it and a point.
+    pub fn first_naming(&self, name: &str) -> Option<&Statement> {
+        let names = |text: &str| {
+            text.strip_prefix(name)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        let statements = self.script.statements.iter();
+        statements.into_iter().find(|statement| {
+            statement.words.iter().skip(1).any(|word| names(&word.text)) || names(statement.word(0))
+        })
+    }
+
+    /// The module of motion.
+    pub fn motion(&self) -> Option<&Module> {
+        self.state.module("motmod")
+    }
+
+    /// How bad it is that a line was not found: what was not read may have it.
+    pub fn if_missing(&self) -> Level {
+        match self.script.unread.is_empty() {
+            true => Level::Error,
+            false => Level::Warning,
+        }
+    }
+
+    /// To be said behind that a line was not found.
+    pub fn unless_unread(&self) -> String {
+        match self.script.unread.first() {
+            None => String::new(),
+            Some(unread) => format!(
+                " (unless {}, which is not read here, sees to it)",
+                unread.name
+            ),
+        }
+    }
+
+    /// The HAL file for lines of ours: the last one that names framekins or blendtp, else the last one at all.
+    pub fn hal_file(&self) -> String {
+        let ours = |statement: &&Statement| {
+            statement.text.contains("framekins") || statement.text.contains("blendtp")
+        };
+        let statement = self.script.statements.iter().rfind(ours);
+        let named = statement.map(|statement| statement.place.file.to_path_buf());
+        let own = |file: &&PathBuf| !file.starts_with(crate::hal::HALLIB);
+        let last = self.script.files.iter().rfind(own);
+        match named.or_else(|| last.cloned()) {
+            Some(file) => file.display().to_string(),
+            None => "a HAL file of [HAL]HALFILE".to_owned(),
+        }
+    }
+
+    /// A place for what is missing in the HAL files: the line that loads this module, else the HAL file.
+    pub fn place_of_module(&self, module: &str) -> Place {
+        if let Some(module) = self.state.module(module) {
+            return module.statement.place.clone();
+        }
+        match self.script.files.last() {
+            Some(file) => Place::file(file),
+            None => self.place_of("HAL", "HALFILE"),
+        }
+    }
+
+    /// The analog output with which frames begin.
+    pub fn first_output(&self) -> u32 {
+        let text = self.text("FRAMEPATH", "ANALOG_OUTPUT").unwrap_or("0");
+        let key = crate::wiring::settings::key("ANALOG_OUTPUT");
+        match key.is_some_and(|key| key.takes(text)) {
+            true => text.parse().unwrap_or(0),
+            false => 0,
+        }
+    }
+
+    /// The folders of SUBROUTINE_PATH, as they are named.
+    pub fn subroutine_folders(&self) -> Vec<&str> {
+        let path = self.text("RS274NGC", "SUBROUTINE_PATH").unwrap_or("");
+        path.split(':')
+            .filter(|folder| !folder.is_empty())
+            .collect()
+    }
+
+    /// The folder of framepath's subroutines, as the INI file or the HAL file names it.
+    pub fn own_folder(&self) -> String {
+        let has_frames = |folder: &&str| self.path(folder).join("frame_send.ngc").is_file();
+        if let Some(folder) = self.subroutine_folders().into_iter().find(has_frames) {
+            return folder.trim_end_matches('/').to_owned();
+        }
+        let guard = self
+            .state
+            .programs
+            .iter()
+            .find(|program| is_guard(&program.program));
+        let folder = guard.and_then(|guard| guard.program.strip_suffix("/frame_guard.py"));
+        folder.unwrap_or(crate::wiring::SUBROUTINES).to_owned()
+    }
+
+    /// All keys of this name that LinuxCNC reads.
+    pub fn all(&self, section: &str, key: &str) -> Vec<&Entry> {
+        self.ini.all(section, key)
+    }
+}
+
+/// Whether a program is frame_guard.
+pub fn is_guard(program: &str) -> bool {
+    Path::new(program)
+        .file_name()
+        .is_some_and(|name| name == "frame_guard.py")
+}
+
+/// A parameter of a line like `framekins coordinates=XYZ`.
+pub fn parameter<'a>(words: &'a str, name: &str) -> Option<&'a str> {
+    let mut parameters = words
+        .split_whitespace()
+        .filter_map(|word| word.split_once('='));
+    parameters.find_map(|(known, value)| (known == name).then_some(value))
+}
+
+/// The number that a text begins with.
+pub fn leading_number(text: &str) -> Option<f64> {
+    let word = text
+        .split(|c: char| c.is_whitespace() || ",;#".contains(c))
+        .next()?;
+    word.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+fn axes(ini: &Ini) -> Vec<char> {
+    let named = ini
+        .text("TRAJ", "COORDINATES")
+        .filter(|text| !text.is_empty());
+    let kinematics = ini.text("KINS", "KINEMATICS").unwrap_or("");
+    let letters = named
+        .or_else(|| parameter(kinematics, "coordinates"))
+        .unwrap_or("");
+    let letters = letters.to_ascii_uppercase();
+    AXIS_LETTERS
+        .chars()
+        .filter(|letter| letters.contains(*letter))
+        .collect()
+}
+
+/// As trivkins takes them, and framekins on a machine in which each joint is an axis. On a machine with a tilting
+/// table of framekins they are the same without the tool centre point.
+fn joints(ini: &Ini) -> Vec<char> {
+    let kinematics = ini.text("KINS", "KINEMATICS").unwrap_or("");
+    let module = kinematics.split_whitespace().next().unwrap_or("");
+    if !matches!(module, "trivkins" | "framekins") {
+        return Vec::new();
+    }
+    let count = ini
+        .text("KINS", "JOINTS")
+        .and_then(|text| text.trim().parse().ok());
+    let letters = parameter(kinematics, "coordinates")
+        .unwrap_or(AXIS_LETTERS)
+        .to_ascii_uppercase();
+    letters.chars().take(count.unwrap_or(16)).collect()
+}
+
+/// The file of a place, shared.
+pub fn shared(file: &Path) -> Arc<Path> {
+    Arc::from(file)
+}

@@ -1,0 +1,92 @@
+//! The codes for the frame commands: `REMAP` lines of the INI file.
+
+/// The words that the subroutines take, or refuse by name.
+const ARGUMENTS: &str = "abcdehijklpqruvwxyz";
+
+/// A code and the subroutine that it calls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Code {
+    /// `G77.1`.
+    pub code: &'static str,
+    /// `code_trans`, the name of a file without its ending.
+    pub subroutine: &'static str,
+}
+
+impl Code {
+    /// The value of `REMAP`.
+    pub fn value(&self) -> String {
+        match self.code {
+            "M6" => format!("M6 modalgroup=6 ngc={}", self.subroutine),
+            code => format!(
+                "{code} modalgroup=1 argspec={ARGUMENTS} ngc={}",
+                self.subroutine
+            ),
+        }
+    }
+}
+
+const fn code(code: &'static str, subroutine: &'static str) -> Code {
+    Code { code, subroutine }
+}
+
+/// All of them.
+pub const CODES: [Code; 16] = [
+    code("G77", "code_off"),
+    code("G77.1", "code_trans"),
+    code("G77.2", "code_rot"),
+    code("G77.3", "code_rot_rpl"),
+    code("G77.4", "code_rots"),
+    code("G77.5", "code_scale"),
+    code("G77.6", "code_mirror"),
+    code("G78", "code_refresh"),
+    code("G78.1", "code_atrans"),
+    code("G78.2", "code_arot"),
+    code("G78.3", "code_arot_rpl"),
+    code("G78.4", "code_arots"),
+    code("G78.5", "code_ascale"),
+    code("G78.6", "code_amirror"),
+    code("G79", "code_machine_move"),
+    code("M6", "frame_tool_change"),
+];
+
+/// A line `REMAP = ..`, cut into its parts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Remap {
+    /// In upper case.
+    pub code: String,
+    /// `modalgroup=`.
+    pub group: Option<String>,
+    /// `argspec=`.
+    pub arguments: Option<String>,
+    /// `ngc=`.
+    pub subroutine: Option<String>,
+}
+
+impl Remap {
+    /// Cuts a value.
+    pub fn parse(value: &str) -> Remap {
+        let mut words = value.split_whitespace();
+        let mut remap = Remap {
+            code: words.next().unwrap_or("").to_ascii_uppercase(),
+            ..Remap::default()
+        };
+        for word in words {
+            let Some((name, value)) = word.split_once('=') else {
+                continue;
+            };
+            let value = Some(value.to_owned());
+            match name {
+                "modalgroup" => remap.group = value,
+                "argspec" => remap.arguments = value,
+                "ngc" => remap.subroutine = value,
+                _ => {}
+            }
+        }
+        remap
+    }
+}
+
+/// The code that calls this subroutine of ours.
+pub fn code_of(subroutine: &str) -> Option<Code> {
+    CODES.into_iter().find(|code| code.subroutine == subroutine)
+}

@@ -1,0 +1,13 @@
+//! What blendtp, framekins and frame_guard need in the INI and HAL files of a machine, line by line: `check` looks
+//! for it, `configure` writes it.
+
+pub mod blendtp;
+pub mod codes;
+pub mod framekins;
+pub mod settings;
+
+/// Where `make install` puts the subroutines.
+pub const SUBROUTINES: &str = "/usr/share/framepath/subroutines";
+
+/// A jerk limit for a start: so many accelerations in a second, as in the samples.
+pub const USUAL_JERK: f64 = 20.0;
