@@ -92,6 +92,7 @@ test: export PROPTEST_RNG_SEED ?= 1
 test: export TOOL_PROFILE = dev
 test: lint modules fault-modules
 	@./prerequisites browser
+	@./prerequisites screen
 	@./prerequisites sanitize
 	@./prerequisites test
 	$(CARGO) test --locked --workspace --no-fail-fast
@@ -100,6 +101,7 @@ test: lint modules fault-modules
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules fault-modules tool
+	@./prerequisites screen
 	@./prerequisites test
 	$(RUN_LINUXCNC_TESTS)
 
@@ -199,12 +201,13 @@ header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
 
 install: modules tool
-	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(MAN)/man1 $(MAN)/man9
+	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(MAN)/man1 $(MAN)/man9
 	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
 	install -m 755 $(TOOL) $(BIN)
 	install -m 644 hal-component/subroutines/*.ngc hal-component/subroutines/frame_[!g]*.py \
 	    hal-component/subroutines/README.md $(SHARE)/subroutines
 	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
+	install -m 644 hal-component/preview/*.py $(SHARE)/preview
 	cp -R hal-component/configs $(SHARE)
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
 	install -m 644 tool/framepath.1 $(MAN)/man1

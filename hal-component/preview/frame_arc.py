@@ -37,6 +37,36 @@ class Arc:
         self.sweep = sense * ((0.0 if closed else way * sense % math.tau) or math.tau)
         self.sweep += sense * math.tau * (abs(turns) - 1)
 
+    def reach(self, out: Map):
+        """The least and the greatest of X, of Y and of Z behind the map `out`, at the ends and in between."""
+        first, second, along = self.axes
+        x, y = self.from_centre
+        centre = [0.0, 0.0, 0.0]
+        centre[first], centre[second] = self.centre
+        rise = self.end[2] - self.height
+        for row in out:
+            middle = row[3] + row[first] * centre[first] + row[second] * centre[second] + row[along] * self.height
+            # middle + c cos(angle) + s sin(angle) + slope angle, over the angle from the start on
+            c, s = row[first] * x + row[second] * y, row[second] * x - row[first] * y
+            slope = row[along] * rise / self.sweep
+            values = [middle + c * math.cos(angle) + s * math.sin(angle) + slope * angle
+                      for angle in self._turning(c, s, slope)]
+            yield min(values), max(values)
+
+    def _turning(self, c, s, slope):
+        """The ends, and the angles at which s cos(angle) - c sin(angle) + slope is 0."""
+        angles = [0.0, self.sweep]
+        size = math.hypot(c, s)
+        if size > abs(slope):
+            middle, half = math.atan2(s, c), math.asin(slope / size)
+            low, high = min(0.0, self.sweep), max(0.0, self.sweep)
+            for root in (middle + half, middle + math.pi - half):
+                angle = low + (root - low) % math.tau
+                while angle < high:
+                    angles.append(angle)
+                    angle += math.tau
+        return angles
+
     def chords(self, out: Map, most: int, other_start, other_end):
         """Ends of chords behind the map `out`, tuples of nine axes. most: chords of half a circle. The six other axes go from
         `other_start` to `other_end`."""

@@ -73,6 +73,10 @@ class FrameCanon(Canon):
         #: origins and directions of the frames of the program
         self.frames_seen = []
         self.frame_refused = False
+        #: what `frame_reach` needs of each arc
+        self.frame_arcs = []
+        #: ends of rapids that are not drawn, as positions of the axes
+        self.frame_hidden = []
 
     def message(self, text):
         words = text.split()
@@ -118,8 +122,12 @@ class FrameCanon(Canon):
 
     def frame_work(self):
         """From coordinates of the program to those behind the work offset."""
-        return work_map((self.g5x_offset_x, self.g5x_offset_y, self.g5x_offset_z), self.rotation_xy,
-                        (self.g92_offset_x, self.g92_offset_y, self.g92_offset_z))
+        return work_map(*self.frame_offsets())
+
+    def frame_offsets(self):
+        """What makes up the work offset in force."""
+        return ((self.g5x_offset_x, self.g5x_offset_y, self.g5x_offset_z), self.rotation_xy,
+                (self.g92_offset_x, self.g92_offset_y, self.g92_offset_z))
 
     def frame_axes(self):
         """Where the machine's axes are, inches."""
@@ -156,20 +164,48 @@ class FrameCanon(Canon):
         (a, b, c, p), (d, e, f, q), (g, h, i, r) = self.frame_out
         return (a * x + b * y + c * z + p, d * x + e * y + f * z + q, g * x + h * y + i * z + r, *others)
 
+    def straight_traverse(self, *place):
+        super().straight_traverse(*place)
+        if self.first_move and self.suppress <= 0:
+            self.frame_hidden.append(self.frame_axes())
+
     def arc_feed(self, first, second, first_centre, second_centre, turns, along, *others):
-        if self.frame_out is None or self.suppress > 0:
+        if self.suppress > 0:
+            return
+        kept = (self.frame_out, self.frame_offsets(), self.plane, self.lo, (first, second, along),
+                (first_centre, second_centre), turns, (self.xo, self.yo, self.zo))
+        self.frame_arcs.append(kept)
+        if self.frame_out is None:
             super().arc_feed(first, second, first_centre, second_centre, turns, along, *others)
             return
-        out = product(self.frame_out, self.frame_work())
-        arc = Arc(self.plane, applied(inverse(out), self.lo[:3]), (first, second, along), (first_centre, second_centre), turns)
+        arc, out, _ = arc_of(*kept)
         end = super().rotate_and_translate(0, 0, 0, *others)[3:]
         self.straight_arcsegments(arc.chords(out, self.arcdivision, self.lo[3:], end))
+
+    def frame_reach(self):
+        """The least and the greatest position of the machine's X Y Z in the program, inches: chords of arcs stay inside."""
+        ends = [self.min_extents_notool, self.max_extents_notool, *self.frame_hidden]
+        least, greatest = ([side(values) for values in zip(*ends, strict=True)] for side in (min, max))
+        for kept in self.frame_arcs:
+            arc, out, tool = arc_of(*kept)
+            for axis, (low, high) in enumerate(arc.reach(out)):
+                least[axis] = min(least[axis], low + tool[axis])
+                greatest[axis] = max(greatest[axis], high + tool[axis])
+        return least, greatest
 
     def tool_offset(self, xo, yo, zo, *others):
         axes = self.frame_axes()
         super().tool_offset(xo, yo, zo, *others)
         self.frame_tool = (xo, yo, zo)
         self.frame_place(axes)
+
+
+def arc_of(frame_out, work, plane, start, end, centre, turns, tool):
+    """An arc of a preview as (in the program's coordinates, their map to the tip, the tool's length)."""
+    out = work_map(*work)
+    if frame_out is not None:
+        out = product(frame_out, out)
+    return Arc(plane, applied(inverse(out), start[:3]), end, centre, turns), out, tool
 
 
 def framed(base, rules: FrameRules):

@@ -20,6 +20,10 @@ INPUTS = {"active": hal.HAL_BIT, "tool-centre-point-active": hal.HAL_BIT,
           **{f"turned-tool.{letter}": hal.HAL_FLOAT for letter in LETTERS[:3]}}
 
 
+#: how often a position is read until it is of one moment; a servo period is much longer than that takes
+TRIES = 5
+
+
 class FrameState:
     """The machine's frame, as HAL has it now. Lengths in machine units."""
 
@@ -82,9 +86,16 @@ class FrameState:
 
     def tip(self) -> tuple[float, ...]:
         """The tip of the tool with the frame, and the six other axes."""
-        position = self.position()
-        tool = [self.pins[f"turned-tool.{letter}"] for letter in LETTERS[:3]]
+        # the machine goes on while they are read one by one
+        for _ in range(TRIES):
+            position, tool = self.position(), self._tool()
+            if (position, tool) == (self.position(), self._tool()):
+                break
         return (*(axis - part for axis, part in zip(position, tool, strict=False)), *position[3:])
+
+    def _tool(self) -> Point:
+        """From the tip of the tool to the axes."""
+        return tuple(self.pins[f"turned-tool.{letter}"] for letter in LETTERS[:3])  # type: ignore[return-value]
 
 
 def k2() -> bool:
