@@ -93,7 +93,7 @@ RUN_LINUXCNC_TESTS = failed=0; $(LINUXCNC_TESTS) -m "not busy" || failed=1; $(LI
 test: export PROPTEST_RNG_SEED ?= 1
 test: export TOOL_PROFILE = dev
 test: modules fault-modules
-	@for group in lint browser sanitize test; do ./prerequisites $$group || exit 1; done
+	@for group in lint browser screen sanitize test; do ./prerequisites $$group || exit 1; done
 	$(CARGO) test --locked --workspace --no-run
 	failed=0; $(MAKE) --no-print-directory -j 2 --keep-going rust-tests waiting-linuxcnc-tests || failed=1; \
 	    $(LINUXCNC_TESTS) -m busy || failed=1; exit $$failed
@@ -110,6 +110,7 @@ waiting-linuxcnc-tests:
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules fault-modules tool
+	@./prerequisites screen
 	@./prerequisites test
 	$(RUN_LINUXCNC_TESTS)
 
@@ -209,12 +210,13 @@ header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
 
 install: modules tool
-	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(MAN)/man1 $(MAN)/man9
+	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(MAN)/man1 $(MAN)/man9
 	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
 	install -m 755 $(TOOL) $(BIN)
 	install -m 644 hal-component/subroutines/*.ngc hal-component/subroutines/frame_[!g]*.py \
 	    hal-component/subroutines/README.md $(SHARE)/subroutines
 	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
+	install -m 644 hal-component/preview/*.py $(SHARE)/preview
 	cp -R hal-component/configs $(SHARE)
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
 	install -m 644 tool/framepath.1 $(MAN)/man1

@@ -48,6 +48,7 @@ static struct {
     hal_bit_t *enabled, *release_on_abort, *release, *releasing, *hold, *guarded;
     hal_s32_t *releases, *releases_seen;
     hal_u32_t *heartbeat, *version;
+    hal_float_t *frame[12], *position[9], *turned_tool[3];
     /* What frame_guard looks at. It has these linked to pins of its own, which are read without HAL's lock: a process that is
        killed while it holds that would stop every other one. Users link the ones of the same names above. */
     struct {
@@ -125,6 +126,12 @@ static void write_pins(const struct framepath_frame_outputs *out)
     *pins->releases = out->releases;
     *pins->hold = out->hold;
     *pins->guarded = out->guarded;
+    for (int i = 0; i < 12; i++)
+        *pins->frame[i] = out->frame[i];
+    for (int i = 0; i < 9; i++)
+        *pins->position[i] = out->position[i];
+    for (int i = 0; i < 3; i++)
+        *pins->turned_tool[i] = out->turned_tool[i];
 }
 
 static void write_guard_pins(const struct framepath_frame_inputs *in, const struct framepath_frame_outputs *out)
@@ -259,9 +266,24 @@ static int export_guard_pins(void)
     return 0;
 }
 
+/* The elements of a map in the order of its rows. */
+static const char *const row_names[12] = {"xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z"};
+
+/* Where the machine is with its frame, for screens. */
+static int export_position_pins(void)
+{
+    int error = 0;
+    for (int i = 0; i < 12; i++)
+        error |= hal_pin_float_newf(HAL_OUT, &pins->frame[i], component, "framekins.frame.%s", row_names[i]);
+    for (int i = 0; i < 9; i++)
+        error |= hal_pin_float_newf(HAL_OUT, &pins->position[i], component, "framekins.position.%c", "xyzabcuvw"[i]);
+    for (int i = 0; i < 3; i++)
+        error |= hal_pin_float_newf(HAL_OUT, &pins->turned_tool[i], component, "framekins.turned-tool.%c", "xyz"[i]);
+    return error;
+}
+
 static int export_frame_pins(void)
 {
-    static const char *const row_names[12] = {"xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z"};
     int error = 0;
     error |= hal_pin_float_newf(HAL_IN, &pins->command, component, "framekins.command");
     for (int i = 0; i < 3; i++) {
@@ -292,6 +314,7 @@ static int export_frame_pins(void)
     error |= hal_pin_float_newf(HAL_OUT, &pins->normal_tilt, component, "framekins.normal-tilt");
     error |= hal_pin_float_newf(HAL_OUT, &pins->normal_rotary, component, "framekins.normal-rotary");
     error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "framekins.version");
+    error |= export_position_pins();
     error |= export_guard_pins();
     if (error)
         return -1;

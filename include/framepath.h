@@ -283,6 +283,18 @@ struct framepath_frame_outputs {
    How far a guard that is missed has brought it: 0, or one of the alarms above.
    */
   int alarm;
+  /*
+   Where the tip of the tool is with the frame, for where it would be without: three rows of a 3x4 map.
+   */
+  double frame[12];
+  /*
+   The machine's axes behind the frame. With the tool centre point on these are coordinates of the workpiece.
+   */
+  double position[9];
+  /*
+   From the tip of the tool to the position of the axes, X Y Z.
+   */
+  double turned_tool[3];
 };
 
 /*

@@ -131,6 +131,12 @@ pub struct framepath_frame_outputs {
     pub guarded: c_int,
     /// How far a guard that is missed has brought it: 0, or one of the alarms above.
     pub alarm: c_int,
+    /// Where the tip of the tool is with the frame, for where it would be without: three rows of a 3x4 map.
+    pub frame: [c_double; 12],
+    /// The machine's axes behind the frame. With the tool centre point on these are coordinates of the workpiece.
+    pub position: [c_double; 9],
+    /// From the tip of the tool to the position of the axes, X Y Z.
+    pub turned_tool: [c_double; 3],
 }
 
 /// The machine of the module.
@@ -205,6 +211,18 @@ fn alarm_of(outputs: &FrameOutputs) -> c_int {
         Guard::Lost if outputs.active => FRAMEPATH_GUARD_LOST,
         _ => 0,
     }
+}
+
+/// The rows of a map one behind the other.
+fn in_one_row(
+    [[xx, xy, xz, x], [yx, yy, yz, y], [zx, zy, zz, z]]: [[f64; 4]; 3],
+) -> [c_double; 12] {
+    [xx, xy, xz, x, yx, yy, yz, y, zx, zy, zz, z]
+}
+
+/// What a pin shows that operators read: without a frame nothing looks at what comes in.
+fn shown(value: f64) -> f64 {
+    if value.is_finite() { value } else { 0.0 }
 }
 
 fn limits_of(pins: &framepath_frame_inputs) -> RotaryLimits {
@@ -451,6 +469,11 @@ pub unsafe extern "C" fn framepath_kinematics_update(
         return;
     };
     let outputs = control.update(&inputs_of(pins, *tool_length));
+    let tool = Vector3::from(pins.tool_offset);
+    let (frame, turned_tool) = control.active().map_or_else(
+        || (AffineMap::identity(), tool),
+        |frame| (*frame.tip_map(), frame.turned_tool(&tool)),
+    );
     let position = Axes::from(*position);
     let normal = tool_normal(
         control.machine(),
@@ -480,5 +503,8 @@ pub unsafe extern "C" fn framepath_kinematics_update(
         hold: outputs.hold.into(),
         guarded: outputs.guarded.into(),
         alarm: alarm_of(&outputs),
+        frame: in_one_row(frame.to_rows()),
+        position: position.map(shown).into(),
+        turned_tool: turned_tool.map(shown).into(),
     };
 }

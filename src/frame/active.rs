@@ -35,7 +35,11 @@ pub enum ToolLength {
 pub struct ActiveFrame {
     to_machine: AffineMap,
     to_world: AffineMap,
+    /// A.
+    tip: AffineMap,
     rotation: Matrix3<f64>,
+    /// L.
+    length: Matrix3<f64>,
     /// 1 or -1 for A B C U V W.
     sign: [f64; 6],
     /// Added after the sign.
@@ -48,7 +52,9 @@ impl ActiveFrame {
         Self {
             to_machine: AffineMap::identity(),
             to_world: AffineMap::identity(),
+            tip: AffineMap::identity(),
             rotation: Matrix3::identity(),
+            length: Matrix3::identity(),
             sign: [1.0; 6],
             shift: [0.0; 6],
         }
@@ -80,14 +86,15 @@ impl ActiveFrame {
         let linear_tool = linear_axes(tool);
         let tip = out.compose(frame.map()).compose(&back);
         active.rotation = product(out.linear(), &product(frame.rotation(), back.linear()));
-        let turned_tool = match tool_length {
-            ToolLength::Frame => transform(&active.rotation, &linear_tool),
-            ToolLength::Machine => linear_tool,
+        active.length = match tool_length {
+            ToolLength::Frame => active.rotation,
+            ToolLength::Machine => Matrix3::identity(),
         };
-        let shift = tip.apply(&-linear_tool) + turned_tool;
+        let shift = tip.apply(&-linear_tool) + active.turned_tool(&linear_tool);
         check_translation(shift.iter())?;
         active.to_machine = AffineMap::new(*tip.linear(), shift)?;
         active.to_world = active.to_machine.inverse()?;
+        active.tip = tip;
         Ok(active)
     }
 
@@ -139,6 +146,18 @@ impl ActiveFrame {
     /// The map of X Y Z from world to machine, tool and work offset included.
     pub fn map(&self) -> &AffineMap {
         &self.to_machine
+    }
+
+    /// The map of the tool's tip, A: from where it would be without the frame to where it is, in
+    /// the machine's X Y Z.
+    pub fn tip_map(&self) -> &AffineMap {
+        &self.tip
+    }
+
+    /// How a tool with this length offset stands in the machine, L T: from its tip to the position
+    /// of the axes.
+    pub fn turned_tool(&self, tool: &Vector3<f64>) -> Vector3<f64> {
+        transform(&self.length, tool)
     }
 
     /// Direction of a tool that stands normal to the frame's XY plane, from its tip towards the

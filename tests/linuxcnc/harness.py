@@ -157,7 +157,8 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
     try:
         config = os.path.join(folder, "configs", sample)
         shutil.copytree(configuration or os.path.join(SAMPLES, "configs", sample), config)
-        shutil.copytree(os.path.join(SAMPLES, "subroutines"), os.path.join(folder, "subroutines"))
+        for shared in ("subroutines", "preview"):
+            shutil.copytree(os.path.join(SAMPLES, shared), os.path.join(folder, shared))
         for name in ("driver.py", *files):
             shutil.copy(os.path.join(HERE, name), config)
         program_folder = os.path.join(folder, "programs")

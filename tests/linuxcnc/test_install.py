@@ -31,6 +31,7 @@ class Install(unittest.TestCase):
                          "usr/share/man/man9/blendtp.9", "usr/share/framepath/subroutines/trans.ngc",
                          *(f"usr/share/framepath/subroutines/frame_{part}.py"
                            for part in ("guard", "heart", "offsets", "settings")),
+                         "usr/share/framepath/preview/frame_axis.py", "usr/share/framepath/preview/axis_frames.py",
                          "usr/share/framepath/configs/framepath-sim/framepath-sim.ini"):
                 self.assertIn(name, there)
             # the samples find the subroutines by the same relative path as in the repository

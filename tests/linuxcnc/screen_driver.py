@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""The operator of driver.py in front of a screen: AXIS on an X server without a monitor (Xvfb).
+
+AXIS runs as users have it, with the USER_COMMAND_FILE of the sample. Where a test wants to see what AXIS knows, that is
+screen_probe.py, which installs the same and answers questions.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+
+import linuxcnc
+
+import driver
+
+#: the size of the monitor, points
+SIZE = "1280x900x24"
+
+QUESTION, ANSWER = "question.json", "answer.json"
+
+
+class Screen(driver.Operator):
+    """The steps of an operator, and those that want a screen."""
+
+    def __init__(self):
+        super().__init__()
+        self.processes = []
+
+    def show(self, *command):
+        """Starts a screen: its command, to which LinuxCNC's arguments are added."""
+        display, write = os.pipe()
+        # no -auth: nobody else is in these namespaces
+        self.processes.append(subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", SIZE, "-nolisten", "tcp", "+extension", "GLX"],
+            pass_fds=[write]))
+        os.close(write)
+        with os.fdopen(display) as file:
+            number = file.readline().strip()
+        if not number:
+            raise driver.Failure("Xvfb has not started")
+        os.environ["DISPLAY"] = f":{number}"
+        self.processes.append(subprocess.Popen([*command, *sys.argv[1:]]))
+
+    def wait_pin(self, name, timeout=60):
+        """Waits until a pin is there: a screen makes its own when it is up."""
+        def is_there():
+            if self.processes[-1].poll() is not None:
+                raise driver.Failure(f"the screen has ended with {self.processes[-1].returncode}")
+            return subprocess.run(["halcmd", "getp", name], capture_output=True, check=False).returncode == 0
+
+        self.wait_for(name, is_there, timeout)
+
+    def ask(self, name, question, *arguments):
+        """Keeps what screen_probe.py answers; waits until it does."""
+        with open(f"{QUESTION}.new", "w", encoding="utf-8") as file:
+            json.dump([question, *arguments], file)
+        os.replace(f"{QUESTION}.new", QUESTION)
+        self.wait_for(f"an answer to {question}", lambda: os.path.exists(ANSWER))
+        with open(ANSWER, encoding="utf-8") as file:
+            answer = json.load(file)
+        os.remove(ANSWER)
+        if "error" in answer:
+            raise driver.Failure(f"{question}: {answer['error']}")
+        self.answers[name] = answer["answer"]
+
+    def wait_paused(self):
+        """Waits until the program stands at its M0."""
+        self.wait_for("M0", lambda: self.status.interp_state == linuxcnc.INTERP_PAUSED and self.status.inpos)
+        self.sleep(0.3)
+
+    def picture(self, path):
+        """What the monitor shows."""
+        subprocess.run(["import", "-window", "root", path], check=True)
+
+    def close(self):
+        for process in reversed(self.processes):
+            process.terminate()
+        for process in self.processes:
+            try:
+                process.wait(10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+
+
+def main():
+    screens = []
+
+    def operator():
+        screens.append(Screen())
+        return screens[0]
+
+    try:
+        return driver.main(operator)
+    finally:
+        screens[0].close()
+        time.sleep(0.1)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
