@@ -170,12 +170,6 @@ impl AffineMap {
         condition_number(&self.linear)
     }
 
-    /// Whether right-handed coordinates stay right-handed; `None` for a singular map.
-    pub fn handedness(&self) -> Option<Handedness> {
-        let scale = greatest_element(&self.linear);
-        Handedness::of_determinant(determinant(&(self.linear / scale)))
-    }
-
     /// Whether directions of turning in a plane are kept, by the sign of the map's part within the
     /// plane: `Left` means that G2 and G3, G41 and G42 change places. `None` if the plane is turned
     /// on edge (its part within the plane has no area).
@@ -266,9 +260,8 @@ mod tests {
     }
 
     #[test]
-    fn handedness_of_space_and_planes() {
+    fn handedness_of_planes() {
         let mirrored = scaled(-1.0, 1.0, 1.0);
-        assert_eq!(mirrored.handedness(), Some(Handedness::Left));
         assert_eq!(
             mirrored.handedness_in_plane(Plane::Xy),
             Some(Handedness::Left)
@@ -282,15 +275,12 @@ mod tests {
             Some(Handedness::Right)
         );
         let twice = scaled(-2.0, -1.0, 1.0);
-        assert_eq!(twice.handedness(), Some(Handedness::Right));
         assert_eq!(twice.determinant(), 2.0);
         assert_eq!(
             twice.handedness_in_plane(Plane::Xy),
             Some(Handedness::Right)
         );
         assert_eq!(twice.handedness_in_plane(Plane::Zx), Some(Handedness::Left));
-        assert_eq!(scaled(1.0, 0.0, 1.0).handedness(), None);
-        assert_eq!(scaled(0.0, 0.0, 0.0).handedness(), None);
         let upright = AffineMap::from_linear(roll_pitch_yaw(&Vector3::new(90.0, 0.0, 30.0)));
         assert_eq!(upright.handedness_in_plane(Plane::Xy), None);
     }
