@@ -4,7 +4,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::affine::AffineMap;
 use super::error::FrameError;
-use super::matrix::{product, transform};
 use super::operation::check_translation;
 use super::programmable::ProgrammableFrame;
 use super::work_offset::{WorkOffset, linear_axes};
@@ -79,9 +78,9 @@ impl ActiveFrame {
         let (out, back) = (work.map(), work.inverse_map());
         let linear_tool = linear_axes(tool);
         let tip = out.compose(frame.map()).compose(&back);
-        active.rotation = product(out.linear(), &product(frame.rotation(), back.linear()));
+        active.rotation = out.linear() * (frame.rotation() * back.linear());
         let turned_tool = match tool_length {
-            ToolLength::Frame => transform(&active.rotation, &linear_tool),
+            ToolLength::Frame => active.rotation * linear_tool,
             ToolLength::Machine => linear_tool,
         };
         let shift = tip.apply(&-linear_tool) + turned_tool;
