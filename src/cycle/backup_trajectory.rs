@@ -59,7 +59,6 @@ pub struct BackupTrajectory {
     next: usize,
     /// When the rate change is 0, in the time of the table.
     end_time: f64,
-    relies_on_end: bool,
 }
 
 impl BackupTrajectory {
@@ -68,7 +67,6 @@ impl BackupTrajectory {
         length: 0,
         next: 0,
         end_time: 0.0,
-        relies_on_end: false,
     };
 
     /// Nothing to release.
@@ -76,15 +74,13 @@ impl BackupTrajectory {
         self.length = 0;
         self.next = 0;
         self.end_time = 0.0;
-        self.relies_on_end = false;
     }
 
     /// A single n, after which the state is `end`.
-    pub fn set_single(&mut self, n: f64, end: State, relies_on_end: bool) {
+    pub fn set_single(&mut self, n: f64, end: State) {
         self.start();
         self.append(n);
         self.end_time = end.time;
-        self.relies_on_end = relies_on_end;
     }
 
     /// The n of the next period, `None` behind the last one.
@@ -109,11 +105,6 @@ impl BackupTrajectory {
     /// When the rate change is 0, in the time of the table.
     pub fn end_time(&self) -> f64 {
         self.end_time
-    }
-
-    /// Whether the reference has to stand still behind its end for it.
-    pub fn relies_on_end(&self) -> bool {
-        self.relies_on_end
     }
 
     /// The origin of time moves on by `time`.
@@ -158,10 +149,8 @@ impl BackupTrajectory {
         };
         for _ in 0..=LONGEST {
             let state = here.state;
-            let behind_end = table.is_behind_end(state.time);
-            if state.is_steady() || behind_end {
+            if state.is_steady() || table.is_behind_end(state.time) {
                 self.end_time = state.time;
-                self.relies_on_end = behind_end;
                 return Ok(());
             }
             let reduced;
@@ -323,7 +312,6 @@ mod tests {
         }
         assert!(state.is_steady() && state.rate > 0.5);
         assert!((state.time - backup.end_time()).abs() < 1e-9);
-        assert!(!backup.relies_on_end());
         assert_eq!(backup.next(), None);
     }
 
@@ -372,6 +360,6 @@ mod tests {
         let mut backup = BackupTrajectory::EMPTY;
         let found = find(&mut backup, &table, (Reserve::Used, nearly_there), &mut 100);
         assert_eq!(found, Ok(()));
-        assert!(backup.relies_on_end());
+        assert!((10.0..11.0).contains(&backup.end_time()));
     }
 }

@@ -8,7 +8,7 @@ use super::follow::Pursuit;
 use super::goal::Goal;
 use super::rows::PeriodLimits;
 use super::state::State;
-use super::table::{CloseError, PushError, ReopenError, Table, USABLE};
+use super::table::{CloseError, PushError, Table, USABLE};
 use crate::axes::AxisLimits;
 
 /// Servo periods that may be simulated in one cycle: bounds its cost.
@@ -153,20 +153,6 @@ impl Executor {
         self.table.close(time, self.state.time)
     }
 
-    /// More cells follow the end at which the reference was closed: it stands still until the end
-    /// of its last cell, and the next cell pushed follows there. Refused if the executor relies on
-    /// the end; then run to it, [reset](Executor::reset) and start anew.
-    pub fn reopen(&mut self) -> Result<(), ReopenError> {
-        if self.table.end().is_none() {
-            return Err(ReopenError::Open);
-        }
-        if self.end_reached || self.backup().relies_on_end() {
-            return Err(ReopenError::EndInUse);
-        }
-        self.table.reopen();
-        Ok(())
-    }
-
     /// Cells known from the one that the reference time lies in, that one included.
     pub fn cells_ahead(&self) -> usize {
         self.table.length()
@@ -213,11 +199,6 @@ impl Executor {
     pub fn is_dry(&self) -> bool {
         let moves = self.state.rate > 0.0 || self.state.rate_change != 0.0;
         self.started && moves && self.table.end().is_none() && self.table.length() < 2
-    }
-
-    /// Reference time since the start of the cell that it lies in, seconds.
-    pub fn time_in_cell(&self) -> f64 {
-        self.state.time * self.servo_period
     }
 
     /// How often the stored backup trajectory ended before the rate change was 0: a count of numerical

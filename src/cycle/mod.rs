@@ -45,4 +45,4 @@ pub use cell::Cell;
 pub use demand::{Demand, ExecutorStep};
 pub use executor::{ConfigureError, Executor};
 pub use follow::Follow;
-pub use table::{CAPACITY, CloseError, PushError, ReopenError};
+pub use table::{CAPACITY, CloseError, PushError};

@@ -66,8 +66,7 @@ impl Executor {
         if !keeps {
             return None;
         }
-        let relies_on_end = self.table.is_behind_end(last.time);
-        self.backup_mut().set_single(second, last, relies_on_end);
+        self.backup_mut().set_single(second, last);
         Some(first)
     }
 

@@ -25,7 +25,7 @@ pub enum PushError {
     NotConfigured,
     /// The table is full: wait until the executor has advanced.
     Full,
-    /// The reference was closed; see [`Executor::reopen`](super::Executor::reopen).
+    /// The reference was closed: nothing follows its end.
     Closed,
     /// A velocity or acceleration at the start of the cell is infinite or not a number.
     NotFinite {
@@ -46,15 +46,6 @@ pub enum CloseError {
     Closed,
     /// The end is not within the last cell, or not ahead of the machine.
     OutsideLastCell,
-}
-
-/// Why a closed reference cannot go on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ReopenError {
-    /// It is not closed: there is nothing to do.
-    Open,
-    /// The way in which the machine comes to rest relies on the end: run to it, then reset.
-    EndInUse,
 }
 
 /// The reference at one instant.
@@ -170,11 +161,6 @@ impl Table {
         self.cells.at_mut(last).include_standstill();
         self.write(StoredCell::STANDSTILL);
         Ok(())
-    }
-
-    /// Lets more cells follow; the reference stands still for the rest of its last cell.
-    pub fn reopen(&mut self) {
-        self.end = None;
     }
 
     /// Forgets `count` cells and counts time from the one after.

@@ -4,7 +4,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::affine::AffineMap;
 use super::error::FrameError;
-use super::matrix::{product, transform};
 use super::operation::check_translation;
 use super::programmable::ProgrammableFrame;
 use super::work_offset::{WorkOffset, linear_axes};
@@ -85,7 +84,7 @@ impl ActiveFrame {
         let (out, back) = (work.map(), work.inverse_map());
         let linear_tool = linear_axes(tool);
         let tip = out.compose(frame.map()).compose(&back);
-        active.rotation = product(out.linear(), &product(frame.rotation(), back.linear()));
+        active.rotation = out.linear() * (frame.rotation() * back.linear());
         active.length = match tool_length {
             ToolLength::Frame => active.rotation,
             ToolLength::Machine => Matrix3::identity(),
@@ -157,7 +156,7 @@ impl ActiveFrame {
     /// How a tool with this length offset stands in the machine, L T: from its tip to the position
     /// of the axes.
     pub fn turned_tool(&self, tool: &Vector3<f64>) -> Vector3<f64> {
-        transform(&self.length, tool)
+        self.length * tool
     }
 
     /// Direction of a tool that stands normal to the frame's XY plane, from its tip towards the

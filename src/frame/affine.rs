@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::error::FrameError;
-use super::matrix::{determinant, dot, greatest_element, is_finite, length, product, transform};
+use super::matrix::{determinant, greatest_element};
 use super::plane::{Handedness, LinearAxis, Plane};
 use super::rotation::about_axis;
 use super::singular_values::condition_number;
@@ -106,7 +106,8 @@ impl AffineMap {
 
     /// Whether all twelve numbers are finite.
     pub fn is_finite(&self) -> bool {
-        is_finite(&self.linear) && self.translation.iter().all(|value| value.is_finite())
+        let mut numbers = self.linear.iter().chain(&self.translation);
+        numbers.all(|value| value.is_finite())
     }
 
     /// `p -> self(inner(p))`: `inner` acts first, in the coordinates that `self` made.
@@ -115,7 +116,7 @@ impl AffineMap {
     /// refuses the outcome.
     pub fn compose(&self, inner: &Self) -> Self {
         Self {
-            linear: product(&self.linear, &inner.linear),
+            linear: self.linear * inner.linear,
             translation: self.apply(&inner.translation),
         }
     }
@@ -123,12 +124,12 @@ impl AffineMap {
     /// Image of a point.
     #[inline]
     pub fn apply(&self, point: &Vector3<f64>) -> Vector3<f64> {
-        transform(&self.linear, point) + self.translation
+        self.linear * point + self.translation
     }
 
     /// Image of a displacement, which a shift does not change.
     pub fn apply_to_vector(&self, vector: &Vector3<f64>) -> Vector3<f64> {
-        transform(&self.linear, vector)
+        self.linear * vector
     }
 
     /// The map that undoes this one.
@@ -157,7 +158,7 @@ impl AffineMap {
             m.m11 * m.m22 - m.m12 * m.m21,
         );
         let linear = adjugate / determinant(&m) / scale;
-        Self::new(linear, -transform(&linear, &self.translation))
+        Self::new(linear, -(linear * self.translation))
     }
 
     /// By how much volumes grow; negative if right-handed coordinates become left-handed.
@@ -170,12 +171,6 @@ impl AffineMap {
         condition_number(&self.linear)
     }
 
-    /// Whether right-handed coordinates stay right-handed; `None` for a singular map.
-    pub fn handedness(&self) -> Option<Handedness> {
-        let scale = greatest_element(&self.linear);
-        Handedness::of_determinant(determinant(&(self.linear / scale)))
-    }
-
     /// Whether directions of turning in a plane are kept, by the sign of the map's part within the
     /// plane: `Left` means that G2 and G3, G41 and G42 change places. `None` if the plane is turned
     /// on edge (its part within the plane has no area).
@@ -185,7 +180,7 @@ impl AffineMap {
         let second = plane.components(&images.second);
         let area = first.first * second.second - first.second * second.first;
         // A plane on edge leaves rounding errors, not an exact zero.
-        let full = length(&images.first) * length(&images.second);
+        let full = images.first.norm() * images.second.norm();
         if area.abs() <= SIMILARITY_TOLERANCE * full {
             return None;
         }
@@ -196,11 +191,11 @@ impl AffineMap {
     /// if they become ellipses. Lengths and right angles are compared to 1e-9.
     pub fn is_similarity_of_plane(&self, plane: Plane) -> Option<f64> {
         let images = plane.images(&self.linear);
-        let (first, second) = (length(&images.first), length(&images.second));
+        let (first, second) = (images.first.norm(), images.second.norm());
         let scale = first.max(second);
         let tolerance = SIMILARITY_TOLERANCE * scale;
         let equal = (first - second).abs() <= tolerance;
-        let perpendicular = dot(&images.first, &images.second).abs() <= tolerance * scale;
+        let perpendicular = images.first.dot(&images.second).abs() <= tolerance * scale;
         (scale > 0.0 && equal && perpendicular).then_some(scale)
     }
 
@@ -221,11 +216,10 @@ impl AffineMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::matrix::diagonal;
     use crate::frame::rotation::roll_pitch_yaw;
 
     fn scaled(x: f64, y: f64, z: f64) -> AffineMap {
-        AffineMap::from_linear(diagonal(&Vector3::new(x, y, z)))
+        AffineMap::from_linear(Matrix3::from_diagonal(&Vector3::new(x, y, z)))
     }
 
     #[test]
@@ -266,9 +260,8 @@ mod tests {
     }
 
     #[test]
-    fn handedness_of_space_and_planes() {
+    fn handedness_of_planes() {
         let mirrored = scaled(-1.0, 1.0, 1.0);
-        assert_eq!(mirrored.handedness(), Some(Handedness::Left));
         assert_eq!(
             mirrored.handedness_in_plane(Plane::Xy),
             Some(Handedness::Left)
@@ -282,15 +275,12 @@ mod tests {
             Some(Handedness::Right)
         );
         let twice = scaled(-2.0, -1.0, 1.0);
-        assert_eq!(twice.handedness(), Some(Handedness::Right));
         assert_eq!(twice.determinant(), 2.0);
         assert_eq!(
             twice.handedness_in_plane(Plane::Xy),
             Some(Handedness::Right)
         );
         assert_eq!(twice.handedness_in_plane(Plane::Zx), Some(Handedness::Left));
-        assert_eq!(scaled(1.0, 0.0, 1.0).handedness(), None);
-        assert_eq!(scaled(0.0, 0.0, 0.0).handedness(), None);
         let upright = AffineMap::from_linear(roll_pitch_yaw(&Vector3::new(90.0, 0.0, 30.0)));
         assert_eq!(upright.handedness_in_plane(Plane::Xy), None);
     }

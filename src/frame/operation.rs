@@ -4,7 +4,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::affine::{AffineMap, MAX_TRANSLATION};
 use super::error::FrameError;
-use super::matrix::diagonal;
 use super::plane::{LinearAxis, Plane};
 use super::rotation::{RotsConvention, about_axis, roll_pitch_yaw, solid_angles};
 
@@ -122,10 +121,12 @@ impl Operation {
         match self.kind {
             OperationKind::Translate(shift) => AffineMap::from_translation(shift),
             OperationKind::Rotate(matrix) => AffineMap::from_linear(matrix),
-            OperationKind::Scale(factors) => AffineMap::from_linear(diagonal(&factors)),
+            OperationKind::Scale(factors) => {
+                AffineMap::from_linear(Matrix3::from_diagonal(&factors))
+            }
             OperationKind::Mirror(axes) => {
                 let [x, y, z] = axes.map(|mirrored| if mirrored { -1.0 } else { 1.0 });
-                AffineMap::from_linear(diagonal(&Vector3::new(x, y, z)))
+                AffineMap::from_linear(Matrix3::from_diagonal(&Vector3::new(x, y, z)))
             }
         }
     }

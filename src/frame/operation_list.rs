@@ -1,10 +1,9 @@
 //! The operations a program has laid over one another.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::affine::AffineMap;
 use super::error::FrameError;
-use super::matrix::diagonal;
 use super::operation::{Operation, OperationKind, check_scale};
 use super::programmable::ProgrammableFrame;
 
@@ -45,7 +44,7 @@ impl Group {
     fn map(&self) -> AffineMap {
         match self {
             Self::Rigid { map, .. } => *map,
-            Self::Scale(factors) => AffineMap::from_linear(diagonal(factors)),
+            Self::Scale(factors) => AffineMap::from_linear(Matrix3::from_diagonal(factors)),
         }
     }
 

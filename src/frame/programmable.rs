@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::affine::{AffineMap, MAX_TRANSLATION};
 use super::error::FrameError;
-use super::matrix::{columns, cross, determinant, dot, from_columns, length};
+use super::matrix::{columns, determinant};
 use super::operation::check_translation;
 use super::singular_values::singular_values;
 
@@ -66,7 +66,7 @@ impl ProgrammableFrame {
         let y = if mirrored_y { -y } else { y };
         Ok(Self {
             map,
-            rotation: from_columns(&x, &y, &cross(&x, &y)),
+            rotation: Matrix3::from_columns(&[x, y, x.cross(&y)]),
         })
     }
 
@@ -135,14 +135,14 @@ fn check_map(map: &AffineMap) -> Result<(), FrameError> {
 /// of both. Expects a map that passed [`check_map`].
 fn orthogonalised(linear: &Matrix3<f64>) -> [Vector3<f64>; 3] {
     let [x, y, z] = columns(linear);
-    let x = x / length(&x);
-    let y = y - x * dot(&x, &y);
-    let y = y / length(&y);
+    let x = x / x.norm();
+    let y = y - x * x.dot(&y);
+    let y = y / y.norm();
     // What rounding left of x would be up to the condition number times larger than it should.
-    let y = y - x * dot(&x, &y);
-    let y = y / length(&y);
-    let normal = cross(&x, &y);
-    let z = if dot(&normal, &z) < 0.0 {
+    let y = y - x * x.dot(&y);
+    let y = y / y.norm();
+    let normal = x.cross(&y);
+    let z = if normal.dot(&z) < 0.0 {
         -normal
     } else {
         normal

@@ -4,7 +4,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::angle::sin_cos_degrees;
 use super::error::FrameError;
-use super::matrix::product;
 use super::plane::LinearAxis;
 
 /// Which of its two angles ROTS gives to which axis.
@@ -51,7 +50,7 @@ pub fn roll_pitch_yaw(angles: &Vector3<f64>) -> Matrix3<f64> {
     let yaw = about_axis(LinearAxis::Z, angles.z);
     let pitch = about_axis(LinearAxis::Y, angles.y);
     let roll = about_axis(LinearAxis::X, angles.x);
-    product(&yaw, &product(&pitch, &roll))
+    yaw * (pitch * roll)
 }
 
 /// Rotation of ROTS: one angle is a plain rotation about that axis, two are the angles at which the
@@ -106,10 +105,7 @@ fn two_angles(
         RotsConvention::K2 => (trailing, leading),
     };
     let second = second_rotation(first, formed)?;
-    Ok(product(
-        &about_axis(first_axis, first),
-        &about_axis(second_axis, second),
-    ))
+    Ok(about_axis(first_axis, first) * about_axis(second_axis, second))
 }
 
 /// Angle of the second rotation, within -90 and 90 degrees, so that the plane meets the other old

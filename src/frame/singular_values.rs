@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::matrix::{columns, dot, greatest_element, length};
+use super::matrix::{columns, greatest_element};
 
 /// One-sided Jacobi converges quadratically; three columns are orthogonal to the last bit after
 /// four or five sweeps.
@@ -24,7 +24,7 @@ pub fn singular_values(m: &Matrix3<f64>) -> Vector3<f64> {
         orthogonalise(&mut a, &mut c);
         orthogonalise(&mut b, &mut c);
     }
-    let (a, b, c) = (length(&a), length(&b), length(&c));
+    let (a, b, c) = (a.norm(), b.norm(), c.norm());
     let greatest = a.max(b).max(c);
     let smallest = a.min(b).min(c);
     let middle = a.min(b).max(a.max(b).min(c));
@@ -43,7 +43,7 @@ pub fn condition_number(m: &Matrix3<f64>) -> f64 {
 
 /// Rotates two columns in their own plane until they are perpendicular.
 fn orthogonalise(a: &mut Vector3<f64>, b: &mut Vector3<f64>) {
-    let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
+    let (aa, bb, ab) = (a.dot(a), b.dot(b), a.dot(b));
     if ab.abs() <= f64::EPSILON * (aa * bb).sqrt() {
         return;
     }
@@ -57,7 +57,6 @@ fn orthogonalise(a: &mut Vector3<f64>, b: &mut Vector3<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::matrix::{diagonal, product};
     use crate::frame::rotation::roll_pitch_yaw;
 
     #[test]
@@ -72,7 +71,7 @@ mod tests {
             [1e200, 1e199, 1e190],
         ] {
             let scales = Vector3::from(scales);
-            let m = product(&outer, &product(&diagonal(&scales), &inner));
+            let m = outer * (Matrix3::from_diagonal(&scales) * inner);
             let values = singular_values(&m);
             assert!((values.x / scales.x - 1.0).abs() < 1e-13, "{values}");
             // The product itself is only accurate relative to its greatest element.
@@ -84,7 +83,7 @@ mod tests {
     #[test]
     fn singular_matrices_have_no_bounded_condition() {
         assert_eq!(condition_number(&Matrix3::zeros()), f64::INFINITY);
-        let flat = diagonal(&Vector3::new(1.0, 0.0, 1.0));
+        let flat = Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0));
         assert_eq!(condition_number(&flat), f64::INFINITY);
         let dependent = Matrix3::new(1.0, 2.0, 3.0, 2.0, 4.0, 6.0, -1.0, 0.5, 2.0);
         assert!(condition_number(&dependent) > 1e12);

@@ -14,7 +14,6 @@
 use nalgebra::Vector3;
 
 use crate::frame::angle::turns_towards;
-use crate::frame::matrix::length;
 use crate::machine::table_tilting::{RotaryDirection, TableTilting, TiltAxis};
 
 /// Tool directions closer to Z than this (sine of the angle) leave C where it is.
@@ -92,7 +91,7 @@ pub fn solutions(
     direction: &Vector3<f64>,
     current: RotaryAngles,
 ) -> Result<[RotaryAngles; 2], OrientationError> {
-    let norm = length(direction);
+    let norm = direction.norm();
     let known = current.tilt.is_finite() && current.rotary.is_finite();
     if !(norm > 0.0 && norm.is_finite() && known) {
         return Err(OrientationError::NotFinite);

@@ -6,9 +6,7 @@ use crate::support::reference::{Move, Reference, Shape};
 use crate::support::uniform_limits;
 use framepath::axes::Axes;
 use framepath::cycle::cell::Cell;
-use framepath::cycle::{
-    CAPACITY, CloseError, ConfigureError, Demand, Executor, PushError, ReopenError,
-};
+use framepath::cycle::{CAPACITY, CloseError, ConfigureError, Demand, Executor, PushError};
 
 const PERIOD: f64 = 1e-3;
 
@@ -91,7 +89,6 @@ fn cells_are_checked() {
 fn the_end_lies_in_the_last_cell() {
     let mut executor = configured();
     assert_eq!(executor.close(0.0), Err(CloseError::Empty));
-    assert_eq!(executor.reopen(), Err(ReopenError::Open));
     executor.push(&cruising()).unwrap();
     for outside in [-1e-4, 1.1 * PERIOD, f64::NAN] {
         assert_eq!(executor.close(outside), Err(CloseError::OutsideLastCell));
@@ -102,7 +99,6 @@ fn the_end_lies_in_the_last_cell() {
     let step = executor.cycle(&Demand::RUN);
     assert!(step.end_reached && step.at_rest);
     assert!((step.advance - 0.3 * PERIOD).abs() < 1e-15);
-    assert_eq!(executor.reopen(), Err(ReopenError::EndInUse));
     executor.reset();
     assert_eq!(executor.cells_ahead(), 0);
     assert_eq!(executor.push(&cruising()), Ok(()));
@@ -133,55 +129,6 @@ fn very_short_moves() {
         assert!(monitor.acceleration <= 1.001 && monitor.jerk <= 1.05);
         assert_eq!(player.executor.backups_lost(), 0);
     }
-}
-
-/// The reference is closed, and more moves come before the end is reached.
-#[test]
-fn a_closed_reference_goes_on() {
-    let limits = uniform_limits(100.0, 1000.0, 20_000.0);
-    let reference = Reference::new(vec![line(3.0)]);
-    let count = (reference.duration() / PERIOD).ceil() as usize;
-    let mut executor = configured();
-    let mut monitor = Monitor::new(&limits, PERIOD, Axes::zeros());
-    let (mut pushed, mut rounds, mut time, mut periods) = (0, 0, 0.0, 0);
-    let total = 4;
-    loop {
-        // As soon as the reference is closed, more moves are found.
-        if pushed == count && rounds + 1 < total && executor.reopen().is_ok() {
-            (pushed, rounds) = (0, rounds + 1);
-        }
-        while pushed < count && executor.cells_ahead() < executor.cells_wanted() {
-            let start = pushed as f64 * PERIOD;
-            executor.push(&reference.cell(start, PERIOD)).unwrap();
-            pushed += 1;
-            if pushed == count {
-                executor.close(reference.duration() - start).unwrap();
-            }
-        }
-        let demand = if (60..130).contains(&periods) {
-            Demand::HOLD
-        } else {
-            Demand::RUN
-        };
-        let step = executor.cycle(&demand);
-        assert!(!step.starved);
-        time += step.advance;
-        periods += 1;
-        // Each round takes whole cells: the reference stands still for the rest of the last one.
-        let round = count as f64 * PERIOD;
-        let done = ((time + 1e-12) / round).floor();
-        let rest = reference.at((time - done * round).max(0.0))[0];
-        monitor.push(rest + Axes::x() * 3.0 * done);
-        if step.end_reached {
-            break;
-        }
-        assert!(periods < 10_000);
-    }
-    assert_eq!(rounds + 1, total);
-    let expected = (total - 1) as f64 * count as f64 * PERIOD + reference.duration();
-    assert!((time - expected).abs() < 1e-12);
-    assert!(monitor.acceleration <= 1.001, "{}", monitor.acceleration);
-    assert!(monitor.jerk <= 1.05, "{}", monitor.jerk);
 }
 
 #[test]
@@ -350,7 +297,6 @@ fn long_runs_keep_their_precision() {
         }
         assert_eq!(executor.cycle(&Demand::RUN).advance, PERIOD);
     }
-    assert_eq!(executor.time_in_cell(), 0.0);
     assert_eq!(cells, 100_000 + executor.cells_ahead() as u64);
 }
 
