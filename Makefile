@@ -41,6 +41,7 @@ help:
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
 	@echo 'make book       docs, DESIGN and CONTRIBUTING as a book (mdbook)'
+	@echo 'make screens    each sample in AXIS without a monitor: pictures in target/screens'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -206,6 +207,11 @@ figures: modules tool
 book:
 	mdbook build
 
+# Pictures of each sample in AXIS, on an X server without a monitor: target/screens.
+screens: modules
+	@./prerequisites screen
+	$(PYTHON) -B tests/linuxcnc/screens.py $(TARGET)/screens
+
 header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
 
@@ -230,4 +236,4 @@ clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test rust-tests waiting-linuxcnc-tests linuxcnc-test sanitize contract faults short soak bench \
-    fuzz fuzz-filter mutants compare figures book header install uninstall clean
+    fuzz fuzz-filter mutants compare figures book screens header install uninstall clean

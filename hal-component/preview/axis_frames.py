@@ -65,6 +65,10 @@ class AxisFrames:
 
     def read_again(self):
         """AXIS has opened a program before it knew of frames."""
+        if self.axis["running"]():
+            # AXIS reads none while one runs
+            self.axis["root_window"].after(UP, self.read_again)
+            return
         if self.axis["loaded_file"]:
             self.axis["reload_file"](False)
             self.centre()

@@ -12,6 +12,7 @@ The interpreter takes it over by a G28 to there, which is not drawn.
 A canon has the tip of the tool in inches of the machine's X Y Z (`lo`) and the tool's length with it (`xo`, `yo`, `zo`).
 """
 
+import functools
 from typing import TYPE_CHECKING, Any
 
 from frame_arc import Arc
@@ -138,6 +139,7 @@ class FrameCanon(Canon):
         tool = self.frame_tool
         if self.frame is None:
             self.frame_out = None
+            self.__dict__.pop("rotate_and_translate", None)
         else:
             tool = turned(self.frame.tool, self.frame_tool)
             # a tool that was changed in the frame moves the axes as framekins does: with the map of the frame
@@ -145,6 +147,7 @@ class FrameCanon(Canon):
             by = [a + b - c for a, b, c in zip(turned(self.frame.tip, since), turned(self.frame.tool, self.frame_made_with),
                                                tool, strict=True)]
             self.frame_out = product(shift(by), self.frame.tip)
+            self.rotate_and_translate = functools.partial(self.frame_rotated, self.frame_out)
         self.xo, self.yo, self.zo = tool
         self.lo = (*(axis - part for axis, part in zip(axes, tool, strict=True)), *self.lo[3:])
 
@@ -155,14 +158,12 @@ class FrameCanon(Canon):
             tip = applied(inverse(self.frame_out), tip)
         return tuple((part + tool) * self.frame_units() for part, tool in zip(tip, self.frame_tool, strict=True))
 
-    def rotate_and_translate(self, *place):
-        place = super().rotate_and_translate(*place)
-        if self.frame_out is None:
-            return place
+    def frame_rotated(self, out: Map, *place):
+        """What stands in for rotate_and_translate in a frame; without one moves are read as fast as ever."""
+        x, y, z, u, v, w, k, m, n = super().rotate_and_translate(*place)
         # written out, since a program has many moves
-        x, y, z, *others = place
-        (a, b, c, p), (d, e, f, q), (g, h, i, r) = self.frame_out
-        return (a * x + b * y + c * z + p, d * x + e * y + f * z + q, g * x + h * y + i * z + r, *others)
+        (a, b, c, p), (d, e, f, q), (g, h, i, r) = out
+        return (a * x + b * y + c * z + p, d * x + e * y + f * z + q, g * x + h * y + i * z + r, u, v, w, k, m, n)
 
     def straight_traverse(self, *place):
         super().straight_traverse(*place)

@@ -5,6 +5,7 @@ AXIS runs as users have it, with the USER_COMMAND_FILE of the sample. Where a te
 screen_probe.py, which installs the same and answers questions.
 """
 
+import base64
 import json
 import os
 import subprocess
@@ -17,6 +18,8 @@ import driver
 
 #: the size of the monitor, points
 SIZE = "1280x900x24"
+
+PICTURE = "picture.png"
 
 QUESTION, ANSWER = "question.json", "answer.json"
 
@@ -41,7 +44,8 @@ class Screen(driver.Operator):
         if not number:
             raise driver.Failure("Xvfb has not started")
         os.environ["DISPLAY"] = f":{number}"
-        self.processes.append(subprocess.Popen([*command, *sys.argv[1:]]))
+        name, *arguments = command
+        self.processes.append(subprocess.Popen([name, *sys.argv[1:], *arguments]))
 
     def wait_pin(self, name, timeout=60):
         """Waits until a pin is there: a screen makes its own when it is up."""
@@ -70,9 +74,11 @@ class Screen(driver.Operator):
         self.wait_for("M0", lambda: self.status.interp_state == linuxcnc.INTERP_PAUSED and self.status.inpos)
         self.sleep(0.3)
 
-    def picture(self, path):
-        """What the monitor shows."""
-        subprocess.run(["import", "-window", "root", path], check=True)
+    def picture(self, name):
+        """Keeps what the monitor shows, a PNG as text in base 64."""
+        subprocess.run(["import", "-window", "root", PICTURE], check=True)
+        with open(PICTURE, "rb") as file:
+            self.answers[name] = base64.b64encode(file.read()).decode()
 
     def close(self):
         for process in reversed(self.processes):

@@ -1,0 +1,36 @@
+#!/usr/bin/python3
+"""Each sample in AXIS without a monitor, homed, a program with frames run: screens.py FOLDER, which gets the pictures."""
+
+import base64
+import os
+import sys
+
+import harness
+from test_preview import program
+
+SAMPLES = {"framepath-sim": (3, "xyz"), "framepath-fagor": (3, "xyz"), "framepath-mefi": (3, "xyz"),
+           "framepath-isg": (3, "xyz"), "framepath-xyzac": (5, "xyzac")}
+
+PROGRAM = program(
+    "G0 Z10", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]", "G1 X0 Y0 Z0 F3000", "X40", "Y30", "G2 X40 Y60 R20",
+    "G1 X0", "Y0", "o<atrans> call [60] [0] [0]", "o<ascale> call [0.5] [0.5] [0.5]", "G1 X0 Y0 Z0", "X40", "Y30", "M0", "X0")
+
+
+def main(folder):
+    os.makedirs(folder, exist_ok=True)
+    for sample, (joints, axes) in SAMPLES.items():
+        # the program is on AXIS's command line, and AXIS reads it again as soon as it knows of frames
+        steps = [["show", "axis", "PROGRAMS/part.ngc"], ["wait_pin", "axisui.abort"], ["sleep", 15],
+                 ["start", "PROGRAMS/part.ngc"], ["wait_paused"], ["sleep", 1], ["picture", "picture"], ["resume"], ["finish"]]
+        result = harness.run(steps, PROGRAM, display="screen_driver.py", files=("screen_driver.py",), sample=sample,
+                             joints=joints, axes=axes, record=False, timeout=180)
+        if result.failure or result.errors:
+            raise SystemExit(f"{sample}: {result.failure} {result.errors}\n{result.log}")
+        path = os.path.join(folder, f"{sample}.png")
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(result.answers["picture"]))
+        print(path)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
