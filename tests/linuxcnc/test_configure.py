@@ -23,7 +23,7 @@ M2
 """
 
 FRAMES = """G21 G90 G17 G61.1
-o<trans> call [10] [5]
+o<trans> call [10] [5] [0]
 G1 X20 Y5 F1500
 o<frame_off> call
 M2
