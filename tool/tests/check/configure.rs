@@ -151,11 +151,11 @@ fn machines_in_inches_and_other_limits_of_jerk() {
     let (folder, output) = changed(
         "LINEAR_UNITS = mm",
         "LINEAR_UNITS = inch",
-        &["--jerk", "5000"],
+        &["--jerk", "50000"],
     );
     assert!(output.status.success(), "{}", text(&output.stderr));
     let written = text(&output.stdout);
-    assert!(written.contains("+MAX_JERK = 5000\n"), "{written}");
+    assert!(written.contains("+MAX_JERK = 50000\n"), "{written}");
     assert!(
         written.contains("+setp blendtp.millimetre 0.0393700787\n"),
         "{written}"
@@ -193,19 +193,19 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "KINEMATICS = trivkins",
         "KINEMATICS = rotatekins",
         &["--frames"],
-        "axis_mm.ini:136:1: error: framekins does not serve the kinematics rotatekins",
+        "axis_mm.ini:135:1: error: framekins does not serve the kinematics rotatekins",
     ),
     (
         "KINEMATICS = trivkins",
         "KINEMATICS = xyzac-trt-kins",
         &["--frames"],
-        "axis_mm.ini:136:1: error: the pins of xyzac-trt-kins have other names",
+        "axis_mm.ini:135:1: error: the pins of xyzac-trt-kins have other names",
     ),
     (
         "HALFILE = core_sim.hal",
         "HALFILE = LIB:basic_sim.tcl",
         &["--frames"],
-        "axis_mm.ini:107:1: error: LIB:basic_sim.tcl: it is written in Tcl",
+        "axis_mm.ini:108:1: error: LIB:basic_sim.tcl: it is written in Tcl",
     ),
     (
         "PARAMETER_FILE = sim_mm.var",
@@ -217,13 +217,13 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "HALUI = halui",
         "HALCMD = net own motion.feed-inhibit",
         &["--frames"],
-        "axis_mm.ini:120:1: error: motion.feed-inhibit is linked to own already",
+        "axis_mm.ini:121:1: error: motion.feed-inhibit is linked to own already",
     ),
     (
         "HALFILE = core_sim.hal",
         "HALFILE = nowhere.hal",
         &[],
-        "axis_mm.ini:107:1: error: the HAL file nowhere.hal is not there",
+        "axis_mm.ini:108:1: error: the HAL file nowhere.hal is not there",
     ),
     (
         "POSITION_FILE",
@@ -241,7 +241,7 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "VERSION = 1.1",
         "VERSION = 1.0",
         &[],
-        "axis_mm.ini:10:1: error: the file is for another LinuxCNC",
+        "axis_mm.ini:9:1: error: the file is for another LinuxCNC",
     ),
 ];
 
