@@ -4,6 +4,7 @@ use clap::{Parser, Subcommand};
 use framepath_tool::check::{self, CheckArguments};
 #[cfg(feature = "linuxcnc")]
 use framepath_tool::compare::{self, CompareArguments};
+use framepath_tool::configure::{self, ConfigureArguments};
 use framepath_tool::filter::{FilterArguments, Told, filter};
 use framepath_tool::generate::{self, GenerateArguments};
 #[cfg(feature = "linuxcnc")]
@@ -42,6 +43,8 @@ enum Command {
     Compare(NotBuilt),
     /// Look at the INI and HAL files of a machine: what is missing, contradictory or unwise
     Check(CheckArguments),
+    /// Write a configuration with blendtp, and with framekins, beside one that LinuxCNC runs
+    Configure(ConfigureArguments),
     /// Print a G-code program that shows what a planner does
     Generate(GenerateArguments),
     /// Drive a planner module in a process of its own
@@ -89,6 +92,7 @@ fn main() -> ExitCode {
         #[cfg(not(feature = "linuxcnc"))]
         Command::Compare(asked) => asked.refuse("compare"),
         Command::Check(arguments) => run_check(&arguments),
+        Command::Configure(arguments) => finish(configure::run(&arguments)),
         Command::Generate(arguments) => finish(generate::run(&arguments)),
         #[cfg(feature = "linuxcnc")]
         Command::CompareHost => compare::serve_as_host(),

@@ -55,7 +55,15 @@ const ROOMS: [(&str, &str); 21] = [
 ];
 
 /// Each imports rooms only, and nothing but `main.rs` imports them.
-const COMMANDS: [&str; 6] = ["filter", "generate", "report", "plan", "compare", "check"];
+const COMMANDS: [&str; 7] = [
+    "filter",
+    "generate",
+    "report",
+    "plan",
+    "compare",
+    "check",
+    "configure",
+];
 
 /// Holds the rooms together.
 const FRAME: [&str; 2] = ["lib", "main"];

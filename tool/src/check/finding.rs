@@ -1,6 +1,7 @@
 //! What was found, how bad it is, and the line to write.
 
 use crate::machine::place::Place;
+use crate::wiring::subject::Subject;
 use serde::Serialize;
 use std::fmt;
 
@@ -110,6 +111,14 @@ impl Findings {
     pub fn sorted(mut self) -> Vec<Finding> {
         self.list.sort_by_key(|finding| finding.level);
         self.list
+    }
+}
+
+/// How bad it is that a line was not found: what was not read may have it.
+pub fn if_missing(subject: &Subject) -> Level {
+    match subject.script.unread.is_empty() {
+        true => Level::Error,
+        false => Level::Warning,
     }
 }
 

@@ -1,12 +1,11 @@
 //! `framepath check`: what is missing, contradictory or unwise in the INI and HAL files of a machine.
 //!
-//! The files in the order of the work: [`subject`] reads the machine as LinuxCNC would, [`rules`] look at it and
+//! The files in the order of the work: the machine is read as LinuxCNC would, [`rules`] look at it and
 //! make each [`finding`], [`stop`] works out how far each axis runs on; [`text`] shows both. Nothing is run.
 
 mod finding;
 mod rules;
 mod stop;
-mod subject;
 mod text;
 
 pub use finding::{Finding, Level};
@@ -15,12 +14,12 @@ pub use rules::FilterCheck;
 use crate::hal::read_script;
 use crate::machine::IniError;
 use crate::machine::ini::Ini;
+use crate::wiring::subject::Subject;
 use finding::Findings;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use stop::Stop;
-use subject::Subject;
 
 /// Arguments of `framepath check`.
 #[derive(Clone, Debug, clap::Args)]

@@ -1,9 +1,9 @@
 //! How far each axis runs on from its greatest velocity until it stands, by an abort or a feed hold.
 
 use super::finding::{Findings, advice};
-use super::subject::Subject;
 use crate::machine::configuration::is_rotary;
 use crate::wiring::blendtp::jerk_pin;
+use crate::wiring::subject::Subject;
 use serde::Serialize;
 
 /// A stop that the limit of jerk makes longer by more than this is told, mm or degrees.
@@ -80,14 +80,10 @@ pub fn stops(subject: &Subject) -> Vec<Stop> {
 }
 
 fn unit(subject: &Subject, letter: char) -> &'static str {
-    let units = subject
-        .text("TRAJ", "LINEAR_UNITS")
-        .unwrap_or("mm")
-        .to_ascii_lowercase();
-    match (is_rotary(letter), units.as_str()) {
+    match (is_rotary(letter), subject.is_in_inches()) {
         (true, _) => "deg",
-        (false, "in" | "inch" | "imperial") => "in",
-        (false, _) => "mm",
+        (false, true) => "in",
+        (false, false) => "mm",
     }
 }
 

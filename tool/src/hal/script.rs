@@ -21,6 +21,8 @@ pub struct Script {
     pub statements: Vec<Statement>,
     /// What `halcmd` or the script `linuxcnc` refuses.
     pub problems: Vec<Problem>,
+    /// The same in the files of `POSTGUI_HALFILE`, which a screen runs behind the start.
+    pub late_problems: Vec<Problem>,
     /// What was not read.
     pub unread: Vec<Unread>,
     /// The files that were read, in their order.
@@ -46,9 +48,11 @@ pub fn read_script(ini: &Ini, folders: &[PathBuf]) -> Script {
     for entry in ini.all("HAL", "HALCMD") {
         reader.take_command(entry);
     }
+    let before = std::mem::take(&mut reader.script.problems);
     for entry in ini.all("HAL", "POSTGUI_HALFILE") {
         reader.take_named(entry);
     }
+    reader.script.late_problems = std::mem::replace(&mut reader.script.problems, before);
     reader.script
 }
 

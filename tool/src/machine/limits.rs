@@ -1,6 +1,7 @@
 //! What the machine is able to do: velocity and acceleration of each axis, and the jerk to compare with.
 
-use crate::arguments;
+pub use super::jerk::Jerk;
+use super::jerk::positive;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
@@ -103,57 +104,13 @@ impl std::fmt::Display for LimitChanges {
     }
 }
 
-/// A jerk limit to run a planner with.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Jerk {
-    /// None.
-    Unlimited,
-    /// Units per second cubed, the same for all axes.
-    Value(f64),
-    /// Times the acceleration of each axis, per second.
-    Accelerations(f64),
-}
-
-/// Reads `unlimited` (or 0), a number, or a number of accelerations: `20A`.
-impl FromStr for Jerk {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Jerk, String> {
-        let text = text.trim();
-        if matches!(text, "unlimited" | "0") {
-            return Ok(Jerk::Unlimited);
-        }
-        match text.strip_suffix(['A', 'a']) {
-            Some(number) => Ok(Jerk::Accelerations(positive(number)?)),
-            None => Ok(Jerk::Value(positive(text)?)),
-        }
-    }
-}
-
 impl Jerk {
     /// The limit of each axis, 0 where it is not limited.
     pub(crate) fn of_axes(self, limits: &Limits) -> [f64; AXIS_COUNT] {
-        match self {
-            Jerk::Unlimited => [0.0; AXIS_COUNT],
-            Jerk::Value(jerk) => [jerk; AXIS_COUNT],
-            Jerk::Accelerations(times) => limits.acceleration.map(|a| a * times),
-        }
+        limits
+            .acceleration
+            .map(|acceleration| self.of_axis(acceleration))
     }
-}
-
-impl std::fmt::Display for Jerk {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Jerk::Unlimited => write!(f, "unlimited"),
-            Jerk::Value(jerk) => write!(f, "{jerk}"),
-            Jerk::Accelerations(times) => write!(f, "{times}A"),
-        }
-    }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    arguments::positive(text.trim()).map_err(|problem| format!("`{text}`: {problem}"))
 }
 
 #[cfg(test)]

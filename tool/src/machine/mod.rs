@@ -5,6 +5,7 @@ pub(crate) mod configuration;
 mod error;
 mod include;
 pub(crate) mod ini;
+pub(crate) mod jerk;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod limits;
 pub(crate) mod place;

@@ -14,6 +14,11 @@ pub fn jerk_line(letter: char) -> String {
     format!("setp {} [AXIS_{section}]MAX_JERK", jerk_pin(letter))
 }
 
+/// The line that tells blendtp of inches.
+pub fn inch_line() -> String {
+    "setp blendtp.millimetre 0.0393700787".to_owned()
+}
+
 /// The axis whose jerk limit a pin is.
 pub fn axis_of_pin(pin: &str) -> Option<char> {
     let letter = pin

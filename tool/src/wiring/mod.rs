@@ -5,6 +5,7 @@ pub mod blendtp;
 pub mod codes;
 pub mod framekins;
 pub mod settings;
+pub mod subject;
 
 /// Where `make install` puts the subroutines.
 pub const SUBROUTINES: &str = "/usr/share/framepath/subroutines";

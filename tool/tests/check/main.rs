@@ -1,6 +1,7 @@
-//! `framepath check` as a user calls it.
+//! `framepath check` and `framepath configure` as a user calls them.
 
 mod bench;
+mod configure;
 mod findings;
 mod left_out;
 mod random;

@@ -1,9 +1,9 @@
 //! HAL files that are missing, are not read here, or have lines that halcmd refuses.
 
 use crate::check::finding::{Findings, Remedy, add, advice};
-use crate::check::subject::Subject;
-use crate::hal::{Fix, Problem};
+use crate::hal::Fix;
 use crate::wiring::USUAL_JERK;
+use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     for unread in &subject.script.unread {
@@ -13,16 +13,19 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
             advice("what it does is not looked at; see to it yourself"),
         );
     }
-    let after_the_start = |problem: &Problem| {
-        let entries = subject.all("HAL", "POSTGUI_HALFILE");
-        entries.iter().any(|entry| entry.place == problem.place)
-    };
     for problem in &subject.script.problems {
-        let remedy = remedy(subject, &problem.remedy);
-        match after_the_start(problem) {
-            true => findings.warning(&problem.place, &problem.found, remedy),
-            false => findings.error(&problem.place, &problem.found, remedy),
-        }
+        findings.error(
+            &problem.place,
+            &problem.found,
+            remedy(subject, &problem.remedy),
+        );
+    }
+    for problem in &subject.script.late_problems {
+        findings.warning(
+            &problem.place,
+            &problem.found,
+            remedy(subject, &problem.remedy),
+        );
     }
     // Lines that were not read may unlink a pin; with TWOPASS the order is another one.
     let sure = subject.script.unread.is_empty() && subject.text("HAL", "TWOPASS").is_none();

@@ -2,8 +2,8 @@
 
 use super::FilterCheck;
 use crate::check::finding::{Findings, Remedy, add, advice, replace};
-use crate::check::subject::Subject;
 use crate::machine::ini::Entry;
+use crate::wiring::subject::Subject;
 use std::path::Path;
 
 const SECTION: &str = "FILTER";

@@ -1,7 +1,7 @@
 //! Files that LinuxCNC writes, and folders that it must be able to write into.
 
 use crate::check::finding::{Findings, Level, add, advice};
-use crate::check::subject::Subject;
+use crate::wiring::subject::Subject;
 use std::path::Path;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {

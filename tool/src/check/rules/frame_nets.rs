@@ -1,10 +1,10 @@
 //! The nets of framekins: between it and motion, and from the analog outputs that carry a frame.
 
-use crate::check::finding::{Findings, Remedy, add, advice, replace};
-use crate::check::subject::Subject;
+use crate::check::finding::{Findings, Remedy, add, advice, if_missing, replace};
 use crate::wiring::framekins::{
     MOST_OUTPUTS, NETS, Net, OUTPUTS, SAMPLE_OUTPUTS, Source, USUAL_OUTPUTS, has_pin, needs_table,
 };
+use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     unknown_pins(subject, findings);
@@ -97,7 +97,7 @@ pub fn look_at_net(subject: &Subject, net: &Net, findings: &mut Findings) {
     let missing = |findings: &mut Findings, found: String| {
         let place = subject.place_of_module("framekins");
         findings.add(
-            subject.if_missing(),
+            if_missing(subject),
             &place,
             found + &subject.unless_unread(),
             net_line(subject, net),
@@ -163,7 +163,7 @@ fn stop(subject: &Subject, net: &Net, findings: &mut Findings) {
         false => format!("{own} goes nowhere: {}", net.loss),
     };
     findings.add(
-        subject.if_missing(),
+        if_missing(subject),
         &place,
         found + &subject.unless_unread(),
         remedy,

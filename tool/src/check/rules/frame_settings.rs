@@ -1,10 +1,9 @@
 //! Section `[FRAMEPATH]`, and what else in the INI file frame_guard does not start without.
 
 use crate::check::finding::{Findings, Remedy, add, advice, replace};
-use crate::check::subject::{Subject, leading_number};
 use crate::machine::ini::Entry;
-use crate::machine::place::Place;
 use crate::wiring::settings::{KEYS, SECTION, key};
+use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     let entries = subject.ini.entries();
@@ -154,13 +153,8 @@ fn needed(subject: &Subject, findings: &mut Findings) {
         own_abort(entry, findings);
     }
     let units = subject.text("TRAJ", "LINEAR_UNITS");
-    let known = ["mm", "metric", "in", "inch", "imperial"];
-    let is_known = |text: &str| {
-        known.contains(&text.to_ascii_lowercase().as_str())
-            || leading_number(text).is_some_and(|number| number > 0.0)
-    };
-    if !units.is_some_and(is_known) {
-        let place: Place = subject.place_of("TRAJ", "LINEAR_UNITS");
+    if !subject.has_linear_units() {
+        let place = subject.place_of("TRAJ", "LINEAR_UNITS");
         let found = "frame_guard does not start without [TRAJ]LINEAR_UNITS";
         let line = "LINEAR_UNITS = mm";
         match units {

@@ -1,18 +1,16 @@
 //! frame_guard: that it is started, and how.
 
-use crate::check::finding::{Findings, add, advice, replace};
-use crate::check::subject::{Subject, is_guard};
+use crate::check::finding::{Findings, add, advice, if_missing, replace};
 use crate::hal::Program;
+use crate::wiring::subject::{GUARD, Subject, guard_line, is_guard};
 use std::path::Path;
-
-const NAME: &str = "frame-guard";
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     let programs = subject.state.programs.iter();
     let guards: Vec<&Program> = programs
         .filter(|program| is_guard(&program.program))
         .collect();
-    let line = format!("loadusr -Wn {NAME} {}/frame_guard.py", subject.own_folder());
+    let line = guard_line(&subject.own_folder());
     let [guard, others @ ..] = guards.as_slice() else {
         let place = subject.place_of_module("framekins");
         let found = format!(
@@ -20,7 +18,7 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
             subject.unless_unread()
         );
         return findings.add(
-            subject.if_missing(),
+            if_missing(subject),
             &place,
             found,
             add(subject.hal_file(), line),
@@ -40,12 +38,12 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
 
 fn start(subject: &Subject, guard: &Program, findings: &mut Findings) {
     let place = &guard.statement.place;
-    let line = format!("loadusr -Wn {NAME} {}", guard.program);
+    let line = format!("loadusr -Wn {GUARD} {}", guard.program);
     let waits = guard
         .options
         .iter()
         .any(|option| option.starts_with('-') && option.contains('W'));
-    let is_named = guard.options.iter().any(|option| option == NAME);
+    let is_named = guard.options.iter().any(|option| option == GUARD);
     if !waits || !is_named {
         let found =
             "LinuxCNC does not wait for frame_guard, and starts although its settings are refused";
@@ -77,10 +75,8 @@ fn file(subject: &Subject, guard: &Program, findings: &mut Findings) {
             "{} is not there, and LinuxCNC does not start",
             path.display()
         );
-        let remedy = format!(
-            "loadusr -Wn {NAME} {}/frame_guard.py, or where the subroutines of framepath are",
-            crate::wiring::SUBROUTINES
-        );
+        let line = guard_line(crate::wiring::SUBROUTINES);
+        let remedy = format!("{line}, or where the subroutines of framepath are");
         findings.error(place, found, advice(remedy));
     } else if !is_executable(&path) {
         let found = format!(

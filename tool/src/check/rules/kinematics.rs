@@ -1,10 +1,10 @@
 //! Which kinematics are loaded, and what their parameters say of joints and axes.
 
-use crate::check::finding::{Findings, Remedy, add, advice, replace};
-use crate::check::subject::Subject;
+use crate::check::finding::{Findings, Remedy, add, advice, if_missing, replace};
 use crate::hal::{Fix, Module};
 use crate::machine::configuration::AXIS_LETTERS;
 use crate::machine::place::Place;
+use crate::wiring::subject::Subject;
 use framepath::machine::{ConfigurationError, CoordinatesError, Machine};
 
 /// LinuxCNC's own, and ours.
@@ -109,7 +109,7 @@ fn not_loaded(subject: &Subject, findings: &mut Findings) {
     );
     let place = subject.place_of("KINS", "KINEMATICS");
     findings.add(
-        subject.if_missing(),
+        if_missing(subject),
         &place,
         found,
         add(subject.hal_file(), line),

@@ -1,8 +1,8 @@
 //! Limits of axes, joints and the path that contradict each other.
 
 use crate::check::finding::{Findings, Remedy, add, advice, replace};
-use crate::check::subject::Subject;
 use crate::machine::configuration::is_rotary;
+use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     for letter in &subject.axes {

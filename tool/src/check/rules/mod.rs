@@ -17,7 +17,7 @@ mod table;
 mod threads;
 
 use super::finding::Findings;
-use super::subject::Subject;
+use crate::wiring::subject::Subject;
 
 /// Says why the arguments of a `framepath` in `[FILTER]` would be refused.
 pub type FilterCheck<'a> = &'a dyn Fn(&[String]) -> Result<(), String>;

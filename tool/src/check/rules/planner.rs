@@ -1,10 +1,10 @@
 //! blendtp: its jerk limits and tolerances, the servo period, the greatest velocity.
 
-use crate::check::finding::{Findings, Level, Remedy, add, advice, replace};
-use crate::check::subject::Subject;
+use crate::check::finding::{Findings, Level, Remedy, add, advice, if_missing, replace};
 use crate::hal::{Fix, Setting};
 use crate::wiring::USUAL_JERK;
 use crate::wiring::blendtp::{axis_of_pin, has_pin, jerk_line, jerk_pin, least_jerk};
+use crate::wiring::subject::Subject;
 
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
@@ -45,7 +45,7 @@ fn jerk(subject: &Subject, letter: char, findings: &mut Findings) {
         (Some(setting), _) => value(subject, letter, setting, findings),
         (None, _) if is_linked => {}
         (None, Some(entry)) => findings.add(
-            subject.if_missing(),
+            if_missing(subject),
             &entry.place,
             format!(
                 "nothing sets {pin}, so that the jerk of {letter} is not limited, although the INI file has a limit{}",
@@ -177,7 +177,7 @@ fn millimetre(subject: &Subject, findings: &mut Findings) {
     );
     match subject.state.settings.get(pin) {
         None if unit < 1.0 => findings.add(
-            subject.if_missing().max(Level::Warning),
+            if_missing(subject).max(Level::Warning),
             &subject.place_of("TRAJ", "LINEAR_UNITS"),
             format!(
                 "the machine is in inches, and {pin} says that a millimetre is one machine unit{}",

@@ -1,7 +1,7 @@
 //! Which planner is loaded: `[TRAJ]TPMOD`, and `loadrt` in HAL files.
 
 use crate::check::finding::{Findings, Remedy, add, advice, replace};
-use crate::check::subject::Subject;
+use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     let chosen = subject.planner() == "blendtp";

@@ -1,9 +1,9 @@
 //! The codes for the frame commands: lines `REMAP` of ours.
 
 use crate::check::finding::{Findings, Remedy, add, replace};
-use crate::check::subject::Subject;
 use crate::machine::ini::Entry;
 use crate::wiring::codes::{CODES, Code, Remap, code_of};
+use crate::wiring::subject::Subject;
 
 const SECTION: &str = "[RS274NGC]";
 

@@ -1,9 +1,9 @@
 //! Lines and sections of the INI file that LinuxCNC reads otherwise than they look, and what it cannot do without.
 
 use crate::check::finding::{Findings, add, advice, replace};
-use crate::check::subject::{Subject, shared};
 use crate::machine::IniError;
 use crate::machine::place::Place;
+use crate::wiring::subject::{Subject, shared};
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     for problem in &subject.ini_problems {

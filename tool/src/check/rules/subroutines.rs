@@ -1,7 +1,7 @@
 //! `[RS274NGC]SUBROUTINE_PATH`: the folder with the frame commands.
 
 use crate::check::finding::{Findings, add, advice, replace};
-use crate::check::subject::Subject;
+use crate::wiring::subject::Subject;
 
 /// One of the files that every frame command needs.
 const FILE: &str = "frame_send.ngc";

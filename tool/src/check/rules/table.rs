@@ -2,8 +2,8 @@
 
 use super::frame_nets::{look_at_net, net_line};
 use crate::check::finding::{Findings, add};
-use crate::check::subject::Subject;
 use crate::wiring::framekins::{TABLE_NET, TOOL_CENTRE_POINT, table_pins};
+use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     let Some(tilt) = subject.tilt() else {

@@ -1,9 +1,9 @@
 //! Motion's two functions, and framekins behind them, in one thread and in order.
 
-use crate::check::finding::{Findings, Remedy, add, replace};
-use crate::check::subject::Subject;
+use crate::check::finding::{Findings, Remedy, add, if_missing, replace};
 use crate::hal::Added;
 use crate::wiring::framekins::{ADD_FUNCTION, SAMPLE_OUTPUTS};
+use crate::wiring::subject::Subject;
 
 const HANDLER: &str = "motion-command-handler";
 const CONTROLLER: &str = "motion-controller";
@@ -63,7 +63,7 @@ fn motion(subject: &Subject, findings: &mut Findings) {
     );
     let place = subject.place_of("EMCMOT", "EMCMOT");
     findings.add(
-        subject.if_missing(),
+        if_missing(subject),
         &place,
         found,
         add(subject.hal_file(), line),
@@ -94,7 +94,7 @@ fn added_once(subject: &Subject, function: &str, line: &str, loss: &str, finding
                 "framekins" => subject.hal_file(),
                 _ => place.file.display().to_string(),
             };
-            findings.add(subject.if_missing(), &place, found, add(file, line));
+            findings.add(if_missing(subject), &place, found, add(file, line));
         }
         [only] if only.thread != "servo-thread" => {
             let found = format!("{function} is in the thread {}, and {loss}", only.thread);

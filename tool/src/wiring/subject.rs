@@ -1,6 +1,6 @@
 //! The machine that is looked at: its INI file, what its HAL files leave behind, and what follows from both.
 
-use super::finding::Level;
+use super::settings;
 use crate::hal::{Module, Script, State, Statement};
 use crate::machine::IniError;
 use crate::machine::configuration::AXIS_LETTERS;
@@ -9,7 +9,10 @@ use crate::machine::place::Place;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Everything that the rules look at.
+/// The name of frame_guard in HAL.
+pub const GUARD: &str = "frame-guard";
+
+/// Everything that is known of it.
 #[derive(Debug)]
 pub struct Subject {
     /// The INI file.
@@ -136,17 +139,27 @@ impl Subject {
         })
     }
 
+    /// `[TRAJ]LINEAR_UNITS` as it is compared.
+    fn linear_units(&self) -> String {
+        let units = self.text("TRAJ", "LINEAR_UNITS").unwrap_or("");
+        units.to_ascii_lowercase()
+    }
+
+    /// Whether the machine unit is the inch.
+    pub fn is_in_inches(&self) -> bool {
+        ["in", "inch", "imperial"].contains(&self.linear_units().as_str())
+    }
+
+    /// Whether frame_guard understands `[TRAJ]LINEAR_UNITS`.
+    pub fn has_linear_units(&self) -> bool {
+        let units = self.linear_units();
+        let is_metric = ["mm", "metric"].contains(&units.as_str());
+        is_metric || self.is_in_inches() || leading_number(&units).is_some_and(|units| units > 0.0)
+    }
+
     /// The module of motion.
     pub fn motion(&self) -> Option<&Module> {
         self.state.module("motmod")
-    }
-
-    /// How bad it is that a line was not found: what was not read may have it.
-    pub fn if_missing(&self) -> Level {
-        match self.script.unread.is_empty() {
-            true => Level::Error,
-            false => Level::Warning,
-        }
     }
 
     /// To be said behind that a line was not found.
@@ -189,7 +202,7 @@ impl Subject {
     /// The analog output with which frames begin.
     pub fn first_output(&self) -> u32 {
         let text = self.text("FRAMEPATH", "ANALOG_OUTPUT").unwrap_or("0");
-        let key = crate::wiring::settings::key("ANALOG_OUTPUT");
+        let key = settings::key("ANALOG_OUTPUT");
         match key.is_some_and(|key| key.takes(text)) {
             true => text.parse().unwrap_or(0),
             false => 0,
@@ -216,13 +229,18 @@ impl Subject {
             .iter()
             .find(|program| is_guard(&program.program));
         let folder = guard.and_then(|guard| guard.program.strip_suffix("/frame_guard.py"));
-        folder.unwrap_or(crate::wiring::SUBROUTINES).to_owned()
+        folder.unwrap_or(super::SUBROUTINES).to_owned()
     }
 
     /// All keys of this name that LinuxCNC reads.
     pub fn all(&self, section: &str, key: &str) -> Vec<&Entry> {
         self.ini.all(section, key)
     }
+}
+
+/// The line that starts frame_guard from this folder.
+pub fn guard_line(folder: &str) -> String {
+    format!("loadusr -Wn {GUARD} {folder}/frame_guard.py")
 }
 
 /// Whether a program is frame_guard.

@@ -1,0 +1,54 @@
+//! Why nothing was configured.
+
+use crate::machine::IniError;
+use crate::machine::place::Place;
+use std::fmt;
+use std::path::PathBuf;
+
+/// What is in the way, and what to write.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// Where.
+    pub(super) place: Place,
+    /// What was found.
+    pub(super) found: String,
+    /// What to write instead.
+    pub(super) help: String,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}: error: {}\n  help: {}",
+            self.place, self.found, self.help
+        )
+    }
+}
+
+/// Why nothing was written.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigureError {
+    /// The INI file cannot be read.
+    #[error(transparent)]
+    Ini(#[from] IniError),
+    /// All that is in the way.
+    #[error("{}", lines(.0))]
+    Refused(Vec<Refusal>),
+    /// A file of this name is there.
+    #[error("{}: error: this file is there already\n  help: --force replaces it", .0.display())]
+    Exists(PathBuf),
+    /// A file cannot be written.
+    #[error("{}: error: it cannot be written: {source}\n  help: copy the configuration to a folder of your own", file.display())]
+    Write {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+}
+
+fn lines(refusals: &[Refusal]) -> String {
+    let lines: Vec<String> = refusals.iter().map(Refusal::to_string).collect();
+    lines.join("\n")
+}

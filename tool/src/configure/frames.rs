@@ -1,0 +1,281 @@
+//! The lines for framekins: kinematics, analog outputs, subroutines and codes in the INI file, the function, the
+//! nets and frame_guard in the HAL file.
+
+use super::ConfigureArguments;
+use super::edits::Edits;
+use crate::wiring::codes::{CODES, Remap};
+use crate::wiring::framekins::{ADD_FUNCTION, MOST_OUTPUTS, NETS, OUTPUTS, SAMPLE_OUTPUTS, Source};
+use crate::wiring::settings::{KEYS, SECTION};
+use crate::wiring::subject::{Subject, guard_line};
+
+/// Adds it all; what is in the way is refused.
+pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edits) {
+    if subject.has_frames() {
+        let place = subject.place_of("KINS", "KINEMATICS");
+        return edits.refuse(
+            &place,
+            "this configuration has framekins already",
+            "framepath check says what it lacks",
+        );
+    }
+    readable(subject, edits);
+    kinematics(subject, edits);
+    let first = first_output(subject);
+    let Some(first) = first else {
+        let place = subject.place_of_module("motmod");
+        return edits.refuse(
+            &place,
+            "no nine analog outputs in a row are free",
+            "free motion.analog-out-00 to 08",
+        );
+    };
+    motion(subject, first, edits);
+    edits.add_hal(ADD_FUNCTION);
+    nets(subject, first, edits);
+    edits.add_hal(guard_line(&arguments.subroutines));
+    subroutines(subject, arguments, edits);
+    codes(subject, edits);
+    settings(subject, first, edits);
+}
+
+/// What is linked and loaded has to be known.
+fn readable(subject: &Subject, edits: &mut Edits) {
+    for unread in &subject.script.unread {
+        let found = format!("{}: {}", unread.name, unread.reason);
+        let help = "frames need to know what it loads and links: write it as a HAL file, or do without --frames";
+        edits.refuse(&unread.place, found, help);
+    }
+    if subject.text("HAL", "TWOPASS").is_some() {
+        let place = subject.place_of("HAL", "TWOPASS");
+        edits.refuse(
+            &place,
+            "with TWOPASS HAL files run in another order",
+            "remove TWOPASS, or do without --frames",
+        );
+    }
+    if !subject.has_linear_units() {
+        let place = subject.place_of("TRAJ", "LINEAR_UNITS");
+        edits.refuse(
+            &place,
+            "[TRAJ]LINEAR_UNITS is neither mm nor inch",
+            "LINEAR_UNITS = mm under [TRAJ]",
+        );
+    }
+}
+
+fn kinematics(subject: &Subject, edits: &mut Edits) {
+    let place = subject.place_of("KINS", "KINEMATICS");
+    let words = subject.text("KINS", "KINEMATICS").unwrap_or("");
+    let known = |word: &str| word.starts_with("coordinates=") || word.starts_with("kinstype=");
+    let other = words.split_whitespace().skip(1).find(|word| !known(word));
+    match (subject.kinematics(), other) {
+        ("trivkins", None) => {}
+        ("trivkins", Some(word)) => {
+            return edits.refuse(
+                &place,
+                format!("framekins does not know `{word}`"),
+                "coordinates=, a letter for each joint",
+            );
+        }
+        (module @ ("xyzac-trt-kins" | "xyzbc-trt-kins"), _) => {
+            let machine = module.trim_end_matches("-trt-kins");
+            let help = format!(
+                "framekins serves this machine as machine={machine}: begin with the sample framepath-xyzac, and take over the \
+                 dimensions from {module}"
+            );
+            return edits.refuse(
+                &place,
+                format!("the pins of {module} have other names"),
+                help,
+            );
+        }
+        (module, _) => {
+            let help =
+                "framekins serves trivkins, xyzac-trt-kins and xyzbc-trt-kins; do without --frames";
+            return edits.refuse(
+                &place,
+                format!("framekins does not serve the kinematics {module}"),
+                help,
+            );
+        }
+    }
+    let letters: String = subject.joints.iter().collect();
+    let count = subject.number("KINS", "JOINTS").unwrap_or(0.0);
+    if letters.len() as f64 != count {
+        let found = format!(
+            "[KINS]JOINTS is {count}, and coordinates= names {} joints",
+            letters.len()
+        );
+        return edits.refuse(
+            &place,
+            found,
+            "a letter of XYZABCUVW for each joint behind coordinates=",
+        );
+    }
+    if let Some(letter) = subject
+        .axes
+        .iter()
+        .find(|letter| !subject.joints.contains(letter))
+    {
+        let found = format!("no joint moves the axis {letter} of [TRAJ]COORDINATES");
+        return edits.refuse(&place, found, "a letter for each joint behind coordinates=");
+    }
+    edits.set(
+        "KINS",
+        "KINEMATICS",
+        &format!("framekins coordinates={letters}"),
+    );
+    let loads = subject
+        .state
+        .modules
+        .iter()
+        .find(|module| module.name == "trivkins");
+    if let Some(module) = loads.filter(|module| !module.statement.text.contains("[KINS]")) {
+        let help = "loadrt [KINS]KINEMATICS";
+        edits.refuse(
+            &module.statement.place,
+            "the HAL file names trivkins itself",
+            help,
+        );
+    }
+}
+
+/// The first of nine analog outputs in a row that nothing is linked to.
+fn first_output(subject: &Subject) -> Option<u32> {
+    let is_free = |output: u32| {
+        subject
+            .state
+            .signal_of(&format!("motion.analog-out-{output:02}"))
+            .is_none()
+    };
+    (0..=MOST_OUTPUTS - OUTPUTS).find(|first| (0..OUTPUTS).all(|number| is_free(first + number)))
+}
+
+/// motmod with enough analog outputs: its parameters may stand behind its name in the INI file.
+fn motion(subject: &Subject, first: u32, edits: &mut Edits) {
+    let Some(motion) = subject.motion() else {
+        if !subject.script.unread.is_empty() {
+            // Refused already: it may be loaded there.
+            return;
+        }
+        let place = subject.place_of("EMCMOT", "EMCMOT");
+        return edits.refuse(
+            &place,
+            "no HAL file loads motmod",
+            "loadrt [EMCMOT]EMCMOT in a HAL file",
+        );
+    };
+    let needed = (first + OUTPUTS).max(SAMPLE_OUTPUTS);
+    let given = motion
+        .parameter("num_aio")
+        .and_then(|text| text.parse::<u32>().ok());
+    if given.is_some_and(|given| given >= first + OUTPUTS) {
+        return;
+    }
+    let by_ini = motion.statement.text.contains("[EMCMOT]EMCMOT")
+        || motion.statement.text.contains("[EMCMOT](EMCMOT)");
+    if given.is_some() || !by_ini {
+        let found = "motmod has too few analog outputs for a frame";
+        let help = format!("{} num_aio={needed}", motion.statement.text);
+        return edits.refuse(&motion.statement.place, found, help);
+    }
+    let words = subject
+        .text("EMCMOT", "EMCMOT")
+        .unwrap_or("motmod")
+        .to_owned();
+    edits.set("EMCMOT", "EMCMOT", &format!("{words} num_aio={needed}"));
+}
+
+fn nets(subject: &Subject, first: u32, edits: &mut Edits) {
+    for net in &NETS {
+        let source = net.source_pin(first);
+        let is_motions = |pin: &str| pin.starts_with("motion.");
+        match (subject.state.signal_of(net.pin), net.source) {
+            (Some(signal), Source::Pin(own)) if is_motions(net.pin) => {
+                let linked = subject.state.signals.get(signal).into_iter().flatten();
+                let place = linked
+                    .filter(|(pin, _)| pin == net.pin)
+                    .map(|(_, place)| place.clone())
+                    .next();
+                let place = place.unwrap_or_else(|| subject.place_of_module("motmod"));
+                let gate = if net.pin == "motion.enable" {
+                    "and2"
+                } else {
+                    "or2"
+                };
+                let found = format!(
+                    "{} is linked to {signal} already, and {own} has to reach it",
+                    net.pin
+                );
+                edits.refuse(
+                    &place,
+                    found,
+                    format!("join both in an {gate}, as the README of the subroutines says"),
+                );
+            }
+            _ => match subject.state.signal_of(&source) {
+                Some(signal) => edits.add_hal(format!("net {signal} => {}", net.pin)),
+                None => edits.add_hal(net.line(first)),
+            },
+        }
+    }
+}
+
+fn subroutines(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edits) {
+    let own = &arguments.subroutines;
+    match subject.text("RS274NGC", "SUBROUTINE_PATH") {
+        Some(path) if path.split(':').any(|folder| folder == own) => {}
+        Some(path) => edits.set("RS274NGC", "SUBROUTINE_PATH", &format!("{path}:{own}")),
+        None => edits.set("RS274NGC", "SUBROUTINE_PATH", own),
+    }
+    if subject.text("RS274NGC", "OWORD_NARGS") != Some("1") {
+        edits.set("RS274NGC", "OWORD_NARGS", "1");
+    }
+    match subject.ini.entry("RS274NGC", "ON_ABORT_COMMAND") {
+        None => edits.set("RS274NGC", "ON_ABORT_COMMAND", "o<on_abort> call"),
+        Some(entry) if entry.value.contains("on_abort") => {}
+        Some(entry) => {
+            let found = format!("on aborts `{}` is called", entry.value);
+            let help = "call o<on_abort> in a subroutine of that name: ON_ABORT_COMMAND = o<on_abort> call";
+            edits.refuse(&entry.place, found, help);
+        }
+    }
+}
+
+fn codes(subject: &Subject, edits: &mut Edits) {
+    let remaps = subject.all("RS274NGC", "REMAP");
+    for code in &CODES {
+        let taken = remaps
+            .iter()
+            .find(|entry| Remap::parse(&entry.value).code == code.code);
+        match taken {
+            None => edits.add_last("RS274NGC", "REMAP", &code.value()),
+            Some(entry) if entry.value == code.value() => {}
+            Some(entry) => {
+                let found = format!("{} is remapped already", code.code);
+                let help = format!(
+                    "remove this line, for REMAP = {}, or call the subroutine of frames yourself",
+                    code.value()
+                );
+                edits.refuse(&entry.place, found, help);
+            }
+        }
+    }
+}
+
+/// The section as in the samples.
+fn settings(subject: &Subject, first: u32, edits: &mut Edits) {
+    for key in &KEYS {
+        let value = match key.name {
+            "ANALOG_OUTPUT" => Some(first.to_string()),
+            _ => key.usual.map(str::to_owned),
+        };
+        match value {
+            Some(value) if key.name == "ANALOG_OUTPUT" => edits.set(SECTION, key.name, &value),
+            Some(value) if subject.text(SECTION, key.name).is_none() => {
+                edits.set(SECTION, key.name, &value)
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! `framepath configure`: a configuration with blendtp, and with framekins, beside one that LinuxCNC runs.
+//!
+//! [`planner`] and [`frames`] say which lines are needed; [`edits`] has them until all is known, and
+//! puts them into the text of the INI file. What is not understood is refused before anything is written.
+
+mod edits;
+mod error;
+mod frames;
+mod planner;
+
+pub use error::{ConfigureError, Refusal};
+
+use crate::hal::read_script;
+use crate::machine::ini::Ini;
+use crate::machine::jerk::Jerk;
+use crate::output::OutputFile;
+use crate::wiring::SUBROUTINES;
+use crate::wiring::subject::Subject;
+use edits::Edits;
+use similar::TextDiff;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `framepath configure`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct ConfigureArguments {
+    /// INI file of the machine as it is
+    #[arg(value_name = "MACHINE.ini")]
+    pub ini: PathBuf,
+    /// With framekins as well: programmable frames
+    #[arg(long)]
+    pub frames: bool,
+    /// Jerk limits of axes that have none: `unlimited`, a number (machine units per second cubed), or a number of
+    /// accelerations per second
+    #[arg(long, value_name = "JERK", default_value = "20A")]
+    pub jerk: Jerk,
+    /// Folder of the subroutines for frames
+    #[arg(long, value_name = "DIR", default_value = SUBROUTINES, requires = "frames")]
+    pub subroutines: String,
+    /// Replace files that are there already
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Writes `NAME-framepath.ini` and `NAME-framepath.hal` beside the INI file, and what they change to standard output
+/// as a unified diff.
+///
+/// # Errors
+/// What cannot be configured, with the line that is in its way; files that are there already or cannot be
+/// written. Then nothing is changed.
+pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
+    let text = edits::original(&arguments.ini)?;
+    let (ini, problems) = Ini::parse_all(&arguments.ini, &text);
+    let script = read_script(&ini, &[]);
+    let subject = Subject::new(ini, problems, script);
+    let [ini_file, hal_file] = ["ini", "hal"].map(|ending| beside(&arguments.ini, ending));
+    let mut edits = Edits::new(&subject.ini, &text);
+    planner::write(&subject, arguments, &mut edits);
+    if arguments.frames {
+        frames::write(&subject, arguments, &mut edits);
+    }
+    let name = hal_file.file_name().unwrap_or_default();
+    edits.add_last("HAL", "HALFILE", &name.to_string_lossy());
+    let (new_ini, new_hal) = edits.finish()?;
+    let there = [&ini_file, &hal_file]
+        .into_iter()
+        .find(|file| file.exists());
+    if let Some(file) = there.filter(|_| !arguments.force) {
+        return Err(ConfigureError::Exists(file.clone()));
+    }
+    let files = [begun(&ini_file, &new_ini)?, begun(&hal_file, &new_hal)?];
+    for file in files {
+        let name = file.name().to_owned();
+        let finished = file.finish();
+        finished.map_err(|source| ConfigureError::Write { file: name, source })?;
+    }
+    let difference = difference(&arguments.ini, &text, &ini_file, &new_ini)
+        + &difference(Path::new("/dev/null"), "", &hal_file, &new_hal);
+    let mut output = io::stdout().lock();
+    let written = output.write_all(difference.as_bytes());
+    written
+        .and_then(|()| output.flush())
+        .map_err(|source| ConfigureError::Write {
+            file: PathBuf::from("standard output"),
+            source,
+        })
+}
+
+/// `NAME-framepath.ENDING` beside `NAME.ini`.
+fn beside(ini: &Path, ending: &str) -> PathBuf {
+    let stem = ini.file_stem().unwrap_or_default().to_string_lossy();
+    ini.with_file_name(format!("{stem}-framepath.{ending}"))
+}
+
+fn begun(file: &Path, text: &str) -> Result<OutputFile, ConfigureError> {
+    let unwritable = |source| ConfigureError::Write {
+        file: file.to_owned(),
+        source,
+    };
+    let mut output = OutputFile::create(file).map_err(unwritable)?;
+    output.write_all(text.as_bytes()).map_err(unwritable)?;
+    Ok(output)
+}
+
+fn difference(old_file: &Path, old: &str, new_file: &Path, new: &str) -> String {
+    let difference = TextDiff::from_lines(old, new);
+    let [old_file, new_file] = [old_file, new_file].map(|file| file.display().to_string());
+    difference
+        .unified_diff()
+        .context_radius(1)
+        .header(&old_file, &new_file)
+        .to_string()
+}

@@ -1,0 +1,93 @@
+//! The lines for blendtp: `[TRAJ]TPMOD`, a jerk limit for each axis, and what takes it to the pin.
+
+use super::ConfigureArguments;
+use super::edits::Edits;
+use crate::machine::place::Place;
+use crate::wiring::blendtp::{inch_line, jerk_line, jerk_pin};
+use crate::wiring::subject::Subject;
+
+/// Adds what is not there yet.
+pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edits) {
+    usable(subject, edits);
+    if subject.has_planner() && !arguments.frames {
+        let place = subject.place_of("TRAJ", "TPMOD");
+        return edits.refuse(
+            &place,
+            "this configuration has blendtp already",
+            "framepath check says what it lacks",
+        );
+    }
+    if subject.planner() != "blendtp" {
+        edits.set("TRAJ", "TPMOD", "blendtp");
+    }
+    for letter in &subject.axes {
+        jerk(subject, *letter, arguments, edits);
+    }
+    if subject.is_in_inches() && !subject.state.settings.contains_key("blendtp.millimetre") {
+        edits.add_hal(inch_line());
+    }
+}
+
+/// What LinuxCNC itself would not start with is for `check`.
+fn usable(subject: &Subject, edits: &mut Edits) {
+    if subject.text("EMC", "VERSION") != Some("1.1") {
+        let place = subject.place_of("EMC", "VERSION");
+        edits.refuse(
+            &place,
+            "the file is for another LinuxCNC",
+            "start LinuxCNC once, or run update_ini, which writes VERSION = 1.1",
+        );
+    }
+    for problem in &subject.script.problems {
+        edits.refuse(
+            &problem.place,
+            &problem.found,
+            "LinuxCNC does not start with this: framepath check says what to write",
+        );
+    }
+    if subject.axes.is_empty() {
+        let place = Place::file(subject.ini.file());
+        edits.refuse(
+            &place,
+            "[TRAJ]COORDINATES is missing",
+            "COORDINATES = XYZ under [TRAJ], the axes of the machine",
+        );
+    }
+    if let Some(module) = subject.state.module("blendtp") {
+        edits.refuse(
+            &module.statement.place,
+            "a HAL file loads blendtp",
+            "remove this line: [TRAJ]TPMOD loads it",
+        );
+    }
+}
+
+fn jerk(subject: &Subject, letter: char, arguments: &ConfigureArguments, edits: &mut Edits) {
+    let section = format!("AXIS_{letter}");
+    let pin = jerk_pin(letter);
+    if subject.state.settings.contains_key(&pin) || subject.state.signal_of(&pin).is_some() {
+        return;
+    }
+    edits.add_hal(jerk_line(letter));
+    if subject.text(&section, "MAX_JERK").is_some() {
+        return;
+    }
+    match subject
+        .number(&section, "MAX_ACCELERATION")
+        .filter(|acceleration| *acceleration > 0.0)
+    {
+        Some(acceleration) => {
+            let jerk = arguments.jerk.of_axis(acceleration);
+            edits.add_last(&section, "MAX_JERK", &jerk.to_string());
+        }
+        None => {
+            let place = subject.place_of(&section, "MAX_ACCELERATION");
+            let found = format!("[{section}]MAX_ACCELERATION is missing or no number above 0");
+            edits.refuse(
+                &place,
+                found,
+                format!("write it under [{section}], machine units per second squared"),
+            );
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! `framepath configure`: from configurations of LinuxCNC to such with blendtp and framekins, which `check` finds clean.
+
+use crate::bench::{Bench, framepath, samples};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+const STOCK: &str = "/usr/share/doc/linuxcnc/examples/sample-configs/sim/axis";
+
+/// A folder with LinuxCNC's axis_mm.
+fn stock() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["axis_mm.ini", "sim_mm.tbl"] {
+        fs::copy(Path::new(STOCK).join(name), folder.path().join(name)).expect("copied");
+    }
+    folder
+}
+
+fn subroutines() -> String {
+    samples().join("subroutines").display().to_string()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("a text")
+}
+
+/// Configures axis_mm with a change of its INI file.
+fn changed(from: &str, to: &str, options: &[&str]) -> (tempfile::TempDir, Output) {
+    let folder = stock();
+    let file = folder.path().join("axis_mm.ini");
+    let before = fs::read_to_string(&file).expect("a text");
+    let after = before.replacen(from, to, 1);
+    assert!(from.is_empty() || before != after, "{from} is not there");
+    fs::write(&file, after).expect("written");
+    let mut arguments = vec!["configure", "axis_mm.ini"];
+    arguments.extend_from_slice(options);
+    let output = framepath(folder.path(), &arguments);
+    (folder, output)
+}
+
+/// What `check` finds in axis_mm-framepath.
+fn findings(folder: &Path) -> Value {
+    let output = framepath(folder, &["check", "axis_mm-framepath.ini", "--json"]);
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    report["findings"].clone()
+}
+
+#[test]
+fn a_stock_configuration_needs_eight_lines_for_blendtp() {
+    let (folder, output) = changed("", "", &[]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(
+        text(&output.stdout),
+        "\
+--- axis_mm.ini
++++ axis_mm-framepath.ini
+@@ -111,2 +111,3 @@
+ HALFILE = simulated_home.hal
++HALFILE = axis_mm-framepath.hal
+ 
+@@ -132,2 +133,3 @@
+ POSITION_FILE = position_mm.txt
++TPMOD = blendtp
+ 
+@@ -143,2 +145,3 @@
+ MAX_LIMIT = 254
++MAX_JERK = 10160
+ 
+@@ -149,2 +152,3 @@
+ MAX_LIMIT = 254
++MAX_JERK = 10160
+ 
+@@ -155,2 +159,3 @@
+ MAX_LIMIT = 101.6
++MAX_JERK = 10160
+ 
+--- /dev/null
++++ axis_mm-framepath.hal
+@@ -0,0 +1,4 @@
++# What blendtp and framekins need of HAL, behind the other HAL files. Written by framepath configure.
++setp blendtp.axis.x.max-jerk [AXIS_X]MAX_JERK
++setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK
++setp blendtp.axis.z.max-jerk [AXIS_Z]MAX_JERK
+"
+    );
+    assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
+    let old = fs::read(Path::new(STOCK).join("axis_mm.ini")).expect("read");
+    assert_eq!(
+        fs::read(folder.path().join("axis_mm.ini")).expect("read"),
+        old
+    );
+}
+
+#[test]
+fn frames_need_no_other_change_by_hand() {
+    let (folder, output) = changed("", "", &["--frames", "--subroutines", &subroutines()]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
+    let ini = fs::read_to_string(folder.path().join("axis_mm-framepath.ini")).expect("a text");
+    for line in [
+        "KINEMATICS = framekins coordinates=XYZ",
+        "EMCMOT = motmod num_aio=16",
+        "ANALOG_OUTPUT = 0",
+    ] {
+        assert!(ini.lines().any(|known| known == line), "{line} in {ini}");
+    }
+}
+
+#[test]
+fn signals_and_outputs_that_are_taken_are_kept() {
+    let folder = stock();
+    let file = folder.path().join("axis_mm.ini");
+    let ini = fs::read_to_string(&file).expect("a text");
+    let ini = ini.replace(
+        "HALFILE = simulated_home.hal",
+        "HALFILE = simulated_home.hal\nHALFILE = own.hal",
+    );
+    fs::write(
+        &file,
+        ini.replace("EMCMOT = motmod", "EMCMOT = motmod num_dio=8"),
+    )
+    .expect("written");
+    let own = "net laser motion.analog-out-03\nnet stands motion.in-position\n";
+    fs::write(folder.path().join("own.hal"), own).expect("written");
+    let output = framepath(
+        folder.path(),
+        &[
+            "configure",
+            "axis_mm.ini",
+            "--frames",
+            "--subroutines",
+            &subroutines(),
+        ],
+    );
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
+    let written = text(&output.stdout);
+    for line in [
+        "+net stands => framekins.in-position\n",
+        "+net frame-command motion.analog-out-04 => framekins.command\n",
+        "+ANALOG_OUTPUT = 4\n",
+        "+EMCMOT = motmod num_dio=8 num_aio=16\n",
+    ] {
+        assert!(written.contains(line), "{line} in {written}");
+    }
+}
+
+#[test]
+fn machines_in_inches_and_other_limits_of_jerk() {
+    let (folder, output) = changed(
+        "LINEAR_UNITS = mm",
+        "LINEAR_UNITS = inch",
+        &["--jerk", "50000"],
+    );
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let written = text(&output.stdout);
+    assert!(written.contains("+MAX_JERK = 50000\n"), "{written}");
+    assert!(
+        written.contains("+setp blendtp.millimetre 0.0393700787\n"),
+        "{written}"
+    );
+    assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
+}
+
+#[test]
+fn files_that_are_there_are_replaced_by_force_only() {
+    let (folder, _) = changed("", "", &[]);
+    let file = folder.path().join("axis_mm-framepath.hal");
+    fs::write(&file, "# mine\n").expect("written");
+    let output = framepath(folder.path(), &["configure", "axis_mm.ini"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(
+        text(&output.stderr),
+        "axis_mm-framepath.ini: error: this file is there already\n  help: --force replaces it\n"
+    );
+    assert_eq!(fs::read_to_string(&file).expect("a text"), "# mine\n");
+    assert!(
+        framepath(folder.path(), &["configure", "axis_mm.ini", "--force"])
+            .status
+            .success()
+    );
+    assert!(
+        fs::read_to_string(&file)
+            .expect("a text")
+            .contains("setp blendtp")
+    );
+}
+
+/// A change of axis_mm, options, and the line that refuses it.
+const REFUSED: [(&str, &str, &[&str], &str); 9] = [
+    (
+        "KINEMATICS = trivkins",
+        "KINEMATICS = rotatekins",
+        &["--frames"],
+        "axis_mm.ini:135:1: error: framekins does not serve the kinematics rotatekins",
+    ),
+    (
+        "KINEMATICS = trivkins",
+        "KINEMATICS = xyzac-trt-kins",
+        &["--frames"],
+        "axis_mm.ini:135:1: error: the pins of xyzac-trt-kins have other names",
+    ),
+    (
+        "HALFILE = core_sim.hal",
+        "HALFILE = LIB:basic_sim.tcl",
+        &["--frames"],
+        "axis_mm.ini:108:1: error: LIB:basic_sim.tcl: it is written in Tcl",
+    ),
+    (
+        "PARAMETER_FILE = sim_mm.var",
+        "REMAP = G77 modalgroup=1 ngc=own",
+        &["--frames"],
+        "axis_mm.ini:71:1: error: G77 is remapped already",
+    ),
+    (
+        "HALUI = halui",
+        "HALCMD = net own motion.feed-inhibit",
+        &["--frames"],
+        "axis_mm.ini:121:1: error: motion.feed-inhibit is linked to own already",
+    ),
+    (
+        "HALFILE = core_sim.hal",
+        "HALFILE = nowhere.hal",
+        &[],
+        "axis_mm.ini:108:1: error: the HAL file nowhere.hal is not there",
+    ),
+    (
+        "POSITION_FILE",
+        "TPMOD = blendtp\nPOSITION_FILE",
+        &[],
+        "axis_mm.ini:132:1: error: this configuration has blendtp already",
+    ),
+    (
+        "COORDINATES = X Y Z",
+        "COORDINATES = X Y Z C",
+        &[],
+        "axis_mm.ini: error: [AXIS_C]MAX_ACCELERATION is missing",
+    ),
+    (
+        "VERSION = 1.1",
+        "VERSION = 1.0",
+        &[],
+        "axis_mm.ini:9:1: error: the file is for another LinuxCNC",
+    ),
+];
+
+#[test]
+fn what_cannot_be_configured_is_refused_by_name() {
+    for (from, to, options, refusal) in REFUSED {
+        let (folder, output) = changed(from, to, options);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{to}");
+        assert!(
+            said.contains(refusal) && said.contains("\n  help: "),
+            "{to}: {said}"
+        );
+        assert!(output.stdout.is_empty());
+        assert!(!folder.path().join("axis_mm-framepath.ini").exists());
+    }
+}
+
+#[test]
+fn sections_of_included_files_are_not_changed() {
+    let folder = stock();
+    let file = folder.path().join("axis_mm.ini");
+    let ini = fs::read_to_string(&file).expect("a text");
+    let (before, axes) = ini.split_once("[AXIS_X]").expect("there");
+    fs::write(&file, format!("{before}#INCLUDE axes.inc\n")).expect("written");
+    fs::write(folder.path().join("axes.inc"), format!("[AXIS_X]{axes}")).expect("written");
+    let output = framepath(folder.path(), &["configure", "axis_mm.ini"]);
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("axes.inc:5:1: error: [AXIS_X] comes from an included file"),
+        "{said}"
+    );
+}
+
+#[test]
+fn lines_keep_their_ends_and_a_sample_of_ours_is_refused() {
+    let folder = stock();
+    let file = folder.path().join("axis_mm.ini");
+    let ini = fs::read_to_string(&file)
+        .expect("a text")
+        .replace('\n', "\r\n");
+    fs::write(&file, &ini).expect("written");
+    let output = framepath(folder.path(), &["configure", "axis_mm.ini"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let new = fs::read_to_string(folder.path().join("axis_mm-framepath.ini")).expect("a text");
+    let kept: Vec<&str> = new
+        .split('\n')
+        .filter(|line| line.ends_with('\r'))
+        .collect();
+    assert_eq!(kept.join("\n") + "\n", ini);
+
+    let bench = Bench::new();
+    let output = framepath(
+        &bench.sample("framepath-sim"),
+        &["configure", "framepath-sim.ini", "--frames"],
+    );
+    assert!(text(&output.stderr).contains("has framekins already"));
+}
