@@ -88,26 +88,14 @@ deny:
 LINUXCNC_TESTS = $(PYTHON) -B -m pytest -n 4 tests/linuxcnc
 RUN_LINUXCNC_TESTS = failed=0; $(LINUXCNC_TESTS) -m "not busy" || failed=1; $(LINUXCNC_TESTS) -m busy || failed=1; exit $$failed
 
-# The tests in a LinuxCNC mostly wait, so what the compiler and the Rust tests have to do is done beside them, where it
-# gets what they leave of the processor, and shown when it is done.
 # The same random cases each time, so that what fails can be had again; make soak takes others.
 test: export PROPTEST_RNG_SEED ?= 1
 test: export TOOL_PROFILE = dev
-test: modules fault-modules
-	@for group in lint browser screen sanitize test; do ./prerequisites $$group || exit 1; done
-	$(CARGO) test --locked --workspace --no-run
-	failed=0; $(MAKE) --no-print-directory -j 2 --keep-going rust-tests waiting-linuxcnc-tests || failed=1; \
-	    $(LINUXCNC_TESTS) -m busy || failed=1; exit $$failed
-
-RUST_LOG = $(TARGET)/rust-tests.log
-
-rust-tests:
-	failed=0; { nice -n 19 $(MAKE) --no-print-directory lint && nice -n 19 $(CARGO) test --locked --workspace --no-fail-fast; } \
-	    > $(RUST_LOG) 2>&1 || failed=1; cat $(RUST_LOG); exit $$failed
-
+test: lint modules fault-modules
+	@for group in browser screen sanitize test; do ./prerequisites $$group || exit 1; done
+	$(CARGO) test --locked --workspace --no-fail-fast
 # The tool is there: its own tests run it.
-waiting-linuxcnc-tests:
-	$(LINUXCNC_TESTS) -m "not busy"
+	$(RUN_LINUXCNC_TESTS)
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules fault-modules tool
@@ -235,5 +223,5 @@ uninstall:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test rust-tests waiting-linuxcnc-tests linuxcnc-test sanitize contract faults short soak bench \
+.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults short soak bench \
     fuzz fuzz-filter mutants compare figures book screens header install uninstall clean

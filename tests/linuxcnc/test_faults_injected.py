@@ -38,8 +38,9 @@ ENOUGH = 1100
 
 #: No axis takes longer from 100 mm/s to rest, with 1000 mm/s2 and 20000 mm/s3 ..
 GREATEST_STOP = 9.0
-#: .. and the recorded joints, which LinuxCNC smooths, depart from the planner's path by this.
-OFF_THE_PATH = 0.02
+#: .. and the recorded joints, which LinuxCNC smooths, depart from the planner's path by .02. On a busy computer moves come
+#: later than in the run without a fault: a corner is then rounded otherwise, within its tolerance of .05.
+OFF_THE_PATH = 0.02 + 0.05
 
 
 class FaultsInjected(unittest.TestCase):
