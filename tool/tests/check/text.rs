@@ -17,12 +17,19 @@ fn the_text_has_file_line_column_and_the_line_to_write() {
         "hal",
         &hal.replace("setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK\n", ""),
     );
+    let ini = bench.read(name, "ini");
+    let jerk_of_y = ini
+        .lines()
+        .enumerate()
+        .skip_while(|(_, line)| !line.starts_with("[AXIS_Y]"))
+        .find(|(_, line)| line.starts_with("MAX_JERK"))
+        .expect("its limit")
+        .0;
     let output = bench.check(name, &[]);
     assert_eq!(output.status.code(), Some(1));
-    assert_eq!(
-        String::from_utf8(output.stdout).expect("a text"),
+    let wanted = format!(
         "\
-framepath-sim.ini:114:1: error: nothing sets blendtp.axis.y.max-jerk, so that the jerk of Y is not limited, although the INI file has a limit
+framepath-sim.ini:{}:1: error: nothing sets blendtp.axis.y.max-jerk, so that the jerk of Y is not limited, although the INI file has a limit
   write into ./framepath-sim.hal:
     setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK
 
@@ -35,8 +42,11 @@ from its greatest velocity to rest, by an abort or a feed hold:
   Y: 5 mm in 0.1 s (100 mm/s, 1000 mm/s2, jerk not limited)
   Z: 7.5 mm in 0.15 s (100 mm/s, 1000 mm/s2, 20000 mm/s3)
 framepath-sim.ini: 2 errors, 0 warnings, 0 notes
-"
+",
+        jerk_of_y + 1
     );
+    let text = String::from_utf8(output.stdout).expect("a text");
+    assert_eq!(text, wanted);
 }
 
 #[test]
