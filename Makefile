@@ -40,6 +40,7 @@ help:
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
+	@echo 'make tuning     what each constant that tunes the planner does to the times of programs: docs/tuning.md'
 	@echo 'make book       docs, DESIGN and CONTRIBUTING as a book (mdbook)'
 	@echo 'make screens    each sample in AXIS without a monitor: pictures in target/screens'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
@@ -191,6 +192,10 @@ figures: modules tool
 	$(TOOL) compare --generated trochoidal $(BLENDTP) --jerk 20A --queue 200,2000
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
+# What each constant that tunes does, written into docs/tuning.md: an hour.
+tuning: modules tool
+	$(PYTHON) -B benches/tuning.py --tool $(TOOL) --target $(TARGET)
+
 # docs, DESIGN and CONTRIBUTING as pages to read: target/book/index.html.
 book:
 	mdbook build
@@ -224,4 +229,4 @@ clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults short soak bench \
-    fuzz fuzz-filter mutants compare figures book screens header install uninstall clean
+    fuzz fuzz-filter mutants compare figures tuning book screens header install uninstall clean

@@ -1,4 +1,4 @@
-//! Every file that the documents name is there: names change, and documents are forgotten.
+//! What the documents name is there and as they say: names and values change, and documents are forgotten.
 
 use std::path::{Path, PathBuf};
 
@@ -79,4 +79,32 @@ fn files_that_are_named_exist() {
         count > 100,
         "{count} files are named: are they found at all?"
     );
+}
+
+/// The value that a file of the core gives a constant.
+fn value_of(constant: &str, file: &str) -> Option<String> {
+    let text = std::fs::read_to_string(root().join("src").join(file)).ok()?;
+    let (_, declared) = text.split_once(&format!("const {constant}: "))?;
+    let (_, value) = declared.split_once(';')?.0.split_once(" = ")?;
+    Some(value.to_owned())
+}
+
+#[test]
+fn constants_that_tune_have_the_values_of_their_page() {
+    let page = std::fs::read_to_string(root().join("docs/tuning.md")).expect("docs/tuning.md");
+    let mut count = 0;
+    for line in page.lines().filter(|line| line.starts_with("| `")) {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let [_, constant, file, value, _, measured @ ..] = &cells[..] else {
+            panic!("a row of another shape: {line}");
+        };
+        let [constant, file] = [constant, file].map(|cell| cell.trim_matches('`'));
+        assert_eq!(value_of(constant, file).as_deref(), Some(*value), "{line}");
+        assert!(
+            measured[..4].iter().all(|cell| !cell.is_empty()),
+            "not measured: {line}"
+        );
+        count += 1;
+    }
+    assert!(count > 10, "{count} constants");
 }
