@@ -35,6 +35,7 @@ impl Planner {
         }
         self.executor.reset();
         self.motion.stand();
+        self.indexer.give_up();
         self.reference.turn(backwards);
         self.status.backwards = backwards;
         self.report_rest();

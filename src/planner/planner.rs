@@ -359,7 +359,7 @@ impl Planner {
         self.motion.stand();
         self.status.backwards = false;
         self.spindle.drop_moves();
-        self.indexer.reset();
+        self.indexer.give_up();
         self.goal = self.status.position;
         self.status.pausing = false;
         self.status.aborting = false;
@@ -378,10 +378,10 @@ impl Planner {
         self.fail(fault);
     }
 
-    /// The joint of the locking indexer that the next move waits for, or that is being locked.
+    /// The joint of the locking indexer that is unlocked or being locked, or that the next move waits for.
     pub fn indexer_joint(&self) -> Option<i32> {
         let next = || self.queue.front().and_then(|queued| queued.indexer_joint);
-        self.indexer.locking().or_else(next)
+        self.indexer.joint().or_else(next)
     }
 
     /// Where the last queued move ends, shape (9): the start of the next one.

@@ -309,7 +309,7 @@ impl Planner {
         };
         self.status.indexer = Some((joint, true));
         // What was asked for in this cycle is answered in a later one.
-        self.indexer.unlock() && inputs.indexer_unlocked
+        self.indexer.unlock(joint) && inputs.indexer_unlocked
     }
 
     /// The end of the reference is reached: at rest, exactly where its last move ends, or in the
@@ -352,26 +352,32 @@ impl Planner {
 
     /// At rest after an abort: goes on from here with no moves and nothing synchronised.
     fn end_abort(&mut self) {
-        // What was unlocked for a move that does not come is locked again.
-        let unlocked = self.indexer_joint().filter(|_| self.indexer.is_open());
         self.drop_moves();
         self.spindle.set_command(None);
-        if let Some(joint) = unlocked {
-            self.status.indexer = Some((joint, false));
+        // At once: another mode may be chosen before the next cycle.
+        self.tell_to_lock();
+    }
+
+    /// Tells what is to lock.
+    fn tell_to_lock(&mut self) {
+        if let Some(locking) = self.indexer.locking() {
+            self.status.indexer = Some((locking.joint, false));
         }
     }
 
-    /// At rest behind a move of a locking indexer: whether it is locked, so that the move is over.
+    /// At rest: whether no indexer is being locked. Where one has locked behind its move, that is over.
     fn is_locked(&mut self, inputs: &CycleInputs) -> bool {
-        let Some(joint) = self.indexer.locking() else {
+        let Some(locking) = self.indexer.locking() else {
             return true;
         };
-        self.status.indexer = Some((joint, false));
+        self.tell_to_lock();
         if inputs.indexer_unlocked {
             return false;
         }
-        self.indexer.reset();
-        self.queue.pop();
+        self.indexer.has_locked();
+        if locking.ends_move {
+            self.queue.pop();
+        }
         true
     }
 

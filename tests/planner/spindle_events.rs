@@ -282,3 +282,95 @@ fn a_locking_indexer_is_unlocked_before_and_locked_after_its_move() {
         keeps_limits(machine);
     });
 }
+
+/// An indexer's lock that does what it is told 50 periods later.
+struct Lock {
+    told: bool,
+    delay: usize,
+}
+
+impl Lock {
+    fn cycle(&mut self, machine: &mut Machine) {
+        machine.inputs.indexer_unlocked = if self.delay == 0 {
+            self.told
+        } else {
+            !self.told
+        };
+        self.delay = self.delay.saturating_sub(1);
+        let status = machine.cycle();
+        if let Some((joint, unlock)) = status.indexer {
+            assert_eq!(joint, 4);
+            if unlock != self.told {
+                *self = Self {
+                    told: unlock,
+                    delay: 50,
+                };
+            }
+        }
+    }
+
+    /// Runs until it is told to open for the move behind z 10, which has not begun then.
+    fn opens(machine: &mut Machine) -> Self {
+        let indexer = MoveRequest {
+            indexer_joint: Some(4),
+            ..feed_move(50.0)
+        };
+        for (end, request) in [(10.0, feed_move(50.0)), (20.0, indexer)] {
+            machine.line(z(end), &request).expect("a line");
+        }
+        let mut lock = Self {
+            told: false,
+            delay: 0,
+        };
+        for _ in 0..5000 {
+            lock.cycle(machine);
+            if lock.told {
+                assert_eq!(machine.planner.status().position, z(10.0));
+                return lock;
+            }
+        }
+        panic!("the indexer is not unlocked");
+    }
+}
+
+#[test]
+fn an_indexer_that_opens_for_a_move_that_does_not_come_is_locked_again() {
+    with_machine(|machine| {
+        let mut lock = Lock::opens(machine);
+        machine.planner.clear();
+        for _ in 0..200 {
+            lock.cycle(machine);
+        }
+        assert!(!lock.told && !machine.inputs.indexer_unlocked);
+        // The next move waits for the lock only.
+        machine.line(z(5.0), &feed_move(50.0)).expect("a line");
+        for _ in 0..2000 {
+            lock.cycle(machine);
+        }
+        assert_eq!(machine.planner.status().position, z(5.0));
+    });
+}
+
+#[test]
+fn an_indexer_is_locked_again_where_the_direction_turns() {
+    with_machine(|machine| {
+        let mut lock = Lock::opens(machine);
+        for _ in 0..20 {
+            lock.cycle(machine);
+        }
+        // There is no way back over what was before it.
+        machine.planner.run_backwards(true).expect("at rest");
+        for _ in 0..200 {
+            lock.cycle(machine);
+        }
+        assert!(!lock.told && !machine.inputs.indexer_unlocked);
+        assert_eq!(machine.planner.status().position, z(10.0));
+        machine.planner.run_backwards(false).expect("at rest");
+        for _ in 0..5000 {
+            lock.cycle(machine);
+        }
+        assert_eq!(machine.planner.status().position, z(20.0));
+        assert!(machine.planner.status().done && !lock.told);
+        keeps_limits(machine);
+    });
+}
