@@ -4,22 +4,30 @@
 //! cells of the table, so following it keeps all limits; behind its last entry the rate stays as
 //! it is, which is feasible for ever. As long as one is stored, nothing can go wrong.
 
-use super::rows::{PeriodLimits, Span};
+use super::backup_refusal::BackupRefusal;
+use super::braking::braking_step;
+use super::cap::Caps;
+use super::caps_ahead::{BRAKING_PERIODS, CapOutlook, CapsAhead};
+use super::rows::PeriodLimits;
+use super::simulated_period::{Place, step};
 use super::simulation::Simulation;
 use super::state::State;
-use super::table::Node;
 
 /// Longest backup trajectory, servo periods. A power of two.
 const LONGEST: usize = 256;
-
-/// How often a period is predicted before it is given up.
-const PREDICTIONS: usize = 2;
 
 /// Part of the jerk limit that is held back while the rate rises, at a rate of 1.
 const RESERVE_AT_FULL_RATE: f32 = 0.01;
 
 /// How much more is held back towards a rate of 0.
 const FURTHER_RESERVE: f32 = 0.3;
+
+/// How often braking for a cap is tried, ..
+const BRAKING_ATTEMPTS: usize = 4;
+
+/// .. each time with this part of the greatest rate change of the try before, where that could not be brought to an end
+/// within the limits: a path that turns takes nearly all of the jerk.
+const GENTLER: f64 = 0.5;
 
 /// Whether a backup trajectory may need all of the jerk.
 ///
@@ -40,17 +48,6 @@ fn kept_part(rate: f64) -> f32 {
     1.0 - RESERVE_AT_FULL_RATE - FURTHER_RESERVE * (1.0 - rate as f32)
 }
 
-/// Why no backup trajectory was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BackupRefusal {
-    /// It would leave the known cells.
-    Wall,
-    /// It breaks a limit, or the rate would leave 0 to 1.
-    Limits,
-    /// It takes longer than the periods that may be simulated in one cycle.
-    Budget,
-}
-
 /// A list of n that brings the rate change to 0.
 #[derive(Clone, Debug)]
 pub struct BackupTrajectory {
@@ -59,6 +56,8 @@ pub struct BackupTrajectory {
     next: usize,
     /// When the rate change is 0, in the time of the table.
     end_time: f64,
+    /// The feed caps that it keeps, all that is known ahead.
+    kept: Option<Caps>,
 }
 
 impl BackupTrajectory {
@@ -67,6 +66,7 @@ impl BackupTrajectory {
         length: 0,
         next: 0,
         end_time: 0.0,
+        kept: None,
     };
 
     /// Nothing to release.
@@ -74,13 +74,20 @@ impl BackupTrajectory {
         self.length = 0;
         self.next = 0;
         self.end_time = 0.0;
+        self.kept = None;
     }
 
-    /// A single n, after which the state is `end`.
-    pub fn set_single(&mut self, n: f64, end: State) {
+    /// A single n, after which the state is `end`, and the caps that are kept from there on.
+    pub fn set_single(&mut self, n: f64, end: State, kept: Option<Caps>) {
         self.start();
         self.append(n);
         self.end_time = end.time;
+        self.kept = kept;
+    }
+
+    /// Whether it leads on, and keeps these caps.
+    pub fn keeps(&self, caps: &Caps) -> bool {
+        self.next().is_some() && self.kept.as_ref() == Some(caps)
     }
 
     /// The n of the next period, `None` behind the last one.
@@ -115,6 +122,7 @@ impl BackupTrajectory {
     fn start(&mut self) {
         self.length = 0;
         self.next = 0;
+        self.kept = None;
     }
 
     fn append(&mut self, n: f64) -> bool {
@@ -138,18 +146,70 @@ impl BackupTrajectory {
         previous_n: f64,
     ) -> Result<(), BackupRefusal> {
         self.start();
-        let table = simulation.table;
-        if !table.knows(state.time) {
-            return Err(BackupRefusal::Wall);
+        let here = Place::new(simulation, state, previous_n)?;
+        self.release(simulation, reserve, here)
+    }
+
+    /// The same below feed caps: one that brakes, hard, until all that is known ahead may be run through at a rate
+    /// that does not rise any more.
+    #[inline(never)]
+    pub fn find_below(
+        &mut self,
+        simulation: &mut Simulation,
+        caps: &Caps,
+        state: State,
+        previous_n: f64,
+    ) -> Result<(), BackupRefusal> {
+        let start = Place::new(simulation, state, previous_n)?;
+        let mut least_change = f64::NEG_INFINITY;
+        for _ in 0..BRAKING_ATTEMPTS {
+            let mut here = start.clone();
+            let found = self.brake(simulation, caps, &mut here, least_change);
+            if found != Err(BackupRefusal::Limits) {
+                found?;
+                self.kept = Some(*caps);
+                return Ok(());
+            }
+            least_change = GENTLER * here.state.rate_change.min(0.0);
         }
-        let mut here = Place {
-            n: previous_n,
-            state,
-            node: table.node(state.time),
-        };
+        Err(BackupRefusal::Limits)
+    }
+
+    /// Brakes from `here`, to the end or as far as it goes, with a rate change down to `least_change`.
+    fn brake(
+        &mut self,
+        simulation: &mut Simulation,
+        caps: &Caps,
+        here: &mut Place,
+        least_change: f64,
+    ) -> Result<(), BackupRefusal> {
+        self.start();
+        let (table, period) = (simulation.table, simulation.servo_period);
+        let mut ahead = CapsAhead::new(caps, table, here.state.time, period);
+        for _ in 0..BRAKING_PERIODS {
+            match ahead.look(here.state) {
+                CapOutlook::Exceeded => return Err(BackupRefusal::Cap),
+                CapOutlook::Kept => return self.release(simulation, Reserve::Used, here.clone()),
+                CapOutlook::Open => {}
+            }
+            *here = braking_step(simulation, here, (least_change, ahead.steady_rate()))?;
+            if !self.append(here.n) {
+                return Err(BackupRefusal::Budget);
+            }
+        }
+        Err(BackupRefusal::Cap)
+    }
+
+    /// Brings the rate change to 0 from here.
+    fn release(
+        &mut self,
+        simulation: &mut Simulation,
+        reserve: Reserve,
+        mut here: Place,
+    ) -> Result<(), BackupRefusal> {
         for _ in 0..=LONGEST {
             let state = here.state;
-            if state.is_steady() || table.is_behind_end(state.time) {
+            if state.is_steady() || simulation.table.is_behind_end(state.time) {
                 self.end_time = state.time;
                 return Ok(());
             }
@@ -170,59 +230,15 @@ impl BackupTrajectory {
     }
 }
 
-/// Where a backup trajectory is between two periods.
-struct Place {
-    /// The n that led here.
-    n: f64,
-    state: State,
-    /// The reference here.
-    node: Node,
-}
-
-/// One period of the fastest backup trajectory. The rows are linearised around the n of the period before; where
-/// that is far off, as at the start of a backup trajectory, they are once more, around what they gave.
+/// One period of the fastest backup trajectory.
 #[inline(always)]
 fn fastest_step(
     simulation: &mut Simulation,
     limits: &PeriodLimits,
     start: &Place,
 ) -> Result<Place, BackupRefusal> {
-    let (table, state) = (simulation.table, start.state);
-    let wanted = -state.rate_change;
-    let mut predicted_n = start.n;
-    for _ in 0..PREDICTIONS {
-        simulation.spend().ok_or(BackupRefusal::Budget)?;
-        let predicted = state.step(predicted_n);
-        if !table.knows(predicted.time) {
-            return Err(BackupRefusal::Wall);
-        }
-        let node = table.node(predicted.time);
-        let span = Span::new(table, limits, &start.node, &node);
-        let interval = span.jerk_interval(state, predicted);
-        if interval.is_empty() {
-            return Err(BackupRefusal::Limits);
-        }
-        let n = interval.nearest(wanted);
-        let mut next = state.step(n);
-        if n == wanted {
-            next.rate_change = 0.0;
-        }
-        if !table.knows(next.time) {
-            return Err(BackupRefusal::Wall);
-        }
-        if !next.follows(state) {
-            return Err(BackupRefusal::Limits);
-        }
-        if span.keeps_limits(state, next, n) {
-            return Ok(Place {
-                n,
-                state: next,
-                node,
-            });
-        }
-        predicted_n = n;
-    }
-    Err(BackupRefusal::Limits)
+    let wanted = -start.state.rate_change;
+    step(simulation, limits, start, |_, jerk, _| jerk.nearest(wanted))
 }
 
 #[cfg(test)]

@@ -1,27 +1,25 @@
 //! The feed cap: what overrides and the greatest velocity leave of the programmed feed.
 //!
 //! A cap that the reference exceeds is approached softly, as a jerk-limited S-curve would, so
-//! that the machine arrives at the cap with no acceleration left. Before that, a guard makes sure
-//! that braking hard from now on would still keep all caps ahead. What it cannot
-//! see, it takes for too fast: where the reference is slow the rate may rise to 1, and where the
-//! reference then gathers speed at its limits, turning the rate takes longer than any horizon.
+//! that the machine arrives at the cap with no acceleration left. Where caps lie ahead, the backup trajectory brakes
+//! in time for all of them, see [`super::caps_ahead`]. What cannot be seen is taken for too fast: where the
+//! reference is slow the rate may rise to 1, and where the reference then gathers speed at its limits, turning the
+//! rate takes longer than any horizon.
 
 use std::borrow::Borrow;
 
-use super::backup_trajectory::BackupRefusal;
 use super::demand::Demand;
 use super::feed_block::FeedBlock;
 use super::rate_derivative_interval::RateDerivativeInterval;
-use super::rows::{PeriodLimits, Span};
-use super::simulation::Simulation;
+use super::rows::PeriodLimits;
 use super::state::State;
 use super::stored_cell::{OverrideKind, StoredCell};
-use super::table::{Node, Table, USABLE};
+use super::table::{Table, USABLE};
 
 /// How far ahead caps are looked for, seconds.
 pub const FORESIGHT: f64 = 0.2;
 
-/// How long a rate change is assumed to go on when the guard is asked for, seconds.
+/// How long a rate change is assumed to go on, seconds.
 const RATE_CHANGE_FORESIGHT: f64 = 0.12;
 
 /// Part of the path's jerk that a soft approach uses; the rest is for what lies ahead.
@@ -30,24 +28,6 @@ const APPROACH_PART: f64 = 0.85;
 /// Least part of the least jerk limit for the approach, where the reference leaves almost none.
 const LEAST_APPROACH_PART: f64 = 0.1;
 
-/// Greatest period count of the guard's simulation.
-pub const GUARD_PERIODS: usize = 160;
-
-/// What the guard lets pass, of the cap.
-const GUARD_TOLERANCE: f64 = 1e-4;
-
-/// Of the cells that are known, what has to lie ahead of a state for the guard to trust what it sees
-/// there, where the table is too short for all of [`FORESIGHT`].
-const TRUSTED_SHARE: f64 = 0.5;
-
-/// Of what the jerk allows in a period, what the guard leaves to the backup trajectory: the hardest braking is seldom to
-/// be had, since a backup trajectory has to lead on from each period of it. Of 3,600 random corners, with nothing
-/// reserved, 18 are above 1.001 of the cap, up to 1.34; with .3 six, up to 1.0019, and the programs take .1 %
-/// longer; with .4 two, and .5 % longer. With .5 there is too little left to brake with. Where an operator changes
-/// overrides all the time it costs more: of 23 programs at 20 accelerations a second .2 % in the mean, 1 to 7 % in a zigzag
-/// of four axes.
-const RESERVED: f64 = 0.3;
-
 /// Stands for no cap on feed per turn, turns a second.
 const MOST_TURNS: f64 = 1e12;
 
@@ -55,7 +35,7 @@ const MOST_TURNS: f64 = 1e12;
 const FREE_PART: f64 = 1e-3;
 
 /// The overrides and the greatest velocity of a servo period.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Caps {
     feed_override: f64,
     rapid_override: f64,
@@ -101,7 +81,7 @@ impl Caps {
     }
 
     /// Greatest feed in a cell, units per servo period.
-    fn feed(&self, cell: &StoredCell) -> f64 {
+    pub fn feed(&self, cell: &StoredCell) -> f64 {
         (self.scale(cell.override_kind) * f64::from(cell.programmed_feed)).min(self.max_velocity)
     }
 
@@ -123,7 +103,7 @@ impl Caps {
     }
 
     /// The same as far as cells are known, and if the reference were as fast as programmed everywhere.
-    fn ratio_at_programmed(&self, table: &Table, time: f64) -> f64 {
+    pub fn ratio_at_programmed(&self, table: &Table, time: f64) -> f64 {
         let as_programmed = table.blocks(time, USABLE).map(FeedBlock::as_programmed);
         self.ratio_in(as_programmed)
     }
@@ -225,131 +205,10 @@ impl Caps {
         cap / table.along(time).velocity.max(1e-12)
     }
 
-    /// Whether the guard has to look: at this rate, or the one it is about to reach, the
-    /// reference exceeds a cap somewhere ahead by `ratio`.
-    pub fn needs_guard(state: State, ratio: f64, period: f64) -> bool {
+    /// Whether caps ahead have to be looked at: at this rate, or the one it is about to reach, the
+    /// reference exceeds one somewhere ahead by `ratio`.
+    pub fn lie_ahead(state: State, ratio: f64, period: f64) -> bool {
         let rising = state.rate_change.max(0.0) * RATE_CHANGE_FORESIGHT / period;
         (state.rate + rising).min(1.0) * ratio > 1.0
-    }
-
-    /// Whether hard braking from `state`, reached with `previous_n` (without a limit of jerk: with that
-    /// rate change), keeps the caps: until all that is ahead may be run through at a rate that does not
-    /// rise any more. Not if that is not seen within [`GUARD_PERIODS`] or what is left of the budget; `Err`
-    /// if it cannot be told before more cells are known.
-    #[inline(never)]
-    pub fn guard(
-        &self,
-        simulation: &mut Simulation,
-        mut state: State,
-        mut previous_n: f64,
-    ) -> Result<bool, BackupRefusal> {
-        let (table, period) = (simulation.table, simulation.servo_period);
-        let mut start = table.node(state.time);
-        let mut last_feed = 0.0;
-        let as_programmed = self.ratio_at_programmed(table, state.time);
-        for count in 0..GUARD_PERIODS {
-            let (here, next) = (table.cell(start.cell), table.cell(start.cell + 1));
-            let part = (state.time - start.cell as f64).clamp(0.0, 1.0);
-            let feed = state.rate * (here.feed() + part * (next.feed() - here.feed()));
-            if feed > self.feed(here) * (1.0 + GUARD_TOLERANCE) {
-                // Above the cap from the first: it was lowered just now, and the soft approach
-                // brakes anyway. The hardest braking would end far below the cap.
-                return Ok(count == 0);
-            }
-            let keeps = |ratio: f64| state.rate * ratio <= 1.0 + GUARD_TOLERANCE;
-            let falling = count > 0 && feed <= last_feed;
-            if state.rate <= 1e-6
-                || table.is_behind_end(state.time)
-                || state.rate_change <= 0.0 && keeps(as_programmed)
-                || falling
-                    && sees_far(table, state.time, period)
-                    && keeps(self.greatest_ratio(table, state.time, period))
-            {
-                return Ok(true);
-            }
-            if simulation.spend().is_none() {
-                return Ok(false);
-            }
-            last_feed = feed;
-            let brake = if simulation.limits.limit_jerk() {
-                brake
-            } else {
-                brake_without_jerk_limit
-            };
-            let (next, end) = brake(simulation, &start, state, &mut previous_n)?;
-            state = next;
-            state.rate = state.rate.clamp(0.0, 1.0);
-            start = end;
-        }
-        Ok(false)
-    }
-}
-
-/// One period of hard braking: the state behind it, and about where the reference is then.
-fn brake(
-    simulation: &Simulation,
-    start: &Node,
-    state: State,
-    previous_n: &mut f64,
-) -> Result<(State, Node), BackupRefusal> {
-    let (table, limits) = (simulation.table, simulation.limits);
-    let predicted = state.step(*previous_n);
-    if !table.knows(predicted.time) {
-        return Err(BackupRefusal::Wall);
-    }
-    let end = table.node(predicted.time);
-    let span = Span::new(table, limits, start, &end);
-    let low = span.acceleration_interval(state, predicted).low;
-    let low = low.max(RateDerivativeInterval::of_rate(state).low);
-    let n = hard_braking(&span.jerk_interval(state, predicted), low);
-    *previous_n = n;
-    Ok((state.step(n), end))
-}
-
-/// The same where the rate change may jump between periods.
-fn brake_without_jerk_limit(
-    simulation: &Simulation,
-    start: &Node,
-    state: State,
-    previous_change: &mut f64,
-) -> Result<(State, Node), BackupRefusal> {
-    let (table, limits) = (simulation.table, simulation.limits);
-    let changing = |rate_change: f64| {
-        let step = State {
-            rate_change,
-            ..state
-        };
-        step.step(0.0)
-    };
-    let predicted = changing(previous_change.max(-state.rate));
-    if !table.knows(predicted.time) {
-        return Err(BackupRefusal::Wall);
-    }
-    let end = table.node(predicted.time);
-    let span = Span::new(table, limits, start, &end);
-    let interval = span.rate_change_interval(state.rate, *previous_change);
-    let change = interval.low.min(0.0).max(-state.rate);
-    *previous_change = change;
-    let next = State {
-        rate_change: 0.0,
-        ..changing(change)
-    };
-    Ok((next, end))
-}
-
-/// Whether enough is known behind `time`.
-fn sees_far(table: &Table, time: f64, period: f64) -> bool {
-    let known = table.length() as f64;
-    table.end().is_some() || known - time >= (FORESIGHT / period).min(TRUSTED_SHARE * known)
-}
-
-/// About the least n that can be had, see [`RESERVED`], where the acceleration allows `low`; where the limits
-/// contradict each other, the jerk decides, and where its limits do so among themselves, the one that
-/// brakes least: no backup trajectory leads through there.
-pub(super) fn hard_braking(jerk: &RateDerivativeInterval, low: f64) -> f64 {
-    if jerk.is_empty() {
-        jerk.low
-    } else {
-        jerk.nearest(low.max(jerk.low + RESERVED * (jerk.high - jerk.low)))
     }
 }

@@ -1,17 +1,25 @@
 //! What the executor wants in a servo period, and which n = dm/dt would serve it best.
 
 use super::Executor;
-use super::backup_trajectory::BackupRefusal;
-use super::cap::{Caps, hard_braking};
+use super::braking::hard_braking;
+use super::cap::Caps;
+use super::caps_ahead::{CapOutlook, CapsAhead};
 use super::demand::Demand;
 use super::goal::Goal;
 use super::rate_derivative_interval::RateDerivativeInterval;
 use super::rows::Span;
-use super::simulation::Simulation;
+use super::search::Keeping;
 use super::table::Node;
 
 /// The reference counts as too fast for a cap from this ratio on.
 const CAP_BINDS: f64 = 1.0001;
+
+/// Periods that may be simulated in one cycle where caps lie ahead: one of braking costs twice one of a backup trajectory
+/// that needs not brake. With 384 no program is faster.
+const BUDGET_BELOW_CAPS: usize = 200;
+
+/// Those of them that are left to brake by any means, where no backup trajectory keeps the caps ahead.
+const BUDGET_TO_BRAKE: usize = 48;
 
 /// Differences of n below this are no difference.
 const SAME_N: f64 = 1e-12;
@@ -76,7 +84,10 @@ impl Executor {
         let wanted = match goal {
             Goal::Hold => allowed.low,
             Goal::Run => allowed.high,
-            Goal::Cap(ratio) => self.toward_cap(ratio, &jerk, &allowed),
+            Goal::Cap(_) => self
+                .caps
+                .approach(&self.table, &self.limits, state, &jerk)
+                .map_or(allowed.high, |n| allowed.nearest(n)),
             Goal::Follow => self
                 .pursuit
                 .and_then(|pursuit| pursuit.approach(&self.table, state, &jerk))
@@ -89,14 +100,61 @@ impl Executor {
         } else {
             f64::INFINITY
         };
-        if let Some(n) = self.landing(target, most, &allowed, &start) {
+        let aim = Aim {
+            target,
+            most,
+            wanted,
+            safe,
+            allowed,
+        };
+        match goal {
+            Goal::Cap(ratio) if Caps::lie_ahead(state, ratio, self.servo_period) => {
+                self.below_caps(&aim, &jerk, &start)
+            }
+            _ => self.toward(&aim, &start, Keeping::Limits),
+        }
+    }
+
+    /// The n nearest to what is wanted whose backup trajectory keeps that.
+    fn toward(&mut self, aim: &Aim, start: &Node, keeping: Keeping) -> f64 {
+        let landing = (aim.target, aim.most);
+        if let Some(n) = self.landing(landing, &aim.allowed, start, keeping) {
             return n;
         }
-        if (wanted - safe).abs() < SAME_N {
+        if (aim.wanted - aim.safe).abs() < SAME_N {
             self.backup_mut().advance();
-            return safe;
+            return aim.safe;
         }
-        self.search(safe, wanted, &start)
+        self.search(aim.safe, aim.wanted, start, keeping)
+    }
+
+    /// The same where caps lie ahead: with a backup trajectory that keeps them, once one has been found. Until then
+    /// the machine brakes, unless a cap has just been lowered below its feed: then it approaches that.
+    fn below_caps(&mut self, aim: &Aim, jerk: &RateDerivativeInterval, start: &Node) -> f64 {
+        self.budget = BUDGET_BELOW_CAPS;
+        if self.backup().keeps(&self.caps) {
+            return self.toward(aim, start, Keeping::Caps);
+        }
+        let outlook = CapsAhead::new(&self.caps, &self.table, self.state.time, self.servo_period)
+            .look(self.state);
+        if outlook == CapOutlook::Exceeded {
+            return self.toward(aim, start, Keeping::Limits);
+        }
+        self.budget = self.budget.saturating_sub(BUDGET_TO_BRAKE);
+        let braking = hard_braking(jerk, aim.allowed.low);
+        let braking = aim.allowed.nearest(braking).min(aim.wanted);
+        for n in [aim.wanted, braking, aim.allowed.low] {
+            if self.verify(n, start, Keeping::Caps) {
+                return n;
+            }
+        }
+        self.budget += BUDGET_TO_BRAKE;
+        let braking = Aim {
+            wanted: aim.allowed.low,
+            most: aim.allowed.low + SAME_N,
+            ..*aim
+        };
+        self.toward(&braking, start, Keeping::Limits)
     }
 
     /// The n of the stored backup trajectory: always possible.
@@ -117,46 +175,17 @@ impl Executor {
             .jerk_interval(state, predicted)
             .nearest(-state.rate_change)
     }
+}
 
-    /// The n that the feed cap asks for.
-    fn toward_cap(
-        &mut self,
-        ratio: f64,
-        jerk: &RateDerivativeInterval,
-        allowed: &RateDerivativeInterval,
-    ) -> f64 {
-        let state = self.state;
-        let wanted = match self.caps.approach(&self.table, &self.limits, state, jerk) {
-            Some(n) => allowed.nearest(n),
-            None => allowed.high,
-        };
-        if wanted <= allowed.low || !Caps::needs_guard(state, ratio, self.servo_period) {
-            return wanted;
-        }
-        // What the guard brakes with is enough where it has been obeyed so far.
-        let braking = allowed.nearest(hard_braking(jerk, allowed.low)).min(wanted);
-        for n in [wanted, braking] {
-            match self.keeps_caps(n) {
-                Ok(true) => return n,
-                Ok(false) => {}
-                Err(_) => {
-                    self.wall = true;
-                    break;
-                }
-            }
-        }
-        allowed.low
-    }
-
-    /// Whether braking keeps the caps behind a period with this n.
-    fn keeps_caps(&mut self, n: f64) -> Result<bool, BackupRefusal> {
-        let state = self.state.step(n);
-        let mut simulation = Simulation {
-            table: &self.table,
-            limits: &self.limits,
-            servo_period: self.servo_period,
-            budget: &mut self.budget,
-        };
-        self.caps.guard(&mut simulation, state, n)
-    }
+/// What is to be done in a period.
+struct Aim {
+    /// The rate at the end of the change.
+    target: f64,
+    /// The greatest n with which to land there.
+    most: f64,
+    wanted: f64,
+    /// Of the stored backup trajectory.
+    safe: f64,
+    /// What the limits allow over the period.
+    allowed: RateDerivativeInterval,
 }

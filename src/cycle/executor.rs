@@ -1,7 +1,8 @@
 //! The servo cycle: one decision for each servo period.
 
 use super::backup_trajectory::BackupTrajectory;
-use super::cap::{Caps, FORESIGHT, GUARD_PERIODS};
+use super::cap::{Caps, FORESIGHT};
+use super::caps_ahead::BRAKING_PERIODS;
 use super::cell::Cell;
 use super::demand::{Demand, ExecutorStep};
 use super::follow::Pursuit;
@@ -314,13 +315,13 @@ impl Executor {
         matches!(self.goal, Goal::Cap(_)) || self.caps.may_bind(self.greatest_programmed_feed)
     }
 
-    /// Cells within which a change of feed is foreseen: those that the guard of the caps simulates and
-    /// those that it looks at from there, and no less than a jerk-limited change from the greatest
+    /// Cells within which a change of feed is foreseen: those in which the machine may brake for a cap and
+    /// those that are looked at from there, and no less than a jerk-limited change from the greatest
     /// programmed feed takes.
     fn cells_to_brake(&self) -> usize {
         let braking = (2.0 * self.greatest_programmed_feed / self.limits.least_jerk()).sqrt();
         let period = self.servo_period.max(1e-9);
-        let seen = GUARD_PERIODS as f64 + FORESIGHT / period;
+        let seen = BRAKING_PERIODS as f64 + FORESIGHT / period;
         seen.max(0.02 / period + 1.6 * braking) as usize
     }
 

@@ -21,8 +21,11 @@
 //! Inside, time is counted in servo periods: a velocity is what an axis moves in one period. The
 //! formulas then need no period, and a [cell](Cell) of the table is one unit of reference time.
 
+mod backup_refusal;
 mod backup_trajectory;
+mod braking;
 mod cap;
+mod caps_ahead;
 pub mod cell;
 mod decision;
 mod demand;
@@ -35,6 +38,7 @@ mod lanes;
 mod rate_derivative_interval;
 mod rows;
 mod search;
+mod simulated_period;
 mod simulation;
 mod state;
 mod stored_cell;

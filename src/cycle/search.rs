@@ -4,12 +4,14 @@
 //! with it keeps the limits and a backup trajectory from the state behind it was found.
 
 use super::Executor;
-use super::backup_trajectory::{BackupRefusal, Reserve};
+use super::backup_refusal::BackupRefusal;
+use super::backup_trajectory::Reserve;
 use super::executor::BUDGET;
 use super::goal::Goal;
 use super::rate_derivative_interval::{N_LIMIT, RATE_CHANGE_LIMIT, RateDerivativeInterval};
 use super::rows::Span;
 use super::simulation::Simulation;
+use super::state::State;
 use super::table::Node;
 
 /// Candidates that are tried in one cycle.
@@ -25,16 +27,25 @@ const ENOUGH_LEFT: usize = BUDGET * 7 / 8;
 /// Least part of the way that is tried first.
 pub(super) const LEAST_FRACTION: f64 = 1.0 / 64.0;
 
+/// What a backup trajectory has to keep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keeping {
+    /// The limits of the axes.
+    Limits,
+    /// These and the feed caps ahead.
+    Caps,
+}
+
 impl Executor {
     /// Two periods that end exactly on the target rate with no rate change, if such a pair keeps
     /// all limits. The second one is stored as the backup trajectory, the first one is the answer. In the
     /// second period of such a pair the answer is the stored one. Never more than `most`.
     pub(super) fn landing(
         &mut self,
-        target: f64,
-        most: f64,
+        (target, most): (f64, f64),
         allowed: &RateDerivativeInterval,
         start: &Node,
+        keeping: Keeping,
     ) -> Option<f64> {
         let state = self.state;
         let missing = state.rate - target;
@@ -66,13 +77,20 @@ impl Executor {
         if !keeps {
             return None;
         }
-        self.backup_mut().set_single(second, last);
+        let kept = match keeping {
+            Keeping::Limits => None,
+            Keeping::Caps => {
+                self.find_backup(last, second, keeping).ok()?;
+                Some(self.caps)
+            }
+        };
+        self.backup_mut().set_single(second, last, kept);
         Some(first)
     }
 
     /// The n nearest to the wanted one that comes with a backup trajectory: from the stored backup trajectory's n as
     /// far towards the wanted one as it can be verified within the budget.
-    pub(super) fn search(&mut self, safe: f64, wanted: f64, start: &Node) -> f64 {
+    pub(super) fn search(&mut self, safe: f64, wanted: f64, start: &Node, keeping: Keeping) -> f64 {
         let (mut verified, mut refused) = (0.0, 2.0);
         // What was refused while the rate rose says nothing about braking.
         let brakes = wanted < safe;
@@ -84,7 +102,7 @@ impl Executor {
         let mut best = None;
         for _ in 0..TRIES {
             let n = safe + fraction * (wanted - safe);
-            if self.verify(n, start) {
+            if self.verify(n, start, keeping) {
                 best = Some(n);
                 verified = fraction;
             } else {
@@ -117,7 +135,7 @@ impl Executor {
     }
 
     /// Whether this n keeps the limits and has a backup trajectory of its own, which is then stored.
-    fn verify(&mut self, n: f64, start: &Node) -> bool {
+    pub(super) fn verify(&mut self, n: f64, start: &Node, keeping: Keeping) -> bool {
         let state = self.state;
         let next = state.step(n).settled();
         if !next.follows(state) || next.rate_change.abs() > RATE_CHANGE_LIMIT {
@@ -132,21 +150,34 @@ impl Executor {
         if !span.keeps_limits(state, next, n) {
             return false;
         }
-        // A thread goes where the spindle is, at whatever price.
-        let rises = next.rate_change > 0.0 && matches!(self.goal, Goal::Run | Goal::Cap(_));
-        let reserve = if rises { Reserve::Kept } else { Reserve::Used };
-        let spare = 1 - (self.stored & 1);
+        let found = self.find_backup(next, n, keeping);
+        match found {
+            Ok(()) => self.stored = 1 - (self.stored & 1),
+            Err(refusal) => self.wall |= refusal == BackupRefusal::Wall,
+        }
+        found.is_ok()
+    }
+
+    /// Looks for a backup trajectory from `state`, reached with `previous_n`, beside the stored one.
+    fn find_backup(
+        &mut self,
+        state: State,
+        previous_n: f64,
+        keeping: Keeping,
+    ) -> Result<(), BackupRefusal> {
         let mut simulation = Simulation {
             table: &self.table,
             limits: &self.limits,
             servo_period: self.servo_period,
             budget: &mut self.budget,
         };
-        let found = self.backups[spare].find(&mut simulation, reserve, next, n);
-        match found {
-            Ok(()) => self.stored = spare,
-            Err(refusal) => self.wall |= refusal == BackupRefusal::Wall,
+        let spare = &mut self.backups[1 - (self.stored & 1)];
+        if keeping == Keeping::Caps {
+            return spare.find_below(&mut simulation, &self.caps, state, previous_n);
         }
-        found.is_ok()
+        // A thread goes where the spindle is, at whatever price.
+        let rises = state.rate_change > 0.0 && matches!(self.goal, Goal::Run | Goal::Cap(_));
+        let reserve = if rises { Reserve::Kept } else { Reserve::Used };
+        spare.find(&mut simulation, reserve, state, previous_n)
     }
 }

@@ -5,11 +5,13 @@
 
 use super::Executor;
 use super::cap::Caps;
+use super::caps_ahead::{BRAKING_PERIODS, CapOutlook, CapsAhead};
 use super::goal::Goal;
 use super::rows::Span;
 use super::search::LEAST_FRACTION;
 use super::simulation::Simulation;
 use super::state::State;
+use super::table::Node;
 
 /// How often the rows are linearised around what they gave.
 const PREDICTIONS: usize = 3;
@@ -62,7 +64,7 @@ impl Executor {
             rate_change: 0.0,
             ..changing(self.state, change).step(0.0)
         };
-        if !Caps::needs_guard(next, ratio, self.servo_period) {
+        if !Caps::lie_ahead(next, ratio, self.servo_period) {
             return false;
         }
         let mut simulation = Simulation {
@@ -71,9 +73,13 @@ impl Executor {
             servo_period: self.servo_period,
             budget: &mut self.budget,
         };
-        let answer = self.caps.guard(&mut simulation, next, 0.0);
-        self.wall |= answer.is_err();
-        answer == Ok(false)
+        match keeps_caps(&mut simulation, &self.caps, next) {
+            Some(kept) => !kept,
+            None => {
+                self.wall = true;
+                false
+            }
+        }
     }
 
     /// The rate change nearest to the wanted one that the limits of acceleration allow.
@@ -137,4 +143,54 @@ fn changing(state: State, rate_change: f64) -> State {
         rate_change,
         ..state
     }
+}
+
+/// Whether hard braking from `state` keeps the caps, as [`CapsAhead`] sees them; not if that is not seen within
+/// [`BRAKING_PERIODS`] or what is left of the budget. `None` if it cannot be told before more cells are known.
+#[inline(never)]
+fn keeps_caps(simulation: &mut Simulation, caps: &Caps, mut state: State) -> Option<bool> {
+    let (table, period) = (simulation.table, simulation.servo_period);
+    let mut start = table.node(state.time);
+    let mut previous_change = 0.0;
+    let mut ahead = CapsAhead::new(caps, table, state.time, period);
+    for count in 0..BRAKING_PERIODS {
+        match ahead.look(state) {
+            // Above the cap from the first: it was lowered just now, and is approached anyway. The hardest
+            // braking would end far below it.
+            CapOutlook::Exceeded => return Some(count == 0),
+            CapOutlook::Kept => return Some(true),
+            CapOutlook::Open => {}
+        }
+        if simulation.spend().is_none() {
+            return Some(false);
+        }
+        (state, start) = brake(simulation, &start, state, &mut previous_change)?;
+    }
+    Some(false)
+}
+
+/// One period of hard braking: the state behind it, and where the reference is then. `None` where that is not known.
+fn brake(
+    simulation: &Simulation,
+    start: &Node,
+    state: State,
+    previous_change: &mut f64,
+) -> Option<(State, Node)> {
+    let (table, limits) = (simulation.table, simulation.limits);
+    let predicted = changing(state, previous_change.max(-state.rate)).step(0.0);
+    if !table.knows(predicted.time) {
+        return None;
+    }
+    let end = table.node(predicted.time);
+    let span = Span::new(table, limits, start, &end);
+    let interval = span.rate_change_interval(state.rate, *previous_change);
+    let change = interval.low.min(0.0).max(-state.rate);
+    *previous_change = change;
+    let next = changing(state, change).step(0.0);
+    let next = State {
+        rate: next.rate.clamp(0.0, 1.0),
+        rate_change: 0.0,
+        ..next
+    };
+    Some((next, end))
 }

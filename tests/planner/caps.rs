@@ -97,7 +97,6 @@ fn caps_are_kept_behind_slanted_corners() {
     }
 }
 
-/// One in a thousand of such programs is above 1.001: by what the jerk changes the speed in a servo period.
 #[test]
 fn caps_are_kept_behind_any_corners() {
     let cases =
@@ -118,7 +117,6 @@ fn caps_are_kept_behind_any_corners() {
         prop_oneof![Just(0usize), 1..500usize],
         prop::collection::vec(leg, 2..5),
     );
-    let above = std::cell::Cell::new(0u32);
     let result = runner.run(&strategy, |((kind, cap), jerk, from, legs)| {
         let (mut x, mut y, mut angle) = (0.0, 0.0, 0.0_f64);
         let corners: Vec<_> = legs
@@ -131,13 +129,52 @@ fn caps_are_kept_behind_any_corners() {
             })
             .collect();
         let (over, _) = with_room(|| run(jerk, &corners, kind, cap, from));
-        above.set(above.get() + u32::from(over > 1.001));
-        prop_assert!(over <= 1.02, "{over}");
+        prop_assert!(over <= 1.001, "{over}");
         Ok(())
     });
     if let Err(error) = result {
         panic!("{error}");
     }
-    let above = above.get();
-    assert!(above <= cases / 200, "{above} of {cases}");
+}
+
+/// Found at random: the reference needed the jerk that braking for the cap had counted on, and a change of caps in a run.
+#[test]
+fn caps_are_kept_where_the_path_needs_the_jerk() {
+    let rapid = |corners: &[[f64; 2]], jerk, cap, from| {
+        let (over, _) = with_room(|| run(jerk, corners, Cap::RapidOverride, cap, from));
+        assert!(over <= 1.001, "{over} of {cap}, jerk {jerk}");
+    };
+    // Legs, and by how much each turns.
+    let through = |legs: &[[f64; 2]]| {
+        let (mut place, mut angle) = ([0.0, 0.0], 0.0_f64);
+        let corner = |leg: &[f64; 2]| {
+            angle += leg[1];
+            place = [
+                place[0] + leg[0] * angle.cos(),
+                place[1] + leg[0] * angle.sin(),
+            ];
+            place
+        };
+        legs.iter().map(corner).collect::<Vec<_>>()
+    };
+    let zigzag = through(&[
+        [16.668121328167803, 2.014852961569253],
+        [10.575102265584219, 3.031364529239722],
+        [18.352260776930105, 1.2085367716767075],
+        [39.03990583180834, 0.5557083501860434],
+    ]);
+    rapid(&zigzag, 51896.73935488497, 38.4969581670001, 0);
+    let lowered = through(&[
+        [35.450088426616325, 2.193136853205524],
+        [39.6879405816593, 1.5046990483053804],
+        [39.54356327961062, 0.7373481603341715],
+    ]);
+    rapid(&lowered, 271315.8836975128, 59.29954694425483, 392);
+    let short = through(&[
+        [20.93344723460019, 1.973198489352669],
+        [6.396416782934038, 1.7510185193894048],
+        [5.8208931770270596, 0.056805769033359994],
+        [23.72031191010192, 1.7482257673350532],
+    ]);
+    rapid(&short, 169071.87049370192, 15.048695112994015, 0);
 }
