@@ -67,6 +67,8 @@ mod tests {
         assert_eq!(interval.nearest(5.0), 2.0);
         assert_eq!(interval.nearest(-5.0), -1.0);
         assert_eq!(interval.nearest(0.5), 0.5);
+        assert!(interval.contains(-1.0) && interval.contains(2.0));
+        assert!(!interval.contains(-1.1) && !interval.contains(2.1));
         let empty = interval.intersection(&RateDerivativeInterval {
             low: 3.0,
             high: 4.0,

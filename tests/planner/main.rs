@@ -12,6 +12,7 @@ mod invariance;
 mod limits_changed;
 mod moves;
 mod operator;
+mod pinned_plans;
 mod programs;
 mod queue;
 mod random_program;

@@ -170,3 +170,36 @@ fn is_within([start, middle, end]: [f32; 3], most: f32, between: f32) -> bool {
     let outside = slope.abs() >= bend.abs();
     at_places & (outside | (extremum <= most + between))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_is_bent_where_it_turns_between_its_ends() {
+        // 1 - x^2 from -1 to 1 turns in the middle; the same from 0 to 2 only falls.
+        assert!(is_bent([0.0, 1.0, 0.0]));
+        assert!(!is_bent([1.0, 0.0, -3.0]));
+        // And from -.4 to 1.6 it rises a little first.
+        assert!(is_bent([0.84, 0.64, -1.56]));
+        // Turns, but so little that no jerk hides in it.
+        assert!(!is_bent([0.0, 0.1, 0.0]));
+        // What is the same at all places does not turn, however large it is.
+        assert!(!is_bent([-5.0, -5.0, -5.0]));
+    }
+
+    #[test]
+    fn what_a_parabola_reaches_between_its_places_counts() {
+        assert!(is_within([0.5, -1.0, 0.5], 1.0, 0.0));
+        for too_much in [[1.1, 0.0, 0.0], [0.0, -1.1, 0.0], [0.0, 0.0, 1.1]] {
+            assert!(!is_within(too_much, 1.0, 0.0));
+        }
+        // Greatest, .968, shortly behind the start, where no place is.
+        let hump = [0.96, 0.56, -0.9];
+        assert!(!is_within(hump, 0.96, 0.0));
+        assert!(is_within(hump, 0.96, 0.1));
+        // Straight lines have no extremum.
+        assert!(is_within([-1.0, 0.0, 1.0], 1.0, 0.0));
+        assert!(!is_within([f32::NAN, 0.0, 0.0], 1.0, 1.0));
+    }
+}

@@ -126,3 +126,22 @@ impl MovingAxes {
         self.0.count_ones()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sample_is_sound_with_numbers_and_two_speeds() {
+        let with = |first: f64, cap: Cap| Sample {
+            first: Axes::repeat(first),
+            cap,
+            ..Sample::NONE
+        };
+        assert!(with(1.0, Cap::of(1.0, 2.0)).is_sound());
+        assert!(!with(f64::NAN, Cap::of(1.0, 2.0)).is_sound());
+        assert!(!with(f64::INFINITY, Cap::of(1.0, 2.0)).is_sound());
+        assert!(!with(1.0, Cap::of(0.0, 2.0)).is_sound());
+        assert!(!with(1.0, Cap::of(1.0, 0.0)).is_sound());
+    }
+}

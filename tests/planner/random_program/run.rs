@@ -12,7 +12,7 @@ use crate::common::path_check::{self, Place, Wanted};
 use crate::common::{Extremes, Machine, PERIOD, feed_move};
 
 /// Queues a move relative to where the last one ends.
-fn queue(
+pub fn queue(
     machine: &mut Machine,
     programmed: &Programmed,
     wanted: &mut Vec<Wanted>,
