@@ -93,15 +93,14 @@ RUN_LINUXCNC_TESTS = failed=0; $(LINUXCNC_TESTS) -m "not busy" || failed=1; $(LI
 test: export PROPTEST_RNG_SEED ?= 1
 test: export TOOL_PROFILE = dev
 test: lint modules fault-modules
-	@for group in browser screen sanitize test; do ./prerequisites $$group || exit 1; done
+	@./prerequisites browser screen sanitize test
 	$(CARGO) test --locked --workspace --no-fail-fast
 # The tool is there: its own tests run it.
 	$(RUN_LINUXCNC_TESTS)
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules fault-modules tool
-	@./prerequisites screen
-	@./prerequisites test
+	@./prerequisites screen test
 	$(RUN_LINUXCNC_TESTS)
 
 # The C of the modules with sanitizers, the modules under valgrind; a part of make test.
