@@ -94,8 +94,7 @@ impl CandidatePlan {
             self.spline.at_mut(from).bank = bank;
             samples.place_mut(&self.spline, from).start = sample;
         }
-        self.grid
-            .restart(&self.spline, from, context.route, context.raise_squared);
+        self.grid.restart(context, &self.spline, from);
         CandidatePhase::Grid
     }
 
@@ -104,16 +103,7 @@ impl CandidatePlan {
         context: &PlanContext<R>,
         samples: &mut SampleBanks,
     ) -> CandidatePhase {
-        let step = self.grid.advance(
-            &mut self.spline,
-            context.plan,
-            samples,
-            context.rows,
-            context.route,
-            context.raise_squared,
-            context.oldest,
-        );
-        match step {
+        match self.grid.advance(context, &mut self.spline, samples) {
             GridStep::More if self.grid.reached() > self.cut + self.most => self.shorten(context),
             GridStep::More => CandidatePhase::Grid,
             GridStep::TooLong => refused(PlanRefusal::TooLong),
