@@ -34,7 +34,6 @@ mod feed_block;
 mod follow;
 mod goal;
 mod jerk;
-mod lanes;
 mod rate_derivative_interval;
 mod rows;
 mod search;

@@ -6,11 +6,13 @@
 //! a predicted rate jerk; what was picked is then checked once more, in the middle of the period too.
 
 use super::jerk::{INSTANT_TOLERANCE, Jerk, MEAN_TOLERANCE};
-use super::lanes::{LANE_COUNT, Lanes, ROUNDING, greater, greatest, least, lesser, scaled_limits};
 use super::rate_derivative_interval::{RATE_JERK_LIMIT, RateDerivativeInterval};
 use super::state::State;
 use super::table::{Node, Table};
 use crate::axes::AxisLimits;
+use crate::lanes::{
+    LANE_COUNT, Lanes, ROUNDING, ZEROS, greater, greatest, least, lesser, scaled_limits,
+};
 
 /// Part of the acceleration limit that is used. The reference itself may use all of it.
 const ACCELERATION_PART: f32 = 0.9985;
@@ -32,8 +34,8 @@ pub struct PeriodLimits {
 
 impl PeriodLimits {
     pub const UNLIMITED: Self = Self {
-        acceleration: [super::lanes::UNLIMITED; LANE_COUNT],
-        jerk: [super::lanes::UNLIMITED; LANE_COUNT],
+        acceleration: [crate::lanes::UNLIMITED; LANE_COUNT],
+        jerk: [crate::lanes::UNLIMITED; LANE_COUNT],
         least_jerk: f64::INFINITY,
     };
 
@@ -92,9 +94,9 @@ impl DerivativeBounds {
     #[inline(always)]
     fn new(min: [&Lanes; 2], max: [&Lanes; 2], limit: &Lanes) -> Self {
         let mut bounds = Self {
-            centre: [0.0; LANE_COUNT],
-            half: [0.0; LANE_COUNT],
-            limit: [0.0; LANE_COUNT],
+            centre: ZEROS,
+            half: ZEROS,
+            limit: ZEROS,
         };
         for lane in 0..LANE_COUNT {
             let low = lesser(min[0][lane], min[1][lane]);
@@ -240,7 +242,7 @@ impl Span {
     #[inline(always)]
     pub fn keeps_limits(&self, start: State, end: State, rate_jerk: f64) -> bool {
         let middle = start.half_step(rate_jerk);
-        let mut excess = [0.0; LANE_COUNT];
+        let mut excess = ZEROS;
         let rate_jerk = rate_jerk as f32;
         let [square_start, cube_start, _, change_start] = powers(start);
         let [square_middle, cube_middle, coupling_middle, change_middle] = powers(middle);

@@ -34,7 +34,6 @@ mod interval_samples;
 mod look_ahead;
 mod newton;
 mod planned_segment;
-mod quads;
 mod refinement_pace;
 mod refusal;
 mod rest_arc;
