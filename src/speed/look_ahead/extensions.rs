@@ -107,3 +107,60 @@ impl Extensions {
         self.lead = SHORTEST_LEAD;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPACING: f64 = 0.5;
+
+    fn adopted() -> Extensions {
+        let mut extensions = Extensions::NONE;
+        extensions.note_adopted(SPACING);
+        extensions
+    }
+
+    #[test]
+    fn what_is_refused_is_tried_shorter_and_then_from_the_whole_length_on() {
+        let mut extensions = adopted();
+        for parts in [1.0, 2.0, 3.0, 1.0] {
+            let reach = extensions.begin(0.0, 1e3, false);
+            assert_eq!(reach.end, EXTENSION / parts * SPACING);
+            assert_eq!(reach.intervals, MOST_INTERVALS);
+            extensions.note_refusal();
+        }
+        let mut extensions = adopted();
+        let reach = extensions.begin(0.0, 1e3, true);
+        assert_eq!(reach.end, 0.5 * EXTENSION * SPACING);
+        assert_eq!(reach.intervals, MOST_URGENT_INTERVALS);
+        // What would be left is taken along.
+        assert_eq!(extensions.begin(0.0, 40.0, false).end, 40.0);
+    }
+
+    #[test]
+    fn little_gain_waits_and_so_does_what_was_refused() {
+        let mut extensions = adopted();
+        let little = 0.9 * WORTHWHILE * SPACING;
+        extensions.begin(0.0, 1e3, false);
+        assert!(!extensions.is_wanted(little, false) && !extensions.is_wanted(0.0, true));
+        assert!(extensions.is_wanted(little, true));
+        assert!(extensions.is_wanted(WORTHWHILE * SPACING, false));
+        extensions.note_refusal();
+        for _ in 0..PATIENCE {
+            assert!(!extensions.is_wanted(1e3, true) && !extensions.is_wanted(little, false));
+            extensions.pass_slice();
+        }
+        assert!(extensions.is_wanted(1e3, true) && extensions.is_wanted(little, false));
+    }
+
+    #[test]
+    fn the_lead_grows_until_one_is_adopted() {
+        let mut extensions = adopted();
+        for times in [1.0, 2.0, 4.0, 8.0, 8.0] {
+            assert_eq!(extensions.lead(), times * SHORTEST_LEAD);
+            extensions.note_overtaken();
+        }
+        extensions.note_adopted(SPACING);
+        assert_eq!(extensions.lead(), SHORTEST_LEAD);
+    }
+}

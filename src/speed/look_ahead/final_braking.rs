@@ -63,3 +63,38 @@ impl FinalBraking {
         self.look_anew(plan, frozen);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_comes_nearer_as_the_plan_is_frozen() {
+        let mut plan = Box::new(Spline::NONE);
+        for (k, b) in [100.0, 100.0, 100.0, 100.0, 100.0, 80.0, 60.0, 40.0]
+            .into_iter()
+            .enumerate()
+        {
+            plan.at_mut(k).coefficient = b;
+        }
+        plan.last = 6;
+        let mut frozen = Frozen::NOTHING;
+        let mut braking = FinalBraking::AT_REST;
+        braking.replan(&plan, &frozen, 0);
+        // From there on coefficients fall; a tenth of a second an interval until then.
+        assert_eq!(braking.start(), 4);
+        let begins = [
+            (SEEN, f64::INFINITY),
+            (SEEN, 0.21),
+            (SEEN, 0.21),
+            (0.09, 0.11),
+            (-1.0, 1e-9),
+        ];
+        for (not_within, within) in begins {
+            assert!(!braking.begins_within(not_within) && braking.begins_within(within));
+            let segment = frozen.freeze(&plan);
+            braking.come_nearer(&plan, &frozen, segment.duration);
+            braking.look(&plan);
+        }
+    }
+}

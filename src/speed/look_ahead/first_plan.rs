@@ -109,3 +109,42 @@ impl FirstPlan {
         slower
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refused_ones_are_tried_shorter_then_slower_then_not_at_all() {
+        let mut first = FirstPlan::NONE;
+        for _ in 0..SHORTER_FIRST_PLANS {
+            assert!(first.note_refusal(PlanRefusal::NotFound));
+            assert_eq!(first.speed_share(), 1.0);
+        }
+        let mut share = 1.0;
+        for _ in 0..SLOWER_FIRST_PLANS {
+            assert!(first.note_refusal(PlanRefusal::NotFound));
+            share *= SLOWER;
+            assert_eq!(first.speed_share(), share);
+        }
+        let mut adopted = first;
+        assert!(adopted.note_adopted() && adopted.speed_share() == 1.0 && !adopted.note_adopted());
+        assert!(!first.note_refusal(PlanRefusal::NotFound));
+        let mut unsound = FirstPlan::NONE;
+        assert!(!unsound.note_refusal(PlanRefusal::Unsound));
+    }
+
+    #[test]
+    fn it_waits_while_more_becomes_known_but_not_for_ever() {
+        let mut quiet = FirstPlan::NONE;
+        let slices = (0..100).take_while(|_| quiet.is_patient(1.0)).count();
+        assert_eq!(slices as u32, PATIENCE - 1);
+        let mut growing = FirstPlan::NONE;
+        let grows = |slice: &u32| {
+            growing.pass_slice();
+            growing.is_patient(f64::from(*slice))
+        };
+        let slices = (1..100).take_while(grows).count();
+        assert_eq!(slices as u32, LONGEST_WAIT - 1);
+    }
+}

@@ -90,3 +90,49 @@ impl RefinementPace {
         self.settled = settled.max(self.settled.min(base)).min(last - 1);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_new_takes_its_steps_and_then_one_for_each_bit_of_way() {
+        let mut pace = RefinementPace::AT_REST;
+        for _ in 0..FRESH_STEPS {
+            assert!(pace.is_due(7));
+            pace.note_step(7);
+        }
+        assert!(!pace.is_due(7 + PACE - 1) && pace.is_due(7 + PACE));
+        pace.begin_anew();
+        assert!(pace.is_due(7));
+    }
+
+    #[test]
+    fn extensions_come_often_while_little_is_settled() {
+        for (ahead, steps) in [(50, 1), (51, 2), (126, 4), (201, 12)] {
+            let mut pace = RefinementPace::AT_REST;
+            pace.replan(10, 10 + ahead, 400);
+            for _ in 0..steps {
+                assert!(!pace.lets_extend(10), "{ahead}");
+                pace.note_step(10);
+            }
+            assert!(pace.lets_extend(10), "{ahead}");
+            pace.note_extension();
+            assert!(!pace.lets_extend(10));
+        }
+    }
+
+    #[test]
+    fn another_plan_is_settled_as_far_as_it_says_or_as_it_was() {
+        let mut pace = RefinementPace::AT_REST;
+        pace.replan(30, 40, 100);
+        pace.note_window(60);
+        assert_eq!((pace.settled(), pace.refined()), (40, 60));
+        pace.replan(50, 0, 100);
+        assert_eq!((pace.settled(), pace.refined()), (40, 50));
+        pace.replan(35, 0, 100);
+        assert_eq!((pace.settled(), pace.refined()), (35, 35));
+        pace.replan(35, 90, 80);
+        assert_eq!(pace.settled(), 79);
+    }
+}
