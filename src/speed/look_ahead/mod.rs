@@ -37,6 +37,7 @@ mod planned_segment;
 mod refinement_pace;
 mod refusal;
 mod rest_arc;
+mod rest_arc_search;
 mod route;
 mod rows;
 mod sample;
