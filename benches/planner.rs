@@ -55,7 +55,7 @@ fn circles(planner: &mut Planner, radius: f64, inputs: &CycleInputs) {
     let circle = Circle {
         center: Vector3::new(-radius, 0.0, 0.0),
         normal: Vector3::z(),
-        turn: 0,
+        revolutions: 0,
     };
     while planner.status().queue_depth < 16 {
         let mut end = Axes::zeros();
@@ -145,7 +145,7 @@ impl Kind {
                 let circle = Circle {
                     center,
                     normal: up * Vector3::z(),
-                    turn: 0,
+                    revolutions: 0,
                 };
                 planner.add_circle(&end, &circle, &request)
             }

@@ -23,6 +23,7 @@ mod cube_root;
 pub mod cycle;
 pub mod frame;
 pub mod kinematics;
+mod lanes;
 pub mod machine;
 pub mod moves;
 pub mod path;

@@ -8,13 +8,14 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, ItemMod, ItemUse, UseTree, Visibility};
 
 /// No folder imports one that comes behind it. What both modules use; framekins; blendtp; the edge to C.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "axes",
     "cube_root",
     "ring", // both
     "frame",
     "machine",
     "kinematics", // framekins
+    "lanes",
     "moves",
     "path",
     "speed",

@@ -1,6 +1,6 @@
-//! The verified backup trajectory: how the rate change m is brought to 0 from where the machine is.
+//! The verified backup trajectory: how the rate acceleration is brought to 0 from where the machine is.
 //!
-//! A backup trajectory is a list of n, one for each servo period to come. It was simulated against the
+//! A backup trajectory is a list of rate jerks, one for each servo period to come. It was simulated against the
 //! cells of the table, so following it keeps all limits; behind its last entry the rate stays as
 //! it is, which is feasible for ever. As long as one is stored, nothing can go wrong.
 
@@ -25,8 +25,8 @@ const FURTHER_RESERVE: f32 = 0.3;
 /// How often braking for a cap is tried, ..
 const BRAKING_ATTEMPTS: usize = 4;
 
-/// .. each time with this part of the greatest rate change of the try before, where that could not be brought to an end
-/// within the limits: a path that turns takes nearly all of the jerk.
+/// .. each time with this part of the greatest rate acceleration of the try before, where that could not be brought to
+/// an end within the limits: a path that turns takes nearly all of the jerk.
 const GENTLER: f64 = 0.5;
 
 /// Whether a backup trajectory may need all of the jerk.
@@ -48,13 +48,13 @@ fn kept_part(rate: f64) -> f32 {
     1.0 - RESERVE_AT_FULL_RATE - FURTHER_RESERVE * (1.0 - rate as f32)
 }
 
-/// A list of n that brings the rate change to 0.
+/// A list of rate jerks that brings the rate acceleration to 0.
 #[derive(Clone, Debug)]
 pub struct BackupTrajectory {
-    n: [f64; LONGEST],
+    rate_jerks: [f64; LONGEST],
     length: usize,
     next: usize,
-    /// When the rate change is 0, in the time of the table.
+    /// When the rate acceleration is 0, in the time of the table.
     end_time: f64,
     /// The feed caps that it keeps, all that is known ahead.
     kept: Option<Caps>,
@@ -62,7 +62,7 @@ pub struct BackupTrajectory {
 
 impl BackupTrajectory {
     pub const EMPTY: Self = Self {
-        n: [0.0; LONGEST],
+        rate_jerks: [0.0; LONGEST],
         length: 0,
         next: 0,
         end_time: 0.0,
@@ -77,10 +77,10 @@ impl BackupTrajectory {
         self.kept = None;
     }
 
-    /// A single n, after which the state is `end`, and the caps that are kept from there on.
-    pub fn set_single(&mut self, n: f64, end: State, kept: Option<Caps>) {
+    /// A single rate jerk, after which the state is `end`, and the caps that are kept from there on.
+    pub fn set_single(&mut self, rate_jerk: f64, end: State, kept: Option<Caps>) {
         self.start();
-        self.append(n);
+        self.append(rate_jerk);
         self.end_time = end.time;
         self.kept = kept;
     }
@@ -90,26 +90,26 @@ impl BackupTrajectory {
         self.next().is_some() && self.kept.as_ref() == Some(caps)
     }
 
-    /// The n of the next period, `None` behind the last one.
+    /// The rate jerk of the next period, `None` behind the last one.
     pub fn next(&self) -> Option<f64> {
         if self.next < self.length {
-            self.n.get(self.next).copied()
+            self.rate_jerks.get(self.next).copied()
         } else {
             None
         }
     }
 
-    /// Whether one n is left.
+    /// Whether one rate jerk is left.
     pub fn is_last(&self) -> bool {
         self.next + 1 == self.length
     }
 
-    /// Takes the next n as done.
+    /// Takes the next rate jerk as done.
     pub fn advance(&mut self) {
         self.next = self.next.saturating_add(1).min(LONGEST);
     }
 
-    /// When the rate change is 0, in the time of the table.
+    /// When the rate acceleration is 0, in the time of the table.
     pub fn end_time(&self) -> f64 {
         self.end_time
     }
@@ -125,10 +125,10 @@ impl BackupTrajectory {
         self.kept = None;
     }
 
-    fn append(&mut self, n: f64) -> bool {
-        match self.n.get_mut(self.length) {
+    fn append(&mut self, rate_jerk: f64) -> bool {
+        match self.rate_jerks.get_mut(self.length) {
             Some(slot) => {
-                *slot = n;
+                *slot = rate_jerk;
                 self.length += 1;
                 true
             }
@@ -136,17 +136,17 @@ impl BackupTrajectory {
         }
     }
 
-    /// Simulates the fastest backup trajectory from `state`, reached with `previous_n`, and stores it.
+    /// Simulates the fastest backup trajectory from `state`, reached with `previous_rate_jerk`, and stores it.
     #[inline(never)]
     pub fn find(
         &mut self,
         simulation: &mut Simulation,
         reserve: Reserve,
         state: State,
-        previous_n: f64,
+        previous_rate_jerk: f64,
     ) -> Result<(), BackupRefusal> {
         self.start();
-        let here = Place::new(simulation, state, previous_n)?;
+        let here = Place::new(simulation, state, previous_rate_jerk)?;
         self.release(simulation, reserve, here)
     }
 
@@ -158,30 +158,30 @@ impl BackupTrajectory {
         simulation: &mut Simulation,
         caps: &Caps,
         state: State,
-        previous_n: f64,
+        previous_rate_jerk: f64,
     ) -> Result<(), BackupRefusal> {
-        let start = Place::new(simulation, state, previous_n)?;
-        let mut least_change = f64::NEG_INFINITY;
+        let start = Place::new(simulation, state, previous_rate_jerk)?;
+        let mut least_rate_acceleration = f64::NEG_INFINITY;
         for _ in 0..BRAKING_ATTEMPTS {
             let mut here = start.clone();
-            let found = self.brake(simulation, caps, &mut here, least_change);
+            let found = self.brake(simulation, caps, &mut here, least_rate_acceleration);
             if found != Err(BackupRefusal::Limits) {
                 found?;
                 self.kept = Some(*caps);
                 return Ok(());
             }
-            least_change = GENTLER * here.state.rate_change.min(0.0);
+            least_rate_acceleration = GENTLER * here.state.rate_acceleration.min(0.0);
         }
         Err(BackupRefusal::Limits)
     }
 
-    /// Brakes from `here`, to the end or as far as it goes, with a rate change down to `least_change`.
+    /// Brakes from `here`, to the end or as far as it goes, with a rate acceleration down to `least_rate_acceleration`.
     fn brake(
         &mut self,
         simulation: &mut Simulation,
         caps: &Caps,
         here: &mut Place,
-        least_change: f64,
+        least_rate_acceleration: f64,
     ) -> Result<(), BackupRefusal> {
         self.start();
         let (table, period) = (simulation.table, simulation.servo_period);
@@ -192,15 +192,19 @@ impl BackupTrajectory {
                 CapOutlook::Kept => return self.release(simulation, Reserve::Used, here.clone()),
                 CapOutlook::Open => {}
             }
-            *here = braking_step(simulation, here, (least_change, ahead.steady_rate()))?;
-            if !self.append(here.n) {
+            *here = braking_step(
+                simulation,
+                here,
+                (least_rate_acceleration, ahead.steady_rate()),
+            )?;
+            if !self.append(here.rate_jerk) {
                 return Err(BackupRefusal::Budget);
             }
         }
         Err(BackupRefusal::Cap)
     }
 
-    /// Brings the rate change to 0 from here.
+    /// Brings the rate acceleration to 0 from here.
     fn release(
         &mut self,
         simulation: &mut Simulation,
@@ -222,7 +226,7 @@ impl BackupTrajectory {
                 }
             };
             here = fastest_step(simulation, limits, &here)?;
-            if !self.append(here.n) {
+            if !self.append(here.rate_jerk) {
                 return Err(BackupRefusal::Budget);
             }
         }
@@ -237,7 +241,7 @@ fn fastest_step(
     limits: &PeriodLimits,
     start: &Place,
 ) -> Result<Place, BackupRefusal> {
-    let wanted = -start.state.rate_change;
+    let wanted = -start.state.rate_acceleration;
     step(simulation, limits, start, |_, jerk, _| jerk.nearest(wanted))
 }
 
@@ -308,7 +312,7 @@ mod tests {
     const BRAKING: State = State {
         time: 0.0,
         rate: 0.7,
-        rate_change: -0.008,
+        rate_acceleration: -0.008,
     };
 
     #[test]
@@ -321,9 +325,9 @@ mod tests {
         // 0.0008 of acceleration at 2e-5 of jerk.
         assert!((58..=60).contains(&budget), "{budget}");
         let mut state = BRAKING;
-        while let Some(n) = backup.next() {
-            assert!((n * 0.1).abs() <= 2.001e-5);
-            state = state.step(n);
+        while let Some(rate_jerk) = backup.next() {
+            assert!((rate_jerk * 0.1).abs() <= 2.001e-5);
+            state = state.step(rate_jerk);
             backup.advance();
         }
         assert!(state.is_steady() && state.rate > 0.5);

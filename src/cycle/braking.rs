@@ -9,19 +9,20 @@ use super::state::State;
 /// Of what the jerk allows in a period, what braking for a cap ahead leaves at first.
 const RESERVED: f64 = 0.15;
 
-/// Of the greatest n in a period, what braking counts on for bringing the rate change to 0 in time.
+/// Of the greatest rate jerk in a period, what braking counts on for bringing the rate acceleration to 0 in time.
 const KEPT_TO_RELEASE: f64 = 0.7;
 
-/// One period of hard braking, with a rate change from `least_change` on, towards a rate not below `lowest`.
+/// One period of hard braking, with a rate acceleration from `least_rate_acceleration` on, towards a rate not below
+/// `lowest`.
 #[inline(always)]
 pub fn braking_step(
     simulation: &mut Simulation,
     start: &Place,
-    (least_change, lowest): (f64, f64),
+    (least_rate_acceleration, lowest): (f64, f64),
 ) -> Result<Place, BackupRefusal> {
     let state = start.state;
     let limits = simulation.limits;
-    let gentle = least_change - state.rate_change;
+    let gentle = least_rate_acceleration - state.rate_acceleration;
     step(simulation, limits, start, |span, jerk, predicted| {
         let low = span.acceleration_interval(state, predicted).low;
         let landing = least_to_land(state, lowest, KEPT_TO_RELEASE * jerk.high.max(0.0));
@@ -29,23 +30,23 @@ pub fn braking_step(
     })
 }
 
-/// The least n behind which the rate change can be brought to 0 before the rate is below `lowest`, or 0 where it is
-/// below that already, with n up to `most`.
+/// The least rate jerk behind which the rate acceleration can be brought to 0 before the rate is below `lowest`, or 0
+/// where it is below that already, with rate jerks up to `most`.
 fn least_to_land(state: State, lowest: f64, most: f64) -> f64 {
     let lowest = if state.rate > lowest { lowest } else { 0.0 };
-    let rate = state.rate - lowest + 0.5 * state.rate_change;
+    let rate = state.rate - lowest + 0.5 * state.rate_acceleration;
     if rate <= most {
         // The period behind it ends there.
-        return -(rate + state.rate_change);
+        return -(rate + state.rate_acceleration);
     }
-    // Behind it the rate change is x, and the rate falls by x^2 / (2 most) until x is 0; since periods are counted
-    // whole, by most / 8 more at worst.
+    // Behind it the rate acceleration is x, and the rate falls by x^2 / (2 most) until x is 0; since periods are
+    // counted whole, by most / 8 more at worst.
     let half = 0.5 * most;
     let fall = rate - 0.125 * most;
-    half - (half * half + 2.0 * most * fall).sqrt() - state.rate_change
+    half - (half * half + 2.0 * most * fall).sqrt() - state.rate_acceleration
 }
 
-/// The n of a period of hard braking, where the jerk allows `jerk` and the acceleration `low`.
+/// The rate jerk of a period of hard braking, where the jerk allows `jerk` and the acceleration `low`.
 pub fn hard_braking(jerk: &RateDerivativeInterval, low: f64) -> f64 {
     jerk.nearest(low.max(jerk.low + RESERVED * (jerk.high - jerk.low)))
 }
@@ -57,25 +58,25 @@ mod tests {
 
     proptest! {
         #[test]
-        fn behind_the_least_n_the_rate_does_not_fall_below_the_lowest(
+        fn behind_the_least_rate_jerk_the_rate_does_not_fall_below_the_lowest(
             lowest in 0.0..0.9,
             above in 0.0..0.1,
             part in 0.0..1.0_f64,
             most in 1e-5..0.01_f64,
         ) {
-            // A rate change that can be brought to 0 in time.
+            // A rate acceleration that can be brought to 0 in time.
             let fall = f64::max(above - 0.125 * most, 0.0);
             let start = State {
                 time: 0.0,
                 rate: lowest + above,
-                rate_change: -part * f64::sqrt(2.0 * most * fall),
+                rate_acceleration: -part * f64::sqrt(2.0 * most * fall),
             };
             let mut state = start.step(least_to_land(start, lowest, most));
             for _ in 0..10_000 {
                 if state.is_steady() {
                     break;
                 }
-                state = state.step((-state.rate_change).max(-most).min(most));
+                state = state.step((-state.rate_acceleration).max(-most).min(most));
             }
             prop_assert!(state.is_steady());
             prop_assert!(state.rate >= lowest - 1e-9, "{}", state.rate - lowest);

@@ -19,8 +19,8 @@ use super::table::{Table, USABLE};
 /// How far ahead caps are looked for, seconds.
 pub const FORESIGHT: f64 = 0.2;
 
-/// How long a rate change is assumed to go on, seconds.
-const RATE_CHANGE_FORESIGHT: f64 = 0.12;
+/// How long a rate acceleration is assumed to go on, seconds.
+const RATE_ACCELERATION_FORESIGHT: f64 = 0.12;
 
 /// Part of the path's jerk that a soft approach uses; the rest is for what lies ahead.
 const APPROACH_PART: f64 = 0.85;
@@ -134,7 +134,7 @@ impl Caps {
             || self.max_velocity < greatest_programmed_feed
     }
 
-    /// The n that approaches the cap softly: the acceleration along the path from which the cap
+    /// The rate jerk that approaches the cap softly: the acceleration along the path from which the cap
     /// is just reached with what is left of the path's jerk. `jerk_interval` is what the jerk
     /// limits allow. `None` where the reference is so slow that any rate is right.
     pub fn approach(
@@ -168,18 +168,18 @@ impl Caps {
         let path_acceleration = own_acceleration + path_velocity * growth;
         let path_jerk = own_jerk + 2.0 * own_acceleration * growth;
 
-        let (rate, change) = (state.rate, state.rate_change);
+        let (rate, change) = (state.rate, state.rate_acceleration);
         let velocity = rate * path_velocity;
         let acceleration = change * path_velocity + rate * rate * path_acceleration;
-        let jerk_without_n =
+        let jerk_without_rate_jerk =
             rate * rate * rate * path_jerk + 3.0 * rate * change * path_acceleration;
         // What is missing to the cap in the middle of the period.
         let missing = cap - velocity - 0.5 * acceleration;
         // The approach ends by braking the acceleration: with jerk of the other sign.
         let available = if missing > 0.0 {
-            -(jerk_without_n + jerk_interval.low * path_velocity)
+            -(jerk_without_rate_jerk + jerk_interval.low * path_velocity)
         } else {
-            jerk_without_n + jerk_interval.high * path_velocity
+            jerk_without_rate_jerk + jerk_interval.high * path_velocity
         };
         let jerk = (APPROACH_PART * available)
             .max(LEAST_APPROACH_PART * limits.least_jerk().min(1.0))
@@ -188,7 +188,7 @@ impl Caps {
         let distance = 2.0 * jerk * missing.abs();
         // sqrt(half^2 + distance) - half, without the cancellation.
         let wanted = (distance / (half + (half * half + distance).sqrt())).copysign(missing);
-        Some((wanted - acceleration - jerk_without_n) / path_velocity)
+        Some((wanted - acceleration - jerk_without_rate_jerk) / path_velocity)
     }
 
     /// The rate at which the reference, a period later, is as fast as its cap: where jerk is not limited, a cap
@@ -208,7 +208,7 @@ impl Caps {
     /// Whether caps ahead have to be looked at: at this rate, or the one it is about to reach, the
     /// reference exceeds one somewhere ahead by `ratio`.
     pub fn lie_ahead(state: State, ratio: f64, period: f64) -> bool {
-        let rising = state.rate_change.max(0.0) * RATE_CHANGE_FORESIGHT / period;
+        let rising = state.rate_acceleration.max(0.0) * RATE_ACCELERATION_FORESIGHT / period;
         (state.rate + rising).min(1.0) * ratio > 1.0
     }
 }

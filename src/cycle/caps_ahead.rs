@@ -69,9 +69,9 @@ impl<'a> CapsAhead<'a> {
         let falls = feed <= self.feed;
         self.feed = feed;
         let keeps = |ratio: f64| state.rate * ratio <= 1.0 + TOLERANCE;
-        let kept = state.rate <= STANDSTILL && 2.0 * state.rate + state.rate_change >= 0.0
+        let kept = state.rate <= STANDSTILL && 2.0 * state.rate + state.rate_acceleration >= 0.0
             || self.table.is_behind_end(state.time)
-            || state.rate_change <= 0.0 && keeps(self.as_programmed)
+            || state.rate_acceleration <= 0.0 && keeps(self.as_programmed)
             || falls && self.sees_far(state.time) && {
                 let (table, period) = (self.table, self.servo_period);
                 keeps(self.caps.greatest_ratio(table, state.time, period))

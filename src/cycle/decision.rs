@@ -1,4 +1,4 @@
-//! What the executor wants in a servo period, and which n = dm/dt would serve it best.
+//! What the executor wants in a servo period, and which rate jerk would serve it best.
 
 use super::Executor;
 use super::braking::hard_braking;
@@ -21,8 +21,8 @@ const BUDGET_BELOW_CAPS: usize = 200;
 /// Those of them that are left to brake by any means, where no backup trajectory keeps the caps ahead.
 const BUDGET_TO_BRAKE: usize = 48;
 
-/// Differences of n below this are no difference.
-const SAME_N: f64 = 1e-12;
+/// Differences of the rate jerk below this are no difference.
+const SAME_RATE_JERK: f64 = 1e-12;
 
 impl Executor {
     /// What the demand asks for here and in the cells ahead.
@@ -48,7 +48,7 @@ impl Executor {
         }
     }
 
-    /// The n of this period. Whatever it is, the stored backup trajectory continues from its end.
+    /// The rate jerk of this period. Whatever it is, the stored backup trajectory continues from its end.
     pub(super) fn decide(&mut self, goal: Goal) -> f64 {
         let state = self.state;
         let is_adjusted = matches!(goal, Goal::Cap(_) | Goal::Follow);
@@ -56,7 +56,7 @@ impl Executor {
             Goal::Hold => 0.0,
             Goal::Run | Goal::Cap(_) | Goal::Follow => 1.0,
         };
-        if state.rate_change == 0.0 && state.rate == target && !is_adjusted {
+        if state.rate_acceleration == 0.0 && state.rate == target && !is_adjusted {
             self.goal = goal;
             self.backup_mut().clear();
             return 0.0;
@@ -67,7 +67,7 @@ impl Executor {
         self.goal = goal;
 
         let start = self.table.node(state.time);
-        let safe = self.safe_n(&start);
+        let safe = self.safe_rate_jerk(&start);
         let predicted = state.step(safe);
         let end = self.table.node(predicted.time);
         let span = Span::new(&self.table, &self.limits, &start, &end);
@@ -87,16 +87,16 @@ impl Executor {
             Goal::Cap(_) => self
                 .caps
                 .approach(&self.table, &self.limits, state, &jerk)
-                .map_or(allowed.high, |n| allowed.nearest(n)),
+                .map_or(allowed.high, |rate_jerk| allowed.nearest(rate_jerk)),
             Goal::Follow => self
                 .pursuit
                 .and_then(|pursuit| pursuit.approach(&self.table, state, &jerk))
-                .map_or(allowed.high, |n| allowed.nearest(n)),
+                .map_or(allowed.high, |rate_jerk| allowed.nearest(rate_jerk)),
         };
 
         // A cap or a thread may ask for less than a landing on the target takes.
         let most = if is_adjusted {
-            wanted + SAME_N
+            wanted + SAME_RATE_JERK
         } else {
             f64::INFINITY
         };
@@ -115,13 +115,13 @@ impl Executor {
         }
     }
 
-    /// The n nearest to what is wanted whose backup trajectory keeps that.
+    /// The rate jerk nearest to what is wanted whose backup trajectory keeps that.
     fn toward(&mut self, aim: &Aim, start: &Node, keeping: Keeping) -> f64 {
         let landing = (aim.target, aim.most);
-        if let Some(n) = self.landing(landing, &aim.allowed, start, keeping) {
-            return n;
+        if let Some(rate_jerk) = self.landing(landing, &aim.allowed, start, keeping) {
+            return rate_jerk;
         }
-        if (aim.wanted - aim.safe).abs() < SAME_N {
+        if (aim.wanted - aim.safe).abs() < SAME_RATE_JERK {
             self.backup_mut().advance();
             return aim.safe;
         }
@@ -143,24 +143,24 @@ impl Executor {
         self.budget = self.budget.saturating_sub(BUDGET_TO_BRAKE);
         let braking = hard_braking(jerk, aim.allowed.low);
         let braking = aim.allowed.nearest(braking).min(aim.wanted);
-        for n in [aim.wanted, braking, aim.allowed.low] {
-            if self.verify(n, start, Keeping::Caps) {
-                return n;
+        for rate_jerk in [aim.wanted, braking, aim.allowed.low] {
+            if self.verify(rate_jerk, start, Keeping::Caps) {
+                return rate_jerk;
             }
         }
         self.budget += BUDGET_TO_BRAKE;
         let braking = Aim {
             wanted: aim.allowed.low,
-            most: aim.allowed.low + SAME_N,
+            most: aim.allowed.low + SAME_RATE_JERK,
             ..*aim
         };
         self.toward(&braking, start, Keeping::Limits)
     }
 
-    /// The n of the stored backup trajectory: always possible.
-    fn safe_n(&mut self, start: &Node) -> f64 {
-        if let Some(n) = self.backup().next() {
-            return n;
+    /// The rate jerk of the stored backup trajectory: always possible.
+    fn safe_rate_jerk(&mut self, start: &Node) -> f64 {
+        if let Some(rate_jerk) = self.backup().next() {
+            return rate_jerk;
         }
         let state = self.state;
         if state.is_steady() {
@@ -173,7 +173,7 @@ impl Executor {
         let end = self.table.node(predicted.time);
         Span::new(&self.table, &self.limits, start, &end)
             .jerk_interval(state, predicted)
-            .nearest(-state.rate_change)
+            .nearest(-state.rate_acceleration)
     }
 }
 
@@ -181,7 +181,7 @@ impl Executor {
 struct Aim {
     /// The rate at the end of the change.
     target: f64,
-    /// The greatest n with which to land there.
+    /// The greatest rate jerk with which to land there.
     most: f64,
     wanted: f64,
     /// Of the stored backup trajectory.

@@ -49,11 +49,11 @@ pub struct ExecutorStep {
     /// How far the reference time advanced, seconds, from 0 to one servo period. Exactly one
     /// servo period at a rate of 1.
     pub advance: f64,
-    /// Rate l = dtau/dt after the step, 0 to 1.
+    /// Rate after the step, dtau/dt, 0 to 1.
     pub rate: f64,
-    /// Its derivative m = dl/dt after the step, 1 per second.
-    pub rate_change: f64,
-    /// Whether the machine stands still after the step: rate and rate change are 0, or the end is
+    /// Its derivative by time after the step, 1 per second.
+    pub rate_acceleration: f64,
+    /// Whether the machine stands still after the step: rate and rate acceleration are 0, or the end is
     /// reached.
     pub at_rest: bool,
     /// Whether the end of the closed reference is reached. It stays reached until

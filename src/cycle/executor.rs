@@ -42,9 +42,9 @@ pub struct Executor {
     /// The stored backup trajectory is `backups[stored]`; the other one is for the candidate.
     pub(super) backups: [BackupTrajectory; 2],
     pub(super) stored: usize,
-    /// Part of the way to the wanted n that the search tries first.
+    /// Part of the way to the wanted rate jerk that the search tries first.
     pub(super) fraction: f64,
-    /// Whether that was towards a lower n than the stored backup trajectory's.
+    /// Whether that was towards a lower rate jerk than the stored backup trajectory's.
     pub(super) brakes: bool,
     pub(super) goal: Goal,
     pub(super) caps: Caps,
@@ -189,7 +189,7 @@ impl Executor {
     /// reference time lies in; 0 while it does not. A backup trajectory must not leave the known cells: with less
     /// of them a hold takes longer.
     pub fn cells_needed(&self) -> usize {
-        if self.state.rate_change != 0.0 || self.goal == Goal::Hold && self.state.rate > 0.0 {
+        if self.state.rate_acceleration != 0.0 || self.goal == Goal::Hold && self.state.rate > 0.0 {
             self.cells_for_backup()
         } else {
             0
@@ -198,11 +198,11 @@ impl Executor {
 
     /// Whether the machine moves and would run out of cells in the next cycle.
     pub fn is_dry(&self) -> bool {
-        let moves = self.state.rate > 0.0 || self.state.rate_change != 0.0;
+        let moves = self.state.rate > 0.0 || self.state.rate_acceleration != 0.0;
         self.started && moves && self.table.end().is_none() && self.table.length() < 2
     }
 
-    /// How often the stored backup trajectory ended before the rate change was 0: a count of numerical
+    /// How often the stored backup trajectory ended before the rate acceleration was 0: a count of numerical
     /// accidents, to be 0.
     pub fn backups_lost(&self) -> u64 {
         self.backups_lost
@@ -224,28 +224,32 @@ impl Executor {
         }
         self.budget = BUDGET;
         if goal == Goal::Follow || self.limits.limit_jerk() {
-            let n = self.decide(goal);
-            let n = if n.is_finite() { n } else { 0.0 };
-            self.commit(n, self.state.step(n).settled())
+            let rate_jerk = self.decide(goal);
+            let rate_jerk = if rate_jerk.is_finite() {
+                rate_jerk
+            } else {
+                0.0
+            };
+            self.commit(rate_jerk, self.state.step(rate_jerk).settled())
         } else {
-            self.state.rate_change = self.rate_change(goal);
+            self.state.rate_acceleration = self.rate_acceleration(goal);
             let next = self.state.step(0.0);
             self.commit(
                 0.0,
                 State {
-                    rate_change: 0.0,
+                    rate_acceleration: 0.0,
                     ..next
                 },
             )
         }
     }
 
-    /// Takes the step with this n, behind which the state is `next`.
-    fn commit(&mut self, n: f64, next: State) -> ExecutorStep {
+    /// Takes the step with this rate jerk, behind which the state is `next`.
+    fn commit(&mut self, rate_jerk: f64, next: State) -> ExecutorStep {
         let state = self.state;
         let mut next = next.within_range();
         // At a rate of 1 this is exactly one period, wherever in its cell the time lies.
-        let mut advance = state.advance(n).clamp(0.0, 1.0);
+        let mut advance = state.advance(rate_jerk).clamp(0.0, 1.0);
         next.time = state.time + advance;
         let known = self.table.length() as f64;
         match self.table.end() {
@@ -261,7 +265,7 @@ impl Executor {
                 next = State {
                     time: known,
                     rate: 0.0,
-                    rate_change: 0.0,
+                    rate_acceleration: 0.0,
                 };
             }
             _ => {}
@@ -285,16 +289,19 @@ impl Executor {
     /// The answer for the present state, without an advance.
     fn standing(&mut self) -> ExecutorStep {
         let rests = self.end_reached || !self.started;
-        let (rate, rate_change) = if rests {
+        let (rate, rate_acceleration) = if rests {
             (0.0, 0.0)
         } else {
-            (self.state.rate, self.state.rate_change / self.servo_period)
+            (
+                self.state.rate,
+                self.state.rate_acceleration / self.servo_period,
+            )
         };
         ExecutorStep {
             advance: 0.0,
             rate,
-            rate_change,
-            at_rest: rate == 0.0 && rate_change == 0.0,
+            rate_acceleration,
+            at_rest: rate == 0.0 && rate_acceleration == 0.0,
             end_reached: self.end_reached,
             wall: self.wall,
             starved: std::mem::take(&mut self.starved),
@@ -303,7 +310,7 @@ impl Executor {
 
     /// Whether there is nothing to release and nothing to gain.
     fn is_idle(&self) -> bool {
-        self.state.rate_change == 0.0 && (self.state.rate == 0.0 || self.state.rate == 1.0)
+        self.state.rate_acceleration == 0.0 && (self.state.rate == 0.0 || self.state.rate == 1.0)
     }
 
     /// As far as the stored backup trajectory reaches, and as far again as it may reach after the next cycle.

@@ -95,7 +95,7 @@ impl Pursuit {
         self.wanted_velocity(f64::MAX) <= STANDSTILL
     }
 
-    /// The n for the next period. `None` where the reference is so slow that any rate is right.
+    /// The rate jerk for the next period. `None` where the reference is so slow that any rate is right.
     pub fn approach(
         &self,
         table: &Table,
@@ -106,12 +106,12 @@ impl Pursuit {
         if along.velocity < FREE_PART * self.velocity || along.velocity < 1e-12 {
             return None;
         }
-        let (rate, change) = (state.rate, state.rate_change);
+        let (rate, change) = (state.rate, state.rate_acceleration);
         let velocity = rate * along.velocity;
         let acceleration = change * along.velocity + rate * rate * along.acceleration;
-        let jerk_without_n =
+        let jerk_without_rate_jerk =
             rate * rate * rate * along.jerk + 3.0 * rate * change * along.acceleration;
-        let jerk_at = |n: f64| jerk_without_n + n * along.velocity;
+        let jerk_at = |rate_jerk: f64| jerk_without_rate_jerk + rate_jerk * along.velocity;
         let available = jerk_at(jerk_interval.high)
             .min(-jerk_at(jerk_interval.low))
             .clamp(1e-15, 1e15);
@@ -124,7 +124,7 @@ impl Pursuit {
             .min(self.correcting);
         let wanted = self.acceleration + (velocity_gain * missing).max(-curve).min(curve);
         let jerk = self.jerk + acceleration_gain * (wanted - acceleration);
-        Some((jerk - jerk_without_n) / along.velocity)
+        Some((jerk - jerk_without_rate_jerk) / along.velocity)
     }
 }
 

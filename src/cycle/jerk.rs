@@ -10,8 +10,8 @@
 //! Hence three rows for each axis: the mean jerk within the limit, less an allowance for a jump in
 //! the reference; and the jerk at both ends of the period, without the jump, not far above it.
 
-use super::lanes::{LANE_COUNT, Lanes, ROUNDING, greater, lesser};
 use super::stored_cell::StoredCell;
+use crate::lanes::{LANE_COUNT, Lanes, ROUNDING, ZEROS, greater, lesser};
 
 /// By how much less mean jerk makes up for the jump of the reference's own: 6 * 0.064 of it, since
 /// the period counts a sixth.
@@ -53,10 +53,10 @@ impl Jerk {
     #[inline(always)]
     pub fn new(start: [&StoredCell; 2], end: [&StoredCell; 2], limit: &Lanes) -> Self {
         let mut jerk = Self {
-            start: [0.0; LANE_COUNT],
-            end: [0.0; LANE_COUNT],
-            greatest: [0.0; LANE_COUNT],
-            allowance: [0.0; LANE_COUNT],
+            start: ZEROS,
+            end: ZEROS,
+            greatest: ZEROS,
+            allowance: ZEROS,
             limit: *limit,
         };
         let ([a, behind_a], [b, behind_b]) = (start, end);

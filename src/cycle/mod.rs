@@ -2,8 +2,8 @@
 //!
 //! The planner gives a reference trajectory q*(tau) that keeps all limits and ends at rest. The
 //! [`Executor`] runs it: in each servo period it decides how far the reference time tau advances.
-//! With the rate l = dtau/dt, the rate change m = dl/dt and n = dm/dt, and Qk the k-th derivative
-//! of the reference by tau, the machine moves with
+//! With the rate l = dtau/dt, the rate acceleration m = dl/dt and the rate jerk n = dm/dt, and Qk the k-th
+//! derivative of the reference by tau, the machine moves with
 //!
 //! ```text
 //! q'   = l Q1
@@ -11,12 +11,12 @@
 //! q''' = l^3 Q3 + 3 l m Q2 + n Q1
 //! ```
 //!
-//! Two facts carry everything. With m = n = 0 the motion is feasible for ever, at every rate from
-//! 0 to 1. So a state is safe if m can be brought to 0 from it within the limits: the executor
+//! Two facts carry everything. At a constant rate the motion is feasible for ever, at every one from
+//! 0 to 1. So a state is safe if the rate acceleration can be brought to 0 from it within the limits: the executor
 //! always holds one such backup trajectory, verified against the cells of the table, and follows it until it
 //! has found a better move that comes with a backup trajectory of its own. Hence feed hold, override and
-//! abort may come at any instant, in any order. Where no axis has a limit of jerk, m may jump to 0
-//! at once, and nothing has to be released.
+//! abort may come at any instant, in any order. Where no axis has a limit of jerk, the rate acceleration
+//! may jump to 0 at once, and nothing has to be released.
 //!
 //! Inside, time is counted in servo periods: a velocity is what an axis moves in one period. The
 //! formulas then need no period, and a [cell](Cell) of the table is one unit of reference time.
@@ -34,7 +34,6 @@ mod feed_block;
 mod follow;
 mod goal;
 mod jerk;
-mod lanes;
 mod rate_derivative_interval;
 mod rows;
 mod search;

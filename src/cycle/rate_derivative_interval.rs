@@ -1,15 +1,15 @@
-//! What is allowed of n = dm/dt, or of m, over a servo period.
+//! What is allowed of the rate jerk, or of the rate acceleration, over a servo period.
 
 use super::state::State;
 
-/// Greatest rate change m, per period, where jerk is limited: from 0 to 1 takes four periods even where the limits leave
-/// more, which keeps a period's change of rate small against what the rows linearise.
-pub const RATE_CHANGE_LIMIT: f64 = 0.25;
+/// Greatest rate acceleration, per period, where jerk is limited: from 0 to 1 takes four periods even where the limits
+/// leave more, which keeps a period's change of rate small against what the rows linearise.
+pub const RATE_ACCELERATION_LIMIT: f64 = 0.25;
 
-/// Greatest n, per period squared, for the same reason.
-pub const N_LIMIT: f64 = 0.25;
+/// Greatest rate jerk, per period squared, for the same reason.
+pub const RATE_JERK_LIMIT: f64 = 0.25;
 
-/// An interval of n, per period squared, or of m, per period. Empty if `low > high`.
+/// An interval of the rate jerk, per period squared, or of the rate acceleration, per period. Empty if `low > high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateDerivativeInterval {
     pub low: f64,
@@ -21,8 +21,8 @@ impl RateDerivativeInterval {
         self.low > self.high
     }
 
-    pub fn contains(&self, n: f64) -> bool {
-        self.low <= n && n <= self.high
+    pub fn contains(&self, value: f64) -> bool {
+        self.low <= value && value <= self.high
     }
 
     pub fn intersection(&self, other: &Self) -> Self {
@@ -32,21 +32,21 @@ impl RateDerivativeInterval {
         }
     }
 
-    /// `n` moved into the interval; the middle of an empty one.
-    pub fn nearest(&self, n: f64) -> f64 {
+    /// `value` moved into the interval; the middle of an empty one.
+    pub fn nearest(&self, value: f64) -> f64 {
         if self.is_empty() {
             0.5 * (self.low + self.high)
         } else {
-            n.max(self.low).min(self.high)
+            value.max(self.low).min(self.high)
         }
     }
 
-    /// The n that keep the rate from 0 to 1 and |m| within [`RATE_CHANGE_LIMIT`] at the end of
-    /// the period. Never empty.
+    /// The rate jerks that keep the rate from 0 to 1 and the rate acceleration within [`RATE_ACCELERATION_LIMIT`] at
+    /// the end of the period. Never empty.
     pub fn of_rate(state: State) -> Self {
-        let (rate, change) = (state.rate, state.rate_change);
-        let low = (-RATE_CHANGE_LIMIT - change).max(-2.0 * (rate + change));
-        let high = (RATE_CHANGE_LIMIT - change).min(2.0 * (1.0 - rate - change));
+        let (rate, change) = (state.rate, state.rate_acceleration);
+        let low = (-RATE_ACCELERATION_LIMIT - change).max(-2.0 * (rate + change));
+        let high = (RATE_ACCELERATION_LIMIT - change).min(2.0 * (1.0 - rate - change));
         Self {
             low: low.min(high),
             high: high.max(low),
@@ -78,9 +78,9 @@ mod tests {
         let standing = State {
             time: 0.0,
             rate: 0.0,
-            rate_change: 0.0,
+            rate_acceleration: 0.0,
         };
         let of_rate = RateDerivativeInterval::of_rate(standing);
-        assert_eq!((of_rate.low, of_rate.high), (0.0, RATE_CHANGE_LIMIT));
+        assert_eq!((of_rate.low, of_rate.high), (0.0, RATE_ACCELERATION_LIMIT));
     }
 }

@@ -1,16 +1,18 @@
-//! Which n = dm/dt the limits of the axes allow over the next servo period.
+//! Which rate jerks the limits of the axes allow over the next servo period.
 //!
-//! For every axis the limits of acceleration and jerk are linear in n:
-//! `|offset + n * slope| <= width`, a row. Each row allows an interval of n; the executor picks
+//! For every axis the limits of acceleration and jerk are linear in the rate jerk:
+//! `|offset + rate_jerk * slope| <= width`, a row. Each row allows an interval of it; the executor picks
 //! from what all rows have in common. The rows look at both ends of the period, linearised around
-//! a predicted n; what was picked is then checked once more, in the middle of the period too.
+//! a predicted rate jerk; what was picked is then checked once more, in the middle of the period too.
 
 use super::jerk::{INSTANT_TOLERANCE, Jerk, MEAN_TOLERANCE};
-use super::lanes::{LANE_COUNT, Lanes, ROUNDING, greater, greatest, least, lesser, scaled_limits};
-use super::rate_derivative_interval::{N_LIMIT, RateDerivativeInterval};
+use super::rate_derivative_interval::{RATE_JERK_LIMIT, RateDerivativeInterval};
 use super::state::State;
 use super::table::{Node, Table};
 use crate::axes::AxisLimits;
+use crate::lanes::{
+    LANE_COUNT, Lanes, ROUNDING, ZEROS, greater, greatest, least, lesser, scaled_limits,
+};
 
 /// Part of the acceleration limit that is used. The reference itself may use all of it.
 const ACCELERATION_PART: f32 = 0.9985;
@@ -32,8 +34,8 @@ pub struct PeriodLimits {
 
 impl PeriodLimits {
     pub const UNLIMITED: Self = Self {
-        acceleration: [super::lanes::UNLIMITED; LANE_COUNT],
-        jerk: [super::lanes::UNLIMITED; LANE_COUNT],
+        acceleration: [crate::lanes::UNLIMITED; LANE_COUNT],
+        jerk: [crate::lanes::UNLIMITED; LANE_COUNT],
         least_jerk: f64::INFINITY,
     };
 
@@ -92,9 +94,9 @@ impl DerivativeBounds {
     #[inline(always)]
     fn new(min: [&Lanes; 2], max: [&Lanes; 2], limit: &Lanes) -> Self {
         let mut bounds = Self {
-            centre: [0.0; LANE_COUNT],
-            half: [0.0; LANE_COUNT],
-            limit: [0.0; LANE_COUNT],
+            centre: ZEROS,
+            half: ZEROS,
+            limit: ZEROS,
         };
         for lane in 0..LANE_COUNT {
             let low = lesser(min[0][lane], min[1][lane]);
@@ -134,14 +136,14 @@ impl Span {
         }
     }
 
-    /// The n that keep the jerk of all axes within its limits, in the mean over the period and at
+    /// The rate jerks that keep the jerk of all axes within its limits, in the mean over the period and at
     /// both ends of it, given the state at its start and the predicted state at its end.
     #[inline(always)]
     pub fn jerk_interval(&self, start: State, end: State) -> RateDerivativeInterval {
-        let mut rows = Rows::within(N_LIMIT);
+        let mut rows = Rows::within(RATE_JERK_LIMIT);
         let [square, cube, coupling, change] = powers(start);
         let end_rate = greater(end.rate as f32, 0.0);
-        let (end_square, end_change) = (end_rate * end_rate, end.rate_change as f32);
+        let (end_square, end_change) = (end_rate * end_rate, end.rate_acceleration as f32);
         let end_cube = end_square * end_rate;
         let end_coupling = 3.0 * end_rate * change;
         let predicted = end_change - change;
@@ -149,7 +151,7 @@ impl Span {
             let (v0, v1) = (self.start.velocity[lane], self.end.velocity[lane]);
             let (a0, a1) = (self.start.acceleration[lane], self.end.acceleration[lane]);
             let [own_start, _, own_end] = self.jerk.own(lane);
-            // n changes both m and the rate at the end of the period.
+            // The rate jerk changes both the rate acceleration and the rate at the end of the period.
             let difference = end_square * a1 + end_change * v1 - square * a0 - change * v0;
             let slope = v1 + end_rate * a1;
             rows.narrow(
@@ -165,7 +167,7 @@ impl Span {
                 v0,
                 self.jerk.instant_limit(lane, own),
             );
-            // n also changes the coupling there.
+            // It also changes the coupling there.
             let own = end_cube * own_end;
             rows.narrow(
                 lane,
@@ -177,34 +179,35 @@ impl Span {
         rows.interval()
     }
 
-    /// The n that keep the acceleration of all axes within its limits at the end of the period.
+    /// The rate jerks that keep the acceleration of all axes within its limits at the end of the period.
     #[inline(always)]
     pub fn acceleration_interval(&self, start: State, end: State) -> RateDerivativeInterval {
-        let mut rows = Rows::within(N_LIMIT);
+        let mut rows = Rows::within(RATE_JERK_LIMIT);
         let end_rate = greater(end.rate as f32, 0.0);
         let square = end_rate * end_rate;
-        let rate_change = start.rate_change as f32;
+        let rate_acceleration = start.rate_acceleration as f32;
         for lane in 0..LANE_COUNT {
             let velocity = self.end.velocity[lane];
             rows.narrow(
                 lane,
-                square * self.acceleration.centre[lane] + rate_change * velocity,
+                square * self.acceleration.centre[lane] + rate_acceleration * velocity,
                 velocity,
                 ACCELERATION_ROW_PART * self.acceleration.limit_at(lane, square)
                     - square * self.acceleration.half[lane]
-                    - rate_change.abs() * self.slack(lane),
+                    - rate_acceleration.abs() * self.slack(lane),
             );
         }
         rows.interval()
     }
 
-    /// The rate changes that keep the acceleration of all axes within its limits at both ends of the period, if
-    /// they are constant over it; `rate` is the one at its start, `predicted` the rate change that is expected.
-    pub fn rate_change_interval(&self, rate: f64, predicted: f64) -> RateDerivativeInterval {
+    /// The rate accelerations that keep the acceleration of all axes within its limits at both ends of the period, if
+    /// they are constant over it; `rate` is the one at its start, `predicted` the rate acceleration that is expected.
+    pub fn rate_acceleration_interval(&self, rate: f64, predicted: f64) -> RateDerivativeInterval {
         let mut rows = Rows::within(1.0);
         let (rate, predicted) = (greater(rate as f32, 0.0), predicted as f32);
         let end_rate = greater(rate + predicted, 0.0);
-        // The square of the rate at the end, (rate + m)^2, linearised around the predicted m: how it changes with m.
+        // The square of the rate at the end, (rate + m)^2 with the rate acceleration m, linearised around the
+        // predicted one: how it changes with m.
         let ends = [
             (&self.start, rate * rate, 0.0),
             (&self.end, end_rate * end_rate, 2.0 * end_rate),
@@ -233,14 +236,14 @@ impl Span {
         0.125 * greater(2.0 * self.acceleration.half[lane] - explained, 0.0)
     }
 
-    /// Whether the period from `start` to `end` with this n keeps the limits: acceleration at
+    /// Whether the period from `start` to `end` with this rate jerk keeps the limits: acceleration at
     /// both ends and in the middle, jerk in the mean, in the middle and at the end (the rows hold it
     /// at the start).
     #[inline(always)]
-    pub fn keeps_limits(&self, start: State, end: State, n: f64) -> bool {
-        let middle = start.half_step(n);
-        let mut excess = [0.0; LANE_COUNT];
-        let n = n as f32;
+    pub fn keeps_limits(&self, start: State, end: State, rate_jerk: f64) -> bool {
+        let middle = start.half_step(rate_jerk);
+        let mut excess = ZEROS;
+        let rate_jerk = rate_jerk as f32;
         let [square_start, cube_start, _, change_start] = powers(start);
         let [square_middle, cube_middle, coupling_middle, change_middle] = powers(middle);
         let [square_end, cube_end, coupling_end, change_end] = powers(end);
@@ -276,8 +279,11 @@ impl Span {
             let jerk = greater(
                 mean.abs() - MEAN_TOLERANCE * mean_limit,
                 greater(
-                    over(cube_middle * own_middle, coupling_middle * a1 + n * v1),
-                    over(cube_end * own_end, coupling_end * a2 + n * v2),
+                    over(
+                        cube_middle * own_middle,
+                        coupling_middle * a1 + rate_jerk * v1,
+                    ),
+                    over(cube_end * own_end, coupling_end * a2 + rate_jerk * v2),
                 ),
             );
             *excess = greater(acceleration, jerk);
@@ -286,11 +292,11 @@ impl Span {
     }
 }
 
-/// l^2, l^3, 3 l m and m, by which the derivatives of the reference count.
+/// By what the derivatives of the reference count, with the rate l and its acceleration m: l^2, l^3, 3 l m and m.
 #[inline(always)]
 fn powers(state: State) -> [f32; 4] {
     let rate = state.rate as f32;
-    let change = state.rate_change as f32;
+    let change = state.rate_acceleration as f32;
     let square = rate * rate;
     [square, square * rate, 3.0 * rate * change, change]
 }
@@ -310,7 +316,7 @@ impl Rows {
         }
     }
 
-    /// `|offset + n * slope| <= width`.
+    /// `|offset + x * slope| <= width`, for the x of the interval.
     #[inline(always)]
     fn narrow(&mut self, lane: usize, offset: f32, slope: f32, width: f32) {
         let scale = 1.0 / (slope.abs() + LEAST_SLOPE);
@@ -372,7 +378,7 @@ mod tests {
             acceleration in axes(-0.1..0.1),
             jerk in axes(0.0..0.01),
             rate in 0.0..1.0,
-            rate_change in -0.01..0.01,
+            rate_acceleration in -0.01..0.01,
         ) {
             let limits = AxisLimits {
                 velocity: Axes::repeat(20.0),
@@ -381,31 +387,31 @@ mod tests {
             };
             let limits = PeriodLimits::new(&limits, 1.0);
             let table = table(velocity, acceleration, jerk);
-            let state = State { time: 0.3, rate, rate_change };
+            let state = State { time: 0.3, rate, rate_acceleration };
             let predicted = state.step(0.0);
             let (start, end) = (table.node(state.time), table.node(predicted.time));
             let span = Span::new(&table, &limits, &start, &end);
             let interval = span.jerk_interval(state, predicted);
             // The mean jerk, which leaves room for jumps of the reference's own.
-            let change = |n: f64| {
+            let change = |rate_jerk: f64| {
                 let at = |s: State| {
-                    (velocity + acceleration * s.time) * s.rate_change + acceleration * s.rate.powi(2)
+                    (velocity + acceleration * s.time) * s.rate_acceleration + acceleration * s.rate.powi(2)
                 };
                 let room = jerk.map(|jerk| f64::from(allowance(2.0 * jerk as f32, 0.02)));
-                ((at(state.step(n)) - at(state)).abs() + room * rate.powi(3)).amax()
+                ((at(state.step(rate_jerk)) - at(state)).abs() + room * rate.powi(3)).amax()
             };
-            let at_start = |n: f64| {
+            let at_start = |rate_jerk: f64| {
                 let now = velocity + acceleration * state.time;
-                (acceleration * (3.0 * rate * rate_change) + now * n).amax()
+                (acceleration * (3.0 * rate * rate_acceleration) + now * rate_jerk).amax()
             };
             if !interval.is_empty() {
-                for n in [interval.low, interval.high] {
-                    prop_assert!(change(n) <= 0.02 * 1.001, "{}", change(n));
-                    prop_assert!(at_start(n) <= 0.02 * 1.2001, "{}", at_start(n));
+                for rate_jerk in [interval.low, interval.high] {
+                    prop_assert!(change(rate_jerk) <= 0.02 * 1.001, "{}", change(rate_jerk));
+                    prop_assert!(at_start(rate_jerk) <= 0.02 * 1.2001, "{}", at_start(rate_jerk));
                 }
             }
             // A constant rate is always allowed.
-            let steady = State { rate_change: 0.0, ..state };
+            let steady = State { rate_acceleration: 0.0, ..state };
             let next = steady.step(0.0);
             let end = table.node(next.time);
             let span = Span::new(&table, &limits, &start, &end);
@@ -413,10 +419,10 @@ mod tests {
             prop_assert!(span.acceleration_interval(steady, next).contains(0.0));
             prop_assert!(span.keeps_limits(steady, next, 0.0));
             // And nothing that the check lets pass is far beyond a limit.
-            for n in [-0.2, -0.01, 0.003, 0.04] {
-                let next = steady.step(n);
-                if span.keeps_limits(steady, next, n) {
-                    let at_end = (velocity + acceleration * next.time) * n;
+            for rate_jerk in [-0.2, -0.01, 0.003, 0.04] {
+                let next = steady.step(rate_jerk);
+                if span.keeps_limits(steady, next, rate_jerk) {
+                    let at_end = (velocity + acceleration * next.time) * rate_jerk;
                     prop_assert!(at_end.amax() <= 0.0203, "{}", at_end.amax());
                 }
             }
@@ -437,14 +443,14 @@ mod tests {
         let state = State {
             time: 0.0,
             rate: 0.5,
-            rate_change: 0.1,
+            rate_acceleration: 0.1,
         };
         let end = state.step(0.0);
         let (a, b) = (table.node(state.time), table.node(end.time));
         let span = Span::new(&table, &limits, &a, &b);
         let all = RateDerivativeInterval {
-            low: -N_LIMIT,
-            high: N_LIMIT,
+            low: -RATE_JERK_LIMIT,
+            high: RATE_JERK_LIMIT,
         };
         assert_eq!(span.jerk_interval(state, end), all);
         assert_eq!(span.acceleration_interval(state, end), all);

@@ -1,6 +1,6 @@
-//! The search for an n that comes with a backup trajectory: the shield around whatever is wanted.
+//! The search for a rate jerk that comes with a backup trajectory: the shield around whatever is wanted.
 //!
-//! The n of the stored backup trajectory is always possible. A candidate takes its place only if the period
+//! The rate jerk of the stored backup trajectory is always possible. A candidate takes its place only if the period
 //! with it keeps the limits and a backup trajectory from the state behind it was found.
 
 use super::Executor;
@@ -8,7 +8,9 @@ use super::backup_refusal::BackupRefusal;
 use super::backup_trajectory::Reserve;
 use super::executor::BUDGET;
 use super::goal::Goal;
-use super::rate_derivative_interval::{N_LIMIT, RATE_CHANGE_LIMIT, RateDerivativeInterval};
+use super::rate_derivative_interval::{
+    RATE_ACCELERATION_LIMIT, RATE_JERK_LIMIT, RateDerivativeInterval,
+};
 use super::rows::Span;
 use super::simulation::Simulation;
 use super::state::State;
@@ -17,7 +19,7 @@ use super::table::Node;
 /// Candidates that are tried in one cycle.
 const TRIES: usize = 6;
 
-/// The search for the best n ends when it is known to this part of the way.
+/// The search for the best rate jerk ends when it is known to this part of the way.
 const SEARCH_TOLERANCE: f64 = 0.06;
 
 /// With less than this left of the budget, what was found is good enough: where backup trajectories are long
@@ -37,7 +39,7 @@ pub(super) enum Keeping {
 }
 
 impl Executor {
-    /// Two periods that end exactly on the target rate with no rate change, if such a pair keeps
+    /// Two periods that end exactly on the target rate with no rate acceleration, if such a pair keeps
     /// all limits. The second one is stored as the backup trajectory, the first one is the answer. In the
     /// second period of such a pair the answer is the stored one. Never more than `most`.
     pub(super) fn landing(
@@ -49,16 +51,16 @@ impl Executor {
     ) -> Option<f64> {
         let state = self.state;
         let missing = state.rate - target;
-        let first = -(missing + 1.5 * state.rate_change);
-        let second = missing + 0.5 * state.rate_change;
-        if !allowed.contains(first) || first > most || second.abs() > N_LIMIT {
+        let first = -(missing + 1.5 * state.rate_acceleration);
+        let second = missing + 0.5 * state.rate_acceleration;
+        if !allowed.contains(first) || first > most || second.abs() > RATE_JERK_LIMIT {
             // Already in the second period of a pair?
-            let n = self.backup().next().filter(|_| self.backup().is_last())?;
-            if n > most || (state.step(n).rate - target).abs() > 1e-9 {
+            let rate_jerk = self.backup().next().filter(|_| self.backup().is_last())?;
+            if rate_jerk > most || (state.step(rate_jerk).rate - target).abs() > 1e-9 {
                 return None;
             }
             self.backup_mut().advance();
-            return Some(n);
+            return Some(rate_jerk);
         }
         let middle = state.step(first);
         let mut last = middle.step(second);
@@ -67,7 +69,7 @@ impl Executor {
             return None;
         }
         last.rate = target;
-        last.rate_change = 0.0;
+        last.rate_acceleration = 0.0;
         let (node, end) = (self.table.node(middle.time), self.table.node(last.time));
         let first_span = Span::new(&self.table, &self.limits, start, &node);
         let second_span = Span::new(&self.table, &self.limits, &node, &end);
@@ -88,7 +90,7 @@ impl Executor {
         Some(first)
     }
 
-    /// The n nearest to the wanted one that comes with a backup trajectory: from the stored backup trajectory's n as
+    /// The rate jerk nearest to the wanted one that comes with a backup trajectory: from that of the stored one as
     /// far towards the wanted one as it can be verified within the budget.
     pub(super) fn search(&mut self, safe: f64, wanted: f64, start: &Node, keeping: Keeping) -> f64 {
         let (mut verified, mut refused) = (0.0, 2.0);
@@ -101,9 +103,9 @@ impl Executor {
         let mut fraction = self.fraction;
         let mut best = None;
         for _ in 0..TRIES {
-            let n = safe + fraction * (wanted - safe);
-            if self.verify(n, start, keeping) {
-                best = Some(n);
+            let rate_jerk = safe + fraction * (wanted - safe);
+            if self.verify(rate_jerk, start, keeping) {
+                best = Some(rate_jerk);
                 verified = fraction;
             } else {
                 refused = fraction;
@@ -122,9 +124,9 @@ impl Executor {
             };
         }
         match best {
-            Some(n) => {
+            Some(rate_jerk) => {
                 self.fraction = (2.0 * verified).min(1.0);
-                n
+                rate_jerk
             }
             None => {
                 self.fraction = fraction.max(LEAST_FRACTION);
@@ -134,11 +136,11 @@ impl Executor {
         }
     }
 
-    /// Whether this n keeps the limits and has a backup trajectory of its own, which is then stored.
-    pub(super) fn verify(&mut self, n: f64, start: &Node, keeping: Keeping) -> bool {
+    /// Whether this rate jerk keeps the limits and has a backup trajectory of its own, which is then stored.
+    pub(super) fn verify(&mut self, rate_jerk: f64, start: &Node, keeping: Keeping) -> bool {
         let state = self.state;
-        let next = state.step(n).settled();
-        if !next.follows(state) || next.rate_change.abs() > RATE_CHANGE_LIMIT {
+        let next = state.step(rate_jerk).settled();
+        if !next.follows(state) || next.rate_acceleration.abs() > RATE_ACCELERATION_LIMIT {
             return false;
         }
         if !self.table.knows(next.time) {
@@ -147,10 +149,10 @@ impl Executor {
         }
         let end = self.table.node(next.time);
         let span = Span::new(&self.table, &self.limits, start, &end);
-        if !span.keeps_limits(state, next, n) {
+        if !span.keeps_limits(state, next, rate_jerk) {
             return false;
         }
-        let found = self.find_backup(next, n, keeping);
+        let found = self.find_backup(next, rate_jerk, keeping);
         match found {
             Ok(()) => self.stored = 1 - (self.stored & 1),
             Err(refusal) => self.wall |= refusal == BackupRefusal::Wall,
@@ -158,11 +160,11 @@ impl Executor {
         found.is_ok()
     }
 
-    /// Looks for a backup trajectory from `state`, reached with `previous_n`, beside the stored one.
+    /// Looks for a backup trajectory from `state`, reached with `previous_rate_jerk`, beside the stored one.
     fn find_backup(
         &mut self,
         state: State,
-        previous_n: f64,
+        previous_rate_jerk: f64,
         keeping: Keeping,
     ) -> Result<(), BackupRefusal> {
         let mut simulation = Simulation {
@@ -173,11 +175,11 @@ impl Executor {
         };
         let spare = &mut self.backups[1 - (self.stored & 1)];
         if keeping == Keeping::Caps {
-            return spare.find_below(&mut simulation, &self.caps, state, previous_n);
+            return spare.find_below(&mut simulation, &self.caps, state, previous_rate_jerk);
         }
         // A thread goes where the spindle is, at whatever price.
-        let rises = state.rate_change > 0.0 && matches!(self.goal, Goal::Run | Goal::Cap(_));
+        let rises = state.rate_acceleration > 0.0 && matches!(self.goal, Goal::Run | Goal::Cap(_));
         let reserve = if rises { Reserve::Kept } else { Reserve::Used };
-        spare.find(&mut simulation, reserve, state, previous_n)
+        spare.find(&mut simulation, reserve, state, previous_rate_jerk)
     }
 }

@@ -5,10 +5,10 @@
 pub struct State {
     /// Reference time tau since the start of the first cell that the table keeps.
     pub time: f64,
-    /// l = dtau/dt, 0 to 1.
+    /// The rate, dtau/dt, 0 to 1; l in formulas.
     pub rate: f64,
-    /// m = dl/dt, per servo period.
-    pub rate_change: f64,
+    /// Its derivative by time, per servo period; m in formulas.
+    pub rate_acceleration: f64,
 }
 
 impl State {
@@ -16,42 +16,42 @@ impl State {
     pub const START: Self = Self {
         time: 0.0,
         rate: 1.0,
-        rate_change: 0.0,
+        rate_acceleration: 0.0,
     };
 
-    /// How far the reference time advances in one servo period with dm/dt = `n` (per period
+    /// How far the reference time advances in one servo period with this rate jerk (per period
     /// squared). Exact: within the period the reference time is a cubic.
     #[inline(always)]
-    pub fn advance(self, n: f64) -> f64 {
-        self.rate + 0.5 * self.rate_change + n * (1.0 / 6.0)
+    pub fn advance(self, rate_jerk: f64) -> f64 {
+        self.rate + 0.5 * self.rate_acceleration + rate_jerk * (1.0 / 6.0)
     }
 
     /// The state after that period.
     #[inline(always)]
-    pub fn step(self, n: f64) -> Self {
+    pub fn step(self, rate_jerk: f64) -> Self {
         Self {
-            time: self.time + self.advance(n),
-            rate: self.rate + self.rate_change + 0.5 * n,
-            rate_change: self.rate_change + n,
+            time: self.time + self.advance(rate_jerk),
+            rate: self.rate + self.rate_acceleration + 0.5 * rate_jerk,
+            rate_acceleration: self.rate_acceleration + rate_jerk,
         }
     }
 
     /// The state in the middle of the same period; its time is not needed and is left as it is.
     #[inline(always)]
-    pub fn half_step(self, n: f64) -> Self {
+    pub fn half_step(self, rate_jerk: f64) -> Self {
         Self {
             time: self.time,
-            rate: self.rate + 0.5 * self.rate_change + 0.125 * n,
-            rate_change: self.rate_change + 0.5 * n,
+            rate: self.rate + 0.5 * self.rate_acceleration + 0.125 * rate_jerk,
+            rate_acceleration: self.rate_acceleration + 0.5 * rate_jerk,
         }
     }
 
-    /// The same with a rate change of exactly 0 where it is 0 but for rounding.
+    /// The same with a rate acceleration of exactly 0 where it is 0 but for rounding.
     #[inline(always)]
     pub fn settled(self) -> Self {
         if self.is_steady() {
             Self {
-                rate_change: 0.0,
+                rate_acceleration: 0.0,
                 ..self
             }
         } else {
@@ -59,10 +59,10 @@ impl State {
         }
     }
 
-    /// Whether the rate stays as it is (m = 0 but for rounding): feasible for ever.
+    /// Whether the rate stays as it is (its acceleration is 0 but for rounding): feasible for ever.
     #[inline(always)]
     pub fn is_steady(self) -> bool {
-        self.rate_change.abs() < STEADY
+        self.rate_acceleration.abs() < STEADY
     }
 
     /// Whether this state may come one period after `previous`: with a rate from 0 to 1 but for
@@ -76,7 +76,7 @@ impl State {
     /// there but for rounding.
     pub fn within_range(self) -> Self {
         let nearest = if self.rate < 0.5 { 0.0 } else { 1.0 };
-        let steady = self.rate_change == 0.0;
+        let steady = self.rate_acceleration == 0.0;
         if (-ROUNDING..=1.0 + ROUNDING).contains(&self.rate) {
             let rounds = steady && (self.rate - nearest).abs() < STEADY;
             Self {
@@ -90,7 +90,7 @@ impl State {
         } else {
             Self {
                 rate: nearest,
-                rate_change: 0.0,
+                rate_acceleration: 0.0,
                 ..self
             }
         }
@@ -100,7 +100,7 @@ impl State {
 /// Rates and times this far off are rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Below this a rate change is rounding: after a million periods it would amount to 1e-6.
+/// Below this a rate acceleration is rounding: after a million periods it would amount to 1e-6.
 const STEADY: f64 = 1e-12;
 
 #[cfg(test)]
@@ -112,36 +112,36 @@ mod tests {
         #[test]
         fn the_step_is_the_integral(
             rate in 0.0..1.0,
-            rate_change in -0.25..0.25,
-            n in -0.25..0.25,
+            rate_acceleration in -0.25..0.25,
+            rate_jerk in -0.25..0.25,
         ) {
-            let state = State { time: 3.0, rate, rate_change };
+            let state = State { time: 3.0, rate, rate_acceleration };
             let count = 2000;
             let h = 1.0 / f64::from(count);
             let mut sum = [state.time, state.rate];
             for i in 0..count {
                 // The middle of each part: exact for the rate, of second order for the time.
                 let t = (f64::from(i) + 0.5) * h;
-                sum[0] += h * (rate + t * (rate_change + 0.5 * t * n));
-                sum[1] += h * (rate_change + t * n);
+                sum[0] += h * (rate + t * (rate_acceleration + 0.5 * t * rate_jerk));
+                sum[1] += h * (rate_acceleration + t * rate_jerk);
             }
-            let end = state.step(n);
+            let end = state.step(rate_jerk);
             prop_assert!((end.time - sum[0]).abs() < 1e-7);
             prop_assert!((end.rate - sum[1]).abs() < 1e-9);
-            prop_assert!((end.rate_change - rate_change - n).abs() < 1e-15);
-            prop_assert!((end.time - state.time - state.advance(n)).abs() < 1e-14);
-            let middle = state.half_step(n);
-            prop_assert!((middle.rate - (rate + 0.5 * rate_change + 0.125 * n)).abs() < 1e-15);
-            prop_assert!((middle.rate_change - (rate_change + 0.5 * n)).abs() < 1e-15);
+            prop_assert!((end.rate_acceleration - rate_acceleration - rate_jerk).abs() < 1e-15);
+            prop_assert!((end.time - state.time - state.advance(rate_jerk)).abs() < 1e-14);
+            let middle = state.half_step(rate_jerk);
+            prop_assert!((middle.rate - (rate + 0.5 * rate_acceleration + 0.125 * rate_jerk)).abs() < 1e-15);
+            prop_assert!((middle.rate_acceleration - (rate_acceleration + 0.5 * rate_jerk)).abs() < 1e-15);
         }
     }
 
     #[test]
     fn the_range_is_kept() {
-        let state = |rate, rate_change| State {
+        let state = |rate, rate_acceleration| State {
             time: 0.0,
             rate,
-            rate_change,
+            rate_acceleration,
         };
         assert_eq!(state(1.0 - 1e-13, 0.0).within_range(), state(1.0, 0.0));
         assert_eq!(state(1e-13, 0.0).within_range(), state(0.0, 0.0));

@@ -1,7 +1,7 @@
 //! A cell as the table keeps it.
 
 use super::cell::Cell;
-use super::lanes::{LANE_COUNT, Lanes, scaled, single};
+use crate::lanes::{Lanes, ZEROS, scaled, single};
 
 /// A [`Cell`] in single precision, in units of the servo period.
 #[derive(Clone, Copy, Debug)]
@@ -36,12 +36,12 @@ pub enum OverrideKind {
 
 impl StoredCell {
     pub const STANDSTILL: Self = Self {
-        velocity: [0.0; LANE_COUNT],
-        acceleration: [0.0; LANE_COUNT],
-        acceleration_min: [0.0; LANE_COUNT],
-        acceleration_max: [0.0; LANE_COUNT],
-        jerk_min: [0.0; LANE_COUNT],
-        jerk_max: [0.0; LANE_COUNT],
+        velocity: ZEROS,
+        acceleration: ZEROS,
+        acceleration_min: ZEROS,
+        acceleration_max: ZEROS,
+        jerk_min: ZEROS,
+        jerk_max: ZEROS,
         path_velocity: 0.0,
         path_acceleration: 0.0,
         feed_ratio: 1.0,

@@ -2,9 +2,9 @@
 
 use super::cell::Cell;
 use super::feed_block::{BLOCK_LENGTH, FeedBlock};
-use super::lanes::{LANE_COUNT, Lanes};
 use super::stored_cell::StoredCell;
 use crate::axes::{AXIS_COUNT, Axes};
+use crate::lanes::{LANE_COUNT, Lanes, ZEROS};
 use crate::ring::Ring;
 
 /// Cells that the table holds, the one that runs included.
@@ -190,8 +190,8 @@ impl Table {
         let part = ((time - cell as f64).clamp(0.0, 1.0)) as f32;
         let bend = 0.5 * part * (1.0 - part);
         let mut node = Node {
-            velocity: [0.0; LANE_COUNT],
-            acceleration: [0.0; LANE_COUNT],
+            velocity: ZEROS,
+            acceleration: ZEROS,
             cell,
         };
         for lane in 0..LANE_COUNT {
@@ -334,8 +334,8 @@ mod tests {
         assert!(table.is_behind_end(1.5) && !table.is_behind_end(1.4));
         for time in [2.0, 7.0, 1e9, f64::INFINITY] {
             let node = table.node(time);
-            assert_eq!(node.velocity, [0.0; LANE_COUNT]);
-            assert_eq!(node.acceleration, [0.0; LANE_COUNT]);
+            assert_eq!(node.velocity, ZEROS);
+            assert_eq!(node.acceleration, ZEROS);
         }
         assert_eq!(table.cell(1).acceleration_min[0], 0.0);
         table.discard(1);

@@ -1,6 +1,6 @@
-//! The decision of a period where no axis has a limit of jerk: the rate change may jump between periods.
+//! The decision of a period where no axis has a limit of jerk: the rate acceleration may jump between periods.
 //!
-//! So every period stands for itself. Within it the rate change is constant; none is always possible, and
+//! So every period stands for itself. Within it the rate acceleration is constant; none is always possible, and
 //! there is nothing to release.
 
 use super::Executor;
@@ -16,12 +16,12 @@ use super::table::Node;
 /// How often the rows are linearised around what they gave.
 const PREDICTIONS: usize = 3;
 
-/// How often the way between a rate change that the check refuses and none is halved.
+/// How often the way between a rate acceleration that the check refuses and none is halved.
 const HALVINGS: usize = 8;
 
 impl Executor {
-    /// The rate change over this period, per servo period.
-    pub(super) fn rate_change(&mut self, goal: Goal) -> f64 {
+    /// The rate acceleration over this period, per servo period.
+    pub(super) fn rate_acceleration(&mut self, goal: Goal) -> f64 {
         self.goal = goal;
         self.backup_mut().clear();
         let state = self.state;
@@ -40,29 +40,29 @@ impl Executor {
         }
     }
 
-    /// What the caps ahead leave of a rate change: braking if nothing. Then less is tried in the next period,
+    /// What the caps ahead leave of a rate acceleration: braking if nothing. Then less is tried in the next period,
     /// or a machine at rest would stay there.
-    fn before_caps(&mut self, change: f64, ratio: f64) -> f64 {
-        let part = self.fraction * change;
-        let change = if change > 0.0 && self.keeps_limits(part) {
+    fn before_caps(&mut self, rate_acceleration: f64, ratio: f64) -> f64 {
+        let part = self.fraction * rate_acceleration;
+        let rate_acceleration = if rate_acceleration > 0.0 && self.keeps_limits(part) {
             part
         } else {
-            change.min(0.0)
+            rate_acceleration.min(0.0)
         };
-        if self.goes_too_far(change, ratio) {
+        if self.goes_too_far(rate_acceleration, ratio) {
             self.fraction = (0.5 * self.fraction).max(LEAST_FRACTION);
             self.within_limits(-self.state.rate)
         } else {
             self.fraction = (2.0 * self.fraction).min(1.0);
-            change
+            rate_acceleration
         }
     }
 
     /// Whether a feed cap ahead could not be kept any more.
-    fn goes_too_far(&mut self, change: f64, ratio: f64) -> bool {
+    fn goes_too_far(&mut self, rate_acceleration: f64, ratio: f64) -> bool {
         let next = State {
-            rate_change: 0.0,
-            ..changing(self.state, change).step(0.0)
+            rate_acceleration: 0.0,
+            ..changing(self.state, rate_acceleration).step(0.0)
         };
         if !Caps::lie_ahead(next, ratio, self.servo_period) {
             return false;
@@ -82,7 +82,7 @@ impl Executor {
         }
     }
 
-    /// The rate change nearest to the wanted one that the limits of acceleration allow.
+    /// The rate acceleration nearest to the wanted one that the limits of acceleration allow.
     fn within_limits(&mut self, wanted: f64) -> f64 {
         if wanted == 0.0 {
             return 0.0;
@@ -93,20 +93,20 @@ impl Executor {
         for _ in 0..PREDICTIONS {
             let end = self.table.node(changing(state, predicted).step(0.0).time);
             let interval = Span::new(&self.table, &self.limits, &start, &end)
-                .rate_change_interval(state.rate, predicted);
+                .rate_acceleration_interval(state.rate, predicted);
             // The reference itself may be on a limit, but for rounding: no change is always possible.
-            let change = wanted
+            let rate_acceleration = wanted
                 .max(interval.low.min(0.0))
                 .min(interval.high.max(0.0));
-            if change.abs() <= kept.abs() {
+            if rate_acceleration.abs() <= kept.abs() {
                 break;
             }
-            if self.keeps_limits(change) {
-                kept = change;
+            if self.keeps_limits(rate_acceleration) {
+                kept = rate_acceleration;
             } else {
-                refused = change;
+                refused = rate_acceleration;
             }
-            predicted = change;
+            predicted = rate_acceleration;
         }
         if kept != 0.0 {
             return kept;
@@ -122,8 +122,8 @@ impl Executor {
         kept
     }
 
-    fn keeps_limits(&mut self, change: f64) -> bool {
-        let state = changing(self.state, change);
+    fn keeps_limits(&mut self, rate_acceleration: f64) -> bool {
+        let state = changing(self.state, rate_acceleration);
         let next = state.step(0.0);
         if !next.follows(state) {
             return false;
@@ -137,10 +137,10 @@ impl Executor {
     }
 }
 
-/// The state with a rate change that begins here.
-fn changing(state: State, rate_change: f64) -> State {
+/// The state with a rate acceleration that begins here.
+fn changing(state: State, rate_acceleration: f64) -> State {
     State {
-        rate_change,
+        rate_acceleration,
         ..state
     }
 }
@@ -151,7 +151,7 @@ fn changing(state: State, rate_change: f64) -> State {
 fn keeps_caps(simulation: &mut Simulation, caps: &Caps, mut state: State) -> Option<bool> {
     let (table, period) = (simulation.table, simulation.servo_period);
     let mut start = table.node(state.time);
-    let mut previous_change = 0.0;
+    let mut previous_rate_acceleration = 0.0;
     let mut ahead = CapsAhead::new(caps, table, state.time, period);
     for count in 0..BRAKING_PERIODS {
         match ahead.look(state) {
@@ -164,7 +164,7 @@ fn keeps_caps(simulation: &mut Simulation, caps: &Caps, mut state: State) -> Opt
         if simulation.spend().is_none() {
             return Some(false);
         }
-        (state, start) = brake(simulation, &start, state, &mut previous_change)?;
+        (state, start) = brake(simulation, &start, state, &mut previous_rate_acceleration)?;
     }
     Some(false)
 }
@@ -174,22 +174,22 @@ fn brake(
     simulation: &Simulation,
     start: &Node,
     state: State,
-    previous_change: &mut f64,
+    previous_rate_acceleration: &mut f64,
 ) -> Option<(State, Node)> {
     let (table, limits) = (simulation.table, simulation.limits);
-    let predicted = changing(state, previous_change.max(-state.rate)).step(0.0);
+    let predicted = changing(state, previous_rate_acceleration.max(-state.rate)).step(0.0);
     if !table.knows(predicted.time) {
         return None;
     }
     let end = table.node(predicted.time);
     let span = Span::new(table, limits, start, &end);
-    let interval = span.rate_change_interval(state.rate, *previous_change);
-    let change = interval.low.min(0.0).max(-state.rate);
-    *previous_change = change;
-    let next = changing(state, change).step(0.0);
+    let interval = span.rate_acceleration_interval(state.rate, *previous_rate_acceleration);
+    let rate_acceleration = interval.low.min(0.0).max(-state.rate);
+    *previous_rate_acceleration = rate_acceleration;
+    let next = changing(state, rate_acceleration).step(0.0);
     let next = State {
         rate: next.rate.clamp(0.0, 1.0),
-        rate_change: 0.0,
+        rate_acceleration: 0.0,
         ..next
     };
     Some((next, end))

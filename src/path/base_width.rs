@@ -12,8 +12,8 @@ use super::window::Window;
 /// Ratio of one width tried to the one before.
 const GROWTH: f64 = 1.25;
 
-/// Two turns are of the same kind if the cosine between them exceeds this.
-const SAME_TURN: f64 = 0.25;
+/// Two jumps of the tangent are of the same kind if the cosine between them exceeds this.
+const SAME_KIND: f64 = 0.25;
 
 /// A scan that ends below so many corner widths gains nothing over a plain corner.
 const WORTHWHILE: f64 = 1.65;
@@ -28,7 +28,7 @@ pub(super) fn widen(
     metric: &Metric,
 ) -> (bool, usize) {
     let vertex = chain.vertex(number);
-    if vertex.scan_done || vertex.wall || vertex.turn_size <= 0.0 {
+    if vertex.scan_done || vertex.wall || vertex.tangent_jump_size <= 0.0 {
         return (false, 1);
     }
     let width =
@@ -83,8 +83,8 @@ fn greatest_width(
 ) -> f64 {
     let vertex = chain.vertex(number);
     let same = |other: &Vertex| {
-        metric.product(&other.turn.axes(), &vertex.turn.axes())
-            > SAME_TURN * other.turn_size * vertex.turn_size
+        metric.product(&other.tangent_jump.axes(), &vertex.tangent_jump.axes())
+            > SAME_KIND * other.tangent_jump_size * vertex.tangent_jump_size
     };
     let before = chain.vertex(number.saturating_sub(1));
     let after = chain.vertex(number.saturating_add(1));
@@ -128,7 +128,7 @@ fn deviation_at_equal_widths(
         let distance = (here - vertex.s).abs();
         if distance < kernel_width {
             let value = kernel_width * kernel::value(distance / kernel_width, mix);
-            sum.add(&vertex.turn, &[value]);
+            sum.add(&vertex.tangent_jump, &[value]);
         }
     }
     (metric.norm(&sum.axes()), terms)

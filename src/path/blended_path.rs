@@ -367,7 +367,7 @@ impl BlendedPath {
     fn vertex_view(&self, number: u64) -> VertexView {
         let vertex = self.chain.vertex(number);
         let mut reach = vertex.stored().reach();
-        if vertex.turn_size <= 0.0 && !vertex.wall {
+        if vertex.tangent_jump_size <= 0.0 && !vertex.wall {
             // In a smoothed run the path is as curved here as at its neighbours.
             for neighbour in [number.saturating_sub(1), number.saturating_add(1)] {
                 if neighbour < self.chain.first() || neighbour >= self.chain.next() {

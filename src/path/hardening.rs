@@ -41,13 +41,13 @@ pub(super) fn harden(
     }
     let room = vertex.half_leg.min(clip);
     let tolerance = TOLERANCE_SHARE * vertex.tolerance;
-    let kernel = if vertex.turn_size > 0.0 {
-        (tolerance / (kernel::peak(vertex.corner_mix) * vertex.turn_size)).min(room)
+    let kernel = if vertex.tangent_jump_size > 0.0 {
+        (tolerance / (kernel::peak(vertex.corner_mix) * vertex.tangent_jump_size)).min(room)
     } else {
         0.0
     };
-    let easement = if vertex.jump_size > 0.0 {
-        (tolerance / (easement::PEAK * vertex.jump_size))
+    let easement = if vertex.curvature_jump_size > 0.0 {
+        (tolerance / (easement::PEAK * vertex.curvature_jump_size))
             .sqrt()
             .min(room)
     } else {

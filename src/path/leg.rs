@@ -8,7 +8,7 @@ use crate::moves::shape::{PathPoint, Shape};
 
 /// Legs that turn by less, length of the difference of unit vectors, may be chords of a curve: 60
 /// degrees.
-const CHORD_TURN: f64 = 1.0;
+const CHORD_JUMP: f64 = 1.0;
 
 /// A move as the blended path takes it.
 #[derive(Clone, Copy, Debug)]
@@ -152,8 +152,8 @@ impl Leg {
 
     /// How far before its end the path may still change when the next leg comes: as far as a corner
     /// with the next leg may want to reach, and where it may be one of the chords of a curve, two of
-    /// them. `turn_size` is that of the vertex at its start.
-    pub fn reserve(&self, settings: &BlendSettings, turn_size: f64) -> f64 {
+    /// them. `tangent_jump_size` is that of the vertex at its start.
+    pub fn reserve(&self, settings: &BlendSettings, tangent_jump_size: f64) -> f64 {
         let widest = if self.allows_half_legs() {
             settings.greatest_free_width()
         } else {
@@ -163,7 +163,7 @@ impl Leg {
         if self.is_exact() {
             reserve
         } else {
-            let on_curve = turn_size < CHORD_TURN;
+            let on_curve = tangent_jump_size < CHORD_JUMP;
             let chords = if on_curve { 2.0 * self.length } else { 0.0 };
             let chords = chords.min(settings.greatest_design_width());
             reserve.max(self.design_width).max(chords)

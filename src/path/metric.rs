@@ -94,7 +94,7 @@ mod tests {
         let circle = Circle {
             center: Vector3::new(-1.0, 0.0, 0.0),
             normal: Vector3::z(),
-            turn: 0,
+            revolutions: 0,
         };
         let mut end = Axes::zeros();
         end[4] = 10.0 * core::f64::consts::TAU;

@@ -4,7 +4,7 @@
 //! path is that of the program plus smooth functions of narrow support, one for each vertex:
 //!
 //! ```text
-//! q(s) = p(s) + sum over vertices of turn * w * phi(|s - s_i| / w) + jump * ...
+//! q(s) = p(s) + sum over vertices of tangent_jump * w * phi(|s - s_i| / w) + curvature_jump * ...
 //! ```
 //!
 //! with s the arc length of the programmed path. Whatever the widths, second derivatives are

@@ -124,25 +124,25 @@ impl BlendSettings {
         GREATEST_DESIGN_WIDTH * self.millimetre
     }
 
-    /// The width at which a corner that turns the direction by `turn` (length of the difference of
+    /// The width at which a corner that turns the direction by `tangent_jump` (length of the difference of
     /// unit vectors) is run through at `speed` within the jerk, machine units.
-    pub(super) fn full_speed_width(&self, turn: f64, speed: f64) -> f64 {
-        // The third derivative of the rounded corner is about 1.44 turn / w^2, and three times as
+    pub(super) fn full_speed_width(&self, tangent_jump: f64, speed: f64) -> f64 {
+        // The third derivative of the rounded corner is about 1.44 tangent_jump / w^2, and three times as
         // much is left free for changes of the speed.
-        (4.3 * turn * speed * speed * speed / self.linear_jerk).sqrt()
+        (4.3 * tangent_jump * speed * speed * speed / self.linear_jerk).sqrt()
     }
 
-    /// The width at which a jump of the curvature by `jump`, 1 per machine unit, is run through at
+    /// The width at which a jump of the curvature by `curvature_jump`, 1 per machine unit, is run through at
     /// `speed` within the jerk and as much again, machine units.
-    pub(super) fn full_speed_easement(&self, jump: f64, speed: f64) -> f64 {
-        2.0 * 1.152 * jump * speed * speed * speed / self.linear_jerk
+    pub(super) fn full_speed_easement(&self, curvature_jump: f64, speed: f64) -> f64 {
+        2.0 * 1.152 * curvature_jump * speed * speed * speed / self.linear_jerk
     }
 
     /// The width at which a corner that stands alone is run through at `speed` within acceleration
-    /// and jerk of all axes, with kernels of this `mix`; machine units. `turn`: jump of dp/ds,
+    /// and jerk of all axes, with kernels of this `mix`; machine units. `tangent_jump`: jump of dp/ds,
     /// shape (9).
-    pub(super) fn free_width(&self, turn: &Axes, speed: f64, mix: f64) -> f64 {
-        let size = turn.abs();
+    pub(super) fn free_width(&self, tangent_jump: &Axes, speed: f64, mix: f64) -> f64 {
+        let size = tangent_jump.abs();
         let bend = size.component_mul(&self.per_acceleration).max();
         // Also where jerk is not limited nothing is gained by more than this.
         let twist = size.component_mul(&self.per_jerk).max();
@@ -158,15 +158,15 @@ impl BlendSettings {
         GREATEST_FREE_WIDTH * self.millimetre
     }
 
-    /// How flat or peaked the kernel of a corner should be: its mix, see [`kernel`]. `turn`: jump
+    /// How flat or peaked the kernel of a corner should be: its mix, see [`kernel`]. `tangent_jump`: jump
     /// of dp/ds, shape (9); `width`: of its biweight kernel, machine units. `by_tolerance`: whether
     /// it is the tolerance that the width follows from, not the length of the legs.
     ///
     /// What counts is how often the time of a ramp from 0 to the greatest acceleration fits into
     /// half of the corner, run through at that acceleration. The lines are fitted to measured times
     /// of squares with legs of 5 mm and random polylines.
-    pub(super) fn corner_mix(&self, turn: &Axes, width: f64, by_tolerance: bool) -> f64 {
-        let size = turn.abs();
+    pub(super) fn corner_mix(&self, tangent_jump: &Axes, width: f64, by_tolerance: bool) -> f64 {
+        let size = tangent_jump.abs();
         let bend = size.component_mul(&self.per_acceleration).max();
         let twist = size.component_mul(&self.per_jerk).max();
         if !(bend > 0.0 && width > 0.0) {
@@ -255,43 +255,54 @@ mod tests {
             metric.full_speed_easement(0.3, 50.0),
             imperial.full_speed_easement(0.3 * 25.4, 50.0 / 25.4),
         );
-        let turn = Axes::repeat(0.3);
+        let tangent_jump = Axes::repeat(0.3);
         for speed in [5.0, 50.0, 500.0] {
             close(
-                metric.free_width(&turn, speed, -0.5),
-                imperial.free_width(&turn, speed / 25.4, -0.5),
+                metric.free_width(&tangent_jump, speed, -0.5),
+                imperial.free_width(&tangent_jump, speed / 25.4, -0.5),
             );
         }
         for by_tolerance in [false, true] {
-            let mix = metric.corner_mix(&turn, 2.0, by_tolerance);
+            let mix = metric.corner_mix(&tangent_jump, 2.0, by_tolerance);
             assert!((-1.0..0.0).contains(&mix) || by_tolerance);
-            assert!((mix - imperial.corner_mix(&turn, 2.0 / 25.4, by_tolerance)).abs() < 1e-12);
+            assert!(
+                (mix - imperial.corner_mix(&tangent_jump, 2.0 / 25.4, by_tolerance)).abs() < 1e-12
+            );
         }
     }
 
     #[test]
     fn corners_are_flat_where_acceleration_limits_and_peaked_where_jerk_does() {
-        let mut turn = Axes::zeros();
-        turn[0] = 1.0;
-        assert_eq!(settings(f64::INFINITY).corner_mix(&turn, 2.0, true), -1.0);
-        assert_eq!(settings(f64::INFINITY).corner_mix(&turn, 2.0, false), -1.0);
-        let peaked = settings(20_000.0).corner_mix(&turn, 0.2, true);
+        let mut tangent_jump = Axes::zeros();
+        tangent_jump[0] = 1.0;
+        assert_eq!(
+            settings(f64::INFINITY).corner_mix(&tangent_jump, 2.0, true),
+            -1.0
+        );
+        assert_eq!(
+            settings(f64::INFINITY).corner_mix(&tangent_jump, 2.0, false),
+            -1.0
+        );
+        let peaked = settings(20_000.0).corner_mix(&tangent_jump, 0.2, true);
         assert_eq!(peaked, kernel::GREATEST_PEAKED);
-        let free = settings(20_000.0).corner_mix(&turn, 2.0, false);
+        let free = settings(20_000.0).corner_mix(&tangent_jump, 2.0, false);
         assert!((-0.5..0.0).contains(&free), "{free}");
-        assert_eq!(BlendSettings::DEFAULT.corner_mix(&turn, 2.0, true), 0.0);
+        assert_eq!(
+            BlendSettings::DEFAULT.corner_mix(&tangent_jump, 2.0, true),
+            0.0
+        );
     }
 
     #[test]
     fn a_free_corner_is_as_wide_as_its_feed_wants() {
-        let mut turn = Axes::zeros();
-        turn[1] = 1.0;
+        let mut tangent_jump = Axes::zeros();
+        tangent_jump[1] = 1.0;
         let settings = settings(f64::INFINITY);
-        let width = settings.free_width(&turn, 100.0, -1.0);
+        let width = settings.free_width(&tangent_jump, 100.0, -1.0);
         // The acceleration in the middle, at 100 mm/s.
         let acceleration = kernel::greatest(-1.0) / width * 10_000.0;
         assert!((acceleration * 1.1 - 1000.0).abs() < 1e-9);
-        assert_eq!(settings.free_width(&turn, 1e4, -1.0), 12.0);
+        assert_eq!(settings.free_width(&tangent_jump, 1e4, -1.0), 12.0);
     }
 
     #[test]

@@ -8,10 +8,10 @@ use super::settings::BlendSettings;
 use super::{easement, kernel};
 
 /// A turn of the direction below this is rounding.
-const NO_TURN: f64 = 1e-9;
+const NO_TANGENT_JUMP: f64 = 1e-9;
 
 /// A jump of the curvature below this, 1 per machine unit, is rounding.
-const NO_JUMP: f64 = 1e-6;
+const NO_CURVATURE_JUMP: f64 = 1e-6;
 
 /// Of the tolerance, what the middle of a corner uses.
 pub(super) const KERNEL_SHARE: f64 = 0.97;
@@ -45,7 +45,7 @@ const CORE: f64 = 0.9;
 /// How far a vertex is smoothed to both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Widths {
-    /// Of the kernel for the turn; 0 without one.
+    /// Of the kernel for the jump of the tangent; 0 without one.
     pub kernel: f64,
     /// Mix of the kernels.
     pub mix: f64,
@@ -83,13 +83,13 @@ pub(super) struct Vertex {
     /// Where it is, path distance.
     pub s: f64,
     /// Jump of dp/ds.
-    pub turn: Jump,
+    pub tangent_jump: Jump,
     /// Jump of d2p/ds2.
-    pub jump: Jump,
-    /// Length of the turn, 0 to 2.
-    pub turn_size: f64,
-    /// Length of the jump.
-    pub jump_size: f64,
+    pub curvature_jump: Jump,
+    /// Length of the jump of the tangent, 0 to 2.
+    pub tangent_jump_size: f64,
+    /// Length of the jump of the curvature, 1 per machine unit.
+    pub curvature_jump_size: f64,
     /// The smaller of its legs' tolerances.
     pub tolerance: f64,
     /// Half of its shorter leg.
@@ -154,10 +154,10 @@ pub(super) struct Vertex {
 impl Vertex {
     pub const VACANT: Self = Self {
         s: 0.0,
-        turn: Jump::NONE,
-        jump: Jump::NONE,
-        turn_size: 0.0,
-        jump_size: 0.0,
+        tangent_jump: Jump::NONE,
+        curvature_jump: Jump::NONE,
+        tangent_jump_size: 0.0,
+        curvature_jump_size: 0.0,
         tolerance: 0.0,
         half_leg: 0.0,
         longer_leg: 0.0,
@@ -201,18 +201,18 @@ impl Vertex {
     /// The vertex between two legs, with base widths as far as they depend on nothing else.
     pub fn between(before: &Leg, after: &Leg, settings: &BlendSettings, metric: &Metric) -> Self {
         let (from, to) = (before.point(before.end()), after.point(after.start));
-        let (turn, jump) = (to.first - from.first, to.second - from.second);
+        let (tangent_jump, curvature_jump) = (to.first - from.first, to.second - from.second);
         let significant = |size: f64, least: f64| if size > least { size } else { 0.0 };
-        let turn_size = significant(metric.norm(&turn), NO_TURN);
-        let jump_size = significant(metric.norm(&jump), NO_JUMP);
+        let tangent_jump_size = significant(metric.norm(&tangent_jump), NO_TANGENT_JUMP);
+        let curvature_jump_size = significant(metric.norm(&curvature_jump), NO_CURVATURE_JUMP);
         let exact = before.is_exact() || after.is_exact();
-        let stop = before.stop_after || after.stop_before || (exact && turn_size > TANGENT);
+        let stop = before.stop_after || after.stop_before || (exact && tangent_jump_size > TANGENT);
         let mut vertex = Self {
             s: after.start,
-            turn: Jump::new(&turn),
-            jump: Jump::new(&jump),
-            turn_size,
-            jump_size,
+            tangent_jump: Jump::new(&tangent_jump),
+            curvature_jump: Jump::new(&curvature_jump),
+            tangent_jump_size,
+            curvature_jump_size,
             tolerance: before.tolerance().min(after.tolerance()),
             half_leg: 0.5 * before.length.min(after.length),
             longer_leg: before.length.max(after.length),
@@ -233,19 +233,20 @@ impl Vertex {
     /// micrometre. An easement leaves the point itself alone.
     fn find_exact_widths(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
         let room = self.half_leg.min(settings.greatest_design_width());
-        if self.turn_size > 0.0 {
+        if self.tangent_jump_size > 0.0 {
             let slower = before.speed.min(after.speed);
             let wanted = settings
-                .free_width(&self.turn.axes(), slower, 0.0)
+                .free_width(&self.tangent_jump.axes(), slower, 0.0)
                 .max(LEAST_ROUNDING * room);
-            let within = EXACT_KERNEL_SHARE * self.tolerance / self.turn_size;
+            let within = EXACT_KERNEL_SHARE * self.tolerance / self.tangent_jump_size;
             self.corner_width = within / kernel::peak(0.0);
             self.biweight_width = self.corner_width;
             self.isolated = true;
             self.base.kernel = self.corner_width.min(room).min(wanted);
         }
-        if self.jump_size > 0.0 {
-            let within = EXACT_EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.jump_size);
+        if self.curvature_jump_size > 0.0 {
+            let within =
+                EXACT_EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.curvature_jump_size);
             self.base.easement = within.sqrt().min(room);
         }
     }
@@ -256,20 +257,20 @@ impl Vertex {
         if before.allows_half_legs() && after.allows_half_legs() {
             self.free_limit = before.half_for_corner().min(after.half_for_corner());
         }
-        if self.turn_size > 0.0 {
-            let within = KERNEL_SHARE * self.tolerance / self.turn_size;
+        if self.tangent_jump_size > 0.0 {
+            let within = KERNEL_SHARE * self.tolerance / self.tangent_jump_size;
             self.biweight_width = within / kernel::peak(0.0);
             // In the slower leg's half the other's feed does not matter.
             let slower = before.speed.min(after.speed);
-            let turn = self.turn.axes();
+            let tangent_jump = self.tangent_jump.axes();
             let (mix, free) = if self.free_limit > 0.0 {
-                let width = settings.free_width(&turn, slower, 0.0);
-                let mix = settings.corner_mix(&turn, width.min(self.free_limit), false);
-                (mix, settings.free_width(&turn, slower, mix))
+                let width = settings.free_width(&tangent_jump, slower, 0.0);
+                let mix = settings.corner_mix(&tangent_jump, width.min(self.free_limit), false);
+                (mix, settings.free_width(&tangent_jump, slower, mix))
             } else {
                 let by_tolerance = self.biweight_width < self.half_leg;
                 let width = self.biweight_width.min(self.half_leg);
-                (settings.corner_mix(&turn, width, by_tolerance), 0.0)
+                (settings.corner_mix(&tangent_jump, width, by_tolerance), 0.0)
             };
             self.corner_mix = mix;
             self.free_kernel = free.min(self.free_limit);
@@ -283,16 +284,17 @@ impl Vertex {
             self.searched = self.isolated;
             self.scanned = self.half_leg.min(self.biweight_width);
             self.design_width = settings
-                .full_speed_width(self.turn_size, speed)
+                .full_speed_width(self.tangent_jump_size, speed)
                 .min(self.longer_leg)
                 .max(design_width)
                 .min(settings.greatest_design_width());
             self.base.kernel = self.width_alone();
         }
-        if self.jump_size > 0.0 {
-            let within = EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.jump_size);
+        if self.curvature_jump_size > 0.0 {
+            let within =
+                EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.curvature_jump_size);
             let wanted = settings
-                .full_speed_easement(self.jump_size, speed)
+                .full_speed_easement(self.curvature_jump_size, speed)
                 .max(design_width)
                 .min(WIDEST_EASEMENT * before.half_for_corner().min(after.half_for_corner()));
             self.free_easement = wanted.min(self.free_limit);
@@ -344,7 +346,7 @@ impl Vertex {
 
     /// Whether there is anything to be smoothed.
     pub fn is_smoothed(&self) -> bool {
-        !self.stop && (self.turn_size > 0.0 || self.jump_size > 0.0)
+        !self.stop && (self.tangent_jump_size > 0.0 || self.curvature_jump_size > 0.0)
     }
 
     /// Whether nothing at all changes the path here.
@@ -372,11 +374,11 @@ impl Vertex {
         let x = distance.abs();
         if x < widths.kernel {
             let value = widths.kernel * kernel::value(x / widths.kernel, widths.mix);
-            deviation.add(&self.turn, &[value]);
+            deviation.add(&self.tangent_jump, &[value]);
         }
         if x < widths.easement {
             let value = widths.easement * widths.easement * easement::value(x / widths.easement);
-            deviation.add(&self.jump, &[value.copysign(distance)]);
+            deviation.add(&self.curvature_jump, &[value.copysign(distance)]);
         }
     }
 
@@ -387,10 +389,10 @@ impl Vertex {
         let mut bound = 0.0;
         if distance < widths.kernel {
             let majorant = kernel::majorant(distance / widths.kernel, widths.mix);
-            bound += self.turn_size / widths.kernel * majorant;
+            bound += self.tangent_jump_size / widths.kernel * majorant;
         }
         if distance < widths.easement {
-            bound += self.jump_size * easement::GREATEST_SECOND;
+            bound += self.curvature_jump_size * easement::GREATEST_SECOND;
         }
         bound
     }
@@ -421,7 +423,7 @@ impl Vertex {
             kernel, easement, ..
         } = self.stored;
         // The kernel itself has no edge in the middle.
-        let curving = easement > 0.0 || self.jump_size > NO_JUMP;
+        let curving = easement > 0.0 || self.curvature_jump_size > NO_CURVATURE_JUMP;
         let places = [
             (self.s - kernel, kernel > 0.0),
             (self.s - easement, easement > 0.0),
@@ -451,7 +453,7 @@ impl Vertex {
     // Not where they are called: most vertices that are looked at do not reach the place.
     #[inline(never)]
     fn add_kernel_to(&self, sum: &mut PointSum, distance: f64) {
-        sum.add(&self.turn, &self.kernel.factors(distance));
+        sum.add(&self.tangent_jump, &self.kernel.factors(distance));
     }
 
     #[inline(never)]
@@ -463,6 +465,6 @@ impl Vertex {
             even: [side * width * width * f.value, side * f.second],
             odd: [width * f.first, f.third / width],
         };
-        sum.add(&self.jump, &factors);
+        sum.add(&self.curvature_jump, &factors);
     }
 }

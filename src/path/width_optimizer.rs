@@ -452,7 +452,7 @@ impl WidthOptimizer {
         while self.window.open < next {
             let vertex = chain.vertex(self.window.open);
             // Closed before its search is over it would be narrow for good.
-            let searched = vertex.searched || vertex.wall || vertex.turn_size <= 0.0;
+            let searched = vertex.searched || vertex.wall || vertex.tangent_jump_size <= 0.0;
             let beyond_reach =
                 searched && end - vertex.s >= vertex.stored().reach() + LAG * last.design_width;
             let before_wall = vertex.right_wall <= end;
@@ -485,7 +485,7 @@ impl WidthOptimizer {
         let coming = if last.stop_after || bare {
             end
         } else {
-            (end - last.reserve(settings, vertex.turn_size)).max(wall)
+            (end - last.reserve(settings, vertex.tangent_jump_size)).max(wall)
         };
         (open..next)
             .map(|number| chain.vertex(number))

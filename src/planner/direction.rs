@@ -36,7 +36,7 @@ impl Planner {
         self.executor.reset();
         self.motion.stand();
         self.indexer.give_up();
-        self.reference.turn(backwards);
+        self.reference.reverse(backwards);
         self.status.backwards = backwards;
         self.report_rest();
         Ok(())

@@ -215,7 +215,7 @@ mod tests {
         let circle = Circle {
             center: Vector3::zeros(),
             normal: Vector3::z(),
-            turn: 0,
+            revolutions: 0,
         };
         Shape::Arc(Arc9::new(&start, &end, &circle).expect("an arc"))
     }
@@ -287,7 +287,7 @@ mod tests {
             axes in any_axis_limits(),
             (normal, tilt) in (prop::array::uniform3(-1.0..1.0f64), prop::array::uniform3(-1.0..1.0f64)),
             (radius, growth, height) in (0.01..100.0f64, 0.5..2.0f64, -20.0..20.0f64),
-            (to, turn) in (0.01..6.2f64, -2..2i32),
+            (to, revolutions) in (0.01..6.2f64, -2..2i32),
             others in prop::array::uniform6(-20.0..20.0f64),
             (cap, share, signs) in (1.0..300.0f64, 0.0..=1.0f64, (0..4u32)),
         ) {
@@ -302,7 +302,7 @@ mod tests {
             let last = (radial * to.cos() + other * to.sin()) * (radius * growth) + normal * height;
             end.fixed_rows_mut::<3>(0).copy_from(&last);
             end.fixed_rows_mut::<6>(3).copy_from(&nalgebra::Vector6::from(others));
-            let circle = Circle { center: Vector3::zeros(), normal, turn };
+            let circle = Circle { center: Vector3::zeros(), normal, revolutions };
             let arc = Arc9::new(&start, &end, &circle).expect("an arc");
             let limits = PathLimits::of(&Shape::Arc(arc), &MachineMap::IDENTITY, &axes, cap);
             prop_assert!(limits.velocity > 0.0 && limits.velocity <= cap);
@@ -332,7 +332,7 @@ mod tests {
             let start = Axes::from([10.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
             let (x, y) = (10.0 * growth * to.cos(), 10.0 * growth * to.sin());
             let end = Axes::from([x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-            let circle = Circle { center: Vector3::zeros(), normal: Vector3::z(), turn: 0 };
+            let circle = Circle { center: Vector3::zeros(), normal: Vector3::z(), revolutions: 0 };
             let arc = Arc9::new(&start, &end, &circle).expect("an arc");
             let axes = equal_limits(velocity, acceleration, jerk);
             let extent = arc.extent(&MachineMap::IDENTITY);
@@ -410,7 +410,7 @@ mod tests {
         let circle = Circle {
             center: Vector3::zeros(),
             normal: Vector3::z(),
-            turn: 0,
+            revolutions: 0,
         };
         let arc = Arc9::new(&start, &end, &circle).expect("an arc");
         let extent = arc.extent(&MachineMap::IDENTITY);

@@ -17,7 +17,7 @@ fn line_and_arc(termination: TerminationCondition) -> [ProgrammedMove; 2] {
     let circle = Circle {
         center: Vector3::new(10.0, 5.0, 0.0),
         normal: Vector3::z(),
-        turn: 0,
+        revolutions: 0,
     };
     let arc = Arc9::new(&first.shape.end(), &end, &circle).expect("an arc");
     let second = ProgrammedMove {

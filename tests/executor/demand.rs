@@ -59,7 +59,7 @@ fn full_speed_costs_nothing() {
             break;
         }
         assert_eq!(
-            (step.advance, step.rate, step.rate_change),
+            (step.advance, step.rate, step.rate_acceleration),
             (PERIOD, 1.0, 0.0)
         );
         assert!(!step.at_rest);
@@ -160,7 +160,7 @@ proptest! {
             loop {
                 let (step, _) = player.cycle(&demand);
                 periods += 1;
-                if step.rate == target && step.rate_change == 0.0 {
+                if step.rate == target && step.rate_acceleration == 0.0 {
                     prop_assert_eq!(step.at_rest, target == 0.0);
                     break;
                 }

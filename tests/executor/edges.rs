@@ -56,7 +56,10 @@ fn an_executor_without_cells_stands() {
         for demand in [Demand::RUN, Demand::HOLD] {
             let step = executor.cycle(&demand);
             assert!(step.at_rest && !step.end_reached && !step.starved);
-            assert_eq!((step.advance, step.rate, step.rate_change), (0.0, 0.0, 0.0));
+            assert_eq!(
+                (step.advance, step.rate, step.rate_acceleration),
+                (0.0, 0.0, 0.0)
+            );
         }
     }
 }
@@ -277,7 +280,7 @@ fn nonsense_stays_finite() {
             let step = executor.cycle(&demand);
             assert!((0.0..=PERIOD).contains(&step.advance));
             assert!((0.0..=1.0).contains(&step.rate));
-            assert!(step.rate_change.is_finite());
+            assert!(step.rate_acceleration.is_finite());
             last += step.advance;
         }
         assert!(last.is_finite());

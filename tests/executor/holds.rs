@@ -64,7 +64,7 @@ impl Circling {
 
     /// Periods until it runs as the reference does.
     fn rise(&mut self) -> usize {
-        let full = |step: ExecutorStep| step.rate == 1.0 && step.rate_change == 0.0;
+        let full = |step: ExecutorStep| step.rate == 1.0 && step.rate_acceleration == 0.0;
         (1..2000)
             .find(|_| full(self.cycle(&Demand::RUN)))
             .expect("full rate")

@@ -65,8 +65,8 @@ proptest! {
     }
 
     #[test]
-    fn an_arc(map in any_map(), radius in 0.5..60.0f64, feed in 5.0..300.0f64, turn in -2..2i32) {
-        let circle = Circle { center: Vector3::new(radius, 0.0, 0.0), normal: Vector3::z(), turn };
+    fn an_arc(map in any_map(), radius in 0.5..60.0f64, feed in 5.0..300.0f64, revolutions in -2..2i32) {
+        let circle = Circle { center: Vector3::new(radius, 0.0, 0.0), normal: Vector3::z(), revolutions };
         let extremes = run_behind(&map, |machine| {
             machine.circle(at(radius, radius), &circle, &feed_move(feed)).expect("an arc");
         });

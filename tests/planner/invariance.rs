@@ -92,7 +92,7 @@ impl Setting {
                         let circle = Circle {
                             center: self.vector(center),
                             normal: normal * *sense * self.handedness(),
-                            turn: 0,
+                            revolutions: 0,
                         };
                         let end = axes(&self.vector(end));
                         planner.add_circle(&end, &circle, &request).expect("an arc")

@@ -113,7 +113,7 @@ proptest! {
     fn an_arc_stays_on_its_circle_and_within_the_limits(
         limits in any_limits(),
         (normal, tilt) in (prop::array::uniform3(-1.0..1.0f64), prop::array::uniform3(-1.0..1.0f64)),
-        (radius, height, angle, turn) in (
+        (radius, height, angle, revolutions) in (
             (-4.0..4.0f64).prop_map(f64::exp),
             prop_oneof![Just(0.0), -20.0..20.0f64],
             0.01..TAU,
@@ -137,7 +137,7 @@ proptest! {
             let mut machine = Machine::new(limits);
             // Some seconds at most.
             let feed = feed.max(radius);
-            machine.circle(end, &Circle { center, normal, turn }, &feed_move(feed)).expect("an arc");
+            machine.circle(end, &Circle { center, normal, revolutions }, &feed_move(feed)).expect("an arc");
             machine.run(500_000);
             let extremes = machine.extremes();
             prop_assert!(extremes.velocity <= 1.001, "{extremes:?}");

@@ -55,7 +55,7 @@ fn an_abort_stops_on_the_path_and_new_moves_start_from_there() {
         let circle = Circle {
             center: Vector3::new(20.0, 0.0, 0.0),
             normal: Vector3::z(),
-            turn: 0,
+            revolutions: 0,
         };
         machine
             .circle(at(0.0, 0.0), &circle, &feed_move(60.0))

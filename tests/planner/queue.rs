@@ -180,7 +180,7 @@ fn what_cannot_be_done_is_refused() {
         let circle = Circle {
             center: Vector3::zeros(),
             normal: Vector3::z(),
-            turn: 0,
+            revolutions: 0,
         };
         assert_eq!(
             machine.circle(to, &circle, &good),

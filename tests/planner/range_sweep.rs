@@ -81,7 +81,7 @@ fn half_circle() -> Shape {
     let circle = Circle {
         center: Vector3::zeros(),
         normal: Vector3::z(),
-        turn: 0,
+        revolutions: 0,
     };
     Shape::Arc(Arc9::new(&end(10.0), &end(-10.0), &circle).expect("an arc"))
 }
@@ -281,7 +281,7 @@ fn any_case() -> impl Strategy<Value = Case> {
                     let circle = Circle {
                         center: Vector3::from(center),
                         normal: Vector3::from(normal),
-                        turn: turns,
+                        revolutions: turns,
                     };
                     Shape::Arc(Arc9::new(&first, &last, &circle).ok()?)
                 } else {

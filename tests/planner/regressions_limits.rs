@@ -59,13 +59,13 @@ fn a_short_narrow_arc_within_wide_corners_keeps_the_jerk() {
         mode: tolerance.map(|tolerance| TerminationCondition::Continuous { tolerance }),
     };
     let line = |part: [f64; 9]| Shape::Line(Axes::from(part));
-    let arc = |radial, tilt, radius, angle, turn| Shape::Arc {
+    let arc = |radial, tilt, radius, angle, revolutions| Shape::Arc {
         radial,
         tilt,
         radius,
         angle,
         height: 0.0,
-        turn,
+        revolutions,
         others: [0.0; 6],
     };
     let moves = [
@@ -166,7 +166,7 @@ impl Filleted {
                 radius: self.radius,
                 angle: self.angle,
                 height: 0.0,
-                turn: 0,
+                revolutions: 0,
                 others: [0.0; 6],
             },
             Shape::Line(Axes::from_fn(|axis, _| {
@@ -282,7 +282,7 @@ fn arcs_without_a_jerk_limit_keep_the_acceleration() {
     ]
     .map(|(plane, rise, others, (feed, tolerance))| {
         let (radial, radius, angle) = plane;
-        let (tilt, height, turn) = rise;
+        let (tilt, height, revolutions) = rise;
         Programmed {
             shape: Shape::Arc {
                 radial,
@@ -290,7 +290,7 @@ fn arcs_without_a_jerk_limit_keep_the_acceleration() {
                 radius,
                 angle,
                 height,
-                turn,
+                revolutions,
                 others,
             },
             feed,
@@ -326,7 +326,7 @@ fn a_corner_that_begins_within_another_keeps_the_jerk() {
         radius: 0.09378835,
         angle: 0.5062625,
         height: 0.0,
-        turn: -2,
+        revolutions: -2,
         others: [
             -0.1376185, -6.37191, -1.552273, -5.808728, -7.24589, -3.155701,
         ],

@@ -109,7 +109,7 @@ fn a_soft_machine_leaves_a_helix_at_its_limits() {
         radius: 0.3096725,
         angle: 0.8891127,
         height: -5.31638,
-        turn: -2,
+        revolutions: -2,
         others: [
             -9.482059, -6.154674, -9.517246, 0.9964664, -9.576517, -1.212071,
         ],
@@ -203,7 +203,7 @@ fn a_soft_machine_leaves_a_helix_at_its_limits() {
                 radius: 2.4946686,
                 angle: 5.2984618,
                 height: 3.3014283,
-                turn: -1,
+                revolutions: -1,
                 others: [
                     0.4961328, 0.2517701, -9.1281077, -6.3895248, 0.0099339, -9.3978693,
                 ],

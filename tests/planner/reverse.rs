@@ -73,7 +73,7 @@ fn stairs(machine: &mut Machine, count: usize) -> Axes {
             let circle = Circle {
                 center: Vector3::new(middle[0], middle[1], 0.0),
                 normal: Vector3::z(),
-                turn: 0,
+                revolutions: 0,
             };
             machine
                 .circle(end, &circle, &feed_move(40.0))

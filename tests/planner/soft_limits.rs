@@ -77,7 +77,7 @@ fn half_circle(machine: &mut Machine, x: f64) {
     let circle = Circle {
         center: Vector3::new(0.5 * (start + x), 0.0, 0.0),
         normal: Vector3::z(),
-        turn: -1,
+        revolutions: -1,
     };
     machine
         .circle(at(x, 0.0), &circle, &feed_move(50.0))

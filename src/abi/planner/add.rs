@@ -92,7 +92,7 @@ fn words(error: AddError) -> &'static CStr {
             c"an arc has no plane: the vector perpendicular to it is zero"
         }
         AddError::Shape(ShapeError::RadiusTooSmall) => c"an arc starts or ends at its own centre",
-        AddError::Shape(ShapeError::TooManyTurns) => c"an arc has more turns than can be counted",
+        AddError::Shape(ShapeError::TooManyRevolutions) => c"an arc has more turns than can be counted",
         AddError::Feed { .. } => {
             c"a move has no feed: F, or [TRAJ]MAX_LINEAR_VELOCITY and the [AXIS_L] limits, is below 1e-9 units per second or infinite"
         }
@@ -230,7 +230,7 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
     let circle = Circle {
         center: vector_of(center),
         normal: vector_of(normal),
-        turn,
+        revolutions: turn,
     };
     if let Some(objection) = handle.objection(tag) {
         handle.refused = objection;

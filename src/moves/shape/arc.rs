@@ -10,14 +10,14 @@ use super::point::PathPoint;
 use crate::axes::{Axes, MachineMap};
 
 /// An arc whose end direction is nearer to its start direction than this, in radians, is a full
-/// turn, as in LinuxCNC.
-const FULL_TURN_WITHIN: f64 = 1e-6;
+/// circle, as in LinuxCNC.
+const FULL_CIRCLE_WITHIN: f64 = 1e-6;
 
 /// The share of an axis in an arc that is nothing but rounding.
 const NO_SHARE: f64 = 1e-9;
 
 /// Beyond this the angle along the arc loses the digits that the end point needs.
-const MOST_TURNS: i64 = 1_000_000;
+const MOST_REVOLUTIONS: i64 = 1_000_000;
 
 /// What determines a circle besides its start and end.
 #[derive(Clone, Copy, Debug)]
@@ -26,9 +26,9 @@ pub struct Circle {
     pub center: Vector3<f64>,
     /// Along the axis, of any length but zero.
     pub normal: Vector3<f64>,
-    /// 0 and above: counter-clockwise about the normal, with so many full turns more. Below 0:
-    /// clockwise, with `-1 - turn` full turns more.
-    pub turn: i32,
+    /// LinuxCNC's `turn`. 0 and above: counter-clockwise about the normal, with so many full ones more. Below 0:
+    /// clockwise, with `-1 - revolutions` full ones more.
+    pub revolutions: i32,
 }
 
 /// An arc (constant radius), spiral (the radius changes in proportion to the angle), helix (so
@@ -78,16 +78,16 @@ impl Arc9 {
     /// moved into it along the normal.
     ///
     /// # Errors
-    /// [`ShapeError::NoNormal`], [`ShapeError::RadiusTooSmall`], [`ShapeError::TooManyTurns`],
+    /// [`ShapeError::NoNormal`], [`ShapeError::RadiusTooSmall`], [`ShapeError::TooManyRevolutions`],
     /// [`ShapeError::NotFinite`], [`ShapeError::TooFar`].
     pub fn new(start: &Axes, end: &Axes, circle: &Circle) -> Result<Self, ShapeError> {
-        let turns = if circle.turn < 0 {
-            -1 - i64::from(circle.turn)
+        let further = if circle.revolutions < 0 {
+            -1 - i64::from(circle.revolutions)
         } else {
-            i64::from(circle.turn)
+            i64::from(circle.revolutions)
         };
-        if turns > MOST_TURNS {
-            return Err(ShapeError::TooManyTurns);
+        if further > MOST_REVOLUTIONS {
+            return Err(ShapeError::TooManyRevolutions);
         }
         let size = circle.normal.norm();
         let ends = start.iter().chain(end);
@@ -99,7 +99,7 @@ impl Arc9 {
             return Err(ShapeError::NoNormal);
         }
         let normal = circle.normal
-            * if circle.turn < 0 {
+            * if circle.revolutions < 0 {
                 -1.0 / size
             } else {
                 1.0 / size
@@ -122,10 +122,10 @@ impl Arc9 {
         if angle < 0.0 {
             angle += TAU;
         }
-        if angle < FULL_TURN_WITHIN {
+        if angle < FULL_CIRCLE_WITHIN {
             angle += TAU;
         }
-        angle += TAU * turns as f64;
+        angle += TAU * further as f64;
 
         let radius_rate = (last_radius - radius) / angle;
         let greatest_radius = radius.max(last_radius);
@@ -271,27 +271,27 @@ mod tests {
         nine(&Vector3::new(x, y, z))
     }
 
-    fn circle(turn: i32) -> Circle {
+    fn circle(revolutions: i32) -> Circle {
         Circle {
             center: Vector3::zeros(),
             normal: Vector3::z() * 3.0,
-            turn,
+            revolutions,
         }
     }
 
     #[test]
     fn counter_clockwise_and_clockwise() {
         let (start, end) = (at(2.0, 0.0, 0.0), at(0.0, 2.0, 0.0));
-        for (turn, angle, middle) in [
+        for (revolutions, angle, middle) in [
             (0, 0.5 * PI, at(2f64.sqrt(), 2f64.sqrt(), 0.0)),
             (-1, 1.5 * PI, at(-(2f64.sqrt()), -(2f64.sqrt()), 0.0)),
             (1, 2.5 * PI, at(-(2f64.sqrt()), -(2f64.sqrt()), 0.0)),
         ] {
-            let arc = Arc9::new(&start, &end, &circle(turn)).expect("an arc");
+            let arc = Arc9::new(&start, &end, &circle(revolutions)).expect("an arc");
             assert!((arc.length() - 2.0 * angle).abs() < 1e-14);
             assert!(
                 (arc.position(0.5 * arc.length()) - middle).amax() < 1e-14,
-                "{turn}"
+                "{revolutions}"
             );
             assert_eq!(arc.position(0.0), start);
             assert_eq!(arc.position(arc.length()), end);
@@ -301,9 +301,12 @@ mod tests {
     #[test]
     fn an_end_at_the_start_is_a_full_turn() {
         let start = at(2.0, 0.0, 0.0);
-        for (turn, turns) in [(0, 1.0), (2, 3.0), (-1, 1.0), (-2, 2.0)] {
-            let arc = Arc9::new(&start, &start, &circle(turn)).expect("an arc");
-            assert!((arc.length() - 2.0 * TAU * turns).abs() < 1e-12, "{turn}");
+        for (revolutions, turns) in [(0, 1.0), (2, 3.0), (-1, 1.0), (-2, 2.0)] {
+            let arc = Arc9::new(&start, &start, &circle(revolutions)).expect("an arc");
+            assert!(
+                (arc.length() - 2.0 * TAU * turns).abs() < 1e-12,
+                "{revolutions}"
+            );
         }
     }
 
@@ -350,11 +353,11 @@ mod tests {
         );
         assert_eq!(
             refused(&start, &end, circle(i32::MAX)),
-            Some(ShapeError::TooManyTurns)
+            Some(ShapeError::TooManyRevolutions)
         );
         assert_eq!(
             refused(&start, &end, circle(i32::MIN)),
-            Some(ShapeError::TooManyTurns)
+            Some(ShapeError::TooManyRevolutions)
         );
         let nowhere = at(f64::NAN, 0.0, 0.0);
         assert_eq!(
@@ -389,7 +392,7 @@ mod tests {
         )
             .prop_filter_map(
                 "an axis",
-                |(normal, (r0, r1, from, to, height), others, (turn, plain))| {
+                |(normal, (r0, r1, from, to, height), others, (revolutions, plain))| {
                     let normal = Vector3::from(normal).try_normalize(0.1)?;
                     let across = normal.cross(&Vector3::x()).try_normalize(0.1)?;
                     let along = normal.cross(&across);
@@ -408,7 +411,7 @@ mod tests {
                         &Circle {
                             center,
                             normal,
-                            turn,
+                            revolutions,
                         },
                     )
                     .ok()

@@ -13,8 +13,8 @@ pub enum ShapeError {
     NoNormal,
     /// The start or the end of an arc lies on its axis, where it has no direction.
     RadiusTooSmall,
-    /// More full turns than can be counted exactly.
-    TooManyTurns,
+    /// More full circles than can be counted exactly.
+    TooManyRevolutions,
 }
 
 /// Coordinates up to this are taken, machine units or degrees. From here on the last digit of a coordinate is more than

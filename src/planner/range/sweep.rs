@@ -81,7 +81,7 @@ impl Sweep {
     /// Before the start of a move that the machine reaches with the joints `near`, or a little beside
     /// them.
     pub fn new(shape: &Shape, range: &JointRange, near: &Joints) -> Self {
-        let spans = (turn(shape) / TURN).max(shape.length() / LENGTH);
+        let spans = (turning(shape) / TURN).max(shape.length() / LENGTH);
         let spans = spans.ceil().max(1.0);
         Self {
             spans,
@@ -271,7 +271,7 @@ impl Sweep {
 }
 
 /// By how much the machine turns on a move, degrees: all rotary axes and the arc itself.
-fn turn(shape: &Shape) -> f64 {
+fn turning(shape: &Shape) -> f64 {
     let way = shape.end() - shape.position(0.0);
     let rotary: f64 = way.iter().skip(3).take(3).map(|axis| axis.abs()).sum();
     match shape {

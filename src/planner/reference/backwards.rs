@@ -10,7 +10,7 @@ impl Reference {
 
     /// From now on the machine goes back along the path, or forward again, from where it is. What
     /// was handed out behind that place is dropped: only at rest, with a path.
-    pub fn turn(&mut self, backwards: bool) {
+    pub fn reverse(&mut self, backwards: bool) {
         let s = match self.segments.front() {
             Some(segment) => {
                 let state = segment.state(self.elapsed, self.elapsed);

@@ -222,7 +222,7 @@ mod tests {
             let circle = Circle {
                 center: Vector3::zeros(),
                 normal: Vector3::new(0.1, 0.2, 1.0),
-                turn: 1,
+                revolutions: 1,
             };
             let shape = Shape::Arc(Arc9::new(&start, &end, &circle).expect("an arc"));
             let mut path = BlendedPath::new();

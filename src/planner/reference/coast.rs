@@ -125,7 +125,7 @@ mod tests {
         let half = Circle {
             center: Vector3::new(20.0, 10.0, 0.0),
             normal: Vector3::z(),
-            turn: 0,
+            revolutions: 0,
         };
         let turned = Axes::x() * 20.0 + Axes::y() * 20.0;
         planner

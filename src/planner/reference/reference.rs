@@ -58,8 +58,8 @@ pub struct Reference {
     pub(super) runs: [RestToRest; 2],
     /// Whether the second of [`Self::runs`] is the current one.
     pub(super) swapped: bool,
-    /// Whether the other run is worked on in this period.
-    pub(super) turn: bool,
+    /// Whether it is the turn of the other run to be worked on: every second period.
+    pub(super) serves_next: bool,
     /// Whether the machine goes back along the path.
     pub(super) backwards: bool,
     /// Whether there is a path at all.
@@ -94,7 +94,7 @@ impl Reference {
             feeder: MoveFeeder::new(),
             runs: [RestToRest::new(), RestToRest::new()],
             swapped: false,
-            turn: false,
+            serves_next: false,
             backwards: false,
             active: false,
             resting: true,
@@ -126,7 +126,7 @@ impl Reference {
         for run in &mut self.runs {
             run.clear();
         }
-        self.turn = false;
+        self.serves_next = false;
         self.backwards = false;
         self.active = true;
         self.rested(0.0);

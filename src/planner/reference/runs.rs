@@ -55,13 +55,13 @@ impl Reference {
         };
         self.path.step((PATH_BUDGET * path_share) as usize);
         self.begin_runs(outlook);
-        self.turn = !self.turn;
-        let turn = self.turn;
+        self.serves_next = !self.serves_next;
+        let serves_next = self.serves_next;
         let (current, other) = both(&mut self.runs, self.swapped);
         current.look_for_stop(&self.path, outlook.queue);
         other.look_for_stop(&self.path, outlook.queue);
         let urgent = current.brakes_for_now(&self.path);
-        let worked = if turn && other.is_begun() && !urgent {
+        let worked = if serves_next && other.is_begun() && !urgent {
             other
         } else {
             current

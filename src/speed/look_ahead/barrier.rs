@@ -8,9 +8,9 @@
 
 use super::interval::Parabola;
 use super::interval_samples::{Departure, IntervalSamples};
-use super::quads::{LANES, QUADS, Quad};
 use super::rows::{AxisRows, THIRD};
 use super::sample::Sample;
+use crate::lanes::{QUAD_LANES, QUADS, Quad, quad};
 
 /// Derivatives by the three coefficients that an interval depends on.
 #[derive(Clone, Copy, Debug)]
@@ -112,11 +112,11 @@ impl Barrier {
         let margin = self.margin - f64::from(departure.second) * b;
         let mut limits = BarrierLimits::default();
         let mut lanes = 0;
-        for quad in (0..QUADS).filter(|quad| sample.axes.in_quad(*quad)) {
-            lanes += LANES;
+        for number in (0..QUADS).filter(|number| sample.axes.in_quad(*number)) {
+            lanes += QUAD_LANES;
             limits.add(
-                sample.quads.map(|quads| quads[quad]),
-                &rows.jerk_time_quads[quad],
+                sample.lanes.each_ref().map(|rows| *quad(rows, number)),
+                quad(&rows.jerk_time_lanes, number),
                 [b, a, u, bound, bound_slope, margin].map(|value| value as f32),
             );
         }
@@ -167,7 +167,7 @@ impl BarrierLimits {
         times: &Quad,
         [b, a, u, bound, bound_slope, margin]: [f32; 6],
     ) {
-        for lane in 0..LANES {
+        for lane in 0..QUAD_LANES {
             let (by_u, by_a, by_b) = (by_u[lane], by_a[lane], by_b[lane]);
             let jerk = by_u * u + by_a * a + by_b * b;
             let inverse = 2.0 / ((bound - jerk) * (bound + jerk));

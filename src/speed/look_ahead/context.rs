@@ -1,6 +1,5 @@
 //! What a candidate works with.
 
-use super::rest_arc::{LASTING, PROVISIONAL, RestArcSearch};
 use super::route::Route;
 use super::rows::AxisRows;
 use super::spline::Spline;
@@ -20,21 +19,6 @@ pub(super) struct PlanContext<'a, R: Route> {
 }
 
 impl<R: Route> PlanContext<'_, R> {
-    /// The search for an arc between the spline and a rest, see [`RestArcSearch::new`].
-    pub fn search(&self, place: f64, direction: f64, most: f64, share: f64) -> RestArcSearch {
-        let raise = self.raise_squared;
-        RestArcSearch::new(self.rows, self.route, place, direction, most, share, raise)
-    }
-
-    /// The share of the greatest acceleration for the arc to the rest at `end`.
-    pub fn end_share(&self, end: f64) -> f64 {
-        if self.route.is_complete() && end >= self.route.known_end() {
-            LASTING
-        } else {
-            PROVISIONAL
-        }
-    }
-
     /// How many kernels overlap before `end`, in the mean.
     pub fn kernels_before(&self, end: f64) -> f64 {
         let (mut place, mut reaches) = (end, 0.0);

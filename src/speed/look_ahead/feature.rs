@@ -1,7 +1,7 @@
 //! What the grid has to resolve: a vertex with the spacing that it asks for.
 
-use super::route::{Route, RouteVertex};
-use super::rows::AxisRows;
+use super::context::PlanContext;
+use super::route::{Route, RouteVertex, before};
 use crate::axes::Axes;
 
 /// How much the spacing grows with the distance from what asked for a small one. Also the spacing
@@ -27,14 +27,6 @@ const JOINED: f64 = 2.0;
 
 /// Where the curvature of most blends changes most, share of their reach.
 pub(super) const TWIST_AT: f64 = 0.45;
-
-/// How near to a vertex is before it, share of the path distance.
-const BESIDE: f64 = 1e-13;
-
-/// A place just before a vertex.
-pub(super) fn before(vertex: f64) -> f64 {
-    vertex - BESIDE * (1.0 + vertex.abs())
-}
 
 /// A vertex, or several that lie closer together than they need nodes.
 #[derive(Clone, Copy, Debug)]
@@ -155,10 +147,7 @@ pub(super) struct RoutePlace {
 
 /// The path as features see it: what is not known yet looks like its end.
 pub(super) struct Look<'a, R: Route> {
-    pub rows: &'a AxisRows,
-    pub route: &'a R,
-    /// Square of what the program's caps are multiplied by.
-    pub raise_squared: f64,
+    pub context: &'a PlanContext<'a, R>,
     /// How far the path is known.
     pub longest: f64,
     /// The end, which stands for many places.
@@ -177,12 +166,13 @@ impl<R: Route> Look<'_, R> {
     }
 
     fn evaluate(&self, s: f64) -> RoutePlace {
-        let sample = self.rows.sample(self.route, s, 0.0);
-        let cap_speed = sample.cap.raised(self.raise_squared).sqrt();
+        let context = self.context;
+        let sample = context.rows.sample(context.route, s, 0.0);
+        let cap_speed = sample.cap.raised(context.raise_squared).sqrt();
         RoutePlace {
             s,
             cap_speed,
-            speed: self.rows.curve_speed(&sample).min(cap_speed),
+            speed: context.rows.curve_speed(&sample).min(cap_speed),
             third: sample.third,
         }
     }

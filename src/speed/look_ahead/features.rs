@@ -3,11 +3,12 @@
 //! There may be hundreds of them within the reach of the largest spacing, but few say anything about
 //! a place: what is farther away than the spacing that was found so far is left out.
 
+use super::context::PlanContext;
 use super::feature::{Feature, GROWTH, Look, RoutePlace, TWIST_AT};
 use super::route::{Route, RouteVertex};
-use super::rows::AxisRows;
+use crate::ring::Ring;
 
-/// A power of two, so that a masked index is in range for the compiler too.
+/// Room for features.
 const SLOTS: usize = 256;
 
 /// No interval is made shorter than this share of the spacing there, for the sake of a jump.
@@ -19,7 +20,7 @@ const NEAREST_NODE: f64 = 1e-3;
 /// in the ring are counted on without end.
 #[derive(Debug)]
 pub(super) struct Features {
-    slots: [Feature; SLOTS],
+    slots: Ring<Feature, SLOTS>,
     /// The first one that is kept.
     oldest: usize,
     /// The first one that matters where the grid is.
@@ -49,7 +50,7 @@ pub(super) struct Features {
 impl Features {
     pub const fn new() -> Self {
         Self {
-            slots: [Feature::NONE; SLOTS],
+            slots: Ring::filled_with(Feature::NONE),
             oldest: 0,
             first: 0,
             next: 0,
@@ -78,7 +79,7 @@ impl Features {
             && self.raise_squared == raise_squared
             && self.begin <= s
             && self.lasting_taken > s
-            && (self.oldest == 0 || self.slots[self.oldest & (SLOTS - 1)].center <= s);
+            && (self.oldest == 0 || self.at(self.oldest).center <= s);
         if !kept {
             self.oldest = 0;
             self.first = 0;
@@ -95,7 +96,7 @@ impl Features {
         self.next = self.lasting;
         self.taken = self.lasting_taken;
         self.first = self.oldest;
-        while self.first + 1 < self.next && self.slots[(self.first + 1) & (SLOTS - 1)].center <= s {
+        while self.first + 1 < self.next && self.at(self.first + 1).center <= s {
             self.first += 1;
         }
     }
@@ -106,7 +107,8 @@ impl Features {
     }
 
     /// Takes one more vertex.
-    pub fn take_next<R: Route>(&mut self, rows: &AxisRows, route: &R, raise_squared: f64) {
+    pub fn take_next<R: Route>(&mut self, context: &PlanContext<R>) {
+        let route = context.route;
         let longest = route.known_end();
         // A vertex behind the known end may reach back over it.
         let farthest = longest + route.greatest_reach();
@@ -123,7 +125,7 @@ impl Features {
         self.taken = vertex.position;
         let changes = vertex.reach > 0.0 || vertex.cap_changes;
         if changes && vertex.position - vertex.reach <= longest {
-            self.take(&vertex, lasting, rows, route, raise_squared);
+            self.take(&vertex, lasting, context);
         }
         if lasting {
             self.lasting = self.next;
@@ -132,19 +134,10 @@ impl Features {
     }
 
     /// Adds a vertex that asks for nodes, or lets the last feature stand for it too.
-    fn take<R: Route>(
-        &mut self,
-        vertex: &RouteVertex,
-        lasting: bool,
-        rows: &AxisRows,
-        route: &R,
-        raise_squared: f64,
-    ) {
+    fn take<R: Route>(&mut self, vertex: &RouteVertex, lasting: bool, context: &PlanContext<R>) {
         let mut path = Look {
-            rows,
-            route,
-            raise_squared,
-            longest: route.known_end(),
+            context,
+            longest: context.route.known_end(),
             end: &mut self.end,
         };
         // A change of the cap asks for nodes where it is, not all over a wide change of shape there.
@@ -194,7 +187,7 @@ impl Features {
         if self.next - self.first < SLOTS {
             self.before = self.before.max(feature.center - feature.start);
             self.behind = self.behind.max(feature.end - feature.center);
-            self.slots[self.next & (SLOTS - 1)] = feature;
+            *self.slots.at_mut(self.next as u64) = feature;
             self.next += 1;
             self.oldest = self.oldest.max(self.next.saturating_sub(SLOTS));
         }
@@ -203,7 +196,7 @@ impl Features {
     /// Leaves those in front that say nothing any more for spacings below `most` from `s` on.
     pub fn drop_before(&mut self, s: f64, most: f64) {
         while self.next - self.first > 1
-            && let front = &self.slots[self.first & (SLOTS - 1)]
+            && let front = self.at(self.first)
             && front.end < s
             && front.spacing_at(s) > most
         {
@@ -212,7 +205,7 @@ impl Features {
     }
 
     fn at(&self, place: usize) -> &Feature {
-        &self.slots[place & (SLOTS - 1)]
+        self.slots.at(place as u64)
     }
 
     /// The place of the first feature with its center behind `s`.
@@ -384,6 +377,6 @@ impl Features {
     }
 
     fn last_mut(&mut self) -> Option<&mut Feature> {
-        (self.next > self.first).then(|| &mut self.slots[(self.next - 1) & (SLOTS - 1)])
+        (self.next > self.first).then(|| self.slots.at_mut((self.next - 1) as u64))
     }
 }

@@ -3,12 +3,12 @@
 //! The spacing is what a change of shape or of the speed cap asks for, grows by [`GROWTH`] of the
 //! distance from it, and is at most what is run in [`FREE_TIME`] at the cap.
 
-use super::feature::{GROWTH, before};
+use super::context::PlanContext;
+use super::feature::GROWTH;
 use super::features::Features;
 use super::interval_samples::IntervalSamples;
 use super::rest_arc::RestArc;
-use super::route::Route;
-use super::rows::AxisRows;
+use super::route::{Route, before};
 use super::sample::Sample;
 use super::spline::{CAPACITY, SampleBanks, Spline, SplineInterval};
 use crate::moves::shape::PathPoint;
@@ -67,21 +67,15 @@ impl Grid {
     }
 
     /// Begins at the start of interval `cut`, whose place and sample the candidate has.
-    pub fn restart<R: Route>(
-        &mut self,
-        candidate: &Spline,
-        cut: usize,
-        route: &R,
-        raise_squared: f64,
-    ) {
+    pub fn restart<R: Route>(&mut self, context: &PlanContext<R>, candidate: &Spline, cut: usize) {
         let RestArc { length, .. } = candidate.end_arc;
         self.k = cut;
         self.end = candidate.end - length;
         self.end_spacing = GROWTH * length;
         let start = candidate.at(cut).start;
-        self.point = route.point(start);
-        let back = route.greatest_reach() * 1.01 + 1e-9 * start.abs();
-        self.features.restart(start - back, raise_squared);
+        self.point = context.route.point(start);
+        let back = context.route.greatest_reach() * 1.01 + 1e-9 * start.abs();
+        self.features.restart(start - back, context.raise_squared);
     }
 
     /// The interval that comes next.
@@ -89,44 +83,35 @@ impl Grid {
         self.k
     }
 
-    /// Takes a vertex or places a node, at most nine evaluations of the path. `oldest` is the first
-    /// interval that is still needed.
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "a struct for one call would hide what is changed"
-    )]
+    /// Takes a vertex or places a node, at most nine evaluations of the path.
     pub fn advance<R: Route>(
         &mut self,
+        context: &PlanContext<R>,
         candidate: &mut Spline,
-        plan: &Spline,
         samples: &mut SampleBanks,
-        rows: &AxisRows,
-        route: &R,
-        raise_squared: f64,
-        oldest: usize,
     ) -> GridStep {
+        let PlanContext { route, rows, .. } = *context;
         let k = self.k;
-        if k + 3 - oldest >= CAPACITY {
+        if k + 3 - context.oldest >= CAPACITY {
             return GridStep::TooLong;
         }
         let s = candidate.at(k).start;
         let left = *samples.start(candidate, k);
-        let free = FREE_TIME * left.cap.raised(raise_squared).sqrt();
+        let free = FREE_TIME * left.cap.raised(context.raise_squared).sqrt();
         let window = free / GROWTH + route.greatest_reach();
         if !self.features.covers(s + window) {
-            self.features.take_next(rows, route, raise_squared);
+            self.features.take_next(context);
             return GridStep::More;
         }
         self.features.drop_before(s, free);
 
         let previous = candidate.at(k - 1).length;
         let step = self.step(route, s, previous, free, &left);
-        let (length, end) = (step.length, step.end);
-        if !(length > 0.0 && end > s) {
+        if !(step.length > 0.0 && step.end > s) {
             return GridStep::Unsound;
         }
-        let (length, end, middle, right) =
-            self.resolve(s, length, end, &left, rows, route, raise_squared);
+        let (step, middle, right) = self.resolve(context, s, step, &left);
+        let (length, end) = (step.length, step.end);
         if !(middle.sample.is_sound() && right.sample.is_sound()) {
             return GridStep::Unsound;
         }
@@ -150,7 +135,7 @@ impl Grid {
             samples_here.cap_beside((place - s) / length, &cap);
         }
         let right = if self.features.is_on_vertex(end) {
-            Seen::at(end, length, rows, route)
+            Seen::at(context, end, length)
         } else {
             right
         };
@@ -160,7 +145,7 @@ impl Grid {
             start: end,
             length,
             near_end: true,
-            bank: plan.at(k + 1).bank ^ 1,
+            bank: context.plan.at(k + 1).bank ^ 1,
             ..SplineInterval::NONE
         };
         *samples.place_mut(candidate, k + 1) = IntervalSamples {
@@ -219,43 +204,41 @@ impl Grid {
     }
 
     /// The rows at the end of an interval, as they are inside of it.
-    fn look_at_end<R: Route>(&self, end: f64, length: f64, rows: &AxisRows, route: &R) -> Seen {
+    fn look_at_end<R: Route>(&self, context: &PlanContext<R>, end: f64, length: f64) -> Seen {
         let place = if self.features.is_on_vertex(end) {
             before(end)
         } else {
             end
         };
-        Seen::at(place, length, rows, route)
+        Seen::at(context, place, length)
     }
 
     /// Shortens an interval at most three times while the third derivative of the path is not
-    /// resolved at the speed to be expected. Returns length, end and what middle and end look like.
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "a struct for one call would hide what is changed"
-    )]
+    /// resolved at the speed to be expected. Returns it, and what its middle and end look like.
     fn resolve<R: Route>(
         &self,
+        context: &PlanContext<R>,
         s: f64,
-        mut length: f64,
-        mut end: f64,
+        step: NextNode,
         left: &Sample,
-        rows: &AxisRows,
-        route: &R,
-        raise_squared: f64,
-    ) -> (f64, f64, Seen, Seen) {
+    ) -> (NextNode, Seen, Seen) {
+        let NextNode {
+            mut length,
+            mut end,
+            near_end,
+        } = step;
         let (mut speed, mut finest) = (0.0, f64::INFINITY);
         if let Some(spacing) = self.features.finest(s, end) {
             finest = spacing;
-            let acceleration = rows.acceleration_from_rest(left);
-            let (center, cap) = (s + 0.5 * length, left.cap.raised(raise_squared));
+            let acceleration = context.rows.acceleration_from_rest(left);
+            let (center, cap) = (s + 0.5 * length, left.cap.raised(context.raise_squared));
             let features = &self.features;
             let most = features.greatest_speed_squared(center, acceleration, cap);
             speed = 1.2 * most.sqrt();
         }
         let cubed = speed * speed * speed;
-        let mut middle = Seen::at(s + 0.5 * length, length, rows, route);
-        let mut right = self.look_at_end(end, length, rows, route);
+        let mut middle = Seen::at(context, s + 0.5 * length, length);
+        let mut right = self.look_at_end(context, end, length);
         for _ in 0..3 {
             let bulge = middle.sample.third - (left.third + right.sample.third) * 0.5;
             let error = bulge.amax() * cubed;
@@ -268,10 +251,15 @@ impl Grid {
                 0.7
             };
             end = s + length;
-            middle = Seen::at(s + 0.5 * length, length, rows, route);
-            right = self.look_at_end(end, length, rows, route);
+            middle = Seen::at(context, s + 0.5 * length, length);
+            right = self.look_at_end(context, end, length);
         }
-        (length, end, middle, right)
+        let step = NextNode {
+            length,
+            end,
+            near_end,
+        };
+        (step, middle, right)
     }
 }
 
@@ -282,7 +270,8 @@ struct Seen {
 }
 
 impl Seen {
-    fn at<R: Route>(s: f64, length: f64, rows: &AxisRows, route: &R) -> Self {
+    fn at<R: Route>(context: &PlanContext<R>, s: f64, length: f64) -> Self {
+        let PlanContext { route, rows, .. } = *context;
         let point = route.point(s);
         let sample = rows.sample_of(route, s, &point, length);
         Self { point, sample }

@@ -9,8 +9,7 @@
 //! dimensions, Information Processing Letters 9(5), 1979), one coefficient at a time.
 
 use super::spline::CAPACITY;
-
-const MASK: usize = CAPACITY - 1;
+use crate::ring::Ring;
 
 /// A coefficient of the sweeps with L added.
 #[derive(Clone, Copy, Debug)]
@@ -27,29 +26,29 @@ struct Lifted {
     previous: usize,
 }
 
-/// The hull of coefficients in a ring of [`CAPACITY`].
+/// The hull of the last [`CAPACITY`] coefficients.
 #[derive(Debug)]
 pub(super) struct Hull {
-    points: [Lifted; CAPACITY],
+    points: Ring<Lifted, CAPACITY>,
     base: usize,
 }
 
 impl Hull {
     pub const NONE: Self = Self {
-        points: [Lifted {
+        points: Ring::filled_with(Lifted {
             x: 0.0,
             slope: 0.0,
             lift: 0.0,
             y: 0.0,
             previous: 0,
-        }; CAPACITY],
+        }),
         base: 0,
     };
 
     /// Begins at the coefficient `base`, which stays as it is.
     pub fn restart(&mut self, base: usize, value: f64) {
         self.base = base;
-        self.points[base & MASK] = Lifted {
+        *self.points.at_mut(base as u64) = Lifted {
             x: 0.0,
             slope: 0.0,
             lift: 0.0,
@@ -61,7 +60,7 @@ impl Hull {
     /// Appends coefficient `k`, `distance` behind the one before, at which the slope may fall by
     /// `fall`.
     pub fn append(&mut self, k: usize, value: f64, distance: f64, fall: f64) {
-        let before = self.points[(k - 1) & MASK];
+        let before = *self.at(k - 1);
         let slope = before.slope + fall;
         let lift = before.lift + slope * distance;
         let x = before.x + distance;
@@ -71,8 +70,8 @@ impl Hull {
             if corner <= self.base {
                 break;
             }
-            let here = &self.points[corner & MASK];
-            let previous = &self.points[here.previous & MASK];
+            let here = self.at(corner);
+            let previous = self.at(here.previous);
             // Whether the chord before the corner is as steep as the one behind it.
             let reflex =
                 (here.y - previous.y) * (x - here.x) >= (y - here.y) * (here.x - previous.x);
@@ -81,7 +80,7 @@ impl Hull {
             }
             corner = here.previous;
         }
-        self.points[k & MASK] = Lifted {
+        *self.points.at_mut(k as u64) = Lifted {
             x,
             slope,
             lift,
@@ -92,19 +91,23 @@ impl Hull {
 
     /// The corner before corner `k`.
     pub fn previous(&self, k: usize) -> usize {
-        self.points[k & MASK].previous
+        self.at(k).previous
     }
 
     /// The hull less L at `k`, which lies between the corner `corner` and the one before it.
     pub fn value(&self, k: usize, corner: usize) -> f64 {
-        let end = &self.points[corner & MASK];
-        let start = &self.points[end.previous & MASK];
-        let here = &self.points[k & MASK];
+        let end = self.at(corner);
+        let start = self.at(end.previous);
+        let here = self.at(k);
         if end.x <= start.x {
             return here.y - here.lift;
         }
         let steep = (end.y - start.y) / (end.x - start.x);
         start.y + steep * (here.x - start.x) - here.lift
+    }
+
+    fn at(&self, k: usize) -> &Lifted {
+        self.points.at(k as u64)
     }
 }
 

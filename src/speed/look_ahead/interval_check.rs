@@ -2,9 +2,9 @@
 
 use super::interval::Parabola;
 use super::interval_samples::IntervalSamples;
-use super::quads::{LANES, QUADS, Quad};
 use super::rows::{AxisRows, THIRD};
 use super::sample::MovingAxes;
+use crate::lanes::{QUAD_LANES, QUADS, Quad, quad};
 
 /// Between these places the acceleration may exceed what is allowed there by this share of its
 /// limit ..
@@ -53,14 +53,14 @@ impl AxisRows {
         let for_jerk = margin - interval.departure.third * fastest * fastest.sqrt();
         let moving = MovingAxes::at_any(samples);
         // Without a branch, so that all lanes are looked at together: 1 where they keep their limits.
-        let mut kept = [1u32; LANES];
-        for quad in (0..QUADS).filter(|quad| moving.in_quad(*quad)) {
-            let times = &self.jerk_time_quads[quad];
-            let first = samples.map(|sample| &sample.quads[0][quad]);
-            let second = samples.map(|sample| &sample.quads[1][quad]);
-            let third = samples.map(|sample| &sample.quads[2][quad]);
-            let mut bent = [0u32; LANES];
-            for lane in 0..LANES {
+        let mut kept = [1u32; QUAD_LANES];
+        for number in (0..QUADS).filter(|number| moving.in_quad(*number)) {
+            let times = quad(&self.jerk_time_lanes, number);
+            let first = samples.map(|sample| quad(&sample.lanes[0], number));
+            let second = samples.map(|sample| quad(&sample.lanes[1], number));
+            let third = samples.map(|sample| quad(&sample.lanes[2], number));
+            let mut bent = [0u32; QUAD_LANES];
+            for lane in 0..QUAD_LANES {
                 let time = times[lane];
                 let [mut accelerations, mut changes, mut jerks] = [[0.0; 3]; 3];
                 for place in 0..3 {
@@ -81,11 +81,13 @@ impl AxisRows {
                 bent[lane] |= u32::from(is_bent(jerks));
             }
             let rows = [first, second, third];
-            if bent != [0; LANES] && !keeps_jerk_between(parabola, rows, for_jerk + JERK_BETWEEN) {
+            if bent != [0; QUAD_LANES]
+                && !keeps_jerk_between(parabola, rows, for_jerk + JERK_BETWEEN)
+            {
                 return false;
             }
         }
-        kept == [1; LANES]
+        kept == [1; QUAD_LANES]
     }
 }
 
@@ -128,7 +130,7 @@ fn keeps_jerk_between(parabola: &Parabola, rows: [[&Quad; 3]; 3], most: f32) -> 
     for (share, weights) in [(0.25, [0.375, 0.75, -0.125]), (0.75, [-0.125, 0.75, 0.375])] {
         let (b, a) = parabola.at(share * parabola.length);
         let factors = [parabola.u, a, b].map(|factor| (factor * b.sqrt()) as f32);
-        for lane in 0..LANES {
+        for lane in 0..QUAD_LANES {
             let mut jerk = 0.0;
             for (row, factor) in rows.iter().zip(factors) {
                 for (place, weight) in row.iter().zip(weights) {

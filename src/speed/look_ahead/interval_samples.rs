@@ -10,8 +10,7 @@
 //! |q' a + q'' b| + d2 b <= A     |q' u + 3 q'' a + q''' b| sqrt(b) + d3 b^1.5 <= J
 //! ```
 
-use super::feature::before;
-use super::route::{MOST_BREAKPOINTS, Route};
+use super::route::{MOST_BREAKPOINTS, Route, before};
 use super::rows::AxisRows;
 use super::sample::{Cap, Sample};
 use crate::moves::shape::PathPoint;

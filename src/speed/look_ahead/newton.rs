@@ -11,13 +11,16 @@ use super::candidate_plan::MARGIN;
 use super::cost;
 use super::rows::AxisRows;
 use super::spline::{SampleBanks, Spline};
+use crate::ring::Ring;
 
 /// The most intervals in a window.
 pub(super) const MOST_INTERVALS: usize = 100;
 
-/// A power of two above the coefficients of a window, for masked indices.
+/// The fewest: two coefficients that change.
+const LEAST_INTERVALS: usize = 4;
+
+/// Room for the coefficients of a window, and those beside it.
 const SLOTS: usize = 128;
-const MASK: usize = SLOTS - 1;
 
 /// What a step is multiplied by when an interval refuses it.
 const SHORTER: f64 = 0.6;
@@ -37,11 +40,11 @@ const GOOD_STEP: f64 = 0.3;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NewtonPhase {
-    Idle,
     Assemble,
     Substitute,
     Check,
     Apply,
+    Done,
 }
 
 /// One coefficient of the window.
@@ -69,7 +72,7 @@ impl SystemRow {
     };
 }
 
-/// A step of Newton's method that is under way.
+/// A step of Newton's method, until it is done.
 #[derive(Debug)]
 pub(super) struct NewtonStep {
     phase: NewtonPhase,
@@ -81,27 +84,27 @@ pub(super) struct NewtonStep {
     share: f64,
     shortenings: u32,
     clean: bool,
-    rows: [SystemRow; SLOTS],
+    rows: Ring<SystemRow, SLOTS>,
 }
 
 impl NewtonStep {
     pub const NONE: Self = Self {
-        phase: NewtonPhase::Idle,
+        phase: NewtonPhase::Done,
         first: 0,
         end: 0,
         k: 0,
         share: 1.0,
         shortenings: 0,
         clean: true,
-        rows: [SystemRow::NONE; SLOTS],
+        rows: Ring::filled_with(SystemRow::NONE),
     };
 
-    /// Begins a step on intervals `first` to `end - 1`, at most [`MOST_INTERVALS`] of them.
-    pub fn begin(&mut self, first: usize, end: usize) {
+    /// Begins a step on intervals `first` to `end - 1`, at most [`MOST_INTERVALS`] of them, instead of the one
+    /// before. Answers where its window ends; `None` if there are too few intervals for one.
+    pub fn begin(&mut self, first: usize, end: usize) -> Option<usize> {
         let end = end.min(first + MOST_INTERVALS);
-        if end < first + 4 {
-            self.phase = NewtonPhase::Idle;
-            return;
+        if end < first + LEAST_INTERVALS {
+            return None;
         }
         *self = Self {
             phase: NewtonPhase::Assemble,
@@ -110,15 +113,7 @@ impl NewtonStep {
             k: first,
             ..Self::NONE
         };
-    }
-
-    /// Whether there is nothing under way.
-    pub fn is_idle(&self) -> bool {
-        self.phase == NewtonPhase::Idle
-    }
-
-    pub fn cancel(&mut self) {
-        self.phase = NewtonPhase::Idle;
+        Some(end)
     }
 
     /// The first interval that the step changes.
@@ -126,7 +121,7 @@ impl NewtonStep {
         self.first
     }
 
-    /// Works until the step is done or the budget is spent.
+    /// Works until the step is done or the budget is spent. Answers whether it is done.
     pub fn advance(
         &mut self,
         plan: &mut Spline,
@@ -134,8 +129,8 @@ impl NewtonStep {
         axes: &AxisRows,
         raise_squared: f64,
         budget: &mut u32,
-    ) {
-        while *budget > 0 && self.phase != NewtonPhase::Idle {
+    ) -> bool {
+        while *budget > 0 && self.phase != NewtonPhase::Done {
             let price = match self.phase {
                 NewtonPhase::Assemble => cost::ASSEMBLE,
                 NewtonPhase::Check => cost::CHECK,
@@ -147,9 +142,10 @@ impl NewtonStep {
                 NewtonPhase::Substitute => self.substitute(),
                 NewtonPhase::Check => self.check(plan, samples, axes, raise_squared),
                 NewtonPhase::Apply => self.apply(plan),
-                NewtonPhase::Idle => {}
+                NewtonPhase::Done => {}
             }
         }
+        self.phase == NewtonPhase::Done
     }
 
     /// The first and the last coefficient that may change.
@@ -158,11 +154,11 @@ impl NewtonStep {
     }
 
     fn row(&self, k: usize) -> &SystemRow {
-        &self.rows[(k + 1 - self.first) & MASK]
+        self.rows.at((k + 1 - self.first) as u64)
     }
 
     fn row_mut(&mut self, k: usize) -> &mut SystemRow {
-        &mut self.rows[(k + 1 - self.first) & MASK]
+        self.rows.at_mut((k + 1 - self.first) as u64)
     }
 
     /// Adds an interval and eliminates the coefficient before it, which is complete then.
@@ -320,6 +316,6 @@ impl NewtonStep {
                 interval.resistance = (interval.resistance * RESISTANCE_DECAY).max(1.0);
             }
         }
-        self.phase = NewtonPhase::Idle;
+        self.phase = NewtonPhase::Done;
     }
 }

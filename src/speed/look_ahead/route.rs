@@ -28,6 +28,14 @@ pub struct RouteVertex {
     pub cap_changes: bool,
 }
 
+/// How near to a vertex is before it, share of the path distance.
+const BESIDE: f64 = 1e-13;
+
+/// A place just before a vertex.
+pub(super) fn before(vertex: f64) -> f64 {
+    vertex - BESIDE * (1.0 + vertex.abs())
+}
+
 /// A path that becomes known segment by segment.
 ///
 /// What has been known once never changes: not the shape up to [`Self::known_end`], not the caps,

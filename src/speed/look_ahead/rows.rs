@@ -8,11 +8,11 @@
 
 use nalgebra::ArrayStorage;
 
-use super::quads::{Quads, ZEROS, quads};
 use super::route::{Route, SpeedCap};
 use super::sample::{Cap, Curving, MovingAxes, Sample};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
 use crate::cube_root::cube_root;
+use crate::lanes::{Lanes, ZEROS, rounded};
 use crate::moves::shape::PathPoint;
 
 const ZERO: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
@@ -46,7 +46,7 @@ pub(super) struct AxisRows {
     /// J / A; 0 where the acceleration is unlimited.
     jerk_time: Axes,
     /// The same in single precision.
-    pub jerk_time_quads: Quads,
+    pub jerk_time_lanes: Lanes,
 }
 
 impl AxisRows {
@@ -56,7 +56,7 @@ impl AxisRows {
         velocity: UNLIMITED,
         inverse_jerk: ZERO,
         jerk_time: ZERO,
-        jerk_time_quads: ZEROS,
+        jerk_time_lanes: ZEROS,
     };
 
     /// `period` of the servo thread, seconds, stands in for what is infinite: an unlimited
@@ -85,7 +85,7 @@ impl AxisRows {
             velocity: limits.velocity,
             inverse_jerk,
             jerk_time,
-            jerk_time_quads: quads(&jerk_time),
+            jerk_time_lanes: rounded(&jerk_time),
         }
     }
 
@@ -114,7 +114,7 @@ impl AxisRows {
             first,
             second,
             third,
-            quads: [&first, &second, &third].map(quads),
+            lanes: [&first, &second, &third].map(rounded),
             cap,
             axes,
         }

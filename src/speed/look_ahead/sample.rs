@@ -2,8 +2,8 @@
 
 use nalgebra::ArrayStorage;
 
-use super::quads::{LANES, Quads, ZEROS};
 use crate::axes::{AXIS_COUNT, Axes};
+use crate::lanes::{Lanes, QUAD_LANES, ZEROS};
 
 const ZERO: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
 
@@ -17,7 +17,7 @@ pub(super) struct Sample {
     /// q''' / J, shape (9).
     pub third: Axes,
     /// The three in single precision.
-    pub quads: [Quads; 3],
+    pub lanes: [Lanes; 3],
     pub cap: Cap,
     /// Rows of all other axes are 0.
     pub axes: MovingAxes,
@@ -28,7 +28,7 @@ impl Sample {
         first: ZERO,
         second: ZERO,
         third: ZERO,
-        quads: [ZEROS; 3],
+        lanes: [ZEROS; 3],
         cap: Cap::NONE,
         axes: MovingAxes::NONE,
     };
@@ -118,7 +118,7 @@ impl MovingAxes {
     /// Whether one of the four axes of a quad is among them.
     #[inline]
     pub fn in_quad(self, quad: usize) -> bool {
-        self.0 >> (LANES * quad) & 15 != 0
+        self.0 >> (QUAD_LANES * quad) & 15 != 0
     }
 
     /// How many there are.

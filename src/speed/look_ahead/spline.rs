@@ -14,12 +14,10 @@ use super::interval::Parabola;
 use super::interval_samples::IntervalSamples;
 use super::rest_arc::RestArc;
 use super::sample::Sample;
+use crate::ring::Ring;
 
-/// How many intervals there are from the oldest one that is needed. A power of two, so that a
-/// masked index is in range for the compiler too.
+/// How many intervals there are from the oldest one that is needed.
 pub(super) const CAPACITY: usize = 512;
-
-const MASK: usize = CAPACITY - 1;
 
 /// The barrier's weight in a part that no refinement has seen.
 pub(super) const FIRST_BARRIER: f64 = 0.06;
@@ -58,7 +56,7 @@ impl SplineInterval {
 /// A plan from rest to rest.
 #[derive(Debug)]
 pub(super) struct Spline {
-    intervals: [SplineInterval; CAPACITY],
+    intervals: Ring<SplineInterval, CAPACITY>,
     /// Number of the last interval that is run.
     pub last: usize,
     /// How it starts from rest, before interval 1.
@@ -73,7 +71,7 @@ pub(super) struct Spline {
 
 impl Spline {
     pub const NONE: Self = Self {
-        intervals: [SplineInterval::NONE; CAPACITY],
+        intervals: Ring::filled_with(SplineInterval::NONE),
         last: 0,
         start_arc: RestArc::NONE,
         end_arc: RestArc::NONE,
@@ -95,12 +93,12 @@ impl Spline {
 
     #[inline]
     pub fn at(&self, k: usize) -> &SplineInterval {
-        &self.intervals[k & MASK]
+        self.intervals.at(k as u64)
     }
 
     #[inline]
     pub fn at_mut(&mut self, k: usize) -> &mut SplineInterval {
-        &mut self.intervals[k & MASK]
+        self.intervals.at_mut(k as u64)
     }
 
     /// b over interval k, from 1 to `last`.
@@ -159,22 +157,22 @@ impl Spline {
 /// plan stays whole until the candidate replaces it.
 #[derive(Debug)]
 pub(super) struct SampleBanks {
-    banks: [[IntervalSamples; CAPACITY]; 2],
+    banks: [Ring<IntervalSamples, CAPACITY>; 2],
 }
 
 impl SampleBanks {
     pub const NONE: Self = Self {
-        banks: [[IntervalSamples::NONE; CAPACITY]; 2],
+        banks: [const { Ring::filled_with(IntervalSamples::NONE) }; 2],
     };
 
     /// The samples of interval k.
     #[inline]
     pub fn of(&self, spline: &Spline, k: usize) -> &IntervalSamples {
-        &self.banks[spline.at(k).bank & 1][k & MASK]
+        self.banks[spline.at(k).bank & 1].at(k as u64)
     }
 
     pub fn place_mut(&mut self, spline: &Spline, k: usize) -> &mut IntervalSamples {
-        &mut self.banks[spline.at(k).bank & 1][k & MASK]
+        self.banks[spline.at(k).bank & 1].at_mut(k as u64)
     }
 
     /// The sample at node k.

@@ -52,11 +52,11 @@ impl Front {
         let c = self.value;
         let free = match self.slope {
             // From the cap on the acceleration grows within half of an interval at first.
-            None => (0.5 * length * bend(here, c, 0.0, length)).min(greatest_turn(c, length)),
+            None => (0.5 * length * bend(here, c, 0.0, length)).min(greatest_change(c, length)),
             Some(slope) => {
                 let fastest = if slope < 0.0 { c.max(before) } else { c };
-                let turn = length * bend(here, fastest, slope, length);
-                slope + turn.min(greatest_turn(c.min(before), length))
+                let change = length * bend(here, fastest, slope, length);
+                slope + change.min(greatest_change(c.min(before), length))
             }
         };
         let mut slope = free
@@ -93,7 +93,7 @@ const BEND_SHARE: f64 = 0.9;
 ///
 /// Where a slow cap is left and jerk is no matter at such a speed, the sweep would grow many times over
 /// in one interval. That is a ratio: neither lower bounds nor a slower feed would cure it.
-fn greatest_turn(b: f64, length: f64) -> f64 {
+fn greatest_change(b: f64, length: f64) -> f64 {
     2.0 * BEND_SHARE * GREATEST_BEND * b / length
 }
 

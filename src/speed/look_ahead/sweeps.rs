@@ -4,8 +4,7 @@ use super::bounds::PathBounds;
 use super::hull::Hull;
 use super::spline::{CAPACITY, Spline};
 use super::sweep::{Front, Stretch};
-
-const MASK: usize = CAPACITY - 1;
+use crate::ring::Ring;
 
 /// Relative differences that are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -35,7 +34,7 @@ pub(super) struct Sweeps {
     base: usize,
     /// Up to here the forward sweep is on the plan that it leaves.
     leaves: usize,
-    swept: [Swept; CAPACITY],
+    swept: Ring<Swept, CAPACITY>,
     hull: Hull,
     /// The corner of the hull that was come to from the end.
     corner: usize,
@@ -47,12 +46,12 @@ impl Sweeps {
     pub const NONE: Self = Self {
         base: 1,
         leaves: 1,
-        swept: [Swept {
+        swept: Ring::filled_with(Swept {
             bounds: PathBounds::NONE,
             forward: Front::NONE,
             backward: Front::NONE,
             lower: 0.0,
-        }; CAPACITY],
+        }),
         hull: Hull::NONE,
         corner: 0,
         settled: 0,
@@ -245,11 +244,11 @@ impl Sweeps {
     }
 
     fn at(&self, k: usize) -> &Swept {
-        &self.swept[k & MASK]
+        self.swept.at(k as u64)
     }
 
     fn at_mut(&mut self, k: usize) -> &mut Swept {
-        &mut self.swept[k & MASK]
+        self.swept.at_mut(k as u64)
     }
 }
 

@@ -162,7 +162,7 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
             let circle = Circle {
                 center,
                 normal: axis,
-                turn: if sign > 0.0 { 0 } else { -1 },
+                revolutions: if sign > 0.0 { 0 } else { -1 },
             };
             Arc9::new(&at, &end, &circle).ok().map(Shape::Arc)
         } else {

@@ -58,7 +58,7 @@ impl<'a> Player<'a> {
             step.advance
         );
         assert!((0.0..=1.0).contains(&step.rate), "rate {}", step.rate);
-        assert!(step.rate_change.is_finite());
+        assert!(step.rate_acceleration.is_finite());
         self.time += step.advance;
         let position = if step.end_reached {
             self.reference.at(self.reference.duration())[0]

@@ -16,7 +16,7 @@ pub enum Shape {
         radius: f64,
         angle: f64,
         height: f64,
-        turn: i32,
+        revolutions: i32,
         others: [f64; 6],
     },
 }
@@ -85,8 +85,8 @@ pub fn any_shape() -> impl Strategy<Value = Shape> {
             (prop_oneof![Just(0.0), -10.0..10.0f64], -2..1i32),
             prop_oneof![Just([0.0; 6]), prop::array::uniform6(-10.0..10.0f64)],
         )
-            .prop_map(|((radial, tilt, radius, angle), (height, turn), others)| Shape::Arc {
-                radial, tilt, radius, angle, height, turn, others,
+            .prop_map(|((radial, tilt, radius, angle), (height, revolutions), others)| Shape::Arc {
+                radial, tilt, radius, angle, height, revolutions, others,
             }),
     ]
 }

@@ -49,7 +49,7 @@ pub fn queue(
             radius,
             angle,
             height,
-            turn,
+            revolutions,
             others,
         } => {
             let Some(radial) = Vector3::from(*radial).try_normalize(1e-3) else {
@@ -69,7 +69,7 @@ pub fn queue(
             let circle = Circle {
                 center,
                 normal,
-                turn: *turn,
+                revolutions: *revolutions,
             };
             want(machine.planner.arc_to(&end, &circle), machine);
             machine.circle(end, &circle, &request)

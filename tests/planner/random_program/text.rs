@@ -6,7 +6,7 @@ use framepath::moves::TerminationCondition;
 use super::{Programmed, Shape};
 
 /// Each line: `line` and nine displacements, or `arc` and radial (3), tilt (3), radius, angle, height,
-/// turn, others (6), see [`Shape`]; then the feed, and `stop`, `exact` or P if the mode changes before it.
+/// revolutions, others (6), see [`Shape`]; then the feed, and `stop`, `exact` or P if the mode changes before it.
 pub fn program(text: &str) -> Vec<Programmed> {
     text.lines()
         .filter(|line| !line.trim().is_empty())
@@ -29,7 +29,7 @@ fn one(line: &str) -> Programmed {
             radius: number(),
             angle: number(),
             height: number(),
-            turn: number() as i32,
+            revolutions: number() as i32,
             others: std::array::from_fn(|_| number()),
         },
         other => panic!("neither a line nor an arc: {other}"),

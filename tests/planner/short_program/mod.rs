@@ -292,7 +292,7 @@ fn queue(machine: &mut Machine, one: &ShortMove) -> bool {
             let circle = Circle {
                 center: middle,
                 normal,
-                turn: if *angle > 0.0 { turns } else { -1 - turns },
+                revolutions: if *angle > 0.0 { turns } else { -1 - turns },
             };
             machine.circle(end, &circle, &request)
         }

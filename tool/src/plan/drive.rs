@@ -320,7 +320,7 @@ impl<'a> Drive<'a> {
                 let circle = Circle {
                     center: vector(centre) * length,
                     normal: vector(normal),
-                    turn,
+                    revolutions: turn,
                 };
                 self.planner.add_circle(&end, &circle, &request)
             }

@@ -133,7 +133,7 @@ pub(super) fn refusal(error: &AddError) -> String {
             ShapeError::NotFinite | ShapeError::TooFar => "its coordinates are too large",
             ShapeError::NoNormal => "its plane has no direction",
             ShapeError::RadiusTooSmall => "an end of the arc lies on its axis",
-            ShapeError::TooManyTurns => "it has too many turns",
+            ShapeError::TooManyRevolutions => "it has too many turns",
         }
         .to_owned(),
         AddError::Spindle { spindle } => format!("the machine has no spindle {spindle}"),

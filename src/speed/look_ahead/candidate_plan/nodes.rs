@@ -4,7 +4,8 @@ use super::super::context::PlanContext;
 use super::super::feature::GROWTH;
 use super::super::grid::GridStep;
 use super::super::refusal::PlanRefusal;
-use super::super::rest_arc::{ArcStep, LASTING, RestArcSearch, free_length};
+use super::super::rest_arc::free_length;
+use super::super::rest_arc_search::{ArcStep, RestArcSearch};
 use super::super::route::Route;
 use super::super::spline::{SampleBanks, SplineInterval};
 use super::{CandidatePhase, CandidatePlan, refused};
@@ -17,12 +18,19 @@ const ROOM_BEFORE_ARC: f64 = 3.0;
 
 impl CandidatePlan {
     pub(super) fn search_start<R: Route>(&self, context: &PlanContext<R>) -> CandidatePhase {
-        CandidatePhase::StartArc(context.search(self.spline.start, 1.0, self.most_start, LASTING))
+        CandidatePhase::StartArc(RestArcSearch::from_rest(
+            context,
+            self.spline.start,
+            self.most_start,
+        ))
     }
 
     pub(super) fn search_end<R: Route>(&self, context: &PlanContext<R>) -> CandidatePhase {
-        let share = context.end_share(self.spline.end);
-        CandidatePhase::EndArc(context.search(self.spline.end, -1.0, self.most_end, share))
+        CandidatePhase::EndArc(RestArcSearch::to_rest(
+            context,
+            self.spline.end,
+            self.most_end,
+        ))
     }
 
     pub(super) fn step_start_arc<R: Route>(
@@ -30,7 +38,7 @@ impl CandidatePlan {
         context: &PlanContext<R>,
         mut search: RestArcSearch,
     ) -> CandidatePhase {
-        match search.advance(context.rows, context.route) {
+        match search.advance(context) {
             ArcStep::More => CandidatePhase::StartArc(search),
             ArcStep::Failed => refused(PlanRefusal::NoRest),
             ArcStep::Found(arc) => {
@@ -46,7 +54,7 @@ impl CandidatePlan {
         samples: &mut SampleBanks,
         mut search: RestArcSearch,
     ) -> CandidatePhase {
-        match search.advance(context.rows, context.route) {
+        match search.advance(context) {
             ArcStep::More => CandidatePhase::EndArc(search),
             ArcStep::Failed => refused(PlanRefusal::NoRest),
             ArcStep::Found(arc) => {
@@ -94,8 +102,7 @@ impl CandidatePlan {
             self.spline.at_mut(from).bank = bank;
             samples.place_mut(&self.spline, from).start = sample;
         }
-        self.grid
-            .restart(&self.spline, from, context.route, context.raise_squared);
+        self.grid.restart(context, &self.spline, from);
         CandidatePhase::Grid
     }
 
@@ -104,16 +111,7 @@ impl CandidatePlan {
         context: &PlanContext<R>,
         samples: &mut SampleBanks,
     ) -> CandidatePhase {
-        let step = self.grid.advance(
-            &mut self.spline,
-            context.plan,
-            samples,
-            context.rows,
-            context.route,
-            context.raise_squared,
-            context.oldest,
-        );
-        match step {
+        match self.grid.advance(context, &mut self.spline, samples) {
             GridStep::More if self.grid.reached() > self.cut + self.most => self.shorten(context),
             GridStep::More => CandidatePhase::Grid,
             GridStep::TooLong => refused(PlanRefusal::TooLong),

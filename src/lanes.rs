@@ -1,8 +1,9 @@
 //! The nine axes in single precision, padded to whole vector registers.
 //!
-//! The limits are checked hundreds of times in a servo period, for all axes at once. Loops over
-//! [`Lanes`] with plain compares become vector instructions; single precision is exact to 1e-7,
-//! far below the margins that are kept.
+//! Limits are checked hundreds of times in a servo period, for all axes at once. Loops over [`Lanes`], or
+//! over a [`Quad`] of them where most axes stand still, with plain compares become vector instructions:
+//! with nine axes they take a third of the time. Single precision is exact to 1e-7 of what is added up, far
+//! below the margins that are kept.
 
 use crate::axes::{AXIS_COUNT, Axes};
 
@@ -11,6 +12,17 @@ pub const LANE_COUNT: usize = 12;
 
 /// One number for each axis, shape (12); the last three are those of an axis that never moves.
 pub type Lanes = [f32; LANE_COUNT];
+
+/// Axes in a quad.
+pub const QUAD_LANES: usize = 4;
+
+/// Quads of all axes.
+pub const QUADS: usize = LANE_COUNT / QUAD_LANES;
+
+/// Four axes: a vector register.
+pub type Quad = [f32; QUAD_LANES];
+
+pub const ZEROS: Lanes = [0.0; LANE_COUNT];
 
 /// Stands for an unlimited acceleration or jerk: far above any [`GREATEST_BOUND`], and still
 /// finite, so that no difference of two of them is NaN.
@@ -25,9 +37,30 @@ const GREATEST_BOUND: f64 = 1e30;
 /// Below this a number is noise; zero saves the processor's slow path for subnormal numbers.
 const LEAST_MAGNITUDE: f64 = 1e-20;
 
+/// The same for what is squared.
+const LEAST_SQUARED: f64 = 1e-18;
+
+/// Four axes of the twelve, by the number of their quad.
+#[inline(always)]
+pub fn quad(lanes: &Lanes, number: usize) -> &Quad {
+    let (quads, _) = lanes.as_chunks();
+    &quads[number]
+}
+
+/// Each axis as it is, but for noise: what may be squared, and is finite.
+pub fn rounded(values: &Axes) -> Lanes {
+    let mut lanes = ZEROS;
+    for (lane, &value) in lanes.iter_mut().zip(values.iter()) {
+        if value.abs() > LEAST_SQUARED {
+            *lane = value as f32;
+        }
+    }
+    lanes
+}
+
 /// `value * scale` for each axis. Infinite values become huge ones, NaN and noise become 0.
 pub fn scaled(value: &Axes, scale: f64) -> Lanes {
-    let mut lanes = [0.0; LANE_COUNT];
+    let mut lanes = ZEROS;
     for (lane, axis) in lanes.iter_mut().zip(value.iter()) {
         *lane = single(axis * scale);
     }
@@ -79,7 +112,7 @@ pub fn greatest(lanes: &Lanes) -> f32 {
     lanes.iter().fold(f32::NEG_INFINITY, |a, &b| greater(a, b))
 }
 
-const _: () = assert!(LANE_COUNT >= AXIS_COUNT);
+const _: () = assert!(LANE_COUNT >= AXIS_COUNT && QUADS * QUAD_LANES == LANE_COUNT);
 
 #[cfg(test)]
 mod tests {
@@ -101,5 +134,15 @@ mod tests {
         assert_eq!(limits[0], UNLIMITED);
         assert_eq!(limits[4], 5.0);
         assert_eq!(limits[AXIS_COUNT..], [UNLIMITED; LANE_COUNT - AXIS_COUNT]);
+    }
+
+    #[test]
+    fn axes_keep_their_order_in_quads_and_noise_is_dropped() {
+        let mut axes = Axes::from_fn(|axis, _| axis as f64 - 4.0);
+        axes[8] = 1e-19;
+        let lanes = rounded(&axes);
+        assert_eq!(quad(&lanes, 0), &[-4.0, -3.0, -2.0, -1.0]);
+        assert_eq!(quad(&lanes, 1), &[0.0, 1.0, 2.0, 3.0]);
+        assert_eq!(quad(&lanes, 2), &[0.0; 4]);
     }
 }
