@@ -294,6 +294,10 @@ impl FrameControl {
         if number == self.outputs.acknowledged {
             return;
         }
+        // It would be given a pose on the way. In motion it is refused at once.
+        if standing(inputs).is_ok() && !self.release.is_settled() {
+            return;
+        }
         match self.commanded(&command, inputs) {
             Err(refusal) => self.refuse(Some(number), refusal),
             Ok(staged) if self.changes_nothing(&staged) => {

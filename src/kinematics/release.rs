@@ -38,9 +38,14 @@ impl FrameRelease {
         self.due = framed && (self.due || self.ended || inputs.release || lost);
     }
 
+    /// Whether motion has stood for so long that a switch takes the pose that was reached.
+    pub fn is_settled(&self) -> bool {
+        self.standing >= SETTLED
+    }
+
     /// Whether the frame has to go and can.
     pub fn is_ripe(&self) -> bool {
-        self.due && self.standing >= SETTLED
+        self.due && self.is_settled()
     }
 
     /// Whether the frame has to go as soon as motion allows it.

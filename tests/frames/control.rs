@@ -4,6 +4,7 @@ use crate::common::Motion;
 use framepath::kinematics::FrameRefusal;
 use framepath::kinematics::check::check_sum;
 use framepath::kinematics::control::FrameInputs;
+use framepath::kinematics::release::SETTLED;
 
 fn xyz() -> Motion {
     Motion::new("identity", "XYZ")
@@ -233,6 +234,9 @@ fn motion_may_take_a_hundred_periods_to_switch() {
     ] {
         let mut motion = xyz();
         motion.linked = false;
+        for _ in 0..SETTLED {
+            motion.period();
+        }
         motion.put(1, [5.0, 0.0, 0.0]);
         for _ in 0..=periods {
             motion.period();
@@ -242,6 +246,32 @@ fn motion_may_take_a_hundred_periods_to_switch() {
         assert_eq!(motion.out.active, taken, "after {periods} periods");
         let refusal = (!taken).then_some(FrameRefusal::NotSwitched);
         assert_eq!(motion.out.refusal, refusal, "after {periods} periods");
+    }
+}
+
+/// A command as soon as motion stood took the pose of a period in which motion's interpolator still ran on: 2e-5 mm short
+/// with 20000 mm/s3.
+#[test]
+fn a_command_waits_until_the_interpolator_of_motion_stands() {
+    let mut motion = xyz();
+    for standing in 0..=SETTLED {
+        motion.inputs.in_position = false;
+        motion.period();
+        motion.inputs.in_position = true;
+        for _ in 0..standing {
+            motion.period();
+        }
+        motion.put(1, [f64::from(standing + 1), 0.0, 0.0]);
+        let asked = motion.out.switchkins_type;
+        for _ in standing..SETTLED {
+            motion.period();
+            assert_eq!(motion.out.switchkins_type, asked, "{standing}");
+            assert_eq!(motion.out.refusal, None, "{standing}");
+        }
+        motion.period();
+        assert_ne!(motion.out.switchkins_type, asked, "{standing}");
+        motion.period();
+        assert!(motion.out.active, "{standing}");
     }
 }
 
