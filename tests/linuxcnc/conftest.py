@@ -2,13 +2,19 @@
 waits."""
 
 import os
+import unittest
 
 import pytest
 
 #: Files whose tests are marked as busy.
 BUSY = ("test_contract_table", "test_contract_soak", "test_plan", "test_compare", "test_short_programs", "test_faults_table")
-#: What takes longest comes first.
-FIRST = ("test_dialect_examples", "test_spindle", "test_look_ahead")
+#: What takes longest comes first, or the others would wait for it at the end.
+FIRST = ("test_dialect_examples", "test_spindle", "test_preview", "test_preview_axis", "test_look_ahead")
+
+
+def is_set_up_once(item):
+    """Whether the tests of the class share what they set up."""
+    return item.cls.setUpClass.__func__ is not unittest.TestCase.setUpClass.__func__
 
 
 def pytest_collection_modifyitems(items):
@@ -18,5 +24,7 @@ def pytest_collection_modifyitems(items):
     for item in items:
         if item.path.stem in BUSY:
             item.add_marker(pytest.mark.busy)
+        if is_set_up_once(item):
+            item.add_marker(pytest.mark.xdist_group(f"{item.path.stem}.{item.cls.__name__}"))
     # a stable sort: what belongs together stays so
     items.sort(key=place)

@@ -12,6 +12,8 @@ from contract.row import ACCELERATION, JERK, PERIOD, VELOCITY, peaks
 PATH_VELOCITY = 100.0
 AXES = "xyz"
 RUN = ["run", "PROGRAMS/part.ngc"]
+#: how often a program is run in which the machine must not come to rest
+TRIES = 3
 
 
 def program(*lines):
@@ -210,12 +212,18 @@ class Refused(Case):
         lines = ["G64 P0.1 Q0.0001", *(f"G1 X{n} Y{0.01 * (n % 2)}" for n in range(1, 401))]
         changes: tuple[list, list] = ([], [["setp", "blendtp.axis.x.max-jerk", 400]])
         for change in changes:
-            result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_place", 0, 8], ["note", "change"], *change,
-                                  ["wait_place", 0, 60], ["abort"], ["sleep", 1.0], ["note", "end"]], program(*lines))
-            self.completed(result)
-            self.assertLess(result.answers["change"]["queue"], 389, "all moves had come before the change")
-            places = result.column("axis.x")
-            speeds = [(b - a) / PERIOD for a, b in pairwise(places)]
+            for _ in range(TRIES):
+                result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_place", 0, 8], ["note", "change"], *change,
+                                      ["wait_place", 0, 60], ["abort"], ["sleep", 1.0], ["note", "end"]], program(*lines))
+                self.completed(result)
+                self.assertLess(result.answers["change"]["queue"], 389, "all moves had come before the change")
+                places = result.column("axis.x")
+                speeds = [(b - a) / PERIOD for a, b in pairwise(places)]
+                # where a busy computer is so late with moves that the machine comes to rest, the change holds from there on
+                if all(speed > 1 for place, speed in zip(places[1:], speeds, strict=True) if 8 < place < 60):
+                    break
+            else:
+                self.fail("the machine came to rest in the program each time")
             last = max(n for n, speed in enumerate(speeds) if speed > 1e-3)
             first = last
             while speeds[first - 1] >= speeds[first]:
