@@ -14,7 +14,7 @@ FIRST = ("test_dialect_examples", "test_spindle", "test_preview", "test_preview_
 
 def is_set_up_once(item):
     """Whether the tests of the class share what they set up."""
-    return item.cls.setUpClass.__func__ is not unittest.TestCase.setUpClass.__func__
+    return any("setUpClass" in vars(kind) for kind in item.cls.__mro__ if kind is not unittest.TestCase)
 
 
 def pytest_collection_modifyitems(items):
