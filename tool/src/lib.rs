@@ -20,6 +20,7 @@ pub mod generated;
 pub(crate) mod hal;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod host;
+pub(crate) mod json;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod layer;
 pub(crate) mod machine;

@@ -35,6 +35,7 @@ use crate::format::significant;
 use crate::generated;
 use crate::host;
 use crate::host::operator::{Action, Event, at_time, random_events};
+use crate::json;
 use crate::layer::program::Program;
 use crate::layer::{LayerSettings, lay};
 use crate::machine::limits::{Jerk, LimitChanges, Limits};
@@ -136,7 +137,7 @@ pub struct CompareArguments {
     /// Seconds that a module may take for a single call before it counts as hanging
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     pub patience: f64,
-    /// All figures as JSON in place of the tables
+    /// All figures as JSON in place of the text (docs/json.md)
     #[arg(long)]
     pub json: bool,
 }
@@ -218,9 +219,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
             programs: &all,
             ratios: &ratios,
         };
-        let written = serde_json::to_writer_pretty(&mut output, &report);
-        written.map_err(|error| CompareError::Write(error.into()))?;
-        writeln!(output).map_err(CompareError::Write)?;
+        json::write(&mut output, "compare", &report).map_err(CompareError::Write)?;
     } else {
         write!(output, "{}", ratios::text(&ratios)).map_err(CompareError::Write)?;
         write!(output, "{}", summary::text(&all)).map_err(CompareError::Write)?;

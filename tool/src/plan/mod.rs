@@ -32,6 +32,7 @@ mod text;
 pub use error::PlanError;
 
 use crate::arguments::{file_name, period, positive};
+use crate::json;
 use crate::layer::LayerSettings;
 use crate::layer::stream::LayerStream;
 use crate::machine::limits::{Jerk, LimitChanges};
@@ -43,6 +44,7 @@ use drive::{Drive, Supply};
 use figures::Figures;
 use limit::Limit;
 use progress::Progress;
+use serde::Serialize;
 use setup::Setup;
 use source::Source;
 use std::io::{self, Write};
@@ -100,7 +102,7 @@ pub struct PlanArguments {
     /// How long the plan of a program may take, seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 3600, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     pub most_seconds: u64,
-    /// All figures as JSON in place of the text
+    /// All figures as JSON in place of the text (docs/json.md)
     #[arg(long)]
     pub json: bool,
     /// Write a page with drawings to this file: one file that needs no network
@@ -112,6 +114,12 @@ pub struct PlanArguments {
     /// Write a row for every servo cycle to this file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Programs<'a> {
+    programs: &'a [Figures],
 }
 
 /// Plans; text or JSON on standard output, drawings into files where asked for.
@@ -140,10 +148,8 @@ pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
     let mut output = std::io::stdout().lock();
     let unwritable = |source| PlanError::unwritable(Path::new("standard output"), source);
     if arguments.json {
-        let programs = serde_json::json!({ "programs": all });
-        let written = serde_json::to_writer_pretty(&mut output, &programs);
-        written.map_err(|error| unwritable(error.into()))?;
-        writeln!(output).map_err(unwritable)?;
+        let programs = Programs { programs: &all };
+        json::write(&mut output, "plan", &programs).map_err(unwritable)?;
     } else {
         let texts = all.iter().map(text::render);
         let texts = texts.collect::<Result<Vec<_>, _>>();

@@ -23,9 +23,6 @@ pub enum ReportError {
         /// What the operating system says.
         source: std::io::Error,
     },
-    /// Two outputs would be written to one file.
-    #[error("{}: --html and --json would both be written there: give each a file of its own", .0.display())]
-    SameFile(PathBuf),
     /// The INI file cannot be used.
     #[error(transparent)]
     Ini(#[from] IniError),
