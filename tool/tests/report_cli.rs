@@ -178,6 +178,35 @@ fn a_broken_limit_is_said_in_words() {
     assert!(text.ends_with("Result: FAIL, see above\n"), "{text}");
 }
 
+/// The exit status with --check, and what is said on standard error.
+fn checked(recording: &str, more: &[&str]) -> (Option<i32>, String) {
+    let output = Bench::new(recording, INI).report(&[&["--check"], more].concat());
+    assert!(String::from_utf8_lossy(&output.stdout).contains("Result: "));
+    let said = String::from_utf8(output.stderr).expect("text");
+    (output.status.code(), said)
+}
+
+#[test]
+fn what_is_not_kept_is_an_exit_status() {
+    assert_eq!(
+        checked(&constant_jerk_run(20000.0), &[]),
+        (Some(0), String::new())
+    );
+    let (status, said) = checked(&constant_jerk_run(21000.0), &[]);
+    assert_eq!((status, said.lines().count()), (Some(1), 1));
+    let of_joint = "not kept: joint.0: jerk is 1.05 times its limit (21000 of 20000 mm/s3)";
+    assert!(said.starts_with(of_joint), "{said}");
+    assert!(said.contains("; axis.x: jerk is 1.05 times"), "{said}");
+    // A gap is no pass either: nobody knows what happened there.
+    let run = constant_jerk_run(20000.0);
+    let rows = run.lines().filter(|line| !line.starts_with("0.190,"));
+    let gap: String = rows.map(|line| format!("{line}\n")).collect();
+    let (status, said) = checked(&gap, &[]);
+    assert_eq!(status, Some(1));
+    let unknown = "not all could be checked: The recording lacks servo cycles in 1 place(s)";
+    assert!(said.starts_with(unknown), "{said}");
+}
+
 #[test]
 fn too_few_decimals_are_not_passed_over() {
     let rounded: String = constant_jerk_run(20000.0)

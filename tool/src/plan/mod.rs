@@ -5,7 +5,7 @@
 //! [`spindle`], moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
 //! cycle: [`cause`] says what limits the machine, [`places`] where time is lost,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
-//! drawings; [`figures`] holds all of it; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
+//! drawings; [`figures`] holds all of it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
 //! [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
 
 mod arrivals;
@@ -16,6 +16,7 @@ mod deviation;
 mod drive;
 mod error;
 mod figures;
+mod findings;
 mod limit;
 mod listing;
 mod page;
@@ -102,6 +103,9 @@ pub struct PlanArguments {
     /// How long the plan of a program may take, seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 3600, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     pub most_seconds: u64,
+    /// End with exit status 1 where the plan exceeds a limit or a tolerance, and say which
+    #[arg(long)]
+    pub check: bool,
     /// All figures as JSON in place of the text (docs/json.md)
     #[arg(long)]
     pub json: bool,
@@ -161,7 +165,20 @@ pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
     }
     // Else what does not end with a line is written at the end of the process, whose errors nobody sees.
     output.flush().map_err(unwritable)?;
-    Ok(())
+    match not_kept(&all) {
+        Some(problem) if arguments.check => Err(PlanError::NotKept(problem)),
+        _ => Ok(()),
+    }
+}
+
+/// Everything that is not kept, in one line.
+fn not_kept(all: &[Figures]) -> Option<String> {
+    let of_program = |figures: &Figures| -> Vec<String> {
+        let told = |finding: &String| format!("{}: {finding}", figures.program);
+        figures.findings.iter().map(told).collect()
+    };
+    let findings: Vec<String> = all.iter().flat_map(of_program).collect();
+    (!findings.is_empty()).then(|| findings.join("; "))
 }
 
 /// Runs `work` where a planner has room.

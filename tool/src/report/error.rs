@@ -46,6 +46,12 @@ pub enum ReportError {
         /// What differs and the remedy.
         problem: String,
     },
+    /// --check, and the run exceeds a limit or a tolerance, or leaves the path. The report itself has been told.
+    #[error("not kept: {0}")]
+    NotKept(String),
+    /// --check, and nothing is known to be exceeded, but not all is known.
+    #[error("not all could be checked: {0}")]
+    Incomplete(String),
     /// The part program has no path.
     #[error(transparent)]
     Program(#[from] Refused),

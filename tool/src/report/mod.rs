@@ -35,7 +35,7 @@ use crate::part_program::contour;
 use crate::program::trace::Setup;
 use page::Listing;
 use recording::Recording;
-use summary::Report;
+use summary::{Report, Verdict};
 
 /// Arguments of `framepath report`.
 #[derive(Clone, Debug, clap::Args)]
@@ -53,6 +53,10 @@ pub struct ReportArguments {
     /// How far the executed path may be from the programmed path (G64 P), in machine units
     #[arg(long, value_name = "LENGTH", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    /// End with exit status 1 where a limit or the tolerance was exceeded or the path was left, or where that cannot be
+    /// told, and say which
+    #[arg(long)]
+    pub check: bool,
     /// All figures as JSON in place of the text (docs/json.md)
     #[arg(long)]
     pub json: bool,
@@ -121,7 +125,19 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
                 source,
             })?;
     }
-    print(arguments, &analysis.report, text).map_err(unwritable_output)
+    print(arguments, &analysis.report, text).map_err(unwritable_output)?;
+    match analysis.report.verdict {
+        Verdict::Fail if arguments.check => Err(ReportError::NotKept(findings(&analysis.report))),
+        Verdict::Incomplete if arguments.check => {
+            Err(ReportError::Incomplete(findings(&analysis.report)))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// In one line.
+fn findings(report: &Report) -> String {
+    report.findings.join("; ")
 }
 
 /// As asked for, or the name of what was recorded.
