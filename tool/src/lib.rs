@@ -35,6 +35,7 @@ pub(crate) mod path;
 #[cfg(feature = "linuxcnc")]
 pub mod plan;
 pub mod program;
+pub mod record;
 pub mod report;
 pub mod source;
 pub(crate) mod wiring;

@@ -9,6 +9,7 @@ use framepath_tool::filter::{FilterArguments, Told, filter};
 use framepath_tool::generate::{self, GenerateArguments};
 #[cfg(feature = "linuxcnc")]
 use framepath_tool::plan::{self, PlanArguments};
+use framepath_tool::record::{self, RecordArguments};
 use framepath_tool::report::{self, ReportArguments};
 use std::fmt::Display;
 use std::process::ExitCode;
@@ -25,6 +26,8 @@ struct Arguments {
 enum Command {
     /// Translate a part program of another control to LinuxCNC G-code on standard output
     Filter(FilterArguments),
+    /// Record what a running LinuxCNC does, for report
+    Record(RecordArguments),
     /// Show what the planner did with a program, from a recording
     Report(ReportArguments),
     /// Show what the planner will do with a program: time, limits, slow places
@@ -82,6 +85,7 @@ impl NotBuilt {
 fn main() -> ExitCode {
     match Arguments::parse().command {
         Command::Filter(arguments) => run_filter(&arguments),
+        Command::Record(arguments) => finish(record::run(&arguments)),
         Command::Report(arguments) => finish(report::run(&arguments)),
         #[cfg(feature = "linuxcnc")]
         Command::Plan(arguments) => finish(plan::run(&arguments)),

@@ -56,9 +56,10 @@ const ROOMS: [(&str, &str); 22] = [
 ];
 
 /// Each imports rooms only, and nothing but `main.rs` imports them.
-const COMMANDS: [&str; 7] = [
+const COMMANDS: [&str; 8] = [
     "filter",
     "generate",
+    "record",
     "report",
     "plan",
     "compare",
