@@ -9,6 +9,7 @@ pub mod canon;
 pub mod check;
 #[cfg(feature = "linuxcnc")]
 pub mod compare;
+pub mod completions;
 pub mod configure;
 pub mod diagnostics;
 pub mod dialects;

@@ -56,7 +56,8 @@ const ROOMS: [(&str, &str); 22] = [
 ];
 
 /// Each imports rooms only, and nothing but `main.rs` imports them.
-const COMMANDS: [&str; 8] = [
+const COMMANDS: [&str; 9] = [
+    "completions",
     "filter",
     "generate",
     "record",
