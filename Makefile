@@ -15,6 +15,9 @@ MODULE_FOLDER = $(DESTDIR)/usr/lib/linuxcnc/modules
 SHARE = $(DESTDIR)$(PREFIX)/share/framepath
 MAN = $(DESTDIR)$(PREFIX)/share/man
 BIN = $(DESTDIR)$(PREFIX)/bin
+# Where Debian's bash, zsh and fish look.
+COMPLETIONS = $(addprefix $(DESTDIR)$(PREFIX)/share/,bash-completion/completions/framepath \
+    zsh/vendor-completions/_framepath fish/vendor_completions.d/framepath.fish)
 
 export FRAMEPATH_MODULES = $(MODULES)
 export FRAMEPATH_FAULT_MODULES = $(FAULT_MODULES)
@@ -26,7 +29,7 @@ help:
 	@echo 'make linuxcnc-test  only those of the tests that run a real LinuxCNC'
 	@echo 'make modules    build framekins.so and blendtp.so into $(MODULES)'
 	@echo 'make tool       build the framepath command'
-	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
+	@echo 'make install    put modules, command, subroutines, samples, man pages and completions where they belong (DESTDIR, PREFIX)'
 	@echo 'make uninstall  remove them again'
 	@echo 'make sanitize   only the tests with the address and undefined-behaviour sanitizers and valgrind'
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
@@ -218,10 +221,16 @@ install: modules tool
 	cp -R hal-component/configs $(SHARE)
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
 	install -m 644 tool/framepath.1 $(MAN)/man1
+	install -d $(dir $(COMPLETIONS))
+	$(TOOL) completions bash > $(word 1,$(COMPLETIONS))
+	$(TOOL) completions zsh > $(word 2,$(COMPLETIONS))
+	$(TOOL) completions fish > $(word 3,$(COMPLETIONS))
+	chmod 644 $(COMPLETIONS)
 
 uninstall:
 	rm -f $(MODULE_FOLDER)/framekins.so $(MODULE_FOLDER)/blendtp.so $(BIN)/framepath
 	rm -f $(MAN)/man9/framekins.9 $(MAN)/man9/blendtp.9 $(MAN)/man1/framepath.1
+	rm -f $(COMPLETIONS)
 	rm -rf $(SHARE)
 
 clean:

@@ -140,7 +140,7 @@ def edit_ini(text, changes):
 
 def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3, axes="xyz", timeout=300,
         record=True, modules=None, integers=None, configuration=None, files=(), display="driver.py", recorder=None,
-        edit_hal=None):
+        edit_hal=None, linger=0):
     """Carries out a scenario.
 
     steps: list of [name, argument, ...], see driver.Operator; "on" and "home" are done first.
@@ -151,6 +151,7 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
     files: what goes into the folder of the configuration; display: which of them stands where the screen stands.
     recorder: what records in place of a Recorder of these joints, axes and integers.
     edit_hal: what makes another text of that of the sample's HAL file.
+    linger: for how many seconds what else the scenario has started goes on when LinuxCNC has ended.
     Raises RuntimeError with LinuxCNC's output if LinuxCNC did not come up at all.
     """
     folder = tempfile.mkdtemp(prefix="framepath-run.")
@@ -202,7 +203,8 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
         log_path = os.path.join(folder, "log.txt")
         with open(log_path, "w", encoding="utf-8") as log_file:
             try:
-                subprocess.run([os.path.join(HERE, "isolated"), modules or MODULES, "linuxcnc", "-r", ini_path],
+                subprocess.run([os.path.join(HERE, "isolated"), modules or MODULES, "sh", "-c",
+                                f'linuxcnc -r "$0"; sleep {linger}', ini_path],
                                env=environment, stdin=subprocess.DEVNULL, stdout=log_file,
                                stderr=subprocess.STDOUT, timeout=timeout, check=False)
             except subprocess.TimeoutExpired:

@@ -5,7 +5,6 @@ programs (ten_programs.py) has to be what they take in LinuxCNC on a machine wit
 moves did come late, the program is run again.
 """
 
-import configparser
 import json
 import os
 import shutil
@@ -14,9 +13,10 @@ import tempfile
 import unittest
 
 import harness
-from ten_programs import ATTEMPTS, AXES, NCFILES, PROGRAMS, PROMPT, record
+from ten_programs import ATTEMPTS, NCFILES, PROGRAMS, PROMPT, record
 
 SAMPLE = "framepath-sim"
+INI = os.path.join(harness.SAMPLES, "configs", SAMPLE, f"{SAMPLE}.ini")
 PLANNER = "tpmod"
 MODULE = f"/usr/lib/linuxcnc/modules/{PLANNER}.so"
 PERIOD = 1e-3
@@ -37,17 +37,6 @@ def without_jerk(folder):
     return copy
 
 
-def machine():
-    """The options that give compare the machine of the sample."""
-    ini = configparser.ConfigParser(strict=False, interpolation=None)
-    ini.read(os.path.join(harness.SAMPLES, "configs", SAMPLE, f"{SAMPLE}.ini"))
-    axes = [(axis, ini[f"AXIS_{axis}"]) for axis in AXES.upper()]
-    limits = ";".join(f"{axis}:V={own['MAX_VELOCITY']},A={own['MAX_ACCELERATION']}" for axis, own in axes)
-    # its planner blends more gently where the operator may raise the feed
-    return ["--limits", limits, "--velocity-limit", ini["TRAJ"]["MAX_LINEAR_VELOCITY"],
-            "--max-feed-override", ini["DISPLAY"]["MAX_FEED_OVERRIDE"]]
-
-
 def compare(*arguments):
     """What `framepath compare` says of each program."""
     done = subprocess.run([harness.TOOL, "compare", "--json", *arguments], capture_output=True, text=True, check=False)
@@ -64,7 +53,7 @@ def compared(folder):
         with open(files[-1], "w", encoding="utf-8") as file:
             file.write(text)
     times = {}
-    for program in compare(*files, "--with", MODULE, *machine()):
+    for program in compare(*files, "--with", MODULE, "--ini", INI):
         figures, = program["runs"]
         if figures["state"] != "complete":
             raise AssertionError(f"{program['program']}: {figures['state']}")

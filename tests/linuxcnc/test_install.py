@@ -31,9 +31,13 @@ class Install(unittest.TestCase):
                          "usr/share/man/man9/blendtp.9", "usr/share/framepath/subroutines/trans.ngc",
                          *(f"usr/share/framepath/subroutines/frame_{part}.py"
                            for part in ("guard", "heart", "offsets", "settings")),
+                         "usr/share/bash-completion/completions/framepath", "usr/share/zsh/vendor-completions/_framepath",
+                         "usr/share/fish/vendor_completions.d/framepath.fish",
                          "usr/share/framepath/preview/frame_axis.py", "usr/share/framepath/preview/axis_frames.py",
                          "usr/share/framepath/configs/framepath-sim/framepath-sim.ini"):
                 self.assertIn(name, there)
+            with open(os.path.join(folder, "usr/share/zsh/vendor-completions/_framepath"), encoding="utf-8") as file:
+                self.assertEqual(file.readline(), "#compdef framepath\n")
             # the samples find the subroutines by the same relative path as in the repository
             ini = os.path.join(folder, "usr/share/framepath/configs/framepath-sim/framepath-sim.ini")
             with open(ini, encoding="utf-8") as file:

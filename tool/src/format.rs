@@ -52,6 +52,42 @@ pub fn unit(length_unit: &str, quantity: Quantity) -> String {
     }
 }
 
+/// A peak above its limit: a sentence when it is displayed.
+#[derive(Clone, Copy, Debug)]
+pub struct Over<'a> {
+    /// `joint.0` or `axis.x`.
+    pub name: &'a str,
+    /// What is too great.
+    pub quantity: Quantity,
+    /// How great it is.
+    pub peak: f64,
+    /// How great it may be, same units.
+    pub limit: f64,
+    /// Of a length: `mm`, `in` or `deg`.
+    pub unit: &'a str,
+    /// s.
+    pub time: f64,
+    /// Line of the program.
+    pub line: i64,
+}
+
+impl std::fmt::Display for Over<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "{}: {} is {} times its limit ({} of {} {}) at {:.3} s, line {}",
+            self.name,
+            self.quantity.name(),
+            significant(self.peak / self.limit, 4),
+            significant(self.peak, 6),
+            significant(self.limit, 6),
+            unit(self.unit, self.quantity),
+            self.time,
+            self.line
+        )
+    }
+}
+
 /// Groups of three digits: 1,234,567.
 pub fn grouped(number: usize) -> String {
     let digits = number.to_string();

@@ -9,6 +9,7 @@ pub mod canon;
 pub mod check;
 #[cfg(feature = "linuxcnc")]
 pub mod compare;
+pub mod completions;
 pub mod configure;
 pub mod diagnostics;
 pub mod dialects;
@@ -20,6 +21,7 @@ pub mod generated;
 pub(crate) mod hal;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod host;
+pub(crate) mod json;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod layer;
 pub(crate) mod machine;
@@ -34,6 +36,7 @@ pub(crate) mod path;
 #[cfg(feature = "linuxcnc")]
 pub mod plan;
 pub mod program;
+pub mod record;
 pub mod report;
 pub mod source;
 pub(crate) mod wiring;

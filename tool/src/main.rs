@@ -1,14 +1,16 @@
 //! The command line of the tool.
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use framepath_tool::check::{self, CheckArguments};
 #[cfg(feature = "linuxcnc")]
 use framepath_tool::compare::{self, CompareArguments};
+use framepath_tool::completions::{self, CompletionsArguments};
 use framepath_tool::configure::{self, ConfigureArguments};
 use framepath_tool::filter::{FilterArguments, Told, filter};
 use framepath_tool::generate::{self, GenerateArguments};
 #[cfg(feature = "linuxcnc")]
 use framepath_tool::plan::{self, PlanArguments};
+use framepath_tool::record::{self, RecordArguments};
 use framepath_tool::report::{self, ReportArguments};
 use std::fmt::Display;
 use std::process::ExitCode;
@@ -25,6 +27,8 @@ struct Arguments {
 enum Command {
     /// Translate a part program of another control to LinuxCNC G-code on standard output
     Filter(FilterArguments),
+    /// Record what a running LinuxCNC does, for report
+    Record(RecordArguments),
     /// Show what the planner did with a program, from a recording
     Report(ReportArguments),
     /// Show what the planner will do with a program: time, limits, slow places
@@ -47,6 +51,8 @@ enum Command {
     Configure(ConfigureArguments),
     /// Print a G-code program that shows what a planner does
     Generate(GenerateArguments),
+    /// Print what bash, zsh or fish need to complete commands and options
+    Completions(CompletionsArguments),
     /// Drive a planner module in a process of its own
     #[cfg(feature = "linuxcnc")]
     #[command(hide = true)]
@@ -82,6 +88,7 @@ impl NotBuilt {
 fn main() -> ExitCode {
     match Arguments::parse().command {
         Command::Filter(arguments) => run_filter(&arguments),
+        Command::Record(arguments) => finish(record::run(&arguments)),
         Command::Report(arguments) => finish(report::run(&arguments)),
         #[cfg(feature = "linuxcnc")]
         Command::Plan(arguments) => finish(plan::run(&arguments)),
@@ -94,6 +101,10 @@ fn main() -> ExitCode {
         Command::Check(arguments) => run_check(&arguments),
         Command::Configure(arguments) => finish(configure::run(&arguments)),
         Command::Generate(arguments) => finish(generate::run(&arguments)),
+        Command::Completions(arguments) => {
+            let done = completions::run(arguments, &Arguments::command());
+            finish(done.map_err(|error| format!("standard output: cannot be written: {error}")))
+        }
         #[cfg(feature = "linuxcnc")]
         Command::CompareHost => compare::serve_as_host(),
     }
@@ -149,6 +160,110 @@ fn run_filter(arguments: &FilterArguments) -> ExitCode {
         Err(refused) => {
             eprint!("{}", refused.0);
             ExitCode::FAILURE
+        }
+    }
+}
+
+/// The manual page has each command and each option, and no other.
+#[cfg(all(test, feature = "linuxcnc"))]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    const PAGE: &str = include_str!("../framepath.1");
+
+    /// A section of the page, without what roff puts between its words.
+    fn section(title: &str) -> String {
+        let plain = PAGE.replace("\\-", "-");
+        let mut sections = plain.split("\n.SH ");
+        let found = sections.find(|text| text.starts_with(&format!("{title}\n")));
+        found
+            .unwrap_or_else(|| panic!("no section {title}"))
+            .to_owned()
+    }
+
+    /// The options that a text names.
+    fn named(text: &str) -> BTreeSet<String> {
+        let ends = |c: char| !c.is_ascii_lowercase() && c != '-' && !c.is_ascii_digit();
+        let names = text.split("--").skip(1).map(|rest| rest.split(ends).next());
+        let names = names.flatten().filter(|name| !name.is_empty());
+        names
+            .map(|name| name.trim_end_matches('-').to_owned())
+            .collect()
+    }
+
+    /// Those that a text explains: they stand in the line behind .TP.
+    fn explained(text: &str) -> BTreeSet<String> {
+        let behind = text.split(".TP\n").skip(1);
+        let heads = behind.filter_map(|part| part.lines().next());
+        heads.flat_map(named).collect()
+    }
+
+    fn options(command: &clap::Command) -> BTreeSet<String> {
+        let shown = command
+            .get_arguments()
+            .filter(|option| !option.is_hide_set());
+        shown
+            .filter_map(clap::Arg::get_long)
+            .map(str::to_owned)
+            .collect()
+    }
+
+    fn commands() -> Vec<clap::Command> {
+        let all = Arguments::command();
+        let shown = all
+            .get_subcommands()
+            .filter(|command| !command.is_hide_set());
+        shown.cloned().collect()
+    }
+
+    #[test]
+    fn each_option_is_explained_where_its_command_is() {
+        let mut count = 0;
+        for command in commands() {
+            let name = command.get_name().to_uppercase();
+            let explained = explained(&section(&format!("FRAMEPATH {name}")));
+            assert_eq!(
+                explained,
+                options(&command),
+                "framepath {}",
+                command.get_name()
+            );
+            count += explained.len();
+        }
+        assert!(count > 80, "{count} options");
+    }
+
+    #[test]
+    fn each_option_that_is_named_is_there() {
+        let of_commands = commands();
+        let of_commands = of_commands.iter().flat_map(options);
+        let known: BTreeSet<String> = of_commands
+            .chain(["help", "version"].map(str::to_owned))
+            .collect();
+        let unknown: Vec<String> = named(&PAGE.replace("\\-", "-"))
+            .difference(&known)
+            .cloned()
+            .collect();
+        assert!(unknown.is_empty(), "{unknown:?}");
+    }
+
+    #[test]
+    fn each_command_has_examples_and_an_exit_status() {
+        let synopsis = section("SYNOPSIS").replace("\n.RB", "");
+        for command in commands() {
+            let name = format!("framepath {}", command.get_name());
+            assert!(synopsis.contains(&name), "{name} in SYNOPSIS");
+            let examples = section("EXAMPLES");
+            assert!(
+                examples.lines().any(|line| line.starts_with(&name)),
+                "{name} in EXAMPLES"
+            );
+            let status = section("EXIT STATUS");
+            assert!(
+                status.contains(&format!(".B {name}\n")),
+                "{name} in EXIT STATUS"
+            );
         }
     }
 }

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempPath;
 
 /// The first of these files that is named twice; devices take what comes as often as it comes.
+#[cfg(feature = "linuxcnc")]
 pub(crate) fn named_twice<'a>(files: &[&'a Option<PathBuf>]) -> Option<&'a Path> {
     let mut named = Vec::new();
     for file in files.iter().filter_map(|file| file.as_deref()) {

@@ -2,6 +2,8 @@
 
 #[path = "common/browser.rs"]
 mod browser;
+#[path = "common/fields.rs"]
+mod fields;
 #[path = "common/pages.rs"]
 mod pages;
 
@@ -73,36 +75,28 @@ impl Bench {
             .expect("the program runs")
     }
 
+    /// The figures of a run.
+    fn json(&self, more: &[&str]) -> Value {
+        let output = self.report(&[&["--json"], more].concat());
+        assert!(output.status.success(), "{output:?}");
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    }
+
     /// The message of a run that is refused, without any output.
     fn refused(&self, more: &[&str]) -> String {
-        let outputs = ["--json", "out.json", "--html", "out.html"];
-        let output = self.report(&[&outputs, more].concat());
+        let output = self.report(&[&["--html", "out.html"], more].concat());
         assert!(!output.status.success());
         assert!(output.stdout.is_empty(), "nothing on standard output");
-        assert!(!self.path().join("out.json").exists());
         assert!(!self.path().join("out.html").exists());
         String::from_utf8(output.stderr).expect("text")
     }
 }
 
 #[test]
-fn two_outputs_in_one_file_are_refused() {
-    let bench = Bench::new(&constant_jerk_run(20000.0), INI);
-    let output = bench.report(&["--json", "out", "--html", "out"]);
-    let error = String::from_utf8(output.stderr).expect("text");
-    assert!(!output.status.success() && output.stdout.is_empty());
-    assert!(
-        error.contains("out: --html and --json would both"),
-        "{error}"
-    );
-    assert!(!bench.path().join("out").exists());
-}
-
-#[test]
 fn text_json_and_page_agree() {
     let bench = Bench::new(&constant_jerk_run(20000.0), INI);
     std::fs::write(bench.path().join("part.ngc"), "G21\nG0 X2\n").expect("written");
-    let output = bench.report(&["--json", "out.json", "--html", "out.html", "part.ngc"]);
+    let output = bench.report(&["--html", "out.html", "part.ngc"]);
     assert!(output.status.success(), "{output:?}");
     let text = String::from_utf8(output.stdout).expect("text");
     assert!(text.is_ascii() && text.starts_with("part\n"), "{text}");
@@ -111,9 +105,7 @@ fn text_json_and_page_agree() {
         "{text}"
     );
 
-    let json = std::fs::read_to_string(bench.path().join("out.json")).expect("the file");
-    let report: Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!(report["format"], 1);
+    let report = bench.json(&["part.ngc"]);
     assert_eq!(report["verdict"], "pass");
     assert_eq!(report["machine"], "Bench");
     assert_eq!(report["length_unit"], "mm");
@@ -184,6 +176,35 @@ fn a_broken_limit_is_said_in_words() {
         "{text}"
     );
     assert!(text.ends_with("Result: FAIL, see above\n"), "{text}");
+}
+
+/// The exit status with --check, and what is said on standard error.
+fn checked(recording: &str, more: &[&str]) -> (Option<i32>, String) {
+    let output = Bench::new(recording, INI).report(&[&["--check"], more].concat());
+    assert!(String::from_utf8_lossy(&output.stdout).contains("Result: "));
+    let said = String::from_utf8(output.stderr).expect("text");
+    (output.status.code(), said)
+}
+
+#[test]
+fn what_is_not_kept_is_an_exit_status() {
+    assert_eq!(
+        checked(&constant_jerk_run(20000.0), &[]),
+        (Some(0), String::new())
+    );
+    let (status, said) = checked(&constant_jerk_run(21000.0), &[]);
+    assert_eq!((status, said.lines().count()), (Some(1), 1));
+    let of_joint = "not kept: joint.0: jerk is 1.05 times its limit (21000 of 20000 mm/s3)";
+    assert!(said.starts_with(of_joint), "{said}");
+    assert!(said.contains("; axis.x: jerk is 1.05 times"), "{said}");
+    // A gap is no pass either: nobody knows what happened there.
+    let run = constant_jerk_run(20000.0);
+    let rows = run.lines().filter(|line| !line.starts_with("0.190,"));
+    let gap: String = rows.map(|line| format!("{line}\n")).collect();
+    let (status, said) = checked(&gap, &[]);
+    assert_eq!(status, Some(1));
+    let unknown = "not all could be checked: The recording lacks servo cycles in 1 place(s)";
+    assert!(said.starts_with(unknown), "{said}");
 }
 
 #[test]
@@ -270,13 +291,46 @@ fn unusable_files_are_refused_with_file_line_and_remedy() {
     assert!(bench.refused(&[]).contains("bench.ini: cannot be read"));
 }
 
-/// Also where the first of two files could be written.
 #[test]
 fn a_report_that_cannot_be_written_leaves_nothing() {
     let bench = Bench::new(&constant_jerk_run(20000.0), INI);
-    let output = bench.report(&["--json", "out.json", "--html", "no/out.html"]);
+    let output = bench.report(&["--json", "--html", "no/out.html"]);
     assert!(!output.status.success() && output.stdout.is_empty());
     let said = String::from_utf8(output.stderr).expect("text");
     assert!(said.contains("no/out.html: cannot be written"), "{said}");
-    assert!(!bench.path().join("out.json").exists());
+}
+
+/// The same run with another frame from row 180 on, and without row 190.
+fn with_frame_change_and_gap(run: &str) -> String {
+    let mut text = String::new();
+    for (number, line) in run.lines().enumerate() {
+        let (before, x) = line.rsplit_once(',').expect("fields");
+        match number {
+            190 => {}
+            180.. => {
+                let x: f64 = x.parse().expect("a number");
+                writeln!(text, "{before},{:.12}", x + 12.5).expect("a string");
+            }
+            _ => writeln!(text, "{line}").expect("a string"),
+        }
+    }
+    text
+}
+
+#[test]
+fn fields_are_documented() {
+    let hard = constant_jerk_run(21000.0);
+    let bench = Bench::new(&hard, INI);
+    let compared = |target: &str| {
+        let program = format!("G1 F6000 {target}\nM2\n");
+        std::fs::write(bench.path().join("part.mpf"), program).expect("written");
+        let options = ["--dialect", "sinumerik", "--tolerance", "0.1", "part.mpf"];
+        bench.json(&options)
+    };
+    let (followed, departed) = (compared("X2.688"), compared("Y5"));
+    assert_eq!(followed["path"]["result"], "followed", "{followed}");
+    assert_eq!(departed["path"]["result"], "departed", "{departed}");
+    let changed = with_frame_change_and_gap(&hard);
+    std::fs::write(bench.path().join("run.csv"), changed).expect("written");
+    fields::assert_documented("report", &[followed, departed, bench.json(&[])]);
 }

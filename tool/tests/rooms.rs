@@ -6,12 +6,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What the commands share, and what each is for.
-const ROOMS: [(&str, &str); 21] = [
+const ROOMS: [(&str, &str); 22] = [
     (
         "arguments",
         "what the commands share in reading their arguments",
     ),
     ("output", "files that are there whole or not at all"),
+    ("json", "the one form of all JSON that is printed"),
     ("memory_file", "files in memory, for programs to be started"),
     (
         "generated",
@@ -55,9 +56,11 @@ const ROOMS: [(&str, &str); 21] = [
 ];
 
 /// Each imports rooms only, and nothing but `main.rs` imports them.
-const COMMANDS: [&str; 7] = [
+const COMMANDS: [&str; 9] = [
+    "completions",
     "filter",
     "generate",
+    "record",
     "report",
     "plan",
     "compare",

@@ -12,6 +12,7 @@ pub use finding::{Finding, Level};
 pub use rules::FilterCheck;
 
 use crate::hal::read_script;
+use crate::json;
 use crate::machine::IniError;
 use crate::machine::ini::Ini;
 use crate::wiring::subject::Subject;
@@ -30,7 +31,7 @@ pub struct CheckArguments {
     /// Folder with HAL files that is looked through first, as with `linuxcnc -H`; may be given several times
     #[arg(long, value_name = "DIR")]
     pub hal_folder: Vec<PathBuf>,
-    /// All findings and figures as JSON in place of the text
+    /// All findings and figures as JSON in place of the text (docs/json.md)
     #[arg(long)]
     pub json: bool,
 }
@@ -75,9 +76,7 @@ pub fn run(arguments: &CheckArguments, filter: FilterCheck) -> Result<bool, Chec
     let report = look(ini, problems, &arguments.hal_folder, filter);
     let mut output = io::stdout().lock();
     let written = match arguments.json {
-        true => serde_json::to_writer_pretty(&mut output, &report)
-            .map_err(io::Error::from)
-            .and_then(|()| writeln!(output)),
+        true => json::write(&mut output, "check", &report),
         false => output.write_all(text::render(&report).as_bytes()),
     };
     written

@@ -1,9 +1,9 @@
 //! Distance between the executed and the programmed path, both ways, and against the tolerance.
 
-use super::figures::EXCEEDED;
 use crate::canon::call::PathMode;
 use crate::host::recording::{Sample, moves, step};
 use crate::layer::program::{Piece, Program};
+use crate::path::exceeded::is_beyond;
 use crate::path::segment::{Segment, largest_difference};
 use serde::Serialize;
 
@@ -15,9 +15,6 @@ const MOST_PIECES: usize = 20_000;
 
 /// Distance of points in which a programmed piece is looked at, mm or degrees.
 const SPACING: f64 = 0.1;
-
-/// What the measuring itself may be off, mm: the executed path is known at the end of each cycle only.
-const RESOLUTION: f64 = 1e-3;
 
 /// The largest distance found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -46,7 +43,7 @@ impl Distance {
         match path.tolerance(piece) {
             Tolerance::Given(tolerance) => {
                 let ratio = distance / tolerance;
-                self.exceeds |= distance > EXCEEDED * tolerance + RESOLUTION;
+                self.exceeds |= is_beyond(distance, tolerance);
                 if self.ratio.is_none_or(|worst| ratio > worst) {
                     self.ratio = Some(ratio);
                     self.ratio_line = line;
@@ -54,7 +51,7 @@ impl Distance {
             }
             Tolerance::Exact => {
                 self.exact = Some(self.exact.unwrap_or(0.0).max(distance));
-                self.exceeds |= distance > RESOLUTION;
+                self.exceeds |= is_beyond(distance, 0.0);
             }
             Tolerance::None => {}
         }

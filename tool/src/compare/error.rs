@@ -1,6 +1,7 @@
 //! What can go wrong before anything is measured.
 
 use crate::canon::CanonError;
+use crate::machine::IniError;
 use std::io;
 use std::path::PathBuf;
 
@@ -50,6 +51,12 @@ pub enum CompareError {
     /// A module did not run a program to its end: every run of that kind, a line each.
     #[error("{}", .0.join("\n"))]
     NotDone(Vec<String>),
+    /// --check, and a module does not keep what is promised. The comparison itself has been told.
+    #[error("not kept: {0}")]
+    NotKept(String),
+    /// The INI file cannot be used.
+    #[error(transparent)]
+    Ini(#[from] IniError),
     /// Something that is not the module's doing.
     #[error("a module cannot be run: {0}")]
     Run(io::Error),

@@ -7,16 +7,15 @@ use super::distance::{Distance, Path, executed_to_path, path_to_executed};
 use super::holds::holds;
 use super::kinematics::{Motion, motion};
 use super::rests::{Rests, rests};
+use crate::format::{length, significant};
 use crate::host::job::Job;
 use crate::host::recording::{ABORTED, Ending, Recording};
 use crate::host::supervise::Outcome;
 use crate::layer::program::Program;
 use crate::machine::limits::Jerk;
+use crate::path::exceeded::EXCEEDED;
 use crate::path::segment::largest_difference;
 use serde::Serialize;
-
-/// Beyond this ratio a limit or a tolerance counts as exceeded.
-pub(crate) const EXCEEDED: f64 = 1.01;
 
 /// Farther than this from the programmed end a program was not finished, mm or degrees.
 const OFF_THE_END: f64 = 1e-3;
@@ -41,6 +40,21 @@ pub(crate) enum State {
 }
 
 impl State {
+    /// For people: what has become of the run.
+    pub(crate) fn in_words(&self) -> String {
+        match self {
+            State::Complete => "complete".to_owned(),
+            State::Aborted => "aborted".to_owned(),
+            State::Refused(detail) => format!("REFUSED: {detail}"),
+            State::GaveUp(detail) => format!("GIVES UP: {detail}"),
+            State::Stuck(detail) => format!("STUCK: {detail}"),
+            State::TooLong => "TOO LONG".to_owned(),
+            State::NotUsable(detail) => format!("NOT USABLE: {detail}"),
+            State::Crashed(detail) => format!("CRASHED: {detail}"),
+            State::Hung(detail) => format!("HUNG: {detail}"),
+        }
+    }
+
     fn of(outcome: Outcome, recording: &Recording, period: f64) -> State {
         let module_says = || match recording.first_error.as_str() {
             "" => String::new(),
@@ -140,12 +154,50 @@ impl Figures {
 
     /// A limit or a tolerance is exceeded by more than 1 %.
     pub(crate) fn exceeds(&self) -> bool {
-        self.motion.not_finite
-            || self.motion.velocity.ratio > EXCEEDED
-            || self.motion.acceleration.ratio > EXCEEDED
-            || self.motion.jerk.ratio > EXCEEDED
-            || self.deviation.exceeds
-            || self.missed.exceeds
+        !self.broken().is_empty()
+    }
+
+    /// Each limit and tolerance that is exceeded, in words.
+    pub(crate) fn broken(&self) -> Vec<String> {
+        let motion = &self.motion;
+        let mut broken = Vec::new();
+        if motion.not_finite {
+            broken.push("a position is not a number".to_owned());
+        }
+        for (name, peak) in [
+            ("velocity", &motion.velocity),
+            ("acceleration", &motion.acceleration),
+            ("jerk", &motion.jerk),
+        ] {
+            if peak.ratio > EXCEEDED {
+                let (ratio, time) = (significant(peak.ratio, 4), peak.time);
+                broken.push(format!("{name} is {ratio} times its limit at {time:.3} s"));
+            }
+        }
+        for (what, distance) in [
+            ("the executed path is off the program", &self.deviation),
+            (
+                "the executed path passes by a programmed point",
+                &self.missed,
+            ),
+        ] {
+            if distance.exceeds {
+                let (largest, line) = (length(distance.largest, "mm"), distance.line);
+                broken.push(format!(
+                    "{what} by more than its tolerance, at most by {largest} at line {line}"
+                ));
+            }
+        }
+        broken
+    }
+
+    /// Why this run does not keep what is promised: limits and tolerance, and the program to its end.
+    pub(crate) fn not_kept(&self) -> Vec<String> {
+        let mut problems = self.broken();
+        if !self.came_through() && self.state != State::Aborted {
+            problems.push(self.not_done().unwrap_or_else(|| self.state.in_words()));
+        }
+        problems
     }
 
     /// Measures a run.

@@ -1,13 +1,14 @@
 //! `framepath compare`: drives planner modules with the same moves, faster than real time, and
 //! tabulates time, peaks over the limits, distance from the program, cost of the calls.
 //!
-//! The files in the order of the work: [`crate::canon`] reads the program through LinuxCNC's own
+//! The files in the order of the work: [`conditions`] says for which machine; [`crate::canon`] reads the program through LinuxCNC's own
 //! interpreter; [`crate::layer`] does with it what the canonical layer does; [`runner`] has
 //! [`crate::host`] drive the modules with it; [`kinematics`], [`distance`], [`rests`], [`holds`]
 //! and [`cost`] measure what they recorded, and [`least_time`] if it is asked for; both are
 //! figures [`against_optimum`]; [`figures`] holds all of it; [`mod@table`], [`mod@ratios`], [`s_curve`] and [`summary`] show it.
 
 mod against_optimum;
+mod conditions;
 mod cost;
 mod distance;
 mod error;
@@ -35,9 +36,11 @@ use crate::format::significant;
 use crate::generated;
 use crate::host;
 use crate::host::operator::{Action, Event, at_time, random_events};
+use crate::json;
 use crate::layer::program::Program;
 use crate::layer::{LayerSettings, lay};
 use crate::machine::limits::{Jerk, LimitChanges, Limits};
+use conditions::{Conditions, NO_VELOCITY_LIMIT};
 use figures::Figures;
 use progress::Progress;
 use ratios::{ProgramRuns, ratios};
@@ -56,9 +59,6 @@ const OPERATOR: [&str; 5] = [
     "operator",
 ];
 
-/// More than any machine has, mm/s.
-const NO_VELOCITY_LIMIT: f64 = 1e9;
-
 /// Arguments of `framepath compare`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CompareArguments {
@@ -72,10 +72,14 @@ pub struct CompareArguments {
     /// Program of `framepath generate`; `all` for every one
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub generated: Vec<String>,
+    /// INI file of a machine: its limits of velocity and acceleration, servo period, greatest velocity along the path
+    /// and greatest feed override, where the options do not say otherwise
+    #[arg(long, value_name = "MACHINE.ini")]
+    pub ini: Option<PathBuf>,
     /// Limits of the axes, mm (degrees) and seconds: V=100,A=1000 for all, XY:V=50 for some, several
-    /// separated by `;`
-    #[arg(long, value_name = "LIMITS", default_value = "V=100,A=1000")]
-    pub limits: LimitChanges,
+    /// separated by `;` [default: V=100,A=1000]
+    #[arg(long, value_name = "LIMITS")]
+    pub limits: Option<LimitChanges>,
     /// Jerk limits to run those modules with that have one: `unlimited`, a number, or a number of
     /// accelerations per second (20A)
     #[arg(
@@ -88,9 +92,9 @@ pub struct CompareArguments {
     /// Raise every F to at least this
     #[arg(long, value_name = "MM_MIN", value_parser = positive)]
     pub feed_at_least: Option<f64>,
-    /// Servo period
-    #[arg(long, value_name = "SECONDS", default_value = "0.001", value_parser = period)]
-    pub period: f64,
+    /// Servo period [default: 0.001]
+    #[arg(long, value_name = "SECONDS", value_parser = period)]
+    pub period: Option<f64>,
     /// Moves handed to the planner in a cycle
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u16).range(1..))]
     pub adds_per_cycle: u16,
@@ -98,13 +102,13 @@ pub struct CompareArguments {
     /// many as the planner takes]
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(2..))]
     pub queue: Vec<u16>,
-    /// Greatest velocity of the machine, mm/s
-    #[arg(long, value_name = "V", default_value_t = NO_VELOCITY_LIMIT, value_parser = positive)]
-    pub velocity_limit: f64,
+    /// Greatest velocity along the path, mm/s ([TRAJ]MAX_LINEAR_VELOCITY) [default: none]
+    #[arg(long, value_name = "V", value_parser = positive)]
+    pub velocity_limit: Option<f64>,
     /// Greatest feed override of the machine ([DISPLAY]MAX_FEED_OVERRIDE), for which LinuxCNC's own
-    /// planner leaves room when it blends
-    #[arg(long, value_name = "SCALE", default_value = "1", value_parser = at_least_one)]
-    pub max_feed_override: f64,
+    /// planner leaves room when it blends [default: 1]
+    #[arg(long, value_name = "SCALE", value_parser = at_least_one)]
+    pub max_feed_override: Option<f64>,
     /// Feed override from a time on: SECONDS:SCALE
     #[arg(long, value_name = "T:SCALE", value_parser = at_time)]
     pub feed_override: Vec<(f64, f64)>,
@@ -136,7 +140,11 @@ pub struct CompareArguments {
     /// Seconds that a module may take for a single call before it counts as hanging
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     pub patience: f64,
-    /// All figures as JSON in place of the tables
+    /// End with exit status 1 where a module exceeds a limit or a tolerance or does not bring a program to its end, and
+    /// say which; of several modules the first, which the others are compared with, is not judged
+    #[arg(long)]
+    pub check: bool,
+    /// All figures as JSON in place of the text (docs/json.md)
     #[arg(long)]
     pub json: bool,
 }
@@ -175,14 +183,14 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
     if cfg!(not(feature = "optimum")) && (arguments.optimum || arguments.holds.is_some()) {
         return Err(CompareError::NoOptimum);
     }
-    let mut limits = Limits::default();
-    limits.apply(&arguments.limits);
+    let conditions = Conditions::new(arguments)?;
+    let limits = conditions.limits;
     let programs = programs(arguments, limits)?;
     let events = events(arguments);
-    let runner = Runner::new(arguments, limits, &arguments.jerk, &events)?;
+    let runner = Runner::new(arguments, &conditions, &events)?;
     let mut output = std::io::stdout().lock();
     if !arguments.json {
-        writeln!(output, "{}\n", headline(arguments)).map_err(CompareError::Write)?;
+        writeln!(output, "{}\n", headline(arguments, &conditions)).map_err(CompareError::Write)?;
     }
     let mut all = Vec::new();
     let progress = Progress::new(programs.len() * runner.runs_of_a_program());
@@ -208,19 +216,17 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
     ratios.extend(ratios::over_the_optimum(&all));
     if arguments.json {
         let report = Report {
-            period: arguments.period,
+            period: conditions.period,
             limits,
             feed_at_least: arguments.feed_at_least,
             adds_per_cycle: arguments.adds_per_cycle,
-            velocity_limit: arguments.velocity_limit,
-            max_feed_override: arguments.max_feed_override,
+            velocity_limit: conditions.velocity_limit,
+            max_feed_override: conditions.max_feed_override,
             events: &events,
             programs: &all,
             ratios: &ratios,
         };
-        let written = serde_json::to_writer_pretty(&mut output, &report);
-        written.map_err(|error| CompareError::Write(error.into()))?;
-        writeln!(output).map_err(CompareError::Write)?;
+        json::write(&mut output, "compare", &report).map_err(CompareError::Write)?;
     } else {
         write!(output, "{}", ratios::text(&ratios)).map_err(CompareError::Write)?;
         write!(output, "{}", summary::text(&all)).map_err(CompareError::Write)?;
@@ -231,11 +237,30 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
     }
     output.flush().map_err(CompareError::Write)?;
     let not_done = not_done(&all);
-    if not_done.is_empty() {
-        Ok(())
-    } else {
-        Err(CompareError::NotDone(not_done))
+    if !not_done.is_empty() {
+        return Err(CompareError::NotDone(not_done));
     }
+    match not_kept(&all) {
+        Some(problem) if arguments.check => Err(CompareError::NotKept(problem)),
+        _ => Ok(()),
+    }
+}
+
+/// Everything that is not kept by a module that is judged, in one line.
+fn not_kept(programs: &[ProgramRuns]) -> Option<String> {
+    let modules = programs.iter().flat_map(|program| &program.runs);
+    let first = modules.clone().next().map(|run| &run.module);
+    let is_judged = |run: &&Figures| Some(&run.module) != first;
+    let only = !modules.clone().any(|run| is_judged(&run));
+    let mut problems = Vec::new();
+    for program in programs {
+        for run in program.runs.iter().filter(|run| only || is_judged(run)) {
+            let (name, module, jerk) = (&program.program, &run.module, run.jerk);
+            let told = |problem: String| format!("{name}: {module} with jerk {jerk}: {problem}");
+            problems.extend(run.not_kept().into_iter().map(told));
+        }
+    }
+    (!problems.is_empty()).then(|| problems.join("; "))
 }
 
 /// A line for each run in which the planner itself left something of the program out.
@@ -259,22 +284,25 @@ fn not_done(programs: &[ProgramRuns]) -> Vec<String> {
 }
 
 /// Under what conditions the modules are compared.
-fn headline(arguments: &CompareArguments) -> String {
+fn headline(arguments: &CompareArguments, conditions: &Conditions) -> String {
     let feed = match arguments.feed_at_least {
         Some(feed) => format!("every F raised to {feed} mm/min at least"),
         None => "F as programmed".to_owned(),
     };
-    let limits = &arguments.limits;
-    let period = significant(arguments.period * 1e3, 6);
+    let limits = &conditions.limits_from;
+    let period = significant(conditions.period * 1e3, 6);
     let adds = arguments.adds_per_cycle;
     let moves = if adds == 1 { "move" } else { "moves" };
     let mut text =
         format!("{limits}; {feed}; servo period {period} ms, {adds} {moves} handed over in each");
-    if arguments.velocity_limit < NO_VELOCITY_LIMIT {
-        text += &format!("; at most {} mm/s along the path", arguments.velocity_limit);
+    if conditions.velocity_limit < NO_VELOCITY_LIMIT {
+        text += &format!(
+            "; at most {} mm/s along the path",
+            conditions.velocity_limit
+        );
     }
-    if arguments.max_feed_override > 1.0 {
-        let percent = significant(100.0 * arguments.max_feed_override, 6);
+    if conditions.max_feed_override > 1.0 {
+        let percent = significant(100.0 * conditions.max_feed_override, 6);
         text += &format!("; feed override up to {percent} %");
     }
     text

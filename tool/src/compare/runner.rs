@@ -3,6 +3,7 @@
 use super::CompareArguments;
 #[cfg(feature = "optimum")]
 use super::against_optimum::LeastTime;
+use super::conditions::Conditions;
 use super::error::CompareError;
 use super::figures::Figures;
 #[cfg(feature = "optimum")]
@@ -17,7 +18,6 @@ use crate::host::operator::random_holds;
 use crate::host::recording::Recording;
 use crate::host::supervise;
 use crate::layer::program::Program;
-use crate::machine::limits::{Jerk, Limits};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -33,8 +33,7 @@ struct Module {
 /// What all runs have in common.
 pub(super) struct Runner<'a> {
     arguments: &'a CompareArguments,
-    limits: Limits,
-    jerks: &'a [Jerk],
+    conditions: &'a Conditions,
     events: &'a [Event],
     modules: Vec<Module>,
 }
@@ -44,14 +43,12 @@ impl<'a> Runner<'a> {
     /// A module that does not exist.
     pub(super) fn new(
         arguments: &'a CompareArguments,
-        limits: Limits,
-        jerks: &'a [Jerk],
+        conditions: &'a Conditions,
         events: &'a [Event],
     ) -> Result<Self, CompareError> {
         Ok(Runner {
             arguments,
-            limits,
-            jerks,
+            conditions,
             events,
             modules: modules(&arguments.modules)?,
         })
@@ -59,7 +56,7 @@ impl<'a> Runner<'a> {
 
     /// How many runs a program has at most.
     pub(super) fn runs_of_a_program(&self) -> usize {
-        self.modules.len() * self.jerks.len() * self.arguments.queue.len().max(1)
+        self.modules.len() * self.arguments.jerk.len() * self.arguments.queue.len().max(1)
     }
 
     /// All runs of a program.
@@ -107,18 +104,18 @@ impl<'a> Runner<'a> {
         program: &Program,
         progress: &Progress,
     ) -> Result<Vec<Figures>, CompareError> {
-        let arguments = self.arguments;
+        let (arguments, conditions) = (self.arguments, self.conditions);
         let mut runs = Vec::new();
-        for (index, &jerk) in self.jerks.iter().enumerate() {
+        for (index, &jerk) in arguments.jerk.iter().enumerate() {
             let job = Job {
                 module: module.file.to_owned(),
-                period: arguments.period,
-                limits: self.limits,
-                jerk: jerk.of_axes(&self.limits),
+                period: conditions.period,
+                limits: conditions.limits,
+                jerk: jerk.of_axes(&conditions.limits),
                 adds_per_cycle: usize::from(arguments.adds_per_cycle),
                 queue: module.queue,
-                velocity_limit: arguments.velocity_limit,
-                max_feed_override: arguments.max_feed_override,
+                velocity_limit: conditions.velocity_limit,
+                max_feed_override: conditions.max_feed_override,
                 stuck_after: 10.0,
                 time_limit: 7200.0,
                 events: self.events.to_vec(),
@@ -140,7 +137,7 @@ impl<'a> Runner<'a> {
             runs.push(figures);
             progress.run_done();
             if !takes_jerk {
-                progress.runs_left_out(self.jerks.len() - index - 1);
+                progress.runs_left_out(arguments.jerk.len() - index - 1);
                 break;
             }
         }

@@ -2,8 +2,9 @@
 
 use super::against_optimum::{Holds, LeastTime};
 use super::distance::Distance;
-use super::figures::{EXCEEDED, Figures, State};
+use super::figures::{Figures, State};
 use crate::layer::program::Program;
+use crate::path::exceeded::EXCEEDED;
 use std::fmt::Write;
 
 const HEAD: [&str; 18] = [
@@ -167,14 +168,7 @@ fn note(figures: &Figures) -> Option<String> {
         State::Complete if figures.errors > 0 => figures.first_error.clone(),
         State::Complete if figures.holds.all() > 0 => holds(&figures.holds),
         State::Complete => return None,
-        State::Aborted => "aborted".to_owned(),
-        State::Refused(detail) => format!("REFUSED: {detail}"),
-        State::GaveUp(detail) => format!("GIVES UP: {detail}"),
-        State::Stuck(detail) => format!("STUCK: {detail}"),
-        State::TooLong => "TOO LONG".to_owned(),
-        State::NotUsable(detail) => format!("NOT USABLE: {detail}"),
-        State::Crashed(detail) => format!("CRASHED: {detail}"),
-        State::Hung(detail) => format!("HUNG: {detail}"),
+        state => state.in_words(),
     };
     Some(text)
 }

@@ -30,7 +30,7 @@ pub enum Backend {
 #[derive(Clone, Debug, Args)]
 pub struct FilterArguments {
     /// The language of the part program
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, default_value = "auto")]
     pub dialect: Dialect,
     /// How frames are carried out
     #[arg(long, value_enum, default_value = "auto")]

@@ -59,7 +59,20 @@ pub struct Machine {
     pub path_source: PathSource,
 }
 
+/// Millimetres in an inch.
+#[cfg(feature = "linuxcnc")]
+const INCH: f64 = 25.4;
+
 impl Machine {
+    /// Length of a machine unit, mm.
+    #[cfg(feature = "linuxcnc")]
+    pub fn millimetres(&self) -> f64 {
+        match self.length_unit {
+            "in" => INCH,
+            _ => 1.0,
+        }
+    }
+
     /// Takes the machine from its INI file.
     ///
     /// # Errors

@@ -1,5 +1,7 @@
 //! What the machine is able to do: velocity and acceleration of each axis, and the jerk to compare with.
 
+#[cfg(feature = "linuxcnc")]
+use super::configuration::Machine;
 pub use super::jerk::Jerk;
 use super::jerk::positive;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
@@ -28,6 +30,26 @@ impl Default for Limits {
 }
 
 impl Limits {
+    /// Those of the axes of a machine.
+    #[cfg(feature = "linuxcnc")]
+    pub(crate) fn take_from(&mut self, machine: &Machine) {
+        for member in &machine.axes {
+            let Some(axis) = AXIS_LETTERS
+                .iter()
+                .position(|letter| *letter == member.letter)
+            else {
+                continue;
+            };
+            let unit = if is_rotary(axis) {
+                1.0
+            } else {
+                machine.millimetres()
+            };
+            self.velocity[axis] = member.limits.velocity * unit;
+            self.acceleration[axis] = member.limits.acceleration * unit;
+        }
+    }
+
     /// With the changes that an option asks for.
     pub(crate) fn apply(&mut self, changes: &LimitChanges) {
         for change in &changes.changes {

@@ -1,9 +1,11 @@
 //! Shapes of the path and its rates: [`segment`]s in the nine axes of the machine, [`pieces`] of a
 //! programmed contour, velocity, acceleration and jerk as [`rates`] of recorded positions and as
-//! [`differences`] of positions that go by.
+//! [`differences`] of positions that go by; what counts as [`exceeded`].
 
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod differences;
+#[cfg(feature = "linuxcnc")]
+pub(crate) mod exceeded;
 pub(crate) mod pieces;
 pub(crate) mod rates;
 #[cfg(feature = "linuxcnc")]

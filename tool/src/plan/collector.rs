@@ -152,7 +152,7 @@ impl<'a> Collector<'a> {
             differences: Differences::new(start, setup.period),
             known: VecDeque::new(),
             running: None,
-            follower: Follower::default(),
+            follower: Follower::new(setup.rotary_tolerance),
             places: Places::default(),
             polyline: Polyline::new(DRAWN_WITHIN / setup.millimetres, DRAWN_SPEED * fastest),
             moved: false,

@@ -4,6 +4,7 @@ use super::drive::Handed;
 use crate::canon::call::PathMode;
 use crate::layer::program::Piece;
 use crate::path::Position;
+use crate::path::exceeded::is_beyond;
 use crate::path::segment::Segment;
 use std::collections::VecDeque;
 
@@ -66,6 +67,8 @@ pub struct Deviation {
     pub tightest: Farthest,
     /// In exact path and exact stop modes, of either.
     pub exact: Farthest,
+    /// Where the tolerance, or an exact mode, is not kept, of either: what is farthest beyond.
+    pub beyond: Option<Farthest>,
     /// In a cycle, for the drawing: mm.
     pub now: f64,
 }
@@ -87,6 +90,8 @@ pub struct Follower {
     /// The piece that the machine was nearest to.
     near: usize,
     all_axes: bool,
+    /// How far rotary axes may leave the program, degrees; 0: as many as P has mm.
+    rotary_tolerance: f64,
     found: Deviation,
     last: Option<Position>,
 }
@@ -101,6 +106,14 @@ fn tolerance(piece: &Piece) -> Option<f64> {
 }
 
 impl Follower {
+    /// Where rotary axes may leave the program by so many degrees; 0: as many as P has mm.
+    pub fn new(rotary_tolerance: f64) -> Follower {
+        Follower {
+            rotary_tolerance,
+            ..Follower::default()
+        }
+    }
+
     /// A move that the planner was given.
     pub(super) fn add(&mut self, handed: &Handed) {
         for piece in &handed.pieces {
@@ -142,10 +155,33 @@ impl Follower {
             if tracked.tolerance == Some(0.0) {
                 self.found.exact.note(distance, tracked);
             }
+            let (tolerance, line) = (tracked.tolerance, tracked.piece.line);
+            self.note_beyond(distance, tolerance, line);
         }
         while self.near > KEPT {
             self.leave();
             self.near -= 1;
+        }
+    }
+
+    /// Keeps the place that is farthest beyond its tolerance.
+    fn note_beyond(&mut self, distance: f64, tolerance: Option<f64>, line: i32) {
+        let widened = |tolerance: f64| match self.all_axes && tolerance > 0.0 {
+            true => tolerance.max(self.rotary_tolerance),
+            false => tolerance,
+        };
+        let allowed = tolerance.map(widened);
+        let Some(allowed) = allowed.filter(|allowed| is_beyond(distance, *allowed)) else {
+            return;
+        };
+        let by = |found: &Farthest| found.distance - found.tolerance.unwrap_or(0.0);
+        let known = self.found.beyond.as_ref();
+        if known.is_none_or(|known| distance - allowed > by(known)) {
+            self.found.beyond = Some(Farthest {
+                distance,
+                tolerance: Some(allowed),
+                line,
+            });
         }
     }
 
@@ -169,6 +205,7 @@ impl Follower {
             if judged.tolerance == Some(0.0) {
                 self.found.exact.note(judged.end_missed, &judged);
             }
+            self.note_beyond(judged.end_missed, judged.tolerance, judged.piece.line);
         }
     }
 

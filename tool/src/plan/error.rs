@@ -98,6 +98,9 @@ pub enum PlanError {
         /// How long was waited, s.
         seconds: u64,
     },
+    /// --check, and the plan exceeds a limit or a tolerance. The plan itself has been told.
+    #[error("not kept: {0}")]
+    NotKept(String),
     /// A file cannot be written.
     #[error("{}: cannot be written: {source}", file.display())]
     Write {

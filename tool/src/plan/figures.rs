@@ -3,6 +3,7 @@
 use super::cause::{Cause, Phase};
 use super::collector::{Collected, Peak};
 use super::deviation::Farthest;
+use super::findings;
 use super::places::Place;
 use super::setup::Setup;
 use crate::path::rates::Quantity;
@@ -163,6 +164,8 @@ pub struct Figures {
     pub deviation: DeviationFigures,
     /// Axes that move.
     pub axes: Vec<AxisFigures>,
+    /// A sentence for each limit and tolerance that the plan does not keep.
+    pub findings: Vec<String>,
 }
 
 impl Figures {
@@ -194,7 +197,11 @@ impl Figures {
             })
             .collect();
         limited_by.sort_by(|a, b| b.time.total_cmp(&a.time));
+        let (axes, deviation) = (axes(setup, collected), deviation_figures(setup, collected));
+        let beyond = collected.deviation.beyond.as_ref();
+        let beyond = beyond.map(|farthest| distance_figure(setup, farthest));
         Figures {
+            findings: findings::conclude(&axes, beyond, setup.unit),
             program: program.to_owned(),
             machine: setup.machine.clone(),
             limits_from: setup.origin.clone(),
@@ -215,8 +222,8 @@ impl Figures {
             phases: phases.into(),
             limited_by,
             slowest: collected.places.iter().map(place_figure).collect(),
-            deviation: deviation_figures(setup, collected),
-            axes: axes(setup, collected),
+            deviation,
+            axes,
         }
     }
 }
@@ -238,12 +245,16 @@ fn place_figure(place: &Place) -> PlaceFigure {
     }
 }
 
-fn deviation_figures(setup: &Setup, collected: &Collected) -> DeviationFigures {
-    let figure = |farthest: &Farthest| DistanceFigure {
+fn distance_figure(setup: &Setup, farthest: &Farthest) -> DistanceFigure {
+    DistanceFigure {
         distance: farthest.distance / setup.millimetres,
         tolerance: farthest.tolerance.map(|t| t / setup.millimetres),
         line: farthest.line,
-    };
+    }
+}
+
+fn deviation_figures(setup: &Setup, collected: &Collected) -> DeviationFigures {
+    let figure = |farthest: &Farthest| distance_figure(setup, farthest);
     let there = |farthest: &Farthest| farthest.tolerance.map(|_| figure(farthest));
     let deviation = &collected.deviation;
     DeviationFigures {

@@ -5,7 +5,7 @@
 //! [`spindle`], moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
 //! cycle: [`cause`] says what limits the machine, [`places`] where time is lost,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
-//! drawings; [`figures`] holds all of it; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
+//! drawings; [`figures`] holds all of it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
 //! [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
 
 mod arrivals;
@@ -16,6 +16,7 @@ mod deviation;
 mod drive;
 mod error;
 mod figures;
+mod findings;
 mod limit;
 mod listing;
 mod page;
@@ -32,6 +33,7 @@ mod text;
 pub use error::PlanError;
 
 use crate::arguments::{file_name, period, positive};
+use crate::json;
 use crate::layer::LayerSettings;
 use crate::layer::stream::LayerStream;
 use crate::machine::limits::{Jerk, LimitChanges};
@@ -43,6 +45,7 @@ use drive::{Drive, Supply};
 use figures::Figures;
 use limit::Limit;
 use progress::Progress;
+use serde::Serialize;
 use setup::Setup;
 use source::Source;
 use std::io::{self, Write};
@@ -100,7 +103,10 @@ pub struct PlanArguments {
     /// How long the plan of a program may take, seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 3600, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     pub most_seconds: u64,
-    /// All figures as JSON in place of the text
+    /// End with exit status 1 where the plan exceeds a limit or a tolerance, and say which
+    #[arg(long)]
+    pub check: bool,
+    /// All figures as JSON in place of the text (docs/json.md)
     #[arg(long)]
     pub json: bool,
     /// Write a page with drawings to this file: one file that needs no network
@@ -112,6 +118,12 @@ pub struct PlanArguments {
     /// Write a row for every servo cycle to this file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Programs<'a> {
+    programs: &'a [Figures],
 }
 
 /// Plans; text or JSON on standard output, drawings into files where asked for.
@@ -140,10 +152,8 @@ pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
     let mut output = std::io::stdout().lock();
     let unwritable = |source| PlanError::unwritable(Path::new("standard output"), source);
     if arguments.json {
-        let programs = serde_json::json!({ "programs": all });
-        let written = serde_json::to_writer_pretty(&mut output, &programs);
-        written.map_err(|error| unwritable(error.into()))?;
-        writeln!(output).map_err(unwritable)?;
+        let programs = Programs { programs: &all };
+        json::write(&mut output, "plan", &programs).map_err(unwritable)?;
     } else {
         let texts = all.iter().map(text::render);
         let texts = texts.collect::<Result<Vec<_>, _>>();
@@ -155,7 +165,20 @@ pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
     }
     // Else what does not end with a line is written at the end of the process, whose errors nobody sees.
     output.flush().map_err(unwritable)?;
-    Ok(())
+    match not_kept(&all) {
+        Some(problem) if arguments.check => Err(PlanError::NotKept(problem)),
+        _ => Ok(()),
+    }
+}
+
+/// Everything that is not kept, in one line.
+fn not_kept(all: &[Figures]) -> Option<String> {
+    let of_program = |figures: &Figures| -> Vec<String> {
+        let told = |finding: &String| format!("{}: {finding}", figures.program);
+        figures.findings.iter().map(told).collect()
+    };
+    let findings: Vec<String> = all.iter().flat_map(of_program).collect();
+    (!findings.is_empty()).then(|| findings.join("; "))
 }
 
 /// Runs `work` where a planner has room.

@@ -10,8 +10,6 @@ use crate::machine::limits::{Jerk, Limits, is_rotary};
 use framepath::axes::AXIS_COUNT;
 use std::path::{Path, PathBuf};
 
-const MM_PER_INCH: f64 = 25.4;
-
 /// The machine. Lengths are millimetres unless it says machine units.
 #[derive(Clone, Debug)]
 pub struct Setup {
@@ -137,11 +135,7 @@ const DEFAULT_TOLERANCE: f64 = framepath::planner::Blending::DEFAULT_TOLERANCE;
 fn from_ini(file: &Path) -> Result<Setup, PlanError> {
     let ini = Ini::read(file)?;
     let machine = Machine::from_ini(&ini)?;
-    let millimetres = if machine.length_unit == "in" {
-        MM_PER_INCH
-    } else {
-        1.0
-    };
+    let millimetres = machine.millimetres();
     let mut setup = Setup {
         origin: file.display().to_string(),
         machine: machine.name.clone(),
@@ -152,14 +146,13 @@ fn from_ini(file: &Path) -> Result<Setup, PlanError> {
         default_tolerance: DEFAULT_TOLERANCE * millimetres,
         ..without_ini()
     };
+    setup.limits.take_from(&machine);
     for member in &machine.axes {
         let Some(axis) = AXIS_LETTERS.find(member.letter) else {
             continue;
         };
         let unit = 1.0 / setup.scale(axis);
         setup.axes[axis] = true;
-        setup.limits.velocity[axis] = member.limits.velocity * unit;
-        setup.limits.acceleration[axis] = member.limits.acceleration * unit;
         setup.jerk[axis] = member.limits.jerk.unwrap_or(f64::INFINITY) * unit;
     }
     if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {

@@ -27,6 +27,10 @@ pub fn render(figures: &Figures) -> Result<String, fmt::Error> {
     times(out, figures)?;
     places(out, figures)?;
     axes(out, figures)?;
+    for (index, finding) in figures.findings.iter().enumerate() {
+        let label = if index == 0 { "\nNot kept\n" } else { "" };
+        writeln!(out, "{label}  {finding}")?;
+    }
     Ok(text)
 }
 

@@ -23,9 +23,6 @@ pub enum ReportError {
         /// What the operating system says.
         source: std::io::Error,
     },
-    /// Two outputs would be written to one file.
-    #[error("{}: --html and --json would both be written there: give each a file of its own", .0.display())]
-    SameFile(PathBuf),
     /// The INI file cannot be used.
     #[error(transparent)]
     Ini(#[from] IniError),
@@ -49,6 +46,12 @@ pub enum ReportError {
         /// What differs and the remedy.
         problem: String,
     },
+    /// --check, and the run exceeds a limit or a tolerance, or leaves the path. The report itself has been told.
+    #[error("not kept: {0}")]
+    NotKept(String),
+    /// --check, and nothing is known to be exceeded, but not all is known.
+    #[error("not all could be checked: {0}")]
+    Incomplete(String),
     /// The part program has no path.
     #[error(transparent)]
     Program(#[from] Refused),

@@ -2,7 +2,7 @@
 
 use super::differences::Judgement;
 use super::summary::{FarthestReport, MemberReport, PathReport, Report, Verdict};
-use crate::format::{length, significant, unit};
+use crate::format::{Over, length, significant};
 
 /// The verdict over all parts of a report, and one sentence for each reason against `Pass`.
 pub fn conclude(report: &Report) -> (Verdict, Vec<String>) {
@@ -50,15 +50,18 @@ fn member_findings(member: &MemberReport) -> Vec<String> {
         let (quantity, limit) = (peak.quantity.name(), peak.limit.unwrap_or(0.0));
         match peak.judgement {
             Judgement::Within | Judgement::NotLimited => {}
-            Judgement::Over => findings.push(format!(
-                "{name}: {quantity} is {} times its limit ({} of {} {}) at {:.3} s, line {}",
-                significant(peak.peak / limit, 4),
-                significant(peak.peak, 6),
-                significant(limit, 6),
-                unit(member.member.unit, peak.quantity),
-                peak.time,
-                peak.line
-            )),
+            Judgement::Over => {
+                let over = Over {
+                    name,
+                    quantity: peak.quantity,
+                    peak: peak.peak,
+                    limit,
+                    unit: member.member.unit,
+                    time: peak.time,
+                    line: peak.line,
+                };
+                findings.push(over.to_string());
+            }
             Judgement::Unresolved => findings.push(format!(
                 "{name}: {quantity} cannot be judged: the decimals of the recording leave {} \
                  open, the limit is {}; record positions with more decimals",

@@ -27,13 +27,15 @@ use crate::dialects::Dialect;
 use crate::dialects::settings::Settings;
 use crate::encoding::decode;
 use crate::format::significant;
+use crate::json;
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
 use crate::machine::ini::Ini;
-use crate::output::{OutputFile, named_twice};
+use crate::output::OutputFile;
 use crate::part_program::contour;
 use crate::program::trace::Setup;
 use page::Listing;
 use recording::Recording;
+use summary::{Report, Verdict};
 
 /// Arguments of `framepath report`.
 #[derive(Clone, Debug, clap::Args)]
@@ -51,9 +53,13 @@ pub struct ReportArguments {
     /// How far the executed path may be from the programmed path (G64 P), in machine units
     #[arg(long, value_name = "LENGTH", value_parser = positive, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Write all figures to this file
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
+    /// End with exit status 1 where a limit or the tolerance was exceeded or the path was left, or where that cannot be
+    /// told, and say which
+    #[arg(long)]
+    pub check: bool,
+    /// All figures as JSON in place of the text (docs/json.md)
+    #[arg(long)]
+    pub json: bool,
     /// Write a page with drawings to this file: one file that needs no network
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
@@ -66,7 +72,7 @@ pub struct ReportArguments {
     pub program: Option<PathBuf>,
 }
 
-/// Makes the report: the text on standard output, JSON and HTML into files where asked for. With a
+/// Makes the report: text or JSON on standard output, a page into a file where asked for. With a
 /// dialect, the recording is compared with the path of the program in that dialect. Where the work
 /// offsets are is not in the recording: the path is that without any.
 ///
@@ -79,9 +85,6 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
         }
         _ => Vec::new(),
     };
-    if let Some(file) = named_twice(&[&arguments.html, &arguments.json]) {
-        return Err(ReportError::SameFile(file.to_owned()));
-    }
     let machine = Machine::from_ini(&Ini::read(&arguments.ini)?)?;
     let mut recording = Recording::read(&arguments.recording)?;
     let letter_order = |letter: char| AXIS_LETTERS.find(letter.to_ascii_uppercase());
@@ -102,29 +105,10 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
     };
 
     let recording_name = file_name(&arguments.recording);
-    let title = arguments.title.clone().unwrap_or_else(|| {
-        let named = arguments.program.as_ref().unwrap_or(&arguments.recording);
-        named.file_stem().map_or_else(
-            || file_name(named),
-            |stem| stem.to_string_lossy().into_owned(),
-        )
-    });
+    let title = title(arguments);
     let analysis = summary::analyse(&title, &machine, &recording, &contour, arguments.tolerance);
-
-    let unwritable = |file: &Path| {
-        let file = file.to_owned();
-        move |source| ReportError::Write { file, source }
-    };
-    let standard_output = Path::new("standard output");
-    let mut text = text::render(&analysis.report, &recording_name)
-        .map_err(|error| unwritable(standard_output)(std::io::Error::other(error)))?;
-    let mut files = Vec::new();
-    if let Some(file) = &arguments.json {
-        let mut json = serde_json::to_string_pretty(&analysis.report)
-            .map_err(|error| unwritable(file)(error.into()))?;
-        json.push('\n');
-        files.push(written(file, &json).map_err(unwritable(file))?);
-    }
+    let text = text::render(&analysis.report, &recording_name)
+        .map_err(|error| unwritable_output(io::Error::other(error)))?;
     if let Some(file) = &arguments.html {
         let page = page::render(
             &analysis,
@@ -133,21 +117,58 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
             &text,
             &contour,
             listing.as_ref(),
-        )
-        .map_err(|error| unwritable(file)(error.into()))?;
-        files.push(written(file, &page).map_err(unwritable(file))?);
+        );
+        page.map_err(io::Error::from)
+            .and_then(|page| written(file, &page)?.finish())
+            .map_err(|source| ReportError::Write {
+                file: file.clone(),
+                source,
+            })?;
     }
-    for file in files {
-        let name = file.name().to_owned();
-        file.finish().map_err(unwritable(&name))?;
+    print(arguments, &analysis.report, text).map_err(unwritable_output)?;
+    match analysis.report.verdict {
+        Verdict::Fail if arguments.check => Err(ReportError::NotKept(findings(&analysis.report))),
+        Verdict::Incomplete if arguments.check => {
+            Err(ReportError::Incomplete(findings(&analysis.report)))
+        }
+        _ => Ok(()),
     }
+}
 
+/// In one line.
+fn findings(report: &Report) -> String {
+    report.findings.join("; ")
+}
+
+/// As asked for, or the name of what was recorded.
+fn title(arguments: &ReportArguments) -> String {
+    arguments.title.clone().unwrap_or_else(|| {
+        let named = arguments.program.as_ref().unwrap_or(&arguments.recording);
+        named.file_stem().map_or_else(
+            || file_name(named),
+            |stem| stem.to_string_lossy().into_owned(),
+        )
+    })
+}
+
+fn unwritable_output(source: io::Error) -> ReportError {
+    ReportError::Write {
+        file: PathBuf::from("standard output"),
+        source,
+    }
+}
+
+/// The figures on standard output, all of them at once.
+fn print(arguments: &ReportArguments, report: &Report, mut text: String) -> io::Result<()> {
+    let mut output = io::stdout().lock();
+    if arguments.json {
+        return json::write(&mut output, "report", report);
+    }
     if let Some(file) = &arguments.html {
         text.push_str(&format!("Page: {}\n", file.display()));
     }
-    std::io::stdout()
-        .write_all(text.as_bytes())
-        .map_err(unwritable(standard_output))
+    output.write_all(text.as_bytes())?;
+    output.flush()
 }
 
 /// A file with its content, which takes its place when it is finished.

@@ -1,4 +1,4 @@
-//! The figures of a report: what the text, the JSON file and the page all show.
+//! The figures of a report: what the text, the JSON and the page all show.
 
 use serde::Serialize;
 
@@ -11,14 +11,9 @@ use crate::path::pieces::{Point, distance};
 use crate::path::rates::Quantity;
 use crate::program::contour::ContourMove;
 
-/// Number of the JSON format; it changes when a field changes its meaning.
-pub const FORMAT: u32 = 1;
-
 /// A report. Lengths in `length_unit`, times in seconds, angles in degrees.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// [`FORMAT`].
-    pub format: u32,
     /// Headline.
     pub title: String,
     /// `[EMC]MACHINE` of the INI file.
@@ -263,7 +258,6 @@ pub fn analyse(
 
     let (path_length, greatest_speed) = length_and_speed(&points, recording, &breaks, period);
     let mut report = Report {
-        format: FORMAT,
         title: title.to_owned(),
         machine: machine.name.clone(),
         length_unit: machine.length_unit,

@@ -2,6 +2,8 @@
 
 mod bench;
 mod configure;
+#[path = "../common/fields.rs"]
+mod fields;
 mod findings;
 mod left_out;
 mod random;

@@ -1,6 +1,7 @@
 //! What a user sees.
 
 use crate::bench::{Bench, framepath};
+use crate::fields::assert_documented;
 use std::path::Path;
 
 #[test]
@@ -68,4 +69,24 @@ fn without_errors_the_exit_code_is_0() {
         text.contains("  C: 4.5 deg in 0.15 s (60 deg/s, 600 deg/s2, 12000 deg/s3)\n"),
         "{text}"
     );
+}
+
+#[test]
+fn fields_of_the_json_are_documented() {
+    let bench = Bench::new();
+    let name = "framepath-sim";
+    let ini = bench.read(name, "ini");
+    let hal = bench.read(name, "hal");
+    // To remove, to replace, something else to do, and to add.
+    let ini = ini.replace(
+        "CLEAR_AT_END = 1",
+        "CLEAR_AT_START = 1\nTOOL_LENGTHS = frame",
+    );
+    let ini = ini.replace("mpf = framepath filter", "mpf = framepath check");
+    let hal = hal.replace("setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK\n", "");
+    bench.write(name, "ini", &ini);
+    bench.write(name, "hal", &hal);
+    let output = bench.check(name, &["--json"]);
+    let report = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_documented("check", &[report]);
 }

@@ -1,6 +1,6 @@
 //! What is refused, and what is said then.
 
-use crate::support::{Bench, STOCK};
+use crate::support::{Bench, STOCK, assert_near, json};
 
 #[test]
 fn a_missing_file() {
@@ -86,4 +86,77 @@ fn values_that_make_no_sense() {
         let message = bench.refused(&all);
         assert!(message.contains(expected), "{message}");
     }
+}
+
+/// The first of several modules is what the others are compared with, and is not judged.
+#[test]
+fn what_a_module_does_not_keep_is_an_exit_status() {
+    let bench = Bench::new();
+    let file = bench.write("program.ngc", "G21 G64 P0.1 F6000\nG1 X20\nM2\n");
+    let [file, jumps] = [file, bench.module("JUMPS")].map(|path| path.display().to_string());
+    let checked = |modules: &[&str]| {
+        let with = modules.iter().flat_map(|module| ["--with", module]);
+        let arguments: Vec<&str> = [file.as_str(), "--check"].into_iter().chain(with).collect();
+        let output = bench.compare(&arguments);
+        assert!(String::from_utf8_lossy(&output.stdout).contains("a limit is exceeded by more"));
+        let said = String::from_utf8(output.stderr).expect("text");
+        (output.status.code(), said)
+    };
+    let (status, said) = checked(&[STOCK, &jumps]);
+    assert_eq!((status, said.lines().count()), (Some(1), 1), "{said}");
+    let start =
+        "not kept: program.ngc: made-upJUMPS.so with jerk unlimited: velocity is 3 times its limit";
+    assert!(said.starts_with(start), "{said}");
+    assert!(
+        said.contains("the executed path is off the program by more than its tolerance"),
+        "{said}"
+    );
+    assert_eq!(checked(&[&jumps]).0, Some(1));
+    assert_eq!(checked(&[STOCK]), (Some(0), String::new()));
+    assert_eq!(checked(&[&jumps, STOCK]), (Some(0), String::new()));
+}
+
+/// What the INI file of a machine says, in mm whatever its unit is, and an option goes first.
+#[test]
+fn the_conditions_are_those_of_a_machine() {
+    let bench = Bench::new();
+    bench.write("program.ngc", "G20 G64 P0.1 F600\nG1 X1\nM2\n");
+    let ini = "[EMC]\nMACHINE = inches\n[EMCMOT]\nSERVO_PERIOD = 2000000\n[DISPLAY]\nMAX_FEED_OVERRIDE = 1.5\n\
+               [TRAJ]\nLINEAR_UNITS = inch\nMAX_LINEAR_VELOCITY = 3\n[KINS]\nKINEMATICS = trivkins coordinates=XC\n\
+               [AXIS_X]\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 20\n[AXIS_C]\nMAX_VELOCITY = 90\nMAX_ACCELERATION = 900\n\
+               [JOINT_0]\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 20\n[JOINT_1]\nMAX_VELOCITY = 90\n\
+               MAX_ACCELERATION = 900\n";
+    bench.write("machine.ini", ini);
+    let machine = ["program.ngc", "--with", STOCK, "--ini", "machine.ini"];
+    let report = |more: &[&str]| json(&bench.compare(&[&machine, more, &["--json"]].concat()));
+    let of_machine = report(&[]);
+    assert_near(&of_machine["limits"]["velocity"][0], 50.8, 1e-9);
+    assert_near(&of_machine["limits"]["acceleration"][0], 508.0, 1e-9);
+    assert_near(&of_machine["limits"]["velocity"][5], 90.0, 0.0);
+    assert_near(&of_machine["velocity_limit"], 76.2, 1e-9);
+    assert_near(&of_machine["max_feed_override"], 1.5, 0.0);
+    assert_near(&of_machine["period"], 0.002, 1e-12);
+    let changed = report(&[
+        "--limits",
+        "X:V=10",
+        "--period",
+        "0.001",
+        "--max-feed-override",
+        "1",
+    ]);
+    assert_near(&changed["limits"]["velocity"][0], 10.0, 0.0);
+    assert_near(&changed["limits"]["acceleration"][0], 508.0, 1e-9);
+    assert_near(&changed["max_feed_override"], 1.0, 0.0);
+    assert_near(&changed["period"], 0.001, 0.0);
+    let text = bench.compare(&machine);
+    let text = String::from_utf8(text.stdout).expect("text");
+    assert!(
+        text.starts_with("limits of machine.ini; F as programmed; servo period 2 ms"),
+        "{text}"
+    );
+    let refused = bench.refused(&["program.ngc", "--with", STOCK, "--ini", "nowhere.ini"]);
+    assert!(
+        refused.starts_with("nowhere.ini: cannot be read"),
+        "{refused}"
+    );
 }

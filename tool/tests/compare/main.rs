@@ -5,6 +5,9 @@ mod bad_modules;
 mod bench;
 mod canon;
 mod errors;
+#[path = "../common/fields.rs"]
+mod fields;
+mod json;
 mod measuring;
 mod operator;
 mod optimum;

@@ -32,11 +32,21 @@ impl Shop {
         self.run_in("sinumerik", name, arguments)
     }
 
+    /// Runs `framepath filter NAME`.
+    pub fn run_without_dialect(&self, name: &str) -> Output {
+        self.filter(&[], name, &[])
+    }
+
     /// Runs `framepath filter --dialect DIALECT ARGUMENTS NAME`.
     pub fn run_in(&self, dialect: &str, name: &str, arguments: &[&str]) -> Output {
+        self.filter(&["--dialect", dialect], name, arguments)
+    }
+
+    fn filter(&self, dialect: &[&str], name: &str, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO_BIN_EXE_framepath"))
             .current_dir(self.folder.path())
-            .args(["filter", "--dialect", dialect])
+            .arg("filter")
+            .args(dialect)
             .args(arguments)
             .arg(name)
             .output()

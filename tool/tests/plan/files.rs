@@ -1,6 +1,8 @@
 //! Text, CSV and SVG.
 
-use crate::support::Bench;
+use crate::bench::json;
+use crate::fields::assert_documented;
+use crate::support::{Bench, MILL};
 
 const PROGRAM: &str = "G21 G64 P0.05 F3000\nG1 X20\nX20 Y10 Z3\nG2 X0 Y10 I-10\nM2\n";
 
@@ -126,4 +128,44 @@ fn a_file_that_cannot_be_written_is_told_before_the_plan_begins() {
         "{error}"
     );
     assert!(!bench.path().join("plan.csv").exists());
+}
+
+#[test]
+fn fields_of_the_json_are_documented() {
+    let bench = Bench::new();
+    bench.write("mill.ini", MILL);
+    bench.write("part.ngc", PROGRAM);
+    bench.write("exact.ngc", "G21 G61.1 F600\nG1 X5\nG64 P0.1\nX9\nY4\nM2\n");
+    let plans = bench.plan(&["part.ngc", "exact.ngc", "--ini", "mill.ini", "--json"]);
+    let unlimited = bench.plan(&["exact.ngc", "--jerk", "unlimited", "--json"]);
+    assert_documented("plan", &[json(&plans), json(&unlimited)]);
+}
+
+#[test]
+fn what_is_not_kept_is_an_exit_status() {
+    let bench = Bench::new();
+    bench.write("part.ngc", PROGRAM);
+    let kept = bench.plan(&["part.ngc", "--check"]);
+    assert!(kept.status.success(), "{kept:?}");
+    assert!(kept.stderr.is_empty(), "{kept:?}");
+    // In a tenth of a second the machine passes a corner by more than P.
+    let coarse = bench.plan(&["part.ngc", "--check", "--period", "0.1", "--json"]);
+    assert_eq!(coarse.status.code(), Some(1));
+    let said = String::from_utf8(coarse.stderr).expect("text");
+    assert!(said.starts_with("not kept: part.ngc: "), "{said}");
+    assert!(
+        said.contains("off the programmed path by") && said.lines().count() == 1,
+        "{said}"
+    );
+    let plan: serde_json::Value = serde_json::from_slice(&coarse.stdout).expect("JSON");
+    let findings = plan["programs"][0]["findings"].as_array().expect("a list");
+    assert!(
+        findings
+            .iter()
+            .all(|finding| said.contains(finding.as_str().expect("text")))
+    );
+    let without = bench.plan(&["part.ngc", "--period", "0.1"]);
+    assert!(without.status.success());
+    let text = String::from_utf8(without.stdout).expect("text");
+    assert!(text.contains("\nNot kept\n  "), "{text}");
 }

@@ -6,6 +6,8 @@ mod bench;
 #[path = "../common/browser.rs"]
 mod browser;
 mod errors;
+#[path = "../common/fields.rs"]
+mod fields;
 mod figures;
 mod files;
 mod long_programs;

@@ -83,11 +83,11 @@ fn line(subject: &Subject, filter: &Entry, check: FilterCheck, findings: &mut Fi
             }
         }
         _ => {
-            let found = "a filter is `framepath filter --dialect NAME`";
+            let found = "a filter is `framepath filter`, with options if need be";
             findings.error(
                 place,
                 found,
-                replace(format!("{} = framepath filter --dialect auto", filter.key)),
+                replace(format!("{} = framepath filter", filter.key)),
             );
         }
     }

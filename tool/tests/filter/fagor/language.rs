@@ -223,7 +223,11 @@ fn the_language_is_guessed_and_said() {
         said.contains("sinumerik program, because of the ending"),
         "{said}"
     );
+    // As without the option.
+    let guessed = shop.run_without_dialect("part.mpf");
+    assert_eq!(guessed, output);
     let shown = refused(&shop.run_in("auto", "plain.nc", &[]));
+    assert_eq!(refused(&shop.run_without_dialect("plain.nc")), shown);
     assert!(shown.contains("in which language"), "{shown}");
     assert!(shown.contains("1 error: nothing was written"), "{shown}");
 }

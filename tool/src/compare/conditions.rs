@@ -1,0 +1,85 @@
+//! Under which conditions the modules are compared: options, else the INI file of a machine, else stated defaults.
+
+use super::CompareArguments;
+use crate::machine::IniError;
+use crate::machine::configuration::Machine;
+use crate::machine::ini::Ini;
+use crate::machine::limits::Limits;
+use std::path::Path;
+
+/// More than any machine has, mm/s.
+pub(super) const NO_VELOCITY_LIMIT: f64 = 1e9;
+
+/// Lengths are mm, whatever the machine's unit is.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Conditions {
+    /// Velocity and acceleration of each axis.
+    pub limits: Limits,
+    /// Where they come from, for the reader.
+    pub limits_from: String,
+    /// Servo period, s.
+    pub period: f64,
+    /// Along the path, mm/s.
+    pub velocity_limit: f64,
+    /// 1 is 100 %.
+    pub max_feed_override: f64,
+}
+
+impl Conditions {
+    /// # Errors
+    /// An INI file that cannot be used.
+    pub(super) fn new(arguments: &CompareArguments) -> Result<Conditions, IniError> {
+        let mut conditions = match &arguments.ini {
+            Some(file) => Conditions::of_machine(file)?,
+            None => Conditions::without_machine(),
+        };
+        if let Some(changes) = &arguments.limits {
+            conditions.limits.apply(changes);
+            conditions.limits_from = match arguments.ini {
+                Some(_) => format!("{}, changed by {changes}", conditions.limits_from),
+                None => changes.to_string(),
+            };
+        }
+        let Conditions {
+            period,
+            velocity_limit,
+            max_feed_override,
+            ..
+        } = conditions;
+        Ok(Conditions {
+            period: arguments.period.unwrap_or(period),
+            velocity_limit: arguments.velocity_limit.unwrap_or(velocity_limit),
+            max_feed_override: arguments.max_feed_override.unwrap_or(max_feed_override),
+            ..conditions
+        })
+    }
+
+    fn without_machine() -> Conditions {
+        Conditions {
+            limits: Limits::default(),
+            limits_from: "V=100,A=1000".to_owned(),
+            period: 0.001,
+            velocity_limit: NO_VELOCITY_LIMIT,
+            max_feed_override: 1.0,
+        }
+    }
+
+    fn of_machine(file: &Path) -> Result<Conditions, IniError> {
+        let ini = Ini::read(file)?;
+        let machine = Machine::from_ini(&ini)?;
+        let mut conditions = Conditions {
+            limits_from: format!("limits of {}", file.display()),
+            period: machine.servo_period,
+            ..Conditions::without_machine()
+        };
+        conditions.limits.take_from(&machine);
+        if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
+            conditions.velocity_limit = velocity * machine.millimetres();
+        }
+        // Below 1 it only slows the operator down.
+        if let Some(scale) = ini.number("DISPLAY", "MAX_FEED_OVERRIDE")? {
+            conditions.max_feed_override = scale.max(1.0);
+        }
+        Ok(conditions)
+    }
+}

@@ -1,0 +1,77 @@
+//! Which limits and tolerances a plan does not keep, in words.
+
+use super::figures::{AxisFigures, DistanceFigure};
+use crate::format::{Over, length};
+use crate::path::exceeded::EXCEEDED;
+
+/// A sentence for each. `beyond` is the place farthest beyond its tolerance, `unit` that of lengths.
+pub fn conclude(axes: &[AxisFigures], beyond: Option<DistanceFigure>, unit: &str) -> Vec<String> {
+    let mut findings = Vec::new();
+    for axis in axes {
+        let peaks = axis.peaks.iter();
+        for peak in peaks.filter(|peak| peak.share.is_some_and(|share| share > EXCEEDED)) {
+            let over = Over {
+                name: &axis.name,
+                quantity: peak.quantity,
+                peak: peak.peak,
+                limit: peak.limit.unwrap_or(0.0),
+                unit: axis.unit,
+                time: peak.time,
+                line: peak.line.into(),
+            };
+            findings.push(over.to_string());
+        }
+    }
+    findings.extend(beyond.map(|beyond| {
+        format!(
+            "The planned path is off the programmed path by {}, the tolerance is {}: at line {}",
+            length(beyond.distance, unit),
+            length(beyond.tolerance.unwrap_or(0.0), unit),
+            beyond.line
+        )
+    }));
+    findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::figures::PeakFigure;
+    use super::*;
+    use crate::path::rates::Quantity;
+
+    fn axis(peak: f64) -> AxisFigures {
+        AxisFigures {
+            letter: 'X',
+            name: "axis.x".to_owned(),
+            unit: "mm",
+            index: 0,
+            from: 0.0,
+            to: 10.0,
+            peaks: vec![PeakFigure {
+                quantity: Quantity::Jerk,
+                peak,
+                limit: Some(20_000.0),
+                share: Some(peak / 20_000.0),
+                time: 0.5,
+                line: 7,
+            }],
+        }
+    }
+
+    #[test]
+    fn what_is_exceeded_by_more_than_a_percent_is_told() {
+        assert!(conclude(&[axis(20_150.0)], None, "mm").is_empty());
+        let beyond = DistanceFigure {
+            distance: 0.15,
+            tolerance: Some(0.1),
+            line: 9,
+        };
+        assert_eq!(
+            conclude(&[axis(21_000.0)], Some(beyond), "mm"),
+            [
+                "axis.x: jerk is 1.05 times its limit (21000 of 20000 mm/s3) at 0.500 s, line 7",
+                "The planned path is off the programmed path by 0.150 mm, the tolerance is 0.100 mm: at line 9",
+            ]
+        );
+    }
+}

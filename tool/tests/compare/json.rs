@@ -1,0 +1,43 @@
+//! What `--json` prints.
+
+use crate::fields::assert_documented;
+use crate::support::{Bench, STOCK, json};
+
+/// Short and with rests: G61.1 and G64 with P.
+const PROGRAM: &str = "G21 G61.1 F3000\nG1 X4\nG64 P0.1\nY4\nX8\nM2\n";
+
+#[test]
+fn fields_are_documented() {
+    let bench = Bench::new();
+    let file = bench.write("program.ngc", PROGRAM);
+    let modules = [
+        bench.module("TAKES_JERK"),
+        bench.module("STANDS"),
+        bench.write("none.so", "this is no module"),
+    ];
+    let [file, takes_jerk, stands, none] = std::array::from_fn(|index| {
+        let path = [&file].into_iter().chain(&modules).nth(index);
+        path.expect("a path").display().to_string()
+    });
+    let all = |options: &[&str]| {
+        let program = [file.as_str(), "--json", "--with", STOCK];
+        json(&bench.compare(&[&program, options].concat()))
+    };
+    let jerk = "unlimited,20000,20A";
+    let with = ["--with", &takes_jerk, "--with", &stands, "--with", &none];
+    let modules = all(&[&with[..], &["--jerk", jerk]].concat());
+    let optimum = all(&["--optimum", "--holds", "1"]);
+    let operator = all(&[
+        "--feed-at-least",
+        "600",
+        "--feed-override",
+        "0.1:0.5",
+        "--pause",
+        "0.2:0.1",
+        "--max-velocity",
+        "0.3:10",
+        "--abort",
+        "0.4",
+    ]);
+    assert_documented("compare", &[modules, optimum, operator]);
+}
