@@ -16,6 +16,19 @@ SHARE = $(DESTDIR)$(PREFIX)/share/framepath
 MAN = $(DESTDIR)$(PREFIX)/share/man
 BIN = $(DESTDIR)$(PREFIX)/bin
 
+# A source tree of LinuxCNC, built or not, for headers that the packages lack: those of 2.10 have none of motion and its
+# planner. The headers are looked for in their folders, the version is in a file.
+ifneq ($(LINUXCNC_SOURCE),)
+HEADER_FOLDERS = rtapi hal emc emc/ini emc/kinematics emc/motion emc/nml_intf emc/rs274ngc emc/tp libposemath $(addprefix \
+    libnml/,buffer cms inifile linklist nml os_intf posemath rcs)
+empty :=
+export LINUXCNC_INCLUDE := $(subst $(empty) ,:,$(wildcard $(addprefix $(abspath $(LINUXCNC_SOURCE))/src/,$(HEADER_FOLDERS))))
+export LINUXCNC_VERSION := $(shell cat $(LINUXCNC_SOURCE)/VERSION)
+ifeq ($(LINUXCNC_INCLUDE),)
+$(error LINUXCNC_SOURCE=$(LINUXCNC_SOURCE) has no src/emc/motion: it is to be the folder of LinuxCNC's source)
+endif
+endif
+
 export FRAMEPATH_MODULES = $(MODULES)
 export FRAMEPATH_FAULT_MODULES = $(FAULT_MODULES)
 export FRAMEPATH_TOOL = $(TOOL)
@@ -25,6 +38,7 @@ help:
 	@echo 'make test       install what is missing, build, run every test'
 	@echo 'make linuxcnc-test  only those of the tests that run a real LinuxCNC'
 	@echo 'make modules    build framekins.so and blendtp.so into $(MODULES)'
+	@echo '                LINUXCNC_SOURCE=/path/to/linuxcnc: with the headers of this source of LinuxCNC, whose packages may lack them'
 	@echo 'make tool       build the framepath command'
 	@echo 'make install    put modules, command, subroutines, samples and man pages where LinuxCNC looks (DESTDIR, PREFIX)'
 	@echo 'make uninstall  remove them again'
