@@ -249,20 +249,20 @@ uninstall:
 
 # Packages are made from a copy of the source beside what is built: target/package.
 PACKAGE = $(TARGET)/package
-COPY_SOURCE = rm -rf $(PACKAGE) && mkdir -p $(PACKAGE)/framepath && \
-    tar -c --exclude=./target --exclude=./.git . | tar -x -C $(PACKAGE)/framepath
+COPY_SOURCE = rm -rf $(PACKAGE)/framepath $(PACKAGE)/$(1)_* && mkdir -p $(PACKAGE)/framepath && \
+    tar -c --exclude=target --exclude=__pycache__ --exclude=./.git . | tar -x -C $(PACKAGE)/framepath
 BUILD_PACKAGE = cd $(PACKAGE)/framepath && CARGO_TARGET_DIR=$(TARGET) FRAMEPATH_BUILT=1 dpkg-buildpackage -d -nc -us -uc
 
 # With the modules for the LinuxCNC that is installed: sudo apt install ./target/package/framepath_*.deb
 deb: modules tool
 	@./prerequisites package
-	$(COPY_SOURCE)
+	$(call COPY_SOURCE,framepath)
 	$(BUILD_PACKAGE) -B
 
 # With the source alone, which may be given away: built where it is installed, and again when LinuxCNC is upgraded.
 deb-source:
 	@./prerequisites package
-	$(COPY_SOURCE)
+	$(call COPY_SOURCE,framepath-source)
 	$(BUILD_PACKAGE) -A
 
 # COMMAND='make linuxcnc-test' runs that instead. As root.

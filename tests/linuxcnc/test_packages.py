@@ -71,7 +71,7 @@ class Packages(unittest.TestCase):
                      "prerequisites"):
             self.assertIn(f"/usr/src/framepath/{name}", files)
         self.assertIn("/usr/lib/framepath/build-where-installed", files)
-        for part in ("/target/", "/.git", ".so", "/usr/bin/"):
+        for part in ("/target/", "/.git/", ".so", "/usr/bin/"):
             self.assertFalse([name for name in files if part in name], part)
         self.assertIn("interest-noawait /usr/bin/linuxcnc", output("dpkg-deb", "--info", package, "triggers"))
 
