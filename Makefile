@@ -18,6 +18,21 @@ BIN = $(DESTDIR)$(PREFIX)/bin
 # Where Debian's bash, zsh and fish look.
 COMPLETIONS = $(addprefix $(DESTDIR)$(PREFIX)/share/,bash-completion/completions/framepath \
     zsh/vendor-completions/_framepath fish/vendor_completions.d/framepath.fish)
+# Where LinuxCNC's selector of configurations looks for those of other packages.
+EXAMPLES = $(DESTDIR)/usr/share/linuxcnc/aux_examples
+
+# A source tree of LinuxCNC, built or not, for headers that the packages lack: those of 2.10 have none of motion and its
+# planner. The headers are looked for in their folders, the version is in a file.
+ifneq ($(LINUXCNC_SOURCE),)
+HEADER_FOLDERS = rtapi hal emc emc/ini emc/kinematics emc/motion emc/nml_intf emc/rs274ngc emc/tp libposemath $(addprefix \
+    libnml/,buffer cms inifile linklist nml os_intf posemath rcs)
+empty :=
+export LINUXCNC_INCLUDE := $(subst $(empty) ,:,$(wildcard $(addprefix $(abspath $(LINUXCNC_SOURCE))/src/,$(HEADER_FOLDERS))))
+export LINUXCNC_VERSION := $(shell cat $(LINUXCNC_SOURCE)/VERSION)
+ifeq ($(LINUXCNC_INCLUDE),)
+$(error LINUXCNC_SOURCE=$(LINUXCNC_SOURCE) has no src/emc/motion: it is to be the folder of LinuxCNC's source)
+endif
+endif
 
 export FRAMEPATH_MODULES = $(MODULES)
 export FRAMEPATH_FAULT_MODULES = $(FAULT_MODULES)
@@ -28,9 +43,12 @@ help:
 	@echo 'make test       install what is missing, build, run every test'
 	@echo 'make linuxcnc-test  only those of the tests that run a real LinuxCNC'
 	@echo 'make modules    build framekins.so and blendtp.so into $(MODULES)'
+	@echo '                LINUXCNC_SOURCE=/path/to/linuxcnc: with the headers of this source of LinuxCNC, whose packages may lack them'
 	@echo 'make tool       build the framepath command'
 	@echo 'make install    put modules, command, subroutines, samples, man pages and completions where they belong (DESTDIR, PREFIX)'
 	@echo 'make uninstall  remove them again'
+	@echo 'make deb        a Debian package for this machine; make deb-source: one that is built where it is installed'
+	@echo 'make debian-12  make test in a Debian 12 of its own; make debian-13: in a Debian 13'
 	@echo 'make sanitize   only the tests with the address and undefined-behaviour sanitizers and valgrind'
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
 	@echo 'make faults     what LinuxCNC does with both modules when something goes wrong, as the table of docs/faults.md'
@@ -96,7 +114,7 @@ RUN_LINUXCNC_TESTS = failed=0; $(LINUXCNC_TESTS) -m "not busy" || failed=1; $(LI
 test: export PROPTEST_RNG_SEED ?= 1
 test: export TOOL_PROFILE = dev
 test: lint modules fault-modules
-	@./prerequisites browser screen sanitize test
+	@./prerequisites browser screen sanitize package test
 	$(CARGO) test --locked --workspace --no-fail-fast
 # The tool is there: its own tests run it.
 	$(RUN_LINUXCNC_TESTS)
@@ -219,6 +237,10 @@ install: modules tool
 	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
 	install -m 644 hal-component/preview/*.py $(SHARE)/preview
 	cp -R hal-component/configs $(SHARE)
+# A copy in the user's folder has to find them, too.
+	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal
+	install -d $(EXAMPLES)
+	ln -sfn $(PREFIX)/share/framepath/configs $(EXAMPLES)/framepath
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
 	install -m 644 tool/framepath.1 $(MAN)/man1
 	install -d $(dir $(COMPLETIONS))
@@ -232,9 +254,33 @@ uninstall:
 	rm -f $(MAN)/man9/framekins.9 $(MAN)/man9/blendtp.9 $(MAN)/man1/framepath.1
 	rm -f $(COMPLETIONS)
 	rm -rf $(SHARE)
+	rm -f $(EXAMPLES)/framepath
+
+# Packages are made from a copy of the source beside what is built: target/package.
+PACKAGE = $(TARGET)/package
+COPY_SOURCE = rm -rf $(PACKAGE)/framepath $(PACKAGE)/$(1)_* && mkdir -p $(PACKAGE)/framepath && \
+    tar -c --exclude=target --exclude=__pycache__ --exclude=./.git . | tar -x -C $(PACKAGE)/framepath
+BUILD_PACKAGE = cd $(PACKAGE)/framepath && CARGO_TARGET_DIR=$(TARGET) FRAMEPATH_BUILT=1 dpkg-buildpackage -d -nc -us -uc
+
+# With the modules for the LinuxCNC that is installed: sudo apt install ./target/package/framepath_*.deb
+deb: modules tool
+	@./prerequisites package
+	$(call COPY_SOURCE,framepath)
+	$(BUILD_PACKAGE) -B
+
+# With the source alone, which may be given away: built where it is installed, and again when LinuxCNC is upgraded.
+deb-source:
+	@./prerequisites package
+	$(call COPY_SOURCE,framepath-source)
+	$(BUILD_PACKAGE) -A
+
+# COMMAND='make linuxcnc-test' runs that instead. As root.
+debian-12 debian-13:
+	tests/debian/run $(subst debian-,,$@) $(COMMAND)
 
 clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults short soak bench \
-    fuzz fuzz-filter mutants compare figures tuning book screens header install uninstall clean
+    fuzz fuzz-filter mutants compare figures tuning book screens header install uninstall deb deb-source \
+    debian-12 debian-13 clean

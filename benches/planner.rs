@@ -15,6 +15,7 @@ fn request(feed: f64) -> MoveRequest {
         motion_type: MotionType::Feed,
         feed,
         max_velocity: 100.0,
+        path_jerk: f64::INFINITY,
         enables: 0x0f,
         wait_for_spindle: false,
         indexer_joint: None,

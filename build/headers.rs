@@ -3,19 +3,24 @@
 /// Where Debian's linuxcnc-uspace-dev puts the headers.
 const DEFAULT_INCLUDE: &str = "/usr/include/linuxcnc";
 
-/// The folder of LinuxCNC's headers, in which this one has to be. Without it the build ends.
-fn headers(needed: &str) -> String {
+/// The folders of LinuxCNC's headers, in one of which this one has to be. Without it the build ends.
+fn headers(needed: &str) -> Vec<String> {
     println!("cargo:rerun-if-env-changed=LINUXCNC_INCLUDE");
     let include = env::var("LINUXCNC_INCLUDE").unwrap_or_else(|_| DEFAULT_INCLUDE.to_owned());
-    if !Path::new(&include).join(needed).exists() {
+    let folders: Vec<String> = include.split(':').map(str::to_owned).collect();
+    let has = |folder: &String| Path::new(folder).join(needed).exists();
+    if !folders.iter().any(has) {
         eprintln!(
             "error: LinuxCNC's header {needed} is not in {include}\n\
-             help: apt-get install linuxcnc-uspace-dev, or name the folder in LINUXCNC_INCLUDE"
+             help: apt-get install linuxcnc-uspace-dev, or name the folders in LINUXCNC_INCLUDE, with colons between; the \
+             packages of LinuxCNC 2.10 lack it: make LINUXCNC_SOURCE=..., with the folder of LinuxCNC's own source"
         );
         exit(1);
     }
-    watch(&include);
-    include
+    for folder in &folders {
+        watch(folder);
+    }
+    folders
 }
 
 /// Has this run again for another LinuxCNC: its headers are newer, or `make modules` has noticed that they differ (those

@@ -15,15 +15,7 @@ pub fn build() {
     println!("cargo:rerun-if-changed=src/abi/linuxcnc.h");
     println!("cargo:rerun-if-changed=src/abi/layout.c");
     let include = headers("tp.h");
-    bind(&include);
-    compile_layout(&include);
-}
-
-/// Rust types for the structures and constants that motmod shares with its modules.
-fn bind(include: &str) {
-    let mut builder = bindgen::Builder::default()
-        .header("src/abi/linuxcnc.h")
-        .clang_arg(format!("-I{include}"))
+    let structures = types(&include)
         .allowlist_type("TP_STRUCT")
         .allowlist_type("EmcPose")
         .allowlist_type("PmCartesian")
@@ -35,18 +27,34 @@ fn bind(include: &str) {
         .allowlist_var("EMCMOT_(MAX|TERM_COND|MOTION)_.*")
         .allowlist_var("(SS|FS|AF|FH)_ENABLED")
         .allowlist_var("DEFAULT_TC_QUEUE_SIZE")
-        .allowlist_function("tp[A-Z].*|tcqFull|kinematics[A-Z].*")
+        .allowlist_function("tp[A-Z].*|tcqFull|kinematics[A-Z].*");
+    write(structures, "linuxcnc.rs");
+    write(
+        types(&include).allowlist_type("state_tag_t"),
+        "state_tag.rs",
+    );
+    compile_layout(&include);
+}
+
+/// Rust types for what motmod shares with its modules, so far of nothing.
+fn types(include: &[String]) -> bindgen::Builder {
+    let folders = include.iter().map(|folder| format!("-I{folder}"));
+    let defines = DEFINES.iter().map(|define| format!("-D{define}"));
+    bindgen::Builder::default()
+        .header("src/abi/linuxcnc.h")
+        .clang_args(folders.chain(defines))
         .default_enum_style(bindgen::EnumVariation::ModuleConsts)
         .derive_default(false)
         .derive_debug(false)
         .layout_tests(false)
         .merge_extern_blocks(true)
         .wrap_unsafe_ops(true)
-        .rust_target(bindgen::RustTarget::stable(90, 0).unwrap_or_default());
-    for define in DEFINES {
-        builder = builder.clang_arg(format!("-D{define}"));
-    }
-    let bindings = match builder.generate() {
+        .rust_target(bindgen::RustTarget::stable(90, 0).unwrap_or_default())
+}
+
+/// Writes these types into a file of cargo's output folder.
+fn write(types: bindgen::Builder, file: &str) {
+    let bindings = match types.generate() {
         Ok(bindings) => bindings,
         Err(error) => {
             eprintln!(
@@ -58,16 +66,16 @@ fn bind(include: &str) {
     };
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     bindings
-        .write_to_file(out.join("linuxcnc.rs"))
+        .write_to_file(out.join(file))
         .expect("OUT_DIR is writable");
 }
 
 /// The same structures as the C compiler lays them out.
-fn compile_layout(include: &str) {
+fn compile_layout(include: &[String]) {
     let mut build = cc::Build::new();
     build
         .file("src/abi/layout.c")
-        .include(include)
+        .includes(include)
         .warnings(false);
     for define in DEFINES {
         build.define(define, None);

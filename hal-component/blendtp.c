@@ -64,6 +64,7 @@ static int (*linear_map)(double map[9]);
 #include "fault_injection.h"
 #endif
 
+#include "linuxcnc_differences.h"
 #include "pin_limits.h"
 
 /* With a greatest velocity of 0 in the INI a program would wait for ever without a word. */
@@ -179,34 +180,35 @@ void tpMotData(emcmot_status_t *status, emcmot_config_t *config)
     motion.config = config;
 }
 
-int tpAddLine(TP_STRUCT * const tp, EmcPose end, int canon_motion_type, double vel, double ini_maxvel, double acc,
+int tpAddLine(TP_STRUCT * const tp, EmcPose end, int canon_motion_type, double vel, double ini_maxvel, MOVE_LIMITS,
               unsigned char enables, char atspeed, int indexer, struct state_tag_t tag)
 {
     (void)acc;
     if (prepare())
         return -1;
-    return said(framepath_planner_add_line(planner, tp, &end, canon_motion_type, vel, ini_maxvel, enables, atspeed, indexer, &tag));
+    return said(framepath_planner_add_line(planner, tp, &end, canon_motion_type, vel, ini_maxvel, path_jerk, enables, atspeed,
+                                           indexer, &tag));
 }
 
 int tpAddCircle(TP_STRUCT * const tp, EmcPose end, PmCartesian center, PmCartesian normal, int turn,
-                int canon_motion_type, double vel, double ini_maxvel, double acc, unsigned char enables, char atspeed,
+                int canon_motion_type, double vel, double ini_maxvel, MOVE_LIMITS, unsigned char enables, char atspeed,
                 struct state_tag_t tag)
 {
     (void)acc;
     if (prepare())
         return -1;
-    return said(framepath_planner_add_circle(planner, tp, &end, &center, &normal, turn, canon_motion_type, vel, ini_maxvel, enables,
-                                             atspeed, &tag));
+    return said(framepath_planner_add_circle(planner, tp, &end, &center, &normal, turn, canon_motion_type, vel, ini_maxvel, path_jerk,
+                                             enables, atspeed, &tag));
 }
 
-int tpAddRigidTap(TP_STRUCT * const tp, EmcPose end, double vel, double ini_maxvel, double acc, unsigned char enables,
+int tpAddRigidTap(TP_STRUCT * const tp, EmcPose end, double vel, double ini_maxvel, MOVE_LIMITS, unsigned char enables,
                   double scale, struct state_tag_t tag)
 {
     (void)vel;
     (void)acc;
     if (prepare())
         return -1;
-    return said(framepath_planner_add_rigid_tap(planner, tp, &end, ini_maxvel, enables, scale, &tag));
+    return said(framepath_planner_add_rigid_tap(planner, tp, &end, ini_maxvel, path_jerk, enables, scale, &tag));
 }
 
 int tpRunCycle(TP_STRUCT * const tp, long period)
@@ -223,6 +225,7 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     inject_fault(tp);
 #endif
     result = framepath_planner_run_cycle(planner, tp);
+    report_path_motion(motion.status);
     say_finding();
     spindle = framepath_planner_spindle_error_text(planner, &asked, &greatest);
     if (spindle && asked > 0)
@@ -458,10 +461,9 @@ int rtapi_app_main(void)
     *pins->millimetre = 1.0;
     *pins->default_tolerance = FRAMEPATH_DEFAULT_TOLERANCE;
     *pins->version = FRAMEPATH_VERSION;
-    /* Not limited, and as long as the sign is there nobody has said so. */
-    for (int i = 0; i < AXES; i++)
-        *pins->max_jerk[i] = -0.0;
     read_ini_jerk(letters, AXES, ini_jerk);
+    for (int i = 0; i < AXES; i++)
+        *pins->max_jerk[i] = jerk_without_pin(ini_jerk[i]);
     hal_ready(component);
     return 0;
 }

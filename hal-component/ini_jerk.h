@@ -1,5 +1,5 @@
-/* What [AXIS_L]MAX_JERK in the INI says. LinuxCNC 2.9 does not know this key: a line of HAL takes it to the pin, and where
- * that line is forgotten the limit is not there. The script `linuxcnc` names the INI in INI_FILE_NAME.
+/* What [AXIS_L]MAX_JERK in the INI says. A line of HAL takes it to the pin. LinuxCNC 2.9 does not know this key, and where
+ * that line is forgotten the limit is not there; 2.10 does, and the pin begins with it. The script `linuxcnc` names the INI in INI_FILE_NAME.
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */

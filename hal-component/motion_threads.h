@@ -22,7 +22,7 @@
 
 static struct {
     int commands, number;       /* since the controller's last period; the number that task gave the last one */
-    long long ended, commanded; /* processor clocks; 0: nothing since */
+    long long ended, commanded; /* ns; 0: nothing since */
     int order;                  /* how many moves came in the wrong order, less those in the right one */
     int said;                   /* the order, or that nothing runs */
 } threads;
@@ -59,7 +59,7 @@ static void command_comes(const emcmot_status_t *status)
 static void move_comes(const emcmot_status_t *status)
 {
     command_comes(status);
-    threads.commanded = threads.ended && status && status->commandNumEcho ? rtapi_get_clocks() : 0;
+    threads.commanded = threads.ended && status && status->commandNumEcho ? rtapi_get_time() : 0;
 }
 
 /* The controller begins to plan; looks at the order until that is sure. */
@@ -69,7 +69,7 @@ static void controller_plans(void)
     if (!threads.commanded || threads.order <= -ORDER_IS_SURE || threads.said)
         return;
     before = threads.commanded - threads.ended;
-    after = rtapi_get_clocks() - threads.commanded;
+    after = rtapi_get_time() - threads.commanded;
     threads.order += after > MUCH_LONGER * before ? 1 : -RIGHT_OUTWEIGHS;
     threads.commanded = 0;
     if (threads.order < ORDER_IS_SURE)
@@ -85,7 +85,7 @@ static void controller_ends(void)
     this_is_the_servo_thread();
     threads.commands = 0;
     threads.commanded = 0;
-    threads.ended = threads.order > -ORDER_IS_SURE && !threads.said ? rtapi_get_clocks() : 0;
+    threads.ended = threads.order > -ORDER_IS_SURE && !threads.said ? rtapi_get_time() : 0;
 }
 
 #endif

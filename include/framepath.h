@@ -395,7 +395,7 @@ void framepath_planner_motion_functions(void (*write_digital)(int, char),
 void framepath_planner_motion_data(emcmot_status_t *status, emcmot_config_t *config);
 
 /*
- Queues a line. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
+ Queues a line. `path_jerk`: what LinuxCNC lets the jerk along the path be, units per second cubed, 0: not limited. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
 
  # Safety
  `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
@@ -406,13 +406,14 @@ int framepath_planner_add_line(struct framepath_planner *handle,
                                int motion_type,
                                double feed,
                                double max_velocity,
+                               double path_jerk,
                                unsigned char enables,
                                char at_speed,
                                int indexer,
                                const struct state_tag_t *tag);
 
 /*
- Queues an arc, helix or spiral. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
+ Queues an arc, helix or spiral, with `path_jerk` as for a line. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
 
  # Safety
  `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
@@ -426,12 +427,14 @@ int framepath_planner_add_circle(struct framepath_planner *handle,
                                  int motion_type,
                                  double feed,
                                  double max_velocity,
+                                 double path_jerk,
                                  unsigned char enables,
                                  char at_speed,
                                  const struct state_tag_t *tag);
 
 /*
- Queues a rigid tap: to `end` with the spindle, back with it `reversal_scale` times as fast. Returns LinuxCNC's code as
+ Queues a rigid tap: to `end` with the spindle, back with it `reversal_scale` times as fast, with `path_jerk` as for a
+ line. Returns LinuxCNC's code as
  for a line.
 
  # Safety
@@ -441,6 +444,7 @@ int framepath_planner_add_rigid_tap(struct framepath_planner *handle,
                                     TP_STRUCT *tp,
                                     const EmcPose *end,
                                     double max_velocity,
+                                    double path_jerk,
                                     unsigned char enables,
                                     double reversal_scale,
                                     const struct state_tag_t *tag);
@@ -479,6 +483,18 @@ const char *framepath_planner_spindle_error_text(const struct framepath_planner 
  `handle` from `framepath_planner_create`; `tp` is motmod's planner structure.
  */
 int framepath_planner_run_cycle(struct framepath_planner *handle, TP_STRUCT *tp);
+
+/*
+ The acceleration along the path, units per second squared, its jerk, units per second cubed, and where X Y Z go, a
+ vector of length 1; all 0 without a move. Returns 0, or -1 without a planner.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `direction` has three numbers, the others point to one each.
+ */
+int framepath_planner_path_motion(const struct framepath_planner *handle,
+                                  double *acceleration,
+                                  double *jerk,
+                                  double *direction);
 
 /*
  Drops all moves.

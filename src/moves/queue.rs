@@ -43,6 +43,7 @@ const VACANT: Move = Move {
     shape: Shape::VACANT,
     feed: 0.0,
     max_velocity: 0.0,
+    axis_jerk: f64::INFINITY,
     enables: 0,
     wait_for_spindle: false,
     synchronisation: None,

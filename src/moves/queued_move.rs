@@ -26,6 +26,8 @@ pub struct Move {
     /// What no override may exceed, units of the shape's measure per second: LinuxCNC derives it
     /// from the velocity limits of the axes.
     pub max_velocity: f64,
+    /// What the jerk of no axis may exceed in this move, units per second cubed; infinite where the axes' own limits do.
+    pub axis_jerk: f64,
     /// Which overrides apply, LinuxCNC's bits (`FS_ENABLED` and its neighbours).
     pub enables: u8,
     /// Whether the move may only start with all spindles at speed.

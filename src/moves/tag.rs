@@ -1,7 +1,18 @@
 //! The interpreter's state that travels with a move.
 
-/// Size of LinuxCNC's `struct state_tag_t` in bytes: 5 floats, 9 ints and an unsigned long.
-pub const STATE_TAG_SIZE: usize = 64;
+/// LinuxCNC's `struct state_tag_t` as its headers have it: 64 bytes in 2.9, 384 in 2.10.
+#[cfg(feature = "linuxcnc")]
+#[allow(missing_docs, non_camel_case_types, dead_code)]
+mod headers {
+    include!(concat!(env!("OUT_DIR"), "/state_tag.rs"));
+}
+
+/// Size of LinuxCNC's `struct state_tag_t` in bytes.
+#[cfg(feature = "linuxcnc")]
+pub const STATE_TAG_SIZE: usize = size_of::<headers::state_tag_t>();
+/// Without LinuxCNC moves have no tag.
+#[cfg(not(feature = "linuxcnc"))]
+pub const STATE_TAG_SIZE: usize = 0;
 
 /// The bytes of a `struct state_tag_t`, never looked into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,6 +2,8 @@
 
 use nalgebra::{ArrayStorage, Matrix3};
 
+use super::jerk_limit::JerkLimit;
+use super::move_jerk;
 use super::request::LEAST_LIMITS;
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
 use crate::moves::Move;
@@ -23,6 +25,8 @@ pub(super) struct MachineAxes {
     limits: AxisLimits,
     /// What they are able to do now: in force from the next rest on.
     next_limits: AxisLimits,
+    /// What the jerk of no axis may exceed besides, since the move asks for it.
+    move_jerk: f64,
     /// Which axes have had usable limits the last time.
     limited: [bool; AXIS_COUNT],
     /// How the axes of the program lie to them.
@@ -34,6 +38,7 @@ impl MachineAxes {
     pub const UNLIMITED: Self = Self {
         limits: UNLIMITED_AXES,
         next_limits: UNLIMITED_AXES,
+        move_jerk: f64::INFINITY,
         limited: [false; AXIS_COUNT],
         map: MachineMap::IDENTITY,
     };
@@ -75,12 +80,42 @@ impl MachineAxes {
 
     /// Whether the axes are able to do something else than when the motion began.
     pub fn limits_changed(&self) -> bool {
-        self.next_limits != self.limits
+        self.wanted() != self.limits
     }
 
     /// At rest: what the axes are able to do now is what they may do.
     pub fn take_limits(&mut self) {
-        self.limits = self.next_limits;
+        self.limits = self.wanted();
+    }
+
+    /// What the axes may do from the next rest on.
+    fn wanted(&self) -> AxisLimits {
+        AxisLimits {
+            jerk: self.next_limits.jerk.map(|jerk| jerk.min(self.move_jerk)),
+            ..self.next_limits
+        }
+    }
+
+    /// At rest: the next move asks for this, see [`Self::move_jerk`].
+    pub fn set_move_jerk(&mut self, jerk: f64) {
+        if !move_jerk::is_same(jerk, self.move_jerk) {
+            self.move_jerk = jerk;
+        }
+    }
+
+    /// What the jerk of no axis may exceed in a shape along which it is to be `along` at most; infinite where the axes see
+    /// to that. `None` where nobody can be meant: see [`JerkLimit`].
+    pub fn move_jerk(&self, shape: &Shape, along: f64, period: f64) -> Option<f64> {
+        let jerk = move_jerk::of_axes(shape, along, &self.next_limits.jerk);
+        let moving = (0..AXIS_COUNT).filter(|axis| shape.moves(*axis));
+        let acceleration = moving.fold(0.0, |most: f64, axis| {
+            most.max(self.next_limits.acceleration[axis])
+        });
+        match JerkLimit::new(jerk, acceleration, period) {
+            JerkLimit::Limited(jerk) => Some(jerk),
+            JerkLimit::Unlimited { asked: true } => Some(f64::INFINITY),
+            JerkLimit::Unlimited { asked: false } | JerkLimit::Refused { .. } => None,
+        }
     }
 
     /// Sets how X Y Z of the program lie to those of the machine, shape (3, 3). `false`, and nothing

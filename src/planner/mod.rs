@@ -18,6 +18,7 @@ mod inputs;
 mod jerk_limit;
 mod machine_axes;
 mod motion_state;
+mod move_jerk;
 mod next_move;
 #[allow(clippy::module_inception)]
 mod planner;

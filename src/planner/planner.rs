@@ -247,6 +247,9 @@ impl Planner {
         if let Some(axis) = self.axes.unusable_axis(&shape) {
             return Err(AddError::AxisLimits { axis });
         }
+        let Some(axis_jerk) = self.axes.move_jerk(&shape, request.path_jerk, self.period) else {
+            return Err(AddError::PathJerk(request.path_jerk));
+        };
         let queued = Move {
             id: self.next_move.id,
             tag: request.tag,
@@ -254,6 +257,7 @@ impl Planner {
             shape,
             feed,
             max_velocity,
+            axis_jerk,
             enables: request.enables,
             wait_for_spindle: request.wait_for_spindle,
             synchronisation,

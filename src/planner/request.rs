@@ -20,6 +20,8 @@ pub struct MoveRequest {
     pub feed: f64,
     /// What no override may exceed, units per second, positive.
     pub max_velocity: f64,
+    /// What LinuxCNC lets the jerk along the path be, units per second cubed, positive; infinite where it does not say.
+    pub path_jerk: f64,
     /// Which overrides apply, LinuxCNC's bits (`FS_ENABLED` and its neighbours).
     pub enables: u8,
     /// Whether the move may only start with all spindles at speed.
@@ -64,6 +66,8 @@ pub enum AddError {
         /// Its greatest value, units per second.
         max_velocity: f64,
     },
+    /// The limit of jerk that came with the move is not positive, or an axis would take more than 5 s to its acceleration.
+    PathJerk(f64),
     /// A move is to follow a spindle that the motion controller cannot have.
     Spindle {
         /// Number of the spindle.

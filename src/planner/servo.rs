@@ -60,6 +60,9 @@ impl Planner {
         // The path may have left the program, and rest beside the place where its next move begins.
         let beside = (next.shape.position(0.0) - self.status.position).amax() > LEAST_DISTANCE;
         let begun = beside || self.queue.has_begun();
+        if !backwards {
+            self.axes.set_move_jerk(next.axis_jerk);
+        }
         let stale = self.axes.limits_changed() || inputs.stepping != self.reference.is_single();
         if self.queue.released(self.queue.first_serial()).is_none() {
             return;

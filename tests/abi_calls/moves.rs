@@ -65,6 +65,7 @@ impl Calls {
                 request.motion_type,
                 request.feed,
                 request.max_velocity,
+                request.path_jerk,
                 request.enables,
                 request.at_speed,
                 request.indexer,
@@ -149,6 +150,7 @@ impl Calls {
                 request.motion_type,
                 request.feed,
                 request.max_velocity,
+                request.path_jerk,
                 request.enables,
                 request.at_speed,
                 &request.tag,
@@ -186,7 +188,10 @@ impl Calls {
         end[2] -= choices.between(0.5, 20.0);
         let scale = choices.between(0.5, 2.0);
         let max_velocity = choices.between(1.0, 300.0);
-        self.tell(format_args!("tap to {end:?} {scale} {max_velocity}"));
+        let path_jerk = choose_path_jerk(choices);
+        self.tell(format_args!(
+            "tap to {end:?} {scale} {max_velocity}, jerk {path_jerk}"
+        ));
         self.take();
         let before = self.shared.tp().depth;
         // SAFETY: a handle of the planner, and structures.
@@ -196,6 +201,7 @@ impl Calls {
                 self.shared.tp,
                 &pose_of(&end),
                 max_velocity,
+                path_jerk,
                 0x0f,
                 scale,
                 &tag(),
@@ -205,11 +211,23 @@ impl Calls {
     }
 }
 
+/// A limit of jerk along the path: mostly none, seldom one that makes no sense.
+fn choose_path_jerk(choices: &mut Choices) -> f64 {
+    if choices.rarely(4) {
+        choices.magnitude(100.0, 1e7)
+    } else if choices.rarely(8) {
+        choices.one_of([-1.0, f64::NAN, f64::INFINITY, 1e-9])
+    } else {
+        0.0
+    }
+}
+
 /// What comes with a move.
 struct Request {
     motion_type: c_int,
     feed: f64,
     max_velocity: f64,
+    path_jerk: f64,
     enables: u8,
     at_speed: c_char,
     indexer: c_int,
@@ -223,6 +241,7 @@ impl Request {
             motion_type: 2,
             feed: 10.0,
             max_velocity: 250.0,
+            path_jerk: 0.0,
             enables: 0x0f,
             at_speed: 0,
             indexer: -1,
@@ -237,6 +256,7 @@ impl Request {
             let kind = choices.one_of([1, 3, 5, 6, 4]);
             request.motion_type = choices.integer(kind);
             request.max_velocity = choices.magnitude(1.0, 1e4);
+            request.path_jerk = choose_path_jerk(choices);
             request.enables = choices.byte();
             request.at_speed = choices.one_of([0, 0, 0, 1]);
             let joint = choices.one_of([-1, -1, 3]);
@@ -253,6 +273,7 @@ impl std::fmt::Display for Request {
             motion_type,
             feed,
             max_velocity,
+            path_jerk,
             enables,
             at_speed,
             indexer,
@@ -261,7 +282,7 @@ impl std::fmt::Display for Request {
         let code = tag.fields[1];
         write!(
             f,
-            "F{feed} of {max_velocity}: kind {motion_type}, enables {enables:#x}, "
+            "F{feed} of {max_velocity}, jerk {path_jerk}: kind {motion_type}, enables {enables:#x}, "
         )?;
         write!(f, "at speed {at_speed}, indexer {indexer}, code {code}")
     }

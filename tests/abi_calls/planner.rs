@@ -356,7 +356,7 @@ impl Calls {
                 FRAMEPATH_STAYS_IN_RANGE
             );
             assert_eq!(
-                framepath_planner_add_rigid_tap(here, tp, null(), 1.0, 0, 1.0, null()),
+                framepath_planner_add_rigid_tap(here, tp, null(), 1.0, 0.0, 0, 1.0, null()),
                 -1
             );
         }

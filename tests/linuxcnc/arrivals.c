@@ -5,8 +5,10 @@
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include <stddef.h>
 #include "rtapi.h"
 #include "rtapi_app.h"
+#include "rtapi_mutex.h"
 #include "hal.h"
 #include "motion.h"
 #include "emcmotcfg.h"
@@ -15,8 +17,13 @@ MODULE_AUTHOR("the framepath authors");
 MODULE_DESCRIPTION("When moves reach the planner");
 MODULE_LICENSE("GPL");
 
-/* The start of motmod's shared memory as of LinuxCNC 2.9.0, which no installed header declares. */
+/* The start of motmod's shared memory, which no installed header declares. Task and motion keep apart by a count of changes
+ * at both ends of the command in LinuxCNC 2.9.0, by a lock in front of it since 2.9.1: then the command begins with what is
+ * commanded. */
+#define LOCKED (offsetof(emcmot_command_t, command) == 0)
+
 struct shared {
+    rtapi_mutex_t lock[LOCKED];
     emcmot_command_t command;
     emcmot_status_t status;
 };

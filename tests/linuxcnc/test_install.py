@@ -1,6 +1,8 @@
 """make install and make uninstall, below a folder of their own."""
 
+import glob
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -8,10 +10,10 @@ import unittest
 import harness
 
 
-def make(target, folder):
+def make(target, *settings):
     # What was built for the tests is installed; nothing is built anew.
     built = ["-o", "modules", "-o", "tool", f"MODULES={harness.MODULES}", f"TOOL={harness.TOOL}"]
-    done = subprocess.run(["make", "-C", harness.ROOT, *built, target, f"DESTDIR={folder}"], stdout=subprocess.PIPE,
+    done = subprocess.run(["make", "-C", harness.ROOT, *built, target, *settings], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, check=False)
     if done.returncode:
         raise AssertionError(done.stdout)
@@ -24,7 +26,7 @@ def files(folder):
 class Install(unittest.TestCase):
     def test_everything_is_put_where_linuxcnc_looks_and_removed_again(self):
         with tempfile.TemporaryDirectory() as folder:
-            make("install", folder)
+            make("install", f"DESTDIR={folder}")
             there = files(folder)
             for name in ("usr/lib/linuxcnc/modules/framekins.so", "usr/lib/linuxcnc/modules/blendtp.so",
                          "usr/bin/framepath", "usr/share/man/man1/framepath.1", "usr/share/man/man9/framekins.9",
@@ -38,12 +40,20 @@ class Install(unittest.TestCase):
                 self.assertIn(name, there)
             with open(os.path.join(folder, "usr/share/zsh/vendor-completions/_framepath"), encoding="utf-8") as file:
                 self.assertEqual(file.readline(), "#compdef framepath\n")
-            # the samples find the subroutines by the same relative path as in the repository
-            ini = os.path.join(folder, "usr/share/framepath/configs/framepath-sim/framepath-sim.ini")
-            with open(ini, encoding="utf-8") as file:
-                path = next(line.split("=")[1].strip() for line in file if line.startswith("SUBROUTINE_PATH"))
-            self.assertTrue(os.path.exists(os.path.join(os.path.dirname(ini), path.split(":")[0], "trans.ngc")), path)
-            make("uninstall", folder)
+            configs = os.path.join(folder, "usr/share/framepath/configs")
+            # LinuxCNC's selector of configurations offers them, and what it copies for the user finds all that it needs
+            self.assertEqual(os.readlink(os.path.join(folder, "usr/share/linuxcnc/aux_examples/framepath")),
+                             "/usr/share/framepath/configs")
+            named = set()
+            for path in glob.glob(os.path.join(configs, "*", "*.ini")) + glob.glob(os.path.join(configs, "*", "*.hal")):
+                with open(path, encoding="utf-8") as file:
+                    text = file.read()
+                self.assertNotIn("../", text, path)
+                named |= set(re.findall(r"/usr/share/framepath/[\w/.]+", text))
+            self.assertIn("/usr/share/framepath/subroutines/frame_guard.py", named)
+            for path in named:
+                self.assertTrue(os.path.exists(folder + path.rstrip(".")), path)
+            make("uninstall", f"DESTDIR={folder}")
             self.assertEqual(files(folder), set())
 
 

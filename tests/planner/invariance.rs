@@ -73,6 +73,7 @@ impl Setting {
                 motion_type: MotionType::Feed,
                 feed: 100.0 * self.millimetre,
                 max_velocity: 1e3 * self.millimetre,
+                path_jerk: f64::INFINITY,
                 enables: 0x0f,
                 wait_for_spindle: false,
                 indexer_joint: None,

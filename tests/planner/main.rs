@@ -10,6 +10,7 @@ mod history;
 mod holds;
 mod invariance;
 mod limits_changed;
+mod move_jerk;
 mod moves;
 mod operator;
 mod pinned_plans;

@@ -3,7 +3,7 @@
 use crate::common::{Machine, PERIOD, at, equal_limits, feed_move, with_machine, with_room};
 use framepath::axes::AxisLimits;
 use framepath::moves::shape::{Circle, ShapeError};
-use framepath::moves::{CAPACITY, MotionType, StateTag, TerminationCondition};
+use framepath::moves::{CAPACITY, MotionType, STATE_TAG_SIZE, StateTag, TerminationCondition};
 use framepath::planner::{AddError, Added, MoveRequest, PositionError};
 use nalgebra::Vector3;
 
@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 fn a_move_is_reported_while_it_runs() {
     with_machine(|machine| {
         machine.planner.set_id(7);
-        let tag = StateTag([3; 64]);
+        let tag = StateTag([3; STATE_TAG_SIZE]);
         let request = MoveRequest {
             tag,
             enables: 0x0d,

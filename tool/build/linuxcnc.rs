@@ -18,7 +18,7 @@ pub fn build() {
 }
 
 /// An executable, linked with LinuxCNC's interpreter.
-fn compile_interpreter(include: &str, output: &Path) {
+fn compile_interpreter(include: &[String], output: &Path) {
     let folder = Path::new("src/canon/interpreter");
     let mut compiler = cc::Build::new()
         .cpp(true)
@@ -29,7 +29,7 @@ fn compile_interpreter(include: &str, output: &Path) {
         .arg("-std=c++17")
         .arg("-I")
         .arg(folder)
-        .args(["-isystem", include])
+        .args(include.iter().flat_map(|folder| ["-isystem", folder]))
         .args([
             folder.join("main.cc"),
             folder.join("calls.cc"),
@@ -48,11 +48,11 @@ fn compile_interpreter(include: &str, output: &Path) {
 }
 
 /// A shared object that is loaded before all others.
-fn compile_stubs(include: &str, output: &Path) {
+fn compile_stubs(include: &[String], output: &Path) {
     let mut compiler = cc::Build::new().opt_level(2).get_compiler().to_command();
     compiler
         .args(["-shared", "-fPIC", "-DRTAPI", "-DUSPACE"])
-        .args(["-isystem", include])
+        .args(include.iter().flat_map(|folder| ["-isystem", folder]))
         .arg("src/host/stubs.c")
         .arg("-o")
         .arg(output);

@@ -96,6 +96,9 @@ fn words(error: AddError) -> &'static CStr {
         AddError::Feed { .. } => {
             c"a move has no feed: F, or [TRAJ]MAX_LINEAR_VELOCITY and the [AXIS_L] limits, is below 1e-9 units per second or infinite"
         }
+        AddError::PathJerk(_) => {
+            c"the limit of jerk that LinuxCNC reckons for a move is negative, or less than a fifth of the acceleration: look at [AXIS_L]MAX_JERK and at ini.L.max_jerk"
+        }
         AddError::Spindle { .. } => c"a move is to follow a spindle that does not exist",
         AddError::PerTurn(_) => {
             c"the feed per turn (F in G95) or the pitch (K) is negative or not a number"
@@ -115,10 +118,21 @@ fn vector_of(cartesian: &PmCartesian) -> Vector3<f64> {
     Vector3::new(cartesian.x, cartesian.y, cartesian.z)
 }
 
+/// LinuxCNC's 0 says that it has no limit.
+fn path_jerk_of(path_jerk: c_double) -> f64 {
+    if path_jerk == 0.0 {
+        f64::INFINITY
+    } else {
+        path_jerk
+    }
+}
+
+#[allow(clippy::too_many_arguments)] // as above
 fn request_of(
     motion_type: c_int,
     feed: c_double,
     max_velocity: c_double,
+    path_jerk: c_double,
     enables: c_uchar,
     at_speed: c_char,
     indexer: c_int,
@@ -128,6 +142,7 @@ fn request_of(
         motion_type: MotionType::from_number(motion_type)?,
         feed,
         max_velocity,
+        path_jerk: path_jerk_of(path_jerk),
         enables,
         wait_for_spindle: at_speed != 0,
         indexer_joint: (indexer >= 0).then_some(indexer),
@@ -135,7 +150,7 @@ fn request_of(
     })
 }
 
-/// Queues a line. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
+/// Queues a line. `path_jerk`: what LinuxCNC lets the jerk along the path be, units per second cubed, 0: not limited. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
@@ -148,6 +163,7 @@ pub unsafe extern "C" fn framepath_planner_add_line(
     motion_type: c_int,
     feed: c_double,
     max_velocity: c_double,
+    path_jerk: c_double,
     enables: c_uchar,
     at_speed: c_char,
     indexer: c_int,
@@ -166,6 +182,7 @@ pub unsafe extern "C" fn framepath_planner_add_line(
         motion_type,
         feed,
         max_velocity,
+        path_jerk,
         enables,
         at_speed,
         indexer,
@@ -186,7 +203,7 @@ pub unsafe extern "C" fn framepath_planner_add_line(
     handle.answer(result)
 }
 
-/// Queues an arc, helix or spiral. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
+/// Queues an arc, helix or spiral, with `path_jerk` as for a line. Returns LinuxCNC's code: 0, 5 for a move of length zero, -1 for a refusal.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
@@ -202,6 +219,7 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
     motion_type: c_int,
     feed: c_double,
     max_velocity: c_double,
+    path_jerk: c_double,
     enables: c_uchar,
     at_speed: c_char,
     tag: *const state_tag_t,
@@ -222,8 +240,16 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
     if handle.is_repeated() {
         return tp_err_t::TP_ERR_OK;
     }
-    let Some(request) = request_of(motion_type, feed, max_velocity, enables, at_speed, -1, tag)
-    else {
+    let Some(request) = request_of(
+        motion_type,
+        feed,
+        max_velocity,
+        path_jerk,
+        enables,
+        at_speed,
+        -1,
+        tag,
+    ) else {
         handle.refused = c"an arc of a kind that is not known";
         return tp_err_t::TP_ERR_FAIL;
     };
@@ -244,17 +270,20 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
     handle.answer(result)
 }
 
-/// Queues a rigid tap: to `end` with the spindle, back with it `reversal_scale` times as fast. Returns LinuxCNC's code as
+/// Queues a rigid tap: to `end` with the spindle, back with it `reversal_scale` times as fast, with `path_jerk` as for a
+/// line. Returns LinuxCNC's code as
 /// for a line.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; the others point to LinuxCNC's structures.
 #[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)] // LinuxCNC's tpAddRigidTap has them
 pub unsafe extern "C" fn framepath_planner_add_rigid_tap(
     handle: *mut Handle,
     tp: *mut TP_STRUCT,
     end: *const EmcPose,
     max_velocity: c_double,
+    path_jerk: c_double,
     enables: c_uchar,
     reversal_scale: c_double,
     tag: *const state_tag_t,
@@ -278,6 +307,7 @@ pub unsafe extern "C" fn framepath_planner_add_rigid_tap(
         motion_type: MotionType::Feed,
         feed: max_velocity,
         max_velocity,
+        path_jerk: path_jerk_of(path_jerk),
         enables,
         wait_for_spindle: true,
         indexer_joint: None,

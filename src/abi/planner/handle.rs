@@ -10,6 +10,7 @@ use libc::{c_char, c_double, c_int};
 
 use super::acknowledgement::{Acknowledgement, Answer};
 use super::kinematics_module::KinematicsModule;
+use super::path_motion::PathMotion;
 use crate::abi::linuxcnc::{TP_STRUCT, emcmot_config_t, emcmot_status_t, tp_err_t};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
 use crate::planner::Planner;
@@ -41,6 +42,8 @@ pub struct Handle {
     pub(super) usable_map: bool,
     pub(super) acknowledgement: Acknowledgement,
     pub(super) refused: &'static CStr,
+    /// How it goes along the path.
+    pub(super) path_motion: PathMotion,
     /// What was found of the soft limits in the last servo period.
     pub(super) finding: Option<Finding>,
 }
@@ -67,6 +70,7 @@ static MEMORY: PlannerMemory = PlannerMemory(UnsafeCell::new(Handle {
     usable_map: true,
     acknowledgement: Acknowledgement::NONE,
     refused: c"",
+    path_motion: PathMotion::NONE,
     finding: None,
 }));
 

@@ -8,6 +8,7 @@ mod acknowledgement;
 pub mod add;
 mod handle;
 mod kinematics_module;
+mod path_motion;
 pub mod run;
 pub mod settings;
 pub mod soft_limits;

@@ -231,6 +231,11 @@ pub unsafe extern "C" fn framepath_planner_run_cycle(
     handle.planner.set_limits(&limits);
     handle.check_range();
     handle.planner.cycle(&inputs);
+    let now = handle.planner.status();
+    let velocity = now.motion_type.map(|_| now.current_velocity);
+    handle
+        .path_motion
+        .pass(velocity, &now.position, handle.planner.period());
     handle.write_outputs();
     handle.command_spindles();
     handle.report(tp);
@@ -239,6 +244,36 @@ pub unsafe extern "C" fn framepath_planner_run_cycle(
     } else {
         tp_err_t::TP_ERR_OK
     }
+}
+
+/// The acceleration along the path, units per second squared, its jerk, units per second cubed, and where X Y Z go, a
+/// vector of length 1; all 0 without a move. Returns 0, or -1 without a planner.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `direction` has three numbers, the others point to one each.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_path_motion(
+    handle: *const Handle,
+    acceleration: *mut c_double,
+    jerk: *mut c_double,
+    direction: *mut c_double,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(handle), Some(acceleration), Some(jerk), Some(direction)) = (unsafe {
+        (
+            handle.as_ref(),
+            acceleration.as_mut(),
+            jerk.as_mut(),
+            direction.cast::<[f64; 3]>().as_mut(),
+        )
+    }) else {
+        return -1;
+    };
+    let motion = &handle.path_motion;
+    *acceleration = motion.acceleration;
+    *jerk = motion.jerk;
+    *direction = motion.direction.into();
+    0
 }
 
 /// cbindgen:ignore

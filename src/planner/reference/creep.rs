@@ -114,6 +114,7 @@ mod tests {
             motion_type: MotionType::Feed,
             feed,
             max_velocity: 1e3,
+            path_jerk: f64::INFINITY,
             enables: 0x0f,
             wait_for_spindle: false,
             indexer_joint: None,

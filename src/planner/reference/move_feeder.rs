@@ -4,6 +4,7 @@
 use super::outlook::Outlook;
 use crate::moves::{MotionType, Move, SynchronisationMode, TerminationCondition};
 use crate::path::{BlendError, BlendedPath, ProgrammedMove};
+use crate::planner::move_jerk;
 
 /// Moves that are added to the path in a cycle at most. LinuxCNC sends one a cycle; more wait only
 /// after a rest that dropped the path.
@@ -40,6 +41,8 @@ pub(super) struct MoveFeeder {
     interval: f64,
     /// What the last move added was like.
     kind: Kind,
+    /// What no axis may exceed in it.
+    axis_jerk: f64,
     /// And what it was coupled to.
     coupling: Coupling,
 }
@@ -105,6 +108,7 @@ impl MoveFeeder {
                 probes: false,
                 per_turn: 0.0,
             },
+            axis_jerk: f64::INFINITY,
             coupling: Coupling::None,
         }
     }
@@ -162,7 +166,9 @@ impl MoveFeeder {
             let follows = self.next != self.first;
             let coupling = Coupling::of(queued);
             let passes = self.coupling.passes_to(coupling);
-            self.barred = follows && (self.single || queued.wait_for_spindle || !passes);
+            let other_jerk = !move_jerk::is_same(queued.axis_jerk, self.axis_jerk);
+            self.barred =
+                follows && (self.single || queued.wait_for_spindle || !passes || other_jerk);
             if self.barred {
                 break;
             }
@@ -172,6 +178,7 @@ impl MoveFeeder {
                 Err(error) => return Err(error),
             }
             self.kind = kind(queued);
+            self.axis_jerk = queued.axis_jerk;
             self.coupling = coupling;
             if follows {
                 let gap = self.silence.min(LONGEST_SILENCE);

@@ -28,6 +28,7 @@ pub fn feed_move(feed: f64) -> MoveRequest {
         motion_type: MotionType::Feed,
         feed,
         max_velocity: 1e6,
+        path_jerk: f64::INFINITY,
         enables: 0x0f,
         wait_for_spindle: false,
         indexer_joint: None,

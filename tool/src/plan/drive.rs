@@ -301,6 +301,7 @@ impl<'a> Drive<'a> {
             },
             feed: a_move.velocity * rate,
             max_velocity: a_move.greatest_velocity * rate,
+            path_jerk: f64::INFINITY,
             enables: OVERRIDES,
             wait_for_spindle: a_move.at_speed,
             indexer_joint: None,

@@ -140,7 +140,11 @@ pub(super) fn refusal(error: &AddError) -> String {
         }
         .to_owned(),
         AddError::Spindle { spindle } => format!("the machine has no spindle {spindle}"),
-        AddError::Aborting | AddError::QueueFull | AddError::NotConfigured | AddError::Tripped => {
+        AddError::Aborting
+        | AddError::QueueFull
+        | AddError::NotConfigured
+        | AddError::PathJerk(_)
+        | AddError::Tripped => {
             format!("{error:?}. This is a fault of framepath: please report it with the program")
         }
     }

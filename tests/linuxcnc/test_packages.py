@@ -1,0 +1,115 @@
+"""make deb and make deb-source: what the packages hold and ask for, and what is said where framepath cannot be built."""
+
+import glob
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+import harness
+from test_install import make
+
+DEBIAN = os.path.join(harness.ROOT, "debian")
+
+
+def output(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+class Packages(unittest.TestCase):
+    def package(self, target, name):
+        """The package that a target of make leaves, with its fields and its files."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        make(target, f"PACKAGE={folder.name}")
+        found = glob.glob(os.path.join(folder.name, "*.deb"))
+        self.assertEqual([os.path.basename(path).split("_")[0] for path in found], [name])
+        files = {line.split()[5].removeprefix(".") for line in output("dpkg-deb", "--contents", found[0]).splitlines()}
+        return found[0], files
+
+    def field(self, package, name):
+        return output("dpkg-deb", "--field", package, name).strip()
+
+    def version(self):
+        with open(os.path.join(harness.ROOT, "Cargo.toml"), encoding="utf-8") as file:
+            found = re.search(r'^version = "(.*)"', file.read(), re.MULTILINE)
+        assert found
+        return found.group(1)
+
+    def test_for_this_machine(self):
+        package, files = self.package("deb", "framepath")
+        self.assertEqual(self.field(package, "Version"), self.version())
+        depends = self.field(package, "Depends")
+        running = output("linuxcnc_var", "LINUXCNCVERSION").strip()
+        major, minor = map(int, running.split(".")[:2])
+        self.assertIn("libc6", depends)
+        # what is installed is what it asks for
+        installed = output("dpkg-query", "-W", "-f", "${Version}", "linuxcnc-uspace")
+        asked = dict(re.findall(r"linuxcnc-uspace \((>=|<<) ([^)]*)\)", depends))
+        self.assertEqual([version.rpartition(":")[2] for version in asked.values()],
+                         [f"{major}.{minor}~", f"{major}.{minor + 1}~"])
+        for relation, version in asked.items():
+            subprocess.run(["dpkg", "--compare-versions", installed, relation, version], check=True)
+        for name in ("/usr/lib/linuxcnc/modules/blendtp.so", "/usr/lib/linuxcnc/modules/framekins.so", "/usr/bin/framepath",
+                     "/usr/share/man/man9/blendtp.9.gz", "/usr/share/framepath/subroutines/trans.ngc",
+                     "/usr/share/framepath/configs/framepath-sim/framepath-sim.ini",
+                     "/usr/share/linuxcnc/aux_examples/framepath"):
+            self.assertIn(name, files)
+        # modules that dpkg has touched are still good
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(["dpkg-deb", "--extract", package, folder], check=True)
+            for name in ("blendtp", "framekins"):
+                module = f"{folder}/usr/lib/linuxcnc/modules/{name}.so"
+                subprocess.run([os.path.join(harness.SAMPLES, "check-module"), module], check=True)
+
+    def test_with_the_source(self):
+        package, files = self.package("deb-source", "framepath-source")
+        self.assertEqual(self.field(package, "Version"), self.version())
+        self.assertEqual(self.field(package, "Architecture"), "all")
+        for name in ("Cargo.lock", "Makefile", "hal-component/blendtp.c", "hal-component/linuxcnc-has", "tool/Cargo.toml",
+                     "prerequisites"):
+            self.assertIn(f"/usr/src/framepath/{name}", files)
+        self.assertIn("/usr/lib/framepath/build-where-installed", files)
+        for part in ("/target/", "/.git/", ".so", "/usr/bin/"):
+            self.assertFalse([name for name in files if part in name], part)
+        self.assertIn("interest-noawait /usr/bin/linuxcnc", output("dpkg-deb", "--info", package, "triggers"))
+
+
+class BuiltWhereInstalled(unittest.TestCase):
+    """debian/build-where-installed, with its folders moved and with a make that does what is asked of it."""
+
+    def run_with(self, make_says):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(DEBIAN, "build-where-installed"), encoding="utf-8") as file:
+                text = file.read()
+            script = os.path.join(folder, "script")
+            for name, content in (("script", text.replace("/var/lib/framepath", folder)),
+                                  ("make", f"#!/bin/sh\necho make \"$@\"\n{make_says}\n"),
+                                  ("setpriv", '#!/bin/sh\nshift 3\nexec "$@"\n')):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(content)
+                os.chmod(os.path.join(folder, name), 0o755)
+            path = f"{folder}:{os.environ['PATH']}"
+            done = subprocess.run([script], env=dict(os.environ, PATH=path), stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True, check=False)
+            with open(os.path.join(folder, "build.log"), encoding="utf-8") as file:
+                return done.returncode, done.stdout, file.read()
+
+    def test_what_is_built_is_installed(self):
+        code, said, log = self.run_with("exit 0")
+        self.assertEqual(code, 0, said)
+        self.assertIn("are installed", said)
+        self.assertEqual([line.split()[-1] for line in log.splitlines()], ["tool", "install"])
+
+    def test_a_failure_is_said_with_the_way_back_and_fails_nothing(self):
+        code, said, log = self.run_with("echo cargo 1.90 is needed; exit 1")
+        self.assertEqual(code, 0, said)
+        self.assertNotIn("install\n", log)
+        for words in ("NOT BUILT", "    cargo 1.90 is needed", "dpkg-reconfigure framepath-source", "TPMOD = blendtp",
+                      "KINEMATICS = trivkins", "LinuxCNC itself is as it was"):
+            self.assertIn(words, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
