@@ -58,7 +58,7 @@ mod tests {
         let circle = Circle {
             center: Vector3::zeros(),
             normal: Vector3::z(),
-            turn: 0,
+            revolutions: 0,
         };
         Shape::Arc(Arc9::new(&axes(5.0, 0.0), &axes(0.0, 5.0), &circle).expect("an arc"))
     }
