@@ -62,12 +62,11 @@ impl Thread {
 
     /// Turns of the sequence at a distance from the start of a move.
     pub fn turns_on(&self, with: &Synchronisation, distance: f64) -> f64 {
-        match (with.mode, &self.tap) {
-            (SynchronisationMode::Thread { turns_before }, _) => {
-                turns_before + distance / with.per_turn
-            }
-            (_, Some(tap)) => tap.turns_at(distance, with.per_turn),
-            _ => distance / with.per_turn,
-        }
+        let turns_before = match (with.mode, &self.tap) {
+            (SynchronisationMode::Thread { turns_before }, _) => turns_before,
+            (_, Some(tap)) => return tap.turns_at(distance, with.per_turn),
+            _ => 0.0,
+        };
+        turns_before + distance / with.per_turn
     }
 }
