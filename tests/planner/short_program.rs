@@ -22,33 +22,6 @@ const NEVER: usize = 100_000;
 /// No move is faster, units a second.
 const MAX_VELOCITY: f64 = 2e3;
 
-/// A line, or an arc with a height that makes a helix of it.
-#[derive(Clone, Debug)]
-enum Way {
-    Line(Axes),
-    Arc {
-        /// Of the center from the start.
-        center: [f64; 2],
-        /// The axis across the plane: 0 to 2.
-        across: usize,
-        angle: f64,
-        height: f64,
-        /// The way of the other axes, as a share of the radius.
-        others: [f64; 6],
-    },
-}
-
-/// A move of a program.
-#[derive(Clone, Debug)]
-struct ShortMove {
-    way: Way,
-    /// Units a second.
-    feed: f64,
-    rapid: bool,
-    /// G61, G61.1 or G64 before it.
-    mode: Option<TerminationCondition>,
-}
-
 fn decades(from: f64, to: f64) -> impl Strategy<Value = f64> {
     (from..to).prop_map(|exponent| 10f64.powf(exponent))
 }
@@ -75,12 +48,13 @@ fn any_limits() -> impl Strategy<Value = AxisLimits> {
         })
 }
 
-fn any_way() -> impl Strategy<Value = Way> {
+/// A line, or an arc with a height that makes a helix of it.
+fn any_shape() -> impl Strategy<Value = Shape> {
     let axes = prop_oneof![4 => 1usize..8, 1 => 1usize..512];
     let size = || decades(-6.0, 2.0);
     prop_oneof![
         3 => (prop::array::uniform9(-1.0..1.0f64), axes, size()).prop_map(|(way, axes, size)| {
-            Way::Line(Axes::from_fn(|axis, _| if axes >> axis & 1 == 0 { 0.0 } else { way[axis] * size }))
+            Shape::Line(Axes::from_fn(|axis, _| if axes >> axis & 1 == 0 { 0.0 } else { way[axis] * size }))
         }),
         1 => (
             (size(), 0.0..std::f64::consts::TAU, 0usize..3),
@@ -88,12 +62,12 @@ fn any_way() -> impl Strategy<Value = Way> {
             prop_oneof![2 => Just(0.0), 1 => -1.0..1.0f64],
             prop_oneof![4 => Just([0.0; 6]), 1 => prop::array::uniform6(-1.0..1.0f64)],
         )
-            .prop_map(|((radius, direction, across), angle, height, others)| Way::Arc {
+            .prop_map(|((radius, direction, across), angle, height, others)| Shape::Turn {
                 center: [radius * direction.cos(), radius * direction.sin()],
                 across,
                 angle,
                 height: height * radius,
-                others,
+                others: others.map(|other| other * radius),
             }),
     ]
 }
@@ -109,16 +83,17 @@ fn any_mode() -> impl Strategy<Value = Option<TerminationCondition>> {
     ]
 }
 
-/// A move that this machine needs some tenths of a second for at most.
-fn any_move() -> impl Strategy<Value = ShortMove> {
+fn any_move() -> impl Strategy<Value = Programmed> {
     // .01 to 1e5 mm/min.
     let feed = decades(-3.778, 3.222);
-    (any_way(), feed, prop::bool::weighted(0.15), any_mode()).prop_map(
-        |(way, feed, rapid, mode)| ShortMove {
-            way,
-            feed,
-            rapid,
-            mode,
+    (any_shape(), feed, prop::bool::weighted(0.15), any_mode()).prop_map(
+        |(shape, feed, rapid, mode)| {
+            let mut programmed = Programmed::feed(shape, feed);
+            if rapid {
+                programmed.motion_type = MotionType::Traverse;
+                programmed.feed = MAX_VELOCITY;
+            }
+            Programmed { mode, ..programmed }
         },
     )
 }
@@ -145,16 +120,16 @@ pub fn any_program() -> impl Strategy<Value = Program> {
         .prop_map(|(limits, moves, supply, acts)| {
             let moves: Vec<_> = moves
                 .into_iter()
-                .map(|(one, time)| one.within(time, &limits))
+                .map(|(programmed, time)| within(programmed, time, &limits))
                 .collect();
-            let plain = acts.is_empty() && moves.iter().all(ShortMove::is_spatial);
+            let plain = acts.is_empty() && moves.iter().all(is_spatial);
             Program {
                 limits,
                 max_velocity: MAX_VELOCITY,
                 slider: None,
                 mode: TerminationCondition::Continuous { tolerance: 0.05 },
                 supply,
-                moves: moves.into_iter().map(Programmed::from).collect(),
+                moves,
                 events: in_periods(acts.first().map_or(0, |(gap, _)| *gap), &acts),
                 asked: Asked {
                     feed: plain.then_some(MOST_FEED),
@@ -165,110 +140,74 @@ pub fn any_program() -> impl Strategy<Value = Program> {
         })
 }
 
-impl Way {
-    fn scaled(self, factor: f64) -> Self {
-        match self {
-            Self::Line(way) => Self::Line(way * factor),
-            Self::Arc {
-                center,
-                across,
-                angle,
-                height,
-                others,
-            } => Self::Arc {
-                center: center.map(|place| place * factor),
-                across,
-                angle,
-                height: height * factor,
-                others,
-            },
-        }
+/// The same in another size.
+fn scaled(shape: Shape, factor: f64) -> Shape {
+    match shape {
+        Shape::Line(way) => Shape::Line(way * factor),
+        Shape::Turn {
+            center,
+            across,
+            angle,
+            height,
+            others,
+        } => Shape::Turn {
+            center: center.map(|place| place * factor),
+            across,
+            angle,
+            height: height * factor,
+            others: others.map(|other| other * factor),
+        },
+        Shape::Arc { .. } => unreachable!("short programs turn across an axis"),
     }
+}
 
-    /// About how far each axis goes, shape (9).
-    fn travel(&self) -> Axes {
-        match self {
-            Self::Line(way) => way.abs(),
-            Self::Arc {
-                center: [x, y],
-                across,
-                angle,
-                height,
-                others,
-            } => {
-                let radius = x.hypot(*y);
-                let mut travel = Axes::repeat(radius * angle.abs());
-                travel[*across] = height.abs();
-                for (place, other) in travel.iter_mut().skip(3).zip(others) {
-                    *place = other.abs() * radius;
-                }
-                travel
+/// About how far each axis goes, shape (9).
+fn travel(shape: &Shape) -> Axes {
+    match shape {
+        Shape::Line(way) => way.abs(),
+        Shape::Turn {
+            center: [x, y],
+            across,
+            angle,
+            height,
+            others,
+        } => {
+            let mut travel = Axes::repeat(x.hypot(*y) * angle.abs());
+            travel[*across] = height.abs();
+            for (place, other) in travel.iter_mut().skip(3).zip(others) {
+                *place = other.abs();
             }
+            travel
         }
+        Shape::Arc { .. } => unreachable!("short programs turn across an axis"),
     }
 }
 
-impl ShortMove {
-    /// The same, made so short that it takes about `time` seconds at most.
-    fn within(mut self, time: f64, limits: &AxisLimits) -> Self {
-        let travel = self.way.travel();
-        let length = travel.norm();
-        let mut factor = f64::min(1.0, self.feed * time / length);
-        if self.rapid {
-            factor = 1.0;
+/// The same, made so short that it takes about `time` seconds at most on this machine.
+fn within(programmed: Programmed, time: f64, limits: &AxisLimits) -> Programmed {
+    let travel = travel(&programmed.shape);
+    let mut factor = match programmed.motion_type {
+        MotionType::Traverse => 1.0,
+        _ => f64::min(1.0, programmed.feed * time / travel.norm()),
+    };
+    for axis in 0..AXIS_COUNT {
+        if travel[axis] > 0.0 {
+            let most = (limits.velocity[axis] * time)
+                .min(limits.acceleration[axis] * time * time / 4.0)
+                .min(limits.jerk[axis] * time * time * time / 32.0);
+            factor = factor.min(most / travel[axis]);
         }
-        for axis in 0..AXIS_COUNT {
-            if travel[axis] > 0.0 {
-                let most = (limits.velocity[axis] * time)
-                    .min(limits.acceleration[axis] * time * time / 4.0)
-                    .min(limits.jerk[axis] * time * time * time / 32.0);
-                factor = factor.min(most / travel[axis]);
-            }
-        }
-        self.way = self.way.scaled(factor);
-        self
     }
-
-    /// Whether X Y Z are the only axes that move.
-    fn is_spatial(&self) -> bool {
-        match &self.way {
-            Way::Line(way) => way.iter().skip(3).all(|way| *way == 0.0),
-            Way::Arc { others, .. } => *others == [0.0; 6],
-        }
+    Programmed {
+        shape: scaled(programmed.shape, factor),
+        ..programmed
     }
 }
 
-impl From<ShortMove> for Programmed {
-    fn from(one: ShortMove) -> Self {
-        let mut programmed = Self {
-            mode: one.mode,
-            ..Self::feed(Shape::from(one.way), one.feed)
-        };
-        if one.rapid {
-            programmed.motion_type = MotionType::Traverse;
-            programmed.feed = MAX_VELOCITY;
-        }
-        programmed
-    }
-}
-
-impl From<Way> for Shape {
-    fn from(way: Way) -> Self {
-        match way {
-            Way::Line(way) => Self::Line(way),
-            Way::Arc {
-                center,
-                across,
-                angle,
-                height,
-                others,
-            } => Self::Turn {
-                center,
-                across,
-                angle,
-                height,
-                others: others.map(|other| other * center[0].hypot(center[1])),
-            },
-        }
-    }
+/// Whether X Y Z are the only axes that move.
+fn is_spatial(programmed: &Programmed) -> bool {
+    travel(&programmed.shape)
+        .iter()
+        .skip(3)
+        .all(|way| *way == 0.0)
 }
