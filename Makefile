@@ -112,6 +112,8 @@ RUN_LINUXCNC_TESTS = failed=0; $(LINUXCNC_TESTS) -m "not busy" || failed=1; $(LI
 
 # The same random cases each time, so that what fails can be had again; make soak takes others.
 test: export PROPTEST_RNG_SEED ?= 1
+# A text that differs from its snapshot, or has none, fails and writes nothing.
+test: export INSTA_UPDATE = no
 test: export TOOL_PROFILE = dev
 test: lint modules fault-modules
 	@./prerequisites browser screen sanitize package test

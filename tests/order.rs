@@ -1,5 +1,8 @@
 //! The folders of `src` stand in one order, and no file of it leads back to itself through what it imports.
 
+#[path = "source/files.rs"]
+mod files;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
@@ -61,23 +64,11 @@ impl Sources {
 
     fn of_this_crate() -> Self {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        let mut files = Vec::new();
-        let mut folders = vec![root.clone()];
-        while let Some(folder) = folders.pop() {
-            for entry in fs::read_dir(folder).expect("a folder") {
-                let path = entry.expect("an entry").path();
-                if path.is_dir() {
-                    folders.push(path);
-                } else if path.extension().is_some_and(|ending| ending == "rs") {
-                    let name = path
-                        .strip_prefix(&root)
-                        .expect("inside")
-                        .display()
-                        .to_string();
-                    files.push((name, fs::read_to_string(&path).expect("text")));
-                }
-            }
-        }
+        let text = |name: &String| fs::read_to_string(root.join(name)).expect("text");
+        let files: Vec<_> = files::of(&root)
+            .into_iter()
+            .map(|name| (name.clone(), text(&name)))
+            .collect();
         Self::parse(&files)
     }
 

@@ -68,31 +68,8 @@ impl Executor {
 
         let start = self.table.node(state.time);
         let safe = self.safe_rate_jerk(&start);
-        let predicted = state.step(safe);
-        let end = self.table.node(predicted.time);
-        let span = Span::new(&self.table, &self.limits, &start, &end);
-        let jerk = span.jerk_interval(state, predicted);
-        let mut allowed = jerk
-            .intersection(&span.acceleration_interval(state, predicted))
-            .intersection(&RateDerivativeInterval::of_rate(state));
-        if allowed.is_empty() {
-            allowed = RateDerivativeInterval {
-                low: allowed.low.min(safe),
-                high: allowed.high.max(safe),
-            };
-        }
-        let wanted = match goal {
-            Goal::Hold => allowed.low,
-            Goal::Run => allowed.high,
-            Goal::Cap(_) => self
-                .caps
-                .approach(&self.table, &self.limits, state, &jerk)
-                .map_or(allowed.high, |rate_jerk| allowed.nearest(rate_jerk)),
-            Goal::Follow => self
-                .pursuit
-                .and_then(|pursuit| pursuit.approach(&self.table, state, &jerk))
-                .map_or(allowed.high, |rate_jerk| allowed.nearest(rate_jerk)),
-        };
+        let (jerk, allowed) = self.intervals(&start, safe);
+        let wanted = self.wanted(goal, &jerk, &allowed);
 
         // A cap or a thread may ask for less than a landing on the target takes.
         let most = if is_adjusted {
@@ -113,6 +90,51 @@ impl Executor {
             }
             _ => self.toward(&aim, &start, Keeping::Limits),
         }
+    }
+
+    /// The rate jerks of this period by the jerk of the axes, and by all limits: `safe` is always among these.
+    #[inline]
+    fn intervals(
+        &self,
+        start: &Node,
+        safe: f64,
+    ) -> (RateDerivativeInterval, RateDerivativeInterval) {
+        let state = self.state;
+        let predicted = state.step(safe);
+        let end = self.table.node(predicted.time);
+        let span = Span::new(&self.table, &self.limits, start, &end);
+        let jerk = span.jerk_interval(state, predicted);
+        let mut allowed = jerk
+            .intersection(&span.acceleration_interval(state, predicted))
+            .intersection(&RateDerivativeInterval::of_rate(state));
+        if allowed.is_empty() {
+            allowed = RateDerivativeInterval {
+                low: allowed.low.min(safe),
+                high: allowed.high.max(safe),
+            };
+        }
+        (jerk, allowed)
+    }
+
+    /// The one of the allowed rate jerks that leads to the goal soonest.
+    #[inline]
+    fn wanted(
+        &self,
+        goal: Goal,
+        jerk: &RateDerivativeInterval,
+        allowed: &RateDerivativeInterval,
+    ) -> f64 {
+        let approached = match goal {
+            Goal::Hold => return allowed.low,
+            Goal::Run => None,
+            Goal::Cap(_) => self
+                .caps
+                .approach(&self.table, &self.limits, self.state, jerk),
+            Goal::Follow => self
+                .pursuit
+                .and_then(|pursuit| pursuit.approach(&self.table, self.state, jerk)),
+        };
+        approached.map_or(allowed.high, |rate_jerk| allowed.nearest(rate_jerk))
     }
 
     /// The rate jerk nearest to what is wanted whose backup trajectory keeps that.

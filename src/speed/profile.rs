@@ -211,18 +211,50 @@ mod tests {
         (1e-6f64.ln()..1e3f64.ln()).prop_map(f64::exp)
     }
 
+    /// What the rounding of an instant makes of a velocity or acceleration that is as steep as `slope`.
+    fn rounding(profile: &JerkLimitedProfile, slope: f64) -> f64 {
+        if slope.is_finite() {
+            1e-15 * profile.duration() * slope
+        } else {
+            0.0
+        }
+    }
+
+    /// Checks limits at some instants of the phase between two times, and that the values belong together.
+    fn check_phase(
+        profile: &JerkLimitedProfile,
+        limits: &PathLimits,
+        [from, to]: [f64; 2],
+    ) -> Result<(), TestCaseError> {
+        let of_velocity = rounding(profile, limits.acceleration);
+        let of_acceleration = rounding(profile, limits.jerk);
+        let near = 1.0 + 1e-9;
+        let middle = 0.5 * (from + to);
+        let first = profile.state(from, middle);
+        let (v, a, j) = (first.velocity, first.acceleration, first.jerk);
+        for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let t = from + share * (to - from);
+            let state = profile.state(t, middle);
+            prop_assert!(state.velocity >= -1e-9 * limits.velocity - of_velocity);
+            prop_assert!(state.velocity <= limits.velocity * near + of_velocity);
+            prop_assert!(state.acceleration.abs() <= limits.acceleration * near + of_acceleration);
+            prop_assert!(state.jerk.abs() <= limits.jerk * near);
+            // Taylor's theorem within a phase ties the values together.
+            let x = t - from;
+            let taylor = first.distance + x * (v + x * (0.5 * a + x * j / 6.0));
+            prop_assert!((state.distance - taylor).abs() <= 1e-9 * profile.length());
+            prop_assert!(
+                (state.velocity - (v + x * (a + x * j * 0.5))).abs()
+                    <= 1e-7 * limits.velocity + of_velocity
+            );
+        }
+        Ok(())
+    }
+
     /// Checks continuity and limits at many instants, on both sides of each jump.
     fn check(profile: &JerkLimitedProfile, limits: &PathLimits) -> Result<(), TestCaseError> {
         let duration = profile.duration();
         prop_assert!(duration > 0.0 && duration.is_finite());
-        // What the rounding of an instant makes of a steep velocity or acceleration.
-        let rounding = |slope: f64| {
-            if slope.is_finite() {
-                1e-15 * duration * slope
-            } else {
-                0.0
-            }
-        };
         let start = profile.state(0.0, 0.0);
         let end = profile.state(duration, duration);
         prop_assert_eq!(start.distance, 0.0);
@@ -235,37 +267,13 @@ mod tests {
             let to = profile.next_jump(from);
             prop_assert!(to <= duration);
             let middle = 0.5 * (from + to);
-            for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
-                let t = from + share * (to - from);
-                let state = profile.state(t, middle);
-                let near = 1.0 + 1e-9;
-                prop_assert!(
-                    state.velocity >= -1e-9 * limits.velocity - rounding(limits.acceleration)
-                );
-                prop_assert!(
-                    state.velocity <= limits.velocity * near + rounding(limits.acceleration)
-                );
-                prop_assert!(
-                    state.acceleration.abs() <= limits.acceleration * near + rounding(limits.jerk)
-                );
-                prop_assert!(state.jerk.abs() <= limits.jerk * near);
-                // Taylor's theorem within a phase ties the values together.
-                let x = t - from;
-                let first = profile.state(from, middle);
-                let (v, a, j) = (first.velocity, first.acceleration, first.jerk);
-                let taylor = first.distance + x * (v + x * (0.5 * a + x * j / 6.0));
-                prop_assert!((state.distance - taylor).abs() <= 1e-9 * profile.length());
-                prop_assert!(
-                    (state.velocity - (v + x * (a + x * j * 0.5))).abs()
-                        <= 1e-7 * limits.velocity + rounding(limits.acceleration)
-                );
-            }
+            check_phase(profile, limits, [from, to])?;
             let entry = profile.state(from, middle);
             prop_assert!((entry.distance - before.distance).abs() <= 1e-9 * profile.length());
             if !jumps {
                 prop_assert!(
                     (entry.velocity - before.velocity).abs()
-                        <= 1e-6 * limits.velocity + rounding(limits.acceleration)
+                        <= 1e-6 * limits.velocity + rounding(profile, limits.acceleration)
                 );
             }
             if limits.jerk.is_finite() {
@@ -274,7 +282,7 @@ mod tests {
                     .min((limits.jerk * limits.velocity).sqrt());
                 prop_assert!(
                     (entry.acceleration - before.acceleration).abs()
-                        <= 1e-5 * peak + rounding(limits.jerk)
+                        <= 1e-5 * peak + rounding(profile, limits.jerk)
                 );
             }
             before = profile.state(to, middle);

@@ -11,10 +11,9 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
 
 use crate::common::{Machine, PERIOD, at, equal_limits, with_room};
-use crate::random_program::run::queue;
-use crate::random_program::{
-    Programmed, Shape, any_corners, any_curves, any_limits, any_move, any_unequal_limits,
-};
+use crate::program::queue::queue;
+use crate::program::{Programmed, Shape};
+use crate::random_program::{any_corners, any_curves, any_limits, any_move, any_unequal_limits};
 
 /// How a program ran.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +45,9 @@ enum Operator {
 
 const MOST_PERIODS: usize = 200_000;
 
+/// No move is faster, units/s.
+const MAX_VELOCITY: f64 = 250.0;
+
 fn ran(limits: AxisLimits, moves: &[Programmed], operator: Operator) -> Ran {
     let mut machine = Machine::new(limits);
     machine.planner.set_velocity_limit(1e3);
@@ -53,7 +55,6 @@ fn ran(limits: AxisLimits, moves: &[Programmed], operator: Operator) -> Ran {
         .planner
         .set_termination(TerminationCondition::Continuous { tolerance: 0.05 });
     let mut moves = moves.iter();
-    let mut wanted = Vec::new();
     let mut id = 1;
     let mut before = Axes::zeros();
     let mut squares = 0.0;
@@ -69,7 +70,7 @@ fn ran(limits: AxisLimits, moves: &[Programmed], operator: Operator) -> Ran {
         }
         if let Some(programmed) = moves.next() {
             machine.planner.set_id(id);
-            queue(&mut machine, programmed, &mut wanted, (id, 0));
+            queue(&mut machine, programmed, MAX_VELOCITY);
             id += 1;
         }
         let status = machine.cycle();

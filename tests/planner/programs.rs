@@ -1,14 +1,14 @@
 //! Random programs of lines, arcs and helices while an operator does everything an operator can
-//! do: always within the limits, always at the end point. What they found is kept in
-//! `regressions_limits.rs`, `regressions_between.rs` and `regressions_rests.rs`.
+//! do: always within the limits, always at the end point. What they found is kept in `regressions`.
 
 use std::cell::RefCell;
 
-use crate::common::seeded_runner::seeded_runner;
+use crate::common::seeded_runner::{checked, seeded_runner};
 use crate::common::{Extremes, with_room};
-use crate::random_program::run::run;
+use crate::program::Programmed;
+use crate::program::run::run;
 use crate::random_program::{
-    Programmed, any_corners, any_curves, any_event, any_limits, any_move, any_unequal_limits,
+    any_corners, any_curves, any_limits, any_move, any_program, any_unequal_limits,
 };
 use framepath::axes::AxisLimits;
 use proptest::prelude::*;
@@ -19,12 +19,6 @@ fn keep_the_limits(
     moves: impl Strategy<Value = Vec<Programmed>>,
     cases: u32,
 ) {
-    let strategy = (
-        limits,
-        moves,
-        prop::collection::vec((1usize..400, any_event()), 0..40),
-        prop_oneof![Just(1usize), 1usize..300],
-    );
     let sum = RefCell::new((Extremes::default(), 0));
     let cases =
         std::env::var("FRAMEPATH_CASES").map_or(cases, |cases| cases.parse().expect("a number"));
@@ -34,18 +28,16 @@ fn keep_the_limits(
         ..ProptestConfig::default()
     };
     let mut runner = seeded_runner(config);
-    let result = runner.run(&strategy, |(limits, moves, events, supply)| {
-        let (extremes, cycles) = with_room(|| run(limits, &moves, &events, supply))?;
+    let result = runner.run(&any_program(limits, moves), |program| {
+        let ran = with_room(|| run(&program))?;
         let mut sum = sum.borrow_mut();
-        sum.0.join(&extremes);
-        sum.1 += cycles;
+        sum.0.join(&ran.extremes);
+        sum.1 += ran.periods;
         Ok(())
     });
-    let (greatest, cycles) = sum.into_inner();
-    println!("{cycles} cycles, greatest over the limits: {greatest:?}");
-    if let Err(error) = result {
-        panic!("{error}");
-    }
+    let (greatest, periods) = sum.into_inner();
+    println!("{periods} periods, greatest over the limits: {greatest:?}");
+    checked(result);
 }
 
 #[test]

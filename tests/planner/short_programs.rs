@@ -1,9 +1,10 @@
 //! Short programs of all kinds of moves, from a nanometre on, on machines of all kinds: no fault, no limit
-//! exceeded, none left unfinished. What they found is kept in `regressions_faults.rs`.
+//! exceeded, none left unfinished. What they found is kept in `regressions`.
 
-use crate::common::seeded_runner::seeded_runner;
+use crate::common::seeded_runner::{checked, seeded_runner};
 use crate::common::{Extremes, with_room};
-use crate::short_program::{any_program, run};
+use crate::program::run::run;
+use crate::short_program::any_program;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 /// Threads that share the programs: not one for each processor, or a seed would mean others on each computer.
@@ -33,12 +34,10 @@ fn short_programs_keep_all_limits() {
                 ..config.clone()
             });
             let result = runner.run(&any_program(), |program| {
-                sum.borrow_mut().join(&run(&program)?);
+                sum.borrow_mut().join(&run(&program)?.extremes);
                 Ok(())
             });
-            if let Err(error) = result {
-                panic!("{error}");
-            }
+            checked(result);
             greatest
         })
     };

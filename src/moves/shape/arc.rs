@@ -31,6 +31,35 @@ pub struct Circle {
     pub revolutions: i32,
 }
 
+impl Circle {
+    /// The full turns besides the way from the start to the end.
+    fn further_turns(&self) -> Result<i64, ShapeError> {
+        let revolutions = i64::from(self.revolutions);
+        let further = if revolutions < 0 {
+            -1 - revolutions
+        } else {
+            revolutions
+        };
+        if further > MOST_REVOLUTIONS {
+            return Err(ShapeError::TooManyRevolutions);
+        }
+        Ok(further)
+    }
+
+    /// The unit vector about which the turn is counter-clockwise.
+    fn axis(&self) -> Result<Vector3<f64>, ShapeError> {
+        let size = self.normal.norm();
+        if !size.is_finite() {
+            return Err(ShapeError::NotFinite);
+        }
+        if size < f64::MIN_POSITIVE {
+            return Err(ShapeError::NoNormal);
+        }
+        let sign = if self.revolutions < 0 { -1.0 } else { 1.0 };
+        Ok(self.normal * (sign / size))
+    }
+}
+
 /// An arc (constant radius), spiral (the radius changes in proportion to the angle), helix (so
 /// does the height) or both.
 ///
@@ -81,30 +110,10 @@ impl Arc9 {
     /// [`ShapeError::NoNormal`], [`ShapeError::RadiusTooSmall`], [`ShapeError::TooManyRevolutions`],
     /// [`ShapeError::NotFinite`], [`ShapeError::TooFar`].
     pub fn new(start: &Axes, end: &Axes, circle: &Circle) -> Result<Self, ShapeError> {
-        let further = if circle.revolutions < 0 {
-            -1 - i64::from(circle.revolutions)
-        } else {
-            i64::from(circle.revolutions)
-        };
-        if further > MOST_REVOLUTIONS {
-            return Err(ShapeError::TooManyRevolutions);
-        }
-        let size = circle.normal.norm();
+        let further = circle.further_turns()?;
         let ends = start.iter().chain(end);
         check_coordinates(ends.chain(circle.center.iter()))?;
-        if !size.is_finite() {
-            return Err(ShapeError::NotFinite);
-        }
-        if size < f64::MIN_POSITIVE {
-            return Err(ShapeError::NoNormal);
-        }
-        let normal = circle.normal
-            * if circle.revolutions < 0 {
-                -1.0 / size
-            } else {
-                1.0 / size
-            };
-
+        let normal = circle.axis()?;
         let first = xyz(start);
         let last = xyz(end);
         let center = circle.center + normal * normal.dot(&(first - circle.center));
@@ -117,16 +126,7 @@ impl Arc9 {
         }
         let radial = (first - center) / radius;
         let tangential = normal.cross(&radial);
-
-        let mut angle = tangential.dot(&last_radial).atan2(radial.dot(&last_radial));
-        if angle < 0.0 {
-            angle += TAU;
-        }
-        if angle < FULL_CIRCLE_WITHIN {
-            angle += TAU;
-        }
-        angle += TAU * further as f64;
-
+        let angle = turned(&radial, &tangential, &last_radial) + TAU * further as f64;
         let radius_rate = (last_radius - radius) / angle;
         let greatest_radius = radius.max(last_radius);
         let length = angle * norm3(greatest_radius, radius_rate, height / angle);
@@ -245,6 +245,19 @@ impl Arc9 {
     fn turning(&self, s: f64) -> Axes {
         self.base + self.directions(s).0 * self.radius_at(s)
     }
+}
+
+/// The angle from the start, where these are the directions outward and along the turn, to the direction `last` from
+/// the axis: above 0, radians.
+fn turned(radial: &Vector3<f64>, tangential: &Vector3<f64>, last: &Vector3<f64>) -> f64 {
+    let mut angle = tangential.dot(last).atan2(radial.dot(last));
+    if angle < 0.0 {
+        angle += TAU;
+    }
+    if angle < FULL_CIRCLE_WITHIN {
+        angle += TAU;
+    }
+    angle
 }
 
 fn xyz(position: &Axes) -> Vector3<f64> {

@@ -44,6 +44,121 @@ impl AxisBounds {
     };
 }
 
+/// The rows of all axes that move in an interval.
+struct MovingBounds {
+    axes: [AxisBounds; AXIS_COUNT],
+    /// Of `axes`.
+    count: usize,
+    /// What curvature takes of the acceleration per b, and of the jerk per b^1.5, at most.
+    curve: f64,
+    twist: f64,
+    /// The greatest row of curvature.
+    steepest: f64,
+    /// What the path between the places takes besides, of both.
+    departure: [f64; 2],
+}
+
+impl MovingBounds {
+    #[inline]
+    fn of(rows: &AxisRows, interval: &IntervalSamples) -> Self {
+        let samples = interval.places();
+        let departure = [interval.departure.second, interval.departure.third].map(f64::from);
+        let moving = MovingAxes::at_any(samples);
+        let times = rows.jerk_time();
+        let [start, middle, end] = samples;
+        let greatest = |a: f64, b: f64, c: f64| a.abs().max(b.abs()).max(c.abs());
+        // Filled in place: a copy of all axes costs more than what is in it.
+        let mut found = Self {
+            axes: [AxisBounds::NONE; AXIS_COUNT],
+            count: 0,
+            curve: 0.0,
+            twist: 0.0,
+            steepest: 0.0,
+            departure,
+        };
+        for axis in 0..AXIS_COUNT {
+            if !moving.contains(axis) {
+                continue;
+            }
+            let time = times[axis];
+            let second = greatest(start.second[axis], middle.second[axis], end.second[axis]);
+            let third = greatest(start.third[axis], middle.third[axis], end.third[axis]);
+            if let Some(bounds) = found.axes.get_mut(found.count) {
+                *bounds = AxisBounds {
+                    first: greatest(start.first[axis], middle.first[axis], end.first[axis]),
+                    second,
+                    third,
+                    time,
+                };
+            }
+            found.count += 1;
+            found.curve = f64::max(found.curve, second * time);
+            found.twist = f64::max(found.twist, third);
+            found.steepest = f64::max(found.steepest, second);
+        }
+        found.curve = found.curve / 3.0 + departure[0];
+        found.twist += departure[1];
+        found
+    }
+
+    fn axes(&self) -> impl Iterator<Item = &AxisBounds> {
+        self.axes.iter().take(self.count)
+    }
+
+    /// `cap`, lowered to where curvature and its change take no more than their shares.
+    #[inline]
+    fn lowered_cap(&self, mut cap: f64, shares: &Shares) -> f64 {
+        if self.curve * cap > shares.curve {
+            cap = shares.curve / self.curve;
+        }
+        if self.twist * cap * cap.sqrt() > shares.twist {
+            let root = cube_root(shares.twist / self.twist);
+            cap = root * root;
+        }
+        cap
+    }
+
+    /// What is left for the acceleration along the path at the cap, and at rest.
+    #[inline]
+    fn accelerations(&self, cap: f64, margin: f64) -> [f64; 2] {
+        let (mut at_cap, mut at_rest) =
+            (PathBounds::NONE.acceleration, PathBounds::NONE.acceleration);
+        for bounds in self.axes() {
+            let slope = bounds.first * bounds.time;
+            let left = margin - (bounds.second * bounds.time / 3.0 + self.departure[0]) * cap;
+            if at_cap * slope > left {
+                at_cap = left / slope;
+            }
+            if at_rest * slope > margin {
+                at_rest = margin / slope;
+            }
+        }
+        [at_cap, at_rest]
+    }
+
+    /// The same for the jerk, where the machine accelerates as `accelerations` say.
+    #[inline]
+    fn jerks(&self, cap: f64, shares: &Shares, accelerations: [f64; 2]) -> [f64; 2] {
+        let v = cap.sqrt();
+        let margin = shares.margin;
+        let [acceleration, acceleration_at_rest] = accelerations;
+        let (mut at_cap, mut at_rest) = (PathBounds::NONE.jerk, PathBounds::NONE.jerk);
+        for bounds in self.axes() {
+            let across = (bounds.second * acceleration * v).min(shares.across);
+            let left = margin - (bounds.third + self.departure[1]) * cap * v - across;
+            if at_cap * bounds.first > left {
+                at_cap = left / bounds.first;
+            }
+            let across = (bounds.second * acceleration_at_rest * v).min(shares.across);
+            let left = margin - across;
+            if at_rest * bounds.first > left {
+                at_rest = left / bounds.first;
+            }
+        }
+        [at_cap, at_rest]
+    }
+}
+
 /// Limits along the path in one interval.
 ///
 /// What curvature takes of an axis grows with the speed. What it leaves is the least of several
@@ -89,76 +204,14 @@ impl PathBounds {
         raise_squared: f64,
         shares: &Shares,
     ) -> Self {
-        let margin = shares.margin;
-        let mut cap = (CAP_SHARE * interval.least_cap(raise_squared)).min(Self::NONE.cap);
-        let samples = interval.places();
-        let [departure_second, departure_third] =
-            [interval.departure.second, interval.departure.third].map(f64::from);
-        let moving = MovingAxes::at_any(samples);
-        let times = rows.jerk_time();
-        let [start, middle, end] = samples;
-        let greatest = |a: f64, b: f64, c: f64| a.abs().max(b.abs()).max(c.abs());
-        let mut axes = [AxisBounds::NONE; AXIS_COUNT];
-        let (mut curve, mut twist, mut steepest) = (0.0, 0.0, 0.0);
-        let mut count = 0;
-        for axis in 0..AXIS_COUNT {
-            if !moving.contains(axis) {
-                continue;
-            }
-            let time = times[axis];
-            let second = greatest(start.second[axis], middle.second[axis], end.second[axis]);
-            let third = greatest(start.third[axis], middle.third[axis], end.third[axis]);
-            if let Some(bounds) = axes.get_mut(count) {
-                *bounds = AxisBounds {
-                    first: greatest(start.first[axis], middle.first[axis], end.first[axis]),
-                    second,
-                    third,
-                    time,
-                };
-            }
-            count += 1;
-            curve = f64::max(curve, second * time);
-            twist = f64::max(twist, third);
-            steepest = f64::max(steepest, second);
-        }
-        curve = curve / 3.0 + departure_second;
-        twist += departure_third;
-        if curve * cap > shares.curve {
-            cap = shares.curve / curve;
-        }
-        if twist * cap * cap.sqrt() > shares.twist {
-            let root = cube_root(shares.twist / twist);
-            cap = root * root;
-        }
-
-        let v = cap.sqrt();
-        let (mut acceleration, mut acceleration_at_rest) =
-            (Self::NONE.acceleration, Self::NONE.acceleration);
-        for bounds in axes.iter().take(count) {
-            let slope = bounds.first * bounds.time;
-            let left = margin - (bounds.second * bounds.time / 3.0 + departure_second) * cap;
-            if acceleration * slope > left {
-                acceleration = left / slope;
-            }
-            if acceleration_at_rest * slope > margin {
-                acceleration_at_rest = margin / slope;
-            }
-        }
-        let (mut jerk, mut jerk_at_rest) = (Self::NONE.jerk, Self::NONE.jerk);
-        for bounds in axes.iter().take(count) {
-            let across = (bounds.second * acceleration * v).min(shares.across);
-            let left = margin - (bounds.third + departure_third) * cap * v - across;
-            if jerk * bounds.first > left {
-                jerk = left / bounds.first;
-            }
-            let across = (bounds.second * acceleration_at_rest * v).min(shares.across);
-            let left = margin - across;
-            if jerk_at_rest * bounds.first > left {
-                jerk_at_rest = left / bounds.first;
-            }
-        }
-        let across = if steepest > 0.0 {
-            (shares.across / steepest) * (shares.across / steepest)
+        let moving = MovingBounds::of(rows, interval);
+        let least_cap = CAP_SHARE * interval.least_cap(raise_squared);
+        let cap = moving.lowered_cap(least_cap.min(Self::NONE.cap), shares);
+        let accelerations = moving.accelerations(cap, shares.margin);
+        let [acceleration, acceleration_at_rest] = accelerations;
+        let [jerk, jerk_at_rest] = moving.jerks(cap, shares, accelerations);
+        let across = if moving.steepest > 0.0 {
+            (shares.across / moving.steepest) * (shares.across / moving.steepest)
         } else {
             Self::NONE.across
         };
@@ -170,7 +223,7 @@ impl PathBounds {
             acceleration_fall: (acceleration_at_rest - acceleration).max(0.0) / cap,
             jerk,
             jerk_at_rest,
-            jerk_fall: (jerk_at_rest - jerk).max(0.0) / (cap * v),
+            jerk_fall: (jerk_at_rest - jerk).max(0.0) / (cap * cap.sqrt()),
         }
     }
 

@@ -90,7 +90,7 @@ impl Grid {
         candidate: &mut Spline,
         samples: &mut SampleBanks,
     ) -> GridStep {
-        let PlanContext { route, rows, .. } = *context;
+        let route = context.route;
         let k = self.k;
         if k + 3 - context.oldest >= CAPACITY {
             return GridStep::TooLong;
@@ -111,11 +111,34 @@ impl Grid {
             return GridStep::Unsound;
         }
         let (step, middle, right) = self.resolve(context, s, step, &left);
-        let (length, end) = (step.length, step.end);
         if !(middle.sample.is_sound() && right.sample.is_sound()) {
             return GridStep::Unsound;
         }
+        self.place(context, candidate, samples, &step, &middle, right);
+        if step.end >= self.end {
+            candidate.last = k;
+            return GridStep::Done;
+        }
+        self.k = k + 1;
+        GridStep::More
+    }
 
+    /// Puts the interval that comes next into the candidate, with what was seen in its middle and at its end, and the
+    /// node there.
+    #[inline]
+    fn place<R: Route>(
+        &mut self,
+        context: &PlanContext<R>,
+        candidate: &mut Spline,
+        samples: &mut SampleBanks,
+        step: &NextNode,
+        middle: &Seen,
+        right: Seen,
+    ) {
+        let PlanContext { route, rows, .. } = *context;
+        let k = self.k;
+        let s = candidate.at(k).start;
+        let (length, end) = (step.length, step.end);
         let interval = candidate.at_mut(k);
         *interval = SplineInterval {
             start: s,
@@ -152,12 +175,6 @@ impl Grid {
             start: right,
             ..IntervalSamples::NONE
         };
-        if end >= self.end {
-            candidate.last = k;
-            return GridStep::Done;
-        }
-        self.k = k + 1;
-        GridStep::More
     }
 
     /// The length of the interval from `s` on, by features and neighbours.

@@ -30,22 +30,18 @@ impl AxisRows {
             return false;
         }
         let half = 0.5 * parabola.length;
-        let [(b0, a0), (b1, a1), (b2, a2)] = [0.0, half, parabola.length].map(|x| parabola.at(x));
-        let samples = interval.places();
-        let [cap0, cap1, cap2] = samples.map(|sample| sample.cap.raised(raise_squared));
-        let quarters = interval.quarters.map(|cap| cap.raised(raise_squared));
-        let capped = b0 > 0.0 && b1 > 0.0 && b2 > 0.0 && b0 <= cap0 && b1 <= cap1 && b2 <= cap2;
-        if !(capped
-            && keeps_caps_between(
-                [b0, b1, b2],
-                parabola.u * half * half,
-                [cap0, cap1, cap2],
-                quarters,
-            ))
-        {
+        let places = [0.0, half, parabola.length].map(|x| parabola.at(x));
+        let [b0, b1, b2] = places.map(|(b, _)| b);
+        if !keeps_caps(
+            [b0, b1, b2],
+            parabola.u * half * half,
+            interval,
+            raise_squared,
+        ) {
             return false;
         }
-        let places = [(b0, a0), (b1, a1), (b2, a2)].map(|(b, a)| (b as f32, a as f32));
+        let samples = interval.places();
+        let places = places.map(|(b, a)| (b as f32, a as f32));
         let speeds = places.map(|(b, _)| b.sqrt());
         let (u, half, margin) = (parabola.u as f32, half as f32, margin as f32);
         let fastest = b0.max(b1).max(b2) as f32;
@@ -59,20 +55,11 @@ impl AxisRows {
             let first = samples.map(|sample| quad(&sample.lanes[0], number));
             let second = samples.map(|sample| quad(&sample.lanes[1], number));
             let third = samples.map(|sample| quad(&sample.lanes[2], number));
+            let rows = [first, second, third];
             let mut bent = [0u32; QUAD_LANES];
             for lane in 0..QUAD_LANES {
                 let time = times[lane];
-                let [mut accelerations, mut changes, mut jerks] = [[0.0; 3]; 3];
-                for place in 0..3 {
-                    let by_u = first[place][lane];
-                    let by_a = second[place][lane];
-                    let by_b = third[place][lane];
-                    let (b, a) = places[place];
-                    accelerations[place] = (by_u * a + by_a * (THIRD * b)) * time;
-                    // The jerk over the velocity: by how much the acceleration changes with s.
-                    changes[place] = by_u * u + by_a * a + by_b * b;
-                    jerks[place] = changes[place] * speeds[place];
-                }
+                let [accelerations, changes, jerks] = taken(&rows, lane, time, &places, &speeds, u);
                 let between = halves(accelerations, changes.map(|change| change * time * half));
                 let within = is_within(accelerations, for_acceleration, ACCELERATION_BETWEEN)
                     & is_within(jerks, for_jerk, JERK_BETWEEN)
@@ -80,7 +67,6 @@ impl AxisRows {
                 kept[lane] &= u32::from(within);
                 bent[lane] |= u32::from(is_bent(jerks));
             }
-            let rows = [first, second, third];
             if bent != [0; QUAD_LANES]
                 && !keeps_jerk_between(parabola, rows, for_jerk + JERK_BETWEEN)
             {
@@ -89,6 +75,48 @@ impl AxisRows {
         }
         kept == [1; QUAD_LANES]
     }
+}
+
+/// What the axis of a lane takes at start, middle and end: of the acceleration; the jerk over the velocity, which is by
+/// how much the acceleration changes with s; of the jerk.
+#[inline(always)]
+fn taken(
+    [first, second, third]: &[[&Quad; 3]; 3],
+    lane: usize,
+    time: f32,
+    places: &[(f32, f32); 3],
+    speeds: &[f32; 3],
+    u: f32,
+) -> [[f32; 3]; 3] {
+    let [mut accelerations, mut changes, mut jerks] = [[0.0; 3]; 3];
+    for place in 0..3 {
+        let by_u = first[place][lane];
+        let by_a = second[place][lane];
+        let by_b = third[place][lane];
+        let (b, a) = places[place];
+        accelerations[place] = (by_u * a + by_a * (THIRD * b)) * time;
+        changes[place] = by_u * u + by_a * a + by_b * b;
+        jerks[place] = changes[place] * speeds[place];
+    }
+    [accelerations, changes, jerks]
+}
+
+/// Whether v^2 is above 0 and within its caps at start, middle and end, and between them. `bend`: u times the square
+/// of half the length.
+#[inline(always)]
+fn keeps_caps(
+    [b0, b1, b2]: [f64; 3],
+    bend: f64,
+    interval: &IntervalSamples,
+    raise_squared: f64,
+) -> bool {
+    let caps = interval
+        .places()
+        .map(|sample| sample.cap.raised(raise_squared));
+    let [cap0, cap1, cap2] = caps;
+    let quarters = interval.quarters.map(|cap| cap.raised(raise_squared));
+    let capped = b0 > 0.0 && b1 > 0.0 && b2 > 0.0 && b0 <= cap0 && b1 <= cap1 && b2 <= cap2;
+    capped && keeps_caps_between([b0, b1, b2], bend, caps, quarters)
 }
 
 /// Whether v^2 keeps its caps between start, middle and end: in the middle of both halves, where they are known, and

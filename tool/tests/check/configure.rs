@@ -50,40 +50,8 @@ fn findings(folder: &Path) -> Value {
 fn a_stock_configuration_needs_eight_lines_for_blendtp() {
     let (folder, output) = changed("", "", &[]);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    assert_eq!(
-        text(&output.stdout),
-        "\
---- axis_mm.ini
-+++ axis_mm-framepath.ini
-@@ -111,2 +111,3 @@
- HALFILE = simulated_home.hal
-+HALFILE = axis_mm-framepath.hal
- 
-@@ -132,2 +133,3 @@
- POSITION_FILE = position_mm.txt
-+TPMOD = blendtp
- 
-@@ -143,2 +145,3 @@
- MAX_LIMIT = 254
-+MAX_JERK = 10160
- 
-@@ -149,2 +152,3 @@
- MAX_LIMIT = 254
-+MAX_JERK = 10160
- 
-@@ -155,2 +159,3 @@
- MAX_LIMIT = 101.6
-+MAX_JERK = 10160
- 
---- /dev/null
-+++ axis_mm-framepath.hal
-@@ -0,0 +1,4 @@
-+# What blendtp and framekins need of HAL, behind the other HAL files. Written by framepath configure.
-+setp blendtp.axis.x.max-jerk [AXIS_X]MAX_JERK
-+setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK
-+setp blendtp.axis.z.max-jerk [AXIS_Z]MAX_JERK
-"
-    );
+    assert!(text(&output.stdout).ends_with("MAX_JERK\n"));
+    insta::assert_snapshot!("blendtp_in_axis_mm_is_eight_lines", text(&output.stdout));
     assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
     let old = fs::read(Path::new(STOCK).join("axis_mm.ini")).expect("read");
     assert_eq!(

@@ -28,26 +28,13 @@ fn the_text_has_file_line_column_and_the_line_to_write() {
         .0;
     let output = bench.check(name, &[]);
     assert_eq!(output.status.code(), Some(1));
-    let wanted = format!(
-        "\
-framepath-sim.ini:{}:1: error: nothing sets blendtp.axis.y.max-jerk, so that the jerk of Y is not limited, although the INI file has a limit
-  write into ./framepath-sim.hal:
-    setp blendtp.axis.y.max-jerk [AXIS_Y]MAX_JERK
-
-./framepath-sim.hal:2:1: error: framekins.value.1 is not linked: every frame is refused, since what arrives is not what was sent
-  write into ./framepath-sim.hal:
-    net frame-value-1 motion.analog-out-01 => framekins.value.1
-
-from its greatest velocity to rest, by an abort or a feed hold:
-  X: 7.5 mm in 0.15 s (100 mm/s, 1000 mm/s2, 20000 mm/s3)
-  Y: 5 mm in 0.1 s (100 mm/s, 1000 mm/s2, jerk not limited)
-  Z: 7.5 mm in 0.15 s (100 mm/s, 1000 mm/s2, 20000 mm/s3)
-framepath-sim.ini: 2 errors, 0 warnings, 0 notes
-",
-        jerk_of_y + 1
-    );
     let text = String::from_utf8(output.stdout).expect("a text");
-    assert_eq!(text, wanted);
+    // Which line of the sample that is, is no matter of the text.
+    let place = format!("framepath-sim.ini:{}:1", jerk_of_y + 1);
+    assert!(text.starts_with(&place), "{text}");
+    let text = text.replace(&place, "framepath-sim.ini:LINE:1");
+    assert!(text.ends_with("0 notes\n"));
+    insta::assert_snapshot!("errors_say_what_to_write_where", text);
 }
 
 #[test]

@@ -15,6 +15,13 @@ fn one_error(program: &str, place: &str, text: &str) {
     assert_one_error(&shown, program, &format!("part.mpf:{place}"), text);
 }
 
+/// What a user sees of several errors: each with its place, the line and what is marked in it.
+#[test]
+fn each_refusal_shows_its_line_and_marks_the_words() {
+    let shown = errors("N10 TRANZ X10\nG0 G1 X1 F1\n\tG0 X1 ?\nG1 X1 Y2 CR=5 F100\nM30\n");
+    insta::assert_snapshot!("refusals_with_their_lines", shown);
+}
+
 #[test]
 fn words_that_are_none() {
     one_error("N10 TRANZ X10\nM30\n", "1:5", "did you mean TRANS?");

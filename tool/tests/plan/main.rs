@@ -17,3 +17,4 @@ mod pages;
 mod support;
 #[path = "../common/surface.rs"]
 mod surface;
+mod text;

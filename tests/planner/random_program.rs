@@ -1,62 +1,60 @@
 //! Random programs, and what an operator may do while they run.
 
-pub mod run;
-pub mod text;
-
 use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::{MotionType, TerminationCondition};
 use proptest::prelude::*;
 
-#[derive(Clone, Debug)]
-pub enum Shape {
-    Line(Axes),
-    Arc {
-        radial: [f64; 3],
-        tilt: [f64; 3],
-        radius: f64,
-        angle: f64,
-        height: f64,
-        revolutions: i32,
-        others: [f64; 6],
-    },
+use crate::program::{
+    ALL_ENABLED, Asked, Event, FEED_OVERRIDE_OFF, Program, Programmed, RestsAsked, Shape,
+};
+
+/// Programs of these moves on these machines, and what the operator does meanwhile.
+pub fn any_program(
+    limits: impl Strategy<Value = AxisLimits>,
+    moves: impl Strategy<Value = Vec<Programmed>>,
+) -> impl Strategy<Value = Program> {
+    (
+        limits,
+        moves,
+        prop::collection::vec((1usize..400, any_event()), 0..40),
+        prop_oneof![Just(1usize), 1usize..300],
+    )
+        .prop_map(|(limits, moves, events, supply)| Program {
+            supply,
+            events: in_periods(0, &events),
+            ..undisturbed(limits, moves)
+        })
 }
 
-#[derive(Clone, Debug)]
-pub struct Programmed {
-    pub shape: Shape,
-    pub feed: f64,
-    pub motion_type: MotionType,
-    pub enables: u8,
-    pub wait_for_spindle: bool,
-    /// G61, G61.1 or G64 before it.
-    pub mode: Option<TerminationCondition>,
-}
-
-impl Programmed {
-    /// A move at feed with all overrides enabled.
-    pub fn feed(shape: Shape, feed: f64) -> Self {
-        Self {
-            shape,
-            feed,
-            motion_type: MotionType::Feed,
-            enables: 0x0f,
-            wait_for_spindle: false,
-            mode: None,
-        }
+/// A program without an operator, of which everything is asked.
+pub fn undisturbed(limits: AxisLimits, moves: Vec<Programmed>) -> Program {
+    Program {
+        limits,
+        max_velocity: 250.0,
+        slider: Some(1e3),
+        mode: TerminationCondition::Continuous { tolerance: 0.05 },
+        supply: 1,
+        moves,
+        events: Vec::new(),
+        asked: Asked {
+            path: true,
+            rests: RestsAsked::Explained,
+            ..Asked::LIMITS
+        },
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-pub enum Event {
-    Pause,
-    Resume,
-    Abort,
-    FeedOverride(f64),
-    RapidOverride(f64),
-    Slider(f64),
-    Adaptive(f64),
-    Spindles(bool),
-    Step,
+/// Events with the periods to the next one, the first in period `first`: the period of each, and behind the last one
+/// the operator goes home.
+pub fn in_periods(first: usize, events: &[(usize, Event)]) -> Vec<(usize, Event)> {
+    let mut period = first;
+    let mut all = Vec::new();
+    for (gap, event) in events {
+        all.push((period, *event));
+        period += gap;
+    }
+    all.push((period, Event::Gone));
+    all
 }
 
 pub fn any_displacement() -> impl Strategy<Value = Axes> {
@@ -100,7 +98,7 @@ pub fn any_move() -> impl Strategy<Value = Programmed> {
             Just(MotionType::Traverse),
             Just(MotionType::Arc),
         ],
-        prop_oneof![3 => Just(0x0fu8), 1 => Just(0x0d)],
+        prop_oneof![3 => Just(ALL_ENABLED), 1 => Just(FEED_OVERRIDE_OFF)],
         prop::bool::weighted(0.05),
         any_mode(),
     )
