@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 
-use crate::common::seeded_runner::{checked, seeded_runner};
+use crate::common::seeded_runner::seeded_runner;
 use crate::common::{equal_limits, with_room};
 use crate::program::run::run;
-use crate::program::{Program, Programmed, Shape};
+use crate::program::{Program, Programmed, Shape, checked};
 use crate::random_program::undisturbed;
 use framepath::axes::Axes;
 use framepath::moves::TerminationCondition;

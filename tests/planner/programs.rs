@@ -3,10 +3,10 @@
 
 use std::cell::RefCell;
 
-use crate::common::seeded_runner::{checked, seeded_runner};
+use crate::common::seeded_runner::seeded_runner;
 use crate::common::{Extremes, with_room};
-use crate::program::Programmed;
 use crate::program::run::run;
+use crate::program::{Programmed, checked};
 use crate::random_program::{
     any_corners, any_curves, any_limits, any_move, any_program, any_unequal_limits,
 };

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 
-use crate::common::seeded_runner::{checked, seeded_runner};
-use crate::program::Program;
+use crate::common::seeded_runner::seeded_runner;
 use crate::program::reader::read;
+use crate::program::{Program, checked};
 use crate::random_program::{any_limits, any_move, any_program};
 use crate::short_program;
 

@@ -1,8 +1,9 @@
 //! Short programs of all kinds of moves, from a nanometre on, on machines of all kinds: no fault, no limit
 //! exceeded, none left unfinished. What they found is kept in `regressions`.
 
-use crate::common::seeded_runner::{checked, seeded_runner};
+use crate::common::seeded_runner::seeded_runner;
 use crate::common::{Extremes, with_room};
+use crate::program::checked;
 use crate::program::run::run;
 use crate::short_program::any_program;
 use proptest::test_runner::{Config, RngSeed, TestRunner};

@@ -1,8 +1,6 @@
 //! Random cases that can be had again.
 
-use std::fmt::Display;
-
-use proptest::test_runner::{Config as ProptestConfig, RngSeed, TestError, TestRunner};
+use proptest::test_runner::{Config as ProptestConfig, RngSeed, TestRunner};
 
 /// A runner whose cases can be had again: PROPTEST_RNG_SEED=<what it prints>.
 pub fn seeded_runner(config: ProptestConfig) -> TestRunner {
@@ -18,15 +16,4 @@ pub fn seeded_runner(config: ProptestConfig) -> TestRunner {
         rng_seed: RngSeed::Fixed(seed),
         ..config
     })
-}
-
-/// Fails with the case that does, as text, which can be kept as it is: why is a comment in it.
-pub fn checked<T: Display>(result: Result<(), TestError<T>>) {
-    match result {
-        Ok(()) => {}
-        Err(TestError::Abort(why)) => panic!("no cases: {why}"),
-        Err(TestError::Fail(why, case)) => {
-            panic!("\n# {}\n\n{case}", why.to_string().replace('\n', "\n# "))
-        }
-    }
 }

@@ -2,6 +2,7 @@
 //! `reader.rs` has how it is written as text.
 
 mod asked;
+mod checked;
 mod feed;
 mod operator;
 pub mod queue;
@@ -14,6 +15,7 @@ use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::{MotionType, TerminationCondition};
 
 pub use asked::{Asked, RestsAsked};
+pub use checked::checked;
 
 /// Everything that a run depends on, and what is asked of it.
 #[derive(Clone, Debug, PartialEq)]
