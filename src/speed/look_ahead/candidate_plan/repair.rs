@@ -18,6 +18,15 @@ const SHORTER: f64 = 0.3;
 /// Intervals more that an arc of a third of the length takes.
 const INTERVALS_FOR_SHORTER_ARC: usize = 12;
 
+/// Intervals beside an arc that may break a limit because of it.
+const BESIDE_ARC: usize = 12;
+
+/// A rest at an end of a candidate.
+enum Rest {
+    Start,
+    End,
+}
+
 impl CandidatePlan {
     /// Makes the arc shorter that a fault has to do with, as long as there are attempts left.
     pub(super) fn repair<R: Route>(
@@ -25,29 +34,39 @@ impl CandidatePlan {
         context: &PlanContext<R>,
         fault: CandidateFault,
     ) -> CandidatePhase {
-        let last = self.spline.last;
-        let at_start = match fault {
-            CandidateFault::Sweep(SweepFault::Base | SweepFault::Stall) => true,
-            CandidateFault::Sweep(SweepFault::End) => false,
-            CandidateFault::Interval(k) => k < self.base + (last - self.base) / 2,
-        };
-        if at_start && !self.first {
+        let Some(rest) = self.rest_beside(fault) else {
             return refused(PlanRefusal::NotFound);
-        }
+        };
         if let Some(refused) = self.again() {
             return refused;
         }
-        if at_start {
-            self.most_start = SHORTER * self.spline.start_arc.length;
-            self.grid_from = self.cut;
-            return self.search_start(context);
+        match rest {
+            Rest::Start => {
+                self.most_start = SHORTER * self.spline.start_arc.length;
+                self.grid_from = self.cut;
+                self.search_start(context)
+            }
+            Rest::End => {
+                let intervals = self.spline.last - self.cut;
+                self.most_end = SHORTER * self.spline.end_arc.length;
+                // A shorter arc takes more intervals, not an earlier end.
+                self.most = self.most.max(intervals + INTERVALS_FOR_SHORTER_ARC);
+                self.keep_nodes(intervals);
+                self.bounded = true;
+                self.search_end(context)
+            }
         }
-        self.most_end = SHORTER * self.spline.end_arc.length;
-        // A shorter arc takes more intervals, not an earlier end.
-        self.most = self.most.max(last - self.cut + INTERVALS_FOR_SHORTER_ARC);
-        self.keep_nodes(last.saturating_sub(self.cut));
-        self.bounded = true;
-        self.search_end(context)
+    }
+
+    /// The rest whose arc a fault has to do with, if any: an extension does not begin at one.
+    fn rest_beside(&self, fault: CandidateFault) -> Option<Rest> {
+        let start = self.first.then_some(Rest::Start);
+        match fault {
+            CandidateFault::Sweep(SweepFault::Base | SweepFault::Stall) => start,
+            CandidateFault::Sweep(SweepFault::End) => Some(Rest::End),
+            CandidateFault::Interval(k) if k + BESIDE_ARC >= self.spline.last => Some(Rest::End),
+            CandidateFault::Interval(_) => start,
+        }
     }
 
     /// Counts an attempt; what it ends with if there are no more.
