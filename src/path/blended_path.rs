@@ -431,8 +431,8 @@ impl BlendedPath {
         (!self.chain.is_empty()).then(|| self.chain.leg(self.chain.locate(s)).shape)
     }
 
-    /// The leg that starts at a rest at `s`, if the machine comes to rest at its end too, and
-    /// that is final: then it is the programmed move itself.
+    /// The leg that starts at a stop at `s`, if the machine comes to rest at its end too, and that is final: then
+    /// it is the programmed move itself. Within the blend of a corner a machine that creeps may rest as well.
     pub fn move_between_rests(&self, s: f64) -> Option<(Shape, LegView)> {
         let view = self.leg(s)?;
         let number = self.chain.locate(s);
@@ -441,7 +441,8 @@ impl BlendedPath {
         let rests = leg.stop_after
             || after < self.chain.next() && self.chain.vertex(after).stop
             || after == self.chain.next() && self.finished;
-        (view.start == s && rests && self.final_end() >= view.end).then_some((leg.shape, view))
+        let starts = view.start == s && self.chain.vertex(number).stop;
+        (starts && rests && self.final_end() >= view.end).then_some((leg.shape, view))
     }
 
     /// Whether the machine comes to rest at the [programmed end](Self::programmed_end).

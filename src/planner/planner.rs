@@ -250,7 +250,7 @@ impl Planner {
         let Some(axis_jerk) = self.axes.move_jerk(&shape, request.path_jerk, self.period) else {
             return Err(AddError::PathJerk(request.path_jerk));
         };
-        let queued = Move {
+        self.take(Move {
             id: self.next_move.id,
             tag: request.tag,
             motion_type: request.motion_type,
@@ -264,7 +264,11 @@ impl Planner {
             indexer_joint: request.indexer_joint,
             termination: self.next_move.termination,
             outputs: self.next_move.outputs,
-        };
+        })
+    }
+
+    /// Puts a move that may be run into the queue.
+    fn take(&mut self, queued: Move) -> Result<Added, AddError> {
         self.queue
             .push(queued)
             .map_err(|QueueFull| AddError::QueueFull)?;
@@ -273,7 +277,7 @@ impl Planner {
         }
         self.spindle.take_note_of(&queued);
         self.next_move.pass_on();
-        self.goal = shape.end();
+        self.goal = queued.shape.end();
         self.status.done = false;
         self.report_queue();
         Ok(Added::Queued)
