@@ -3,7 +3,7 @@
 //! At rest b = v^2 has no bounded derivatives by s, so the spline begins and ends a little beside
 //! it, and one phase of constant jerk does the rest: `a = j t`, `v = j t^2 / 2`, `s = j t^3 / 6`.
 
-use super::route::{Route, RouteVertex};
+use super::route::{Route, RouteVertex, before as just_before};
 use super::rows::AxisRows;
 use super::sample::Sample;
 use crate::axes::AXIS_COUNT;
@@ -101,7 +101,8 @@ pub(super) fn free_length<R: Route>(route: &R, place: f64, total: f64) -> f64 {
             free = free.min((0.15 * gap).max(vertex.reach / 24.0));
         }
     };
-    let (mut before, mut after) = (place, place);
+    // A machine that crept may rest in the middle of a change.
+    let (mut before, mut after) = (place, just_before(place));
     for _ in 0..NEIGHBOURS {
         if let Some(vertex) = route.vertex_before(before) {
             before = vertex.position;

@@ -88,6 +88,8 @@ pub(super) struct CandidatePlan {
     most_start: f64,
     most_end: f64,
     attempt: usize,
+    /// How often it was made slower.
+    slowed: usize,
     /// Intervals that it adds at most.
     most: usize,
     /// Cost of an evaluation of the path.
@@ -108,6 +110,7 @@ impl CandidatePlan {
         most_start: 0.0,
         most_end: 0.0,
         attempt: 0,
+        slowed: 0,
         most: MOST_INTERVALS,
         evaluation: 0,
         phase: CandidatePhase::Finished(CandidateStep::Refused(PlanRefusal::NotFound)),
@@ -127,6 +130,7 @@ impl CandidatePlan {
         self.cut = 1;
         self.grid_from = 1;
         self.attempt = 0;
+        self.slowed = 0;
         self.most_start = free_length(context.route, start, end - start);
         self.most_end = free_length(context.route, end, end - start);
         self.phase = self.search_start(context);

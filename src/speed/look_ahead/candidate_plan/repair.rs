@@ -1,7 +1,8 @@
-//! What is changed in a candidate that does not work as it is: an arc at rest becomes shorter.
+//! What is changed in a candidate that does not work as it is.
 //!
-//! Anything else is not worth a remedy. An extension that cannot leave the plan where it wants to is given up: the next
-//! one is shorter and leaves it later (`extensions.rs`). A first plan is made over a shorter way (`first_plan.rs`).
+//! An arc at rest becomes shorter where the fault has to do with it. A first plan, which leads from rest to rest, is made
+//! slower as a whole where it breaks a limit on the way: what a limit bounds falls with the square or the cube of the speed.
+//! An extension, which has to join the plan, is given up: the next one is shorter and leaves it later (`extensions.rs`).
 
 use super::super::context::PlanContext;
 use super::super::refusal::PlanRefusal;
@@ -21,32 +22,37 @@ const INTERVALS_FOR_SHORTER_ARC: usize = 12;
 /// Intervals beside an arc that may break a limit because of it.
 const BESIDE_ARC: usize = 12;
 
-/// A rest at an end of a candidate.
-enum Rest {
-    Start,
-    End,
+/// A first plan that breaks a limit on the way is run at this share of its speed ..
+const SLOWER: f64 = 0.8;
+/// .. and again, so often at most.
+const MOST_SLOWED: usize = 24;
+
+/// What a fault has to do with.
+enum Cause {
+    ArcAtStart,
+    ArcAtEnd,
+    /// The candidate as a whole, from rest to rest.
+    Speed,
+    /// The plan that is to be continued.
+    Plan,
 }
 
 impl CandidatePlan {
-    /// Makes the arc shorter that a fault has to do with, as long as there are attempts left.
+    /// Changes what a fault has to do with, as long as there are attempts left.
     pub(super) fn repair<R: Route>(
         &mut self,
         context: &PlanContext<R>,
         fault: CandidateFault,
     ) -> CandidatePhase {
-        let Some(rest) = self.rest_beside(fault) else {
-            return refused(PlanRefusal::NotFound);
-        };
-        if let Some(refused) = self.again() {
-            return refused;
-        }
-        match rest {
-            Rest::Start => {
+        match self.cause(fault) {
+            Cause::Plan => refused(PlanRefusal::NotFound),
+            Cause::Speed => self.slow_down(),
+            Cause::ArcAtStart => self.again().unwrap_or_else(|| {
                 self.most_start = SHORTER * self.spline.start_arc.length;
                 self.grid_from = self.cut;
                 self.search_start(context)
-            }
-            Rest::End => {
+            }),
+            Cause::ArcAtEnd => self.again().unwrap_or_else(|| {
                 let intervals = self.spline.last - self.cut;
                 self.most_end = SHORTER * self.spline.end_arc.length;
                 // A shorter arc takes more intervals, not an earlier end.
@@ -54,19 +60,33 @@ impl CandidatePlan {
                 self.keep_nodes(intervals);
                 self.bounded = true;
                 self.search_end(context)
-            }
+            }),
         }
     }
 
-    /// The rest whose arc a fault has to do with, if any: an extension does not begin at one.
-    fn rest_beside(&self, fault: CandidateFault) -> Option<Rest> {
-        let start = self.first.then_some(Rest::Start);
+    fn cause(&self, fault: CandidateFault) -> Cause {
         match fault {
-            CandidateFault::Sweep(SweepFault::Base | SweepFault::Stall) => start,
-            CandidateFault::Sweep(SweepFault::End) => Some(Rest::End),
-            CandidateFault::Interval(k) if k + BESIDE_ARC >= self.spline.last => Some(Rest::End),
-            CandidateFault::Interval(_) => start,
+            CandidateFault::Sweep(SweepFault::End) => Cause::ArcAtEnd,
+            CandidateFault::Interval(k) if k + BESIDE_ARC >= self.spline.last => Cause::ArcAtEnd,
+            _ if !self.first => Cause::Plan,
+            CandidateFault::Interval(k) if k > self.base + BESIDE_ARC => Cause::Speed,
+            _ => Cause::ArcAtStart,
         }
+    }
+
+    /// Runs all of the candidate, with its arcs, at a share of its speed.
+    fn slow_down(&mut self) -> CandidatePhase {
+        self.slowed += 1;
+        if self.slowed > MOST_SLOWED {
+            return refused(PlanRefusal::NotFound);
+        }
+        for k in 0..=self.spline.last + 1 {
+            self.spline.at_mut(k).coefficient *= SLOWER * SLOWER;
+        }
+        for arc in [&mut self.spline.start_arc, &mut self.spline.end_arc] {
+            arc.jerk *= SLOWER * SLOWER * SLOWER;
+        }
+        CandidatePhase::Check(self.base)
     }
 
     /// Counts an attempt; what it ends with if there are no more.
