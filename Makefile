@@ -107,7 +107,7 @@ deny:
 	$(CARGO) deny check licenses advisories bans sources
 
 # A few at a time, each in a LinuxCNC of its own; what is busy by itself comes when all the others are done.
-LINUXCNC_TESTS = $(PYTHON) -B -m pytest -n 8 tests/linuxcnc
+LINUXCNC_TESTS = $(PYTHON) -B -m pytest -n 6 tests/linuxcnc
 RUN_LINUXCNC_TESTS = failed=0; $(LINUXCNC_TESTS) -m "not busy" || failed=1; $(LINUXCNC_TESTS) -m busy || failed=1; exit $$failed
 
 # The same random cases each time, so that what fails can be had again; make soak takes others.

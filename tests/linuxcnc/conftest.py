@@ -17,6 +17,8 @@ def is_set_up_once(item):
     return any("setUpClass" in vars(kind) for kind in item.cls.__mro__ if kind is not unittest.TestCase)
 
 
+# Before xdist looks at the groups.
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     def place(item):
         return item.path.stem not in FIRST, -os.path.getsize(item.path)

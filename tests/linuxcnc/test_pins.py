@@ -10,6 +10,9 @@ import kinematics_host
 
 FLOAT, BIT = ctypes.c_double, ctypes.c_bool
 
+#: servo periods that motion has to have stood, see src/kinematics/release.rs
+SETTLED = 4
+
 
 class Framekins(unittest.TestCase):
     def setUp(self):
@@ -21,7 +24,8 @@ class Framekins(unittest.TestCase):
         for pin in ("in-position", "parameters-pending"):
             self.module.find(pin, BIT)
         self.module.set(in_position=True)
-        self.module.update()
+        for _ in range(SETTLED):
+            self.module.update()
         self.said = len(self.messages())
 
     def messages(self):
