@@ -3,7 +3,7 @@
 use super::ConfigureArguments;
 use super::edits::Edits;
 use crate::machine::place::Place;
-use crate::wiring::blendtp::{inch_line, jerk_line, jerk_pin};
+use crate::wiring::blendtp::{TOLERANCE_PIN, inch_line, inch_tolerance_line, jerk_line, jerk_pin};
 use crate::wiring::subject::Subject;
 
 /// Adds what is not there yet.
@@ -25,6 +25,9 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
     }
     if subject.is_in_inches() && !subject.state.settings.contains_key("blendtp.millimetre") {
         edits.add_hal(inch_line());
+    }
+    if subject.is_in_inches() && !subject.state.settings.contains_key(TOLERANCE_PIN) {
+        edits.add_hal(inch_tolerance_line());
     }
 }
 

@@ -14,9 +14,17 @@ pub fn jerk_line(letter: char) -> String {
     format!("setp {} [AXIS_{section}]MAX_JERK", jerk_pin(letter))
 }
 
-/// The line that tells blendtp of inches.
+/// The line that tells blendtp how long a millimetre is on a machine in inches.
 pub fn inch_line() -> String {
     "setp blendtp.millimetre 0.0393700787".to_owned()
+}
+
+/// The pin with the tolerance of runs of short moves under G64 without P, machine units.
+pub const TOLERANCE_PIN: &str = "blendtp.default-tolerance";
+
+/// The line that gives a machine in inches the tolerance that one in millimetres begins with, 0.02 mm.
+pub fn inch_tolerance_line() -> String {
+    format!("setp {TOLERANCE_PIN} 0.0008")
 }
 
 /// The axis whose jerk limit a pin is.

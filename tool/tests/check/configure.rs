@@ -124,10 +124,12 @@ fn machines_in_inches_and_other_limits_of_jerk() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     let written = text(&output.stdout);
     assert!(written.contains("+MAX_JERK = 50000\n"), "{written}");
-    assert!(
-        written.contains("+setp blendtp.millimetre 0.0393700787\n"),
-        "{written}"
-    );
+    for line in ["millimetre 0.0393700787", "default-tolerance 0.0008"] {
+        assert!(
+            written.contains(&format!("+setp blendtp.{line}\n")),
+            "{written}"
+        );
+    }
     assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
 }
 

@@ -56,8 +56,8 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
 
 /// The value of `[KINS]KINEMATICS` for a machine with frames.
 pub fn likely(subject: &Subject) -> String {
-    let letters: String = match subject.joints.is_empty() || subject.kinematics().is_empty() {
-        true => subject.axes.iter().collect(),
+    let letters = match subject.joints.is_empty() || subject.kinematics().is_empty() {
+        true => joint_letters(subject),
         false => subject.joints.iter().collect(),
     };
     let has_table = subject
@@ -71,6 +71,19 @@ pub fn likely(subject: &Subject) -> String {
         (false, _) => "",
     };
     format!("framekins coordinates={letters}{machine}")
+}
+
+/// A letter for each joint, as far as `[TRAJ]COORDINATES` says: that of a gantry may name an axis twice.
+fn joint_letters(subject: &Subject) -> String {
+    let written: String = subject
+        .text("TRAJ", "COORDINATES")
+        .unwrap_or("")
+        .split_whitespace()
+        .collect();
+    match subject.number("KINS", "JOINTS") {
+        Some(joints) if joints == written.chars().count() as f64 => written.to_ascii_uppercase(),
+        _ => subject.axes.iter().collect(),
+    }
 }
 
 /// Motmod takes the first; ours refuses to be another one.

@@ -3,7 +3,9 @@
 use crate::check::finding::{Findings, Level, Remedy, add, advice, if_missing, replace};
 use crate::hal::{Fix, Setting};
 use crate::wiring::USUAL_JERK;
-use crate::wiring::blendtp::{axis_of_pin, has_pin, jerk_line, jerk_pin, least_jerk};
+use crate::wiring::blendtp::{
+    TOLERANCE_PIN, axis_of_pin, has_pin, inch_tolerance_line, jerk_line, jerk_pin, least_jerk,
+};
 use crate::wiring::subject::Subject;
 
 /// Millimetres in an inch.
@@ -16,6 +18,7 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
     }
     other_axes(subject, findings);
     tolerances(subject, findings);
+    tolerance_in_inches(subject, findings);
     millimetre(subject, findings);
     period(subject, findings);
     greatest_velocity(subject, findings);
@@ -158,6 +161,25 @@ fn tolerances(subject: &Subject, findings: &mut Findings) {
             findings.error(&setting.statement.place, found, Remedy::Remove);
         }
     }
+}
+
+/// What blendtp begins with is meant for millimetres.
+fn tolerance_in_inches(subject: &Subject, findings: &mut Findings) {
+    let is_set = subject.state.settings.contains_key(TOLERANCE_PIN)
+        || subject.state.signal_of(TOLERANCE_PIN).is_some();
+    if is_set || !subject.is_in_inches() {
+        return;
+    }
+    let found = format!(
+        "the machine is in inches, and {TOLERANCE_PIN} is 0.02 of them, half a millimetre: so far runs of short moves may leave \
+         the program under G64 without P{}",
+        subject.unless_unread()
+    );
+    findings.warning(
+        &subject.place_of("TRAJ", "LINEAR_UNITS"),
+        found,
+        add(subject.hal_file(), inch_tolerance_line()),
+    );
 }
 
 fn millimetre(subject: &Subject, findings: &mut Findings) {
