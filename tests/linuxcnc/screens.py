@@ -7,13 +7,26 @@ import sys
 
 import harness
 from test_preview import program
+from test_samples import own_program
 
 SAMPLES = {"framepath-sim": (3, "xyz"), "framepath-fagor": (3, "xyz"), "framepath-mefi": (3, "xyz"),
-           "framepath-isg": (3, "xyz"), "framepath-xyzac": (5, "xyzac")}
+           "framepath-isg": (3, "xyz"), "framepath-xyzac": (5, "xyzac"), "framepath-lathe": (2, "xz"),
+           "framepath-gantry": (4, "xyz"), "framepath-inch": (3, "xyz")}
+
+#: Samples with a program of their own, which they run to its end.
+OWN_PROGRAMS = {"framepath-lathe": "thread.ngc", "framepath-gantry": "sheet.ngc", "framepath-inch": "plate.ngc"}
 
 PROGRAM = program(
     "G0 Z10", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]", "G1 X0 Y0 Z0 F3000", "X40", "Y30", "G2 X40 Y60 R20",
     "G1 X0", "Y0", "o<atrans> call [60] [0] [0]", "o<ascale> call [0.5] [0.5] [0.5]", "G1 X0 Y0 Z0", "X40", "Y30", "M0", "X0")
+
+
+def program_of(sample):
+    """The program, with a pause where the picture is taken."""
+    if sample not in OWN_PROGRAMS:
+        return PROGRAM
+    own = own_program(sample, OWN_PROGRAMS[sample])
+    return {name: text.replace("\nM2\n", "\nM0\nM2\n") for name, text in own.items()}
 
 
 def main(folder):
@@ -22,7 +35,7 @@ def main(folder):
         # the program is on AXIS's command line, and AXIS reads it again as soon as it knows of frames
         steps = [["show", "axis", "PROGRAMS/part.ngc"], ["wait_pin", "axisui.abort"], ["sleep", 15],
                  ["start", "PROGRAMS/part.ngc"], ["wait_paused"], ["sleep", 1], ["picture", "picture"], ["resume"], ["finish"]]
-        result = harness.run(steps, PROGRAM, display="screen_driver.py", files=("screen_driver.py",), sample=sample,
+        result = harness.run(steps, program_of(sample), display="screen_driver.py", files=("screen_driver.py",), sample=sample,
                              joints=joints, axes=axes, record=False, timeout=180)
         if result.failure or result.errors:
             raise SystemExit(f"{sample}: {result.failure} {result.errors}\n{result.log}")

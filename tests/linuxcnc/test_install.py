@@ -36,7 +36,10 @@ class Install(unittest.TestCase):
                          "usr/share/bash-completion/completions/framepath", "usr/share/zsh/vendor-completions/_framepath",
                          "usr/share/fish/vendor_completions.d/framepath.fish",
                          "usr/share/framepath/preview/frame_axis.py", "usr/share/framepath/preview/axis_frames.py",
-                         "usr/share/framepath/configs/framepath-sim/framepath-sim.ini"):
+                         "usr/share/framepath/configs/framepath-sim/framepath-sim.ini",
+                         "usr/share/framepath/configs/framepath-lathe/thread.ngc",
+                         "usr/share/framepath/configs/framepath-gantry/sheet.ngc",
+                         "usr/share/framepath/configs/framepath-inch/plate.ngc"):
                 self.assertIn(name, there)
             with open(os.path.join(folder, "usr/share/zsh/vendor-completions/_framepath"), encoding="utf-8") as file:
                 self.assertEqual(file.readline(), "#compdef framepath\n")

@@ -6,12 +6,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// Names of the samples.
-pub const SAMPLES: [&str; 5] = [
+pub const SAMPLES: [&str; 8] = [
     "framepath-sim",
     "framepath-fagor",
     "framepath-isg",
     "framepath-mefi",
     "framepath-xyzac",
+    "framepath-lathe",
+    "framepath-gantry",
+    "framepath-inch",
 ];
 
 /// Where users get them.

@@ -4,13 +4,14 @@ use crate::bench::{Bench, SAMPLES};
 use serde_json::Value;
 
 /// Keys whose values are the user's: what is to be written has another one.
-const OWN_VALUES: [&str; 6] = [
+const OWN_VALUES: [&str; 7] = [
     "X_ROT_POINT",
     "Y_ROT_POINT",
     "Z_ROT_POINT",
     "Y_OFFSET",
     "Z_OFFSET",
     "RETRACT_Z",
+    "LINEAR_UNITS",
 ];
 
 fn words(line: &str) -> Vec<&str> {
@@ -23,7 +24,7 @@ fn is_ours_in_hal(line: &str) -> bool {
         "blendtp",
         "framekins",
         "frame_guard",
-        "loadrt",
+        "loadrt [",
         "addf motion",
     ];
     !line.starts_with('#') && parts.iter().any(|part| line.contains(part))
