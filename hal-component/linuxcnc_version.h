@@ -35,6 +35,15 @@ static struct linuxcnc_version version_in(const char *script)
     return version;
 }
 
+/* What the module is built for, behind words by which framepath check finds it in the module's file. */
+#define BUILT_FOR_MARK "framepath built for LinuxCNC "
+static const char built_for_text[] = BUILT_FOR_MARK FRAMEPATH_BUILT_FOR;
+
+static const char *built_for(void)
+{
+    return built_for_text + sizeof BUILT_FOR_MARK - 1;
+}
+
 /* The version of the LinuxCNC that this process belongs to, installed or run in place; empty if it cannot be seen. */
 static struct linuxcnc_version running_version(void)
 {
@@ -68,13 +77,13 @@ static const char *or_unknown(const char *version)
 static void say_built_for_another(const char *module, const char *found)
 {
     rtapi_print_msg(RTAPI_MSG_ERR, "%s: built for LinuxCNC %s, running under LinuxCNC %s%s: %s\n", module,
-                    or_unknown(FRAMEPATH_BUILT_FOR), or_unknown(running_version().text), found, INSTALL_AGAIN);
+                    or_unknown(built_for()), or_unknown(running_version().text), found, INSTALL_AGAIN);
 }
 
 /* 0, or -1 with the reason said, when a module is loaded by a LinuxCNC of another series than it was built for. */
 static int check_version(const char *module)
 {
-    if (!other_series(FRAMEPATH_BUILT_FOR, running_version().text))
+    if (!other_series(built_for(), running_version().text))
         return 0;
     say_built_for_another(module, "");
     return -1;

@@ -2,7 +2,9 @@
 that would be loaded for nothing, since another has its place."""
 
 import glob
+import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -112,6 +114,34 @@ class NextSeries(unittest.TestCase):
                 done = subprocess.run([driver, str(seed), "5000"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                       text=True, check=False)
                 self.assertEqual(done.returncode, 0, done.stdout)
+
+
+class Check(unittest.TestCase):
+    """framepath check reads in the file of a module what it is built for."""
+
+    def check(self, modules):
+        """The texts that framepath check has found in a sample, under the installed LinuxCNC with modules of a folder."""
+        with tempfile.TemporaryDirectory() as folder:
+            with open("/usr/bin/linuxcnc", encoding="utf-8") as file:
+                script = file.read()
+            with open(os.path.join(folder, "linuxcnc"), "w", encoding="utf-8") as file:
+                file.write(re.sub("(?m)^LINUXCNC_RTLIB_DIR=.*", f"LINUXCNC_RTLIB_DIR={modules}", script))
+            ini = os.path.join(harness.SAMPLES, "configs", "framepath-sim", "framepath-sim.ini")
+            path = f"{folder}:{os.path.dirname(harness.TOOL)}:/usr/bin:/bin"
+            done = subprocess.run([harness.TOOL, "check", ini, "--json"], env=dict(os.environ, PATH=path), capture_output=True,
+                                  text=True, check=False)
+            return [finding["found"] for finding in json.loads(done.stdout)["findings"]]
+
+    def test_those_of_the_installed_one_fit(self):
+        self.assertEqual(self.check(harness.MODULES), [])
+
+    def test_those_of_another_one_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            build(folder, "LINUXCNC_VERSION=2.10.0~pre1")
+            found = self.check(folder)
+        self.assertEqual(len(found), 2, found)
+        for name, text in zip(("blendtp", "framekins"), found, strict=True):
+            self.assertIn(f"{folder}/{name}.so is {BUILT_FOR} 2.10.0~pre1, and 2.9", text)
 
 
 class RunningVersion(unittest.TestCase):

@@ -15,6 +15,7 @@ use crate::hal::read_script;
 use crate::json;
 use crate::machine::IniError;
 use crate::machine::ini::Ini;
+use crate::wiring::installed::LinuxCnc;
 use crate::wiring::subject::Subject;
 use finding::Findings;
 use serde::Serialize;
@@ -73,7 +74,10 @@ pub struct Report {
 /// An INI file that cannot be read, an output that cannot be written.
 pub fn run(arguments: &CheckArguments, filter: FilterCheck) -> Result<bool, CheckError> {
     let (ini, problems) = Ini::read_all(&arguments.ini)?;
-    let report = look(ini, problems, &arguments.hal_folder, filter);
+    let linuxcnc = LinuxCnc::in_path();
+    let script = read_script(&ini, &arguments.hal_folder);
+    let subject = Subject::new(ini, problems, script);
+    let report = look(&subject, filter, linuxcnc.as_ref());
     let mut output = io::stdout().lock();
     let written = match arguments.json {
         true => json::write(&mut output, "check", &report),
@@ -85,18 +89,17 @@ pub fn run(arguments: &CheckArguments, filter: FilterCheck) -> Result<bool, Chec
     Ok(report.errors == 0)
 }
 
-/// The same with a text in place of the INI file; HAL files are those beside `file`.
+/// The same with a text in place of the INI file; HAL files are those beside `file`, and no LinuxCNC is here.
 pub fn look_at_text(file: &Path, text: &str, filter: FilterCheck) -> Report {
     let (ini, problems) = Ini::parse_all(file, text);
-    look(ini, problems, &[], filter)
+    let script = read_script(&ini, &[]);
+    look(&Subject::new(ini, problems, script), filter, None)
 }
 
-fn look(ini: Ini, problems: Vec<IniError>, folders: &[PathBuf], filter: FilterCheck) -> Report {
-    let script = read_script(&ini, folders);
-    let subject = Subject::new(ini, problems, script);
-    let mut findings: Findings = rules::apply(&subject, filter);
-    let stops = stop::stops(&subject);
-    stop::look(&subject, &stops, &mut findings);
+fn look(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>) -> Report {
+    let mut findings: Findings = rules::apply(subject, filter, linuxcnc);
+    let stops = stop::stops(subject);
+    stop::look(subject, &stops, &mut findings);
     let findings = findings.sorted();
     let count = |level: Level| {
         findings

@@ -4,6 +4,7 @@
 pub mod blendtp;
 pub mod codes;
 pub mod framekins;
+pub mod installed;
 pub mod settings;
 pub mod subject;
 

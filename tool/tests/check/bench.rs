@@ -4,6 +4,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
 /// Names of the samples.
 pub const SAMPLES: [&str; 8] = [
@@ -22,14 +23,48 @@ pub fn samples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../hal-component")
 }
 
-/// Runs `framepath` in a folder, with itself in PATH.
+/// The version of the LinuxCNC of the tests.
+pub const VERSION: &str = "2.9.4";
+
+/// A LinuxCNC with both modules, as far as `check` looks at it: the folder of its script `linuxcnc` and of its modules.
+pub fn linuxcnc(folder: &Path) {
+    let script = format!(
+        "LINUXCNC_RTLIB_DIR={}\nLINUXCNCVERSION=\"{VERSION}\"; export LINUXCNCVERSION\n",
+        folder.display()
+    );
+    fs::write(folder.join("linuxcnc"), script).expect("written");
+    for module in ["blendtp", "framekins"] {
+        build_module(folder, module, VERSION);
+    }
+}
+
+/// A module that says that it is built for a LinuxCNC.
+pub fn build_module(folder: &Path, module: &str, version: &str) {
+    let text = format!("\0framepath built for LinuxCNC {version}\0");
+    fs::write(folder.join(format!("{module}.so")), text).expect("written");
+}
+
+/// Runs `framepath` in a folder, with itself and a LinuxCNC in PATH.
 pub fn framepath(folder: &Path, arguments: &[&str]) -> Output {
+    static LINUXCNC: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
+        let folder = tempfile::tempdir().expect("a folder");
+        linuxcnc(folder.path());
+        folder
+    });
+    framepath_with(LINUXCNC.path(), folder, arguments)
+}
+
+/// The same with another LinuxCNC.
+pub fn framepath_with(linuxcnc: &Path, folder: &Path, arguments: &[&str]) -> Output {
     let program = Path::new(env!("CARGO_BIN_EXE_framepath"));
     let own = program.parent().expect("a folder").display();
     Command::new(program)
         .args(arguments)
         .current_dir(folder)
-        .env("PATH", format!("{own}:/usr/bin:/bin"))
+        .env(
+            "PATH",
+            format!("{}:{own}:/usr/bin:/bin", linuxcnc.display()),
+        )
         .output()
         .expect("framepath runs")
 }

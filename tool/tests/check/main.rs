@@ -6,6 +6,7 @@ mod configure;
 mod fields;
 mod findings;
 mod left_out;
+mod modules;
 mod random;
 mod samples;
 mod text;

@@ -8,6 +8,7 @@ mod frame_settings;
 mod guard;
 mod kinematics;
 mod limits;
+mod modules;
 mod planner;
 mod planner_module;
 mod remaps;
@@ -17,13 +18,14 @@ mod table;
 mod threads;
 
 use super::finding::Findings;
+use crate::wiring::installed::LinuxCnc;
 use crate::wiring::subject::Subject;
 
 /// Says why the arguments of a `framepath` in `[FILTER]` would be refused.
 pub type FilterCheck<'a> = &'a dyn Fn(&[String]) -> Result<(), String>;
 
-/// Looks at everything.
-pub fn apply(subject: &Subject, filter: FilterCheck) -> Findings {
+/// Looks at everything; `linuxcnc` is the one that would run the machine, if it is here.
+pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>) -> Findings {
     let mut findings = Findings::default();
     sections::look(subject, &mut findings);
     if !sections::is_current(subject) {
@@ -32,6 +34,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck) -> Findings {
     }
     files::look(subject, &mut findings);
     planner_module::look(subject, &mut findings);
+    modules::look(subject, linuxcnc, &mut findings);
     kinematics::look(subject, &mut findings);
     if subject.has_planner() {
         planner::look(subject, &mut findings);
