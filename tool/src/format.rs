@@ -4,8 +4,11 @@ use crate::path::rates::Quantity;
 
 /// A number with so many significant digits, never in scientific notation.
 pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return value.to_string();
     }
     let magnitude = value.abs().log10().floor() as i64 + 1;
     let decimals = (digits as i64 - magnitude).clamp(0, 12) as usize;
@@ -14,6 +17,26 @@ pub fn significant(value: f64, digits: usize) -> String {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         text
+    }
+}
+
+/// Below this a number in a column is shown as 0: it would need more room than the column has.
+const SHOWN_IN_COLUMN: f64 = 1e-6;
+
+/// The same for a column of a table: what is 0 but for rounding is 0.
+pub fn in_column(value: f64, digits: usize) -> String {
+    match value.abs() < SHOWN_IN_COLUMN {
+        true => "0".to_owned(),
+        false => significant(value, digits),
+    }
+}
+
+/// A number with so many decimals; what they show as 0 has no sign.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().all(|byte| matches!(byte, b'0' | b'.')) => size.to_owned(),
+        _ => text,
     }
 }
 
@@ -120,6 +143,13 @@ mod tests {
         assert_eq!(significant(0.00123456, 3), "0.00123");
         assert_eq!(significant(1234567.0, 3), "1234567");
         assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(significant(-0.0, 3), "0");
+        assert_eq!(in_column(3.452e-9, 4), "0");
+        assert_eq!(in_column(-0.001_234_56, 4), "-0.001235");
+        assert_eq!(fixed(-0.000_04, 3), "0.000");
+        assert_eq!(fixed(-0.0, 0), "0");
+        assert_eq!(fixed(-0.6, 0), "-1");
+        assert_eq!(fixed(-1.5, 2), "-1.50");
         assert_eq!(length(0.0049, "mm"), "4.90 um");
         assert_eq!(length(2.5e-7, "mm"), "0.25 nm");
         assert_eq!(length(12.0, "mm"), "12.000 mm");

@@ -8,11 +8,12 @@ use serde::Serialize;
 
 const FRAME: &str = include_str!("page/frame.html");
 const STYLE: &str = include_str!("page/page.css");
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 6] = [
     include_str!("page/data.js"),
     include_str!("page/views.js"),
     include_str!("page/profiles.js"),
     include_str!("page/parts.js"),
+    include_str!("page/playback.js"),
     include_str!("page/linking.js"),
 ];
 

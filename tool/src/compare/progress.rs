@@ -13,11 +13,11 @@ impl Progress {
     pub(super) fn new(runs: usize) -> Self {
         let bar =
             ProgressBar::with_draw_target(Some(runs as u64 * STEPS), ProgressDrawTarget::stderr());
-        let template = "{bar:30} {percent:>3} %  {elapsed}, {eta} left  {msg}";
+        let template = "{msg}  {bar:30} {percent:>3} %  {elapsed}, {eta} left";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        bar.tick();
+        bar.set_message("comparing");
         Progress(bar)
     }
 

@@ -13,7 +13,7 @@ function decode(text, Kind) {
 
 const path = {};
 for (const name of ["time", "x", "y", "z", "speed"]) path[name] = decode(data.path[name], Float32Array);
-for (const name of ["line", "source", "cause"]) path[name] = decode(data.path[name] ?? "", Int32Array);
+for (const name of ["line", "source", "cause", "rapid"]) path[name] = decode(data.path[name] ?? "", Int32Array);
 const programmed = {};
 for (const name of ["x", "y", "z"]) programmed[name] = decode(data.programmed[name], Float32Array);
 programmed.rapid = decode(data.programmed.rapid, Int32Array);
@@ -59,7 +59,7 @@ function number(value, digits = 5) {
 
 // A length as [number, unit]: small ones in micrometres.
 function length(value) {
-  if (unit !== "mm") return [value.toFixed(6), unit];
+  if (unit !== "mm") return [fixed(value, 6), unit];
   if (value >= 0.1) return [number(value, value < 1 ? 3 : 5), "mm"];
   return [value < 1e-8 ? "0" : number(value * 1e3, 3), "\u00b5m"];
 }
@@ -71,7 +71,7 @@ function rateUnit(lengthUnit, quantity) {
 
 function duration(seconds) {
   if (seconds < 60) return [number(seconds, 5), "s"];
-  return [`${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`, "min"];
+  return [`${Math.floor(seconds / 60)}:${fixed(seconds % 60, 1).padStart(4, "0")}`, "min"];
 }
 
 // Round numbers that divide low..high into about `count` parts.

@@ -1,6 +1,6 @@
 // One cursor for all drawings, the bar at the bottom and the listing.
 
-const linked = { drawings: [], describe: null };
+const linked = { drawings: [], describe: null, playback: null };
 
 // The item of the listing that is shown as the current one.
 let marked = null;
@@ -22,7 +22,7 @@ function fillCursor(point) {
   if (!point) return;
   const { line, text, more } = linked.describe(point);
   const entries = [
-    ["time", `${point.time.toFixed(3)} s`],
+    ["time", `${fixed(point.time, 3)} s`],
     ["line", line > 0 ? String(line) : "\u2013"],
     ...["x", "y", "z"].map((axis) => [axis.toUpperCase(), fixed(point[axis], 3)]),
     ["speed", `${number(point.speed, 4)} ${unit}/s`],
@@ -35,6 +35,7 @@ function fillCursor(point) {
 
 // Shows an instant everywhere; `null`: none.
 function setTime(time) {
+  linked.playback.show(time);
   const point = time === null ? null : locate(time);
   for (const drawing of linked.drawings) drawing.show(point);
   fillCursor(point);
@@ -48,8 +49,10 @@ function redraw() {
 // { line, text, more }: its line in the program, the text of it, and more entries [label, words] of
 // the cursor; `lines` is the line of each point of the path.
 function drawPage(columns, lines, describe) {
-  const views = { plan: makePlan(byId("plan"), setTime), space: makeSpace(byId("space"), setTime) };
-  const profiles = makeProfiles(byId("profiles"), columns, setTime, (from, to) => {
+  linked.playback = makePlayback(byId("playback"), setTime);
+  const point = (time) => linked.playback.isRunning() || setTime(time);
+  const views = { plan: makePlan(byId("plan"), point), space: makeSpace(byId("space"), point) };
+  const profiles = makeProfiles(byId("profiles"), columns, point, (from, to) => {
     span.from = from;
     span.to = to;
     redraw();
@@ -61,12 +64,17 @@ function drawPage(columns, lines, describe) {
       button.addEventListener("click", () => view.enlarge(Number(button.dataset[name])));
     }
   }
-  for (const holder of document.querySelectorAll(".canvas")) holder.addEventListener("pointerleave", () => setTime(null));
+  for (const holder of document.querySelectorAll(".canvas")) holder.addEventListener("pointerleave", () => point(null));
   byId("listing").addEventListener("click", (event) => {
     const line = Number(event.target.closest("li")?.getAttribute("value"));
     const index = lines.indexOf(line);
     if (line && index >= 0) setTime(path.time[index]);
   });
+  if (path.rapid.includes(1) || programmed.rapid.includes(1)) {
+    byId("rapids").closest("label").hidden = false;
+    byId("rapids").addEventListener("change", redraw);
+  }
+  showWhereTablesGoOn();
   window.addEventListener("resize", redraw);
   for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", redraw);
   redraw();

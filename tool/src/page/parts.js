@@ -2,8 +2,28 @@
 
 const byId = (id) => document.getElementById(id);
 
-// A real minus sign.
-const fixed = (value, decimals) => value.toFixed(decimals).replace("-", "\u2212");
+// So many decimals, a real minus sign, and none before a zero.
+function fixed(value, decimals) {
+  const text = value.toFixed(decimals);
+  return /[1-9]/.test(text) ? text.replace("-", "\u2212") : text.replace("-", "");
+}
+
+// A table that is wider than its place fades where it goes on, and says so.
+function showWhereTablesGoOn() {
+  for (const holder of document.querySelectorAll(".table")) {
+    const look = () => {
+      const hidden = holder.scrollWidth - holder.clientWidth;
+      holder.classList.toggle("more-left", hidden > 1 && holder.scrollLeft > 1);
+      holder.classList.toggle("more-right", hidden > 1 && holder.scrollLeft < hidden - 1);
+      // For those who scroll with the keyboard.
+      if (hidden > 1) holder.tabIndex = 0;
+      else holder.removeAttribute("tabindex");
+    };
+    holder.addEventListener("scroll", look);
+    new ResizeObserver(look).observe(holder);
+    look();
+  }
+}
 
 // A table; a cell is text, or an element; `numbers` lists the columns that are numbers, and
 // `group` is how many rows belong together (0: each stands for itself).
@@ -30,7 +50,7 @@ function peakCells(peak, lengthUnit) {
   const of = (value, text) => (value === null ? "\u2013" : text(value));
   return [
     peak.quantity, number(peak.peak, 6), of(peak.limit, (limit) => number(limit, 6)), rateUnit(lengthUnit, peak.quantity),
-    bar(peak.share, peak.judgement === "over" ? "over" : ""), of(peak.share, (share) => `${(share * 100).toFixed(1)} %`),
+    bar(peak.share, peak.judgement === "over" ? "over" : ""), of(peak.share, (share) => `${fixed(share * 100, 1)} %`),
   ];
 }
 

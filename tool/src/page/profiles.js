@@ -26,6 +26,24 @@ function makeProfile(holder, series, onTime, onSpan) {
   };
   const toTime = (x) => span.from + ((x - margin.left) / (size.width - margin.left - margin.right)) * (span.to - span.from);
 
+  // The least and the greatest value in each column of pixels as far as `right`: [pixel, least, greatest].
+  function envelope(right) {
+    const columns = [];
+    for (let i = 0; i < low.length; i++) {
+      const x = toX(bucketTime[i]);
+      if (x < margin.left - 40 || x > right + 40) continue;
+      const pixel = Math.round(x);
+      const last = columns[columns.length - 1];
+      if (last && last[0] === pixel) {
+        last[1] = Math.min(last[1], low[i]);
+        last[2] = Math.max(last[2], high[i]);
+      } else {
+        columns.push([pixel, low[i], high[i]]);
+      }
+    }
+    return columns;
+  }
+
   function draw() {
     const { context, width, height } = canvases.base();
     size = { width, height };
@@ -50,36 +68,22 @@ function makeProfile(holder, series, onTime, onSpan) {
     context.rect(margin.left, margin.top, right - margin.left, height - margin.top - margin.bottom);
     context.clip();
     const curve = colour("accent");
-    context.strokeStyle = curve;
-    context.lineWidth = 1.3;
+    const columns = envelope(right);
+    // What lies between the least and the greatest values is light, so that both stay to be seen where it is dense.
     context.beginPath();
-    let column = null;
-    let least = 0;
-    let most = 0;
-    let first = true;
-    const flush = () => {
-      if (column === null) return;
-      if (first) context.moveTo(column, toY(most));
-      else context.lineTo(column, toY(most));
-      first = false;
-      if (most > least) context.lineTo(column, toY(least));
-    };
-    for (let i = 0; i < low.length; i++) {
-      const x = toX(bucketTime[i]);
-      if (x < margin.left - 40 || x > right + 40) continue;
-      const pixel = Math.round(x * 2) / 2;
-      if (pixel !== column) {
-        flush();
-        column = pixel;
-        least = low[i];
-        most = high[i];
-      } else {
-        least = Math.min(least, low[i]);
-        most = Math.max(most, high[i]);
-      }
+    columns.forEach(([x, , most]) => context.lineTo(x, toY(most)));
+    columns.reverse().forEach(([x, least]) => context.lineTo(x, toY(least)));
+    context.fillStyle = curve;
+    context.globalAlpha = 0.22;
+    context.fill();
+    context.globalAlpha = 1;
+    context.strokeStyle = curve;
+    context.lineWidth = 1.2;
+    for (const side of [1, 2]) {
+      context.beginPath();
+      columns.forEach((edges) => context.lineTo(edges[0], toY(edges[side])));
+      context.stroke();
     }
-    flush();
-    context.stroke();
     context.restore();
     if (limitShown) {
       context.beginPath();

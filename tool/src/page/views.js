@@ -19,6 +19,10 @@ const boxDiagonal = Math.hypot(...box.low.map((low, i) => box.high[i] - low)) ||
 // Points that are drawn while a drawing is being turned or moved.
 const COARSE_POINTS = 12000;
 
+// Rapids are drawn as long as the box is ticked.
+const showsRapids = () => byId("rapids").checked;
+const isHidden = (i) => path.rapid[i] === 1 && !showsRapids();
+
 // Draws the programmed path under the executed path; `project(x, y, z)` gives pixels. `coarse` leaves out points.
 function drawPaths(context, project, coarse = false) {
   const stroke = (rapid, width, dash) => {
@@ -35,7 +39,8 @@ function drawPaths(context, project, coarse = false) {
     context.setLineDash([]);
   };
   context.lineCap = "butt";
-  stroke(true, 1.2, [5, 4]);
+  const rapids = showsRapids();
+  if (rapids) stroke(true, 1.2, [5, 4]);
   context.lineCap = "round";
   stroke(false, 5, []);
 
@@ -43,7 +48,9 @@ function drawPaths(context, project, coarse = false) {
   const colours = colouring.colours();
   const strokes = colours.map(() => []);
   const stride = coarse ? Math.max(1, Math.ceil(path.x.length / COARSE_POINTS)) : 1;
-  for (let i = stride; i < path.x.length; i += stride) strokes[colouring.step(i)].push(i);
+  for (let i = stride; i < path.x.length; i += stride) {
+    if (rapids || path.rapid[i] !== 1) strokes[colouring.step(i)].push(i);
+  }
   // Thin where there is much to see.
   context.lineWidth = path.x.length > 20000 ? 1.2 : 2;
   for (let step = colours.length - 1; step >= 0; step--) {
@@ -82,7 +89,7 @@ function timeAt(project, pixelX, pixelY) {
     const square = dx * dx + dy * dy;
     const share = square > 0 ? Math.max(0, Math.min(1, ((pixelX - before[0]) * dx + (pixelY - before[1]) * dy) / square)) : 0;
     const away = (before[0] + share * dx - pixelX) ** 2 + (before[1] + share * dy - pixelY) ** 2;
-    if (away < best) {
+    if (away < best && !isHidden(i)) {
       best = away;
       time = path.time[i - 1] + share * (path.time[i] - path.time[i - 1]);
     }

@@ -8,6 +8,7 @@ use super::places::{Pace, Place, Places};
 use super::polyline::{PathPoint, Polyline};
 use super::profile::Profiles;
 use super::setup::Setup;
+use crate::layer::program::MotionType;
 use crate::path::Position;
 use crate::path::differences::{Differences, Rates};
 use framepath::axes::AXIS_COUNT;
@@ -72,6 +73,7 @@ pub struct Shown {
 struct Known {
     index: usize,
     line: i32,
+    is_rapid: bool,
     asked: Asked,
 }
 
@@ -185,6 +187,7 @@ impl<'a> Collector<'a> {
         self.known.push_back(Known {
             index: handed.a_move.index,
             line: handed.a_move.line,
+            is_rapid: handed.a_move.motion_type == MotionType::Traverse,
             asked: Asked {
                 velocity: handed.a_move.velocity,
                 greatest_velocity: handed.a_move.greatest_velocity,
@@ -322,6 +325,7 @@ impl<'a> Collector<'a> {
             time: pace.time,
             speed: pace.speed as f32,
             line: pace.line,
+            is_rapid: self.running.is_some_and(|known| known.is_rapid),
             cause: pace.cause.index() as u8,
         });
     }

@@ -85,6 +85,15 @@ pub struct DistanceFigure {
     pub line: i32,
 }
 
+impl DistanceFigure {
+    /// What to write where G64 without P has led farther from the program than programs commonly allow.
+    pub fn advice(&self, length_unit: &str) -> Option<String> {
+        let usual = if length_unit == "mm" { 0.05 } else { 0.002 };
+        (self.tolerance.is_none() && self.distance > usual)
+            .then(|| format!("G64 P{usual} keeps it within {usual} {length_unit}"))
+    }
+}
+
 /// Distance from the program.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct DeviationFigures {

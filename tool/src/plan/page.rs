@@ -19,6 +19,8 @@ struct PageData<'a> {
     /// By their number.
     causes: Vec<CauseData>,
     listing: &'a Listing,
+    /// What to write where the path is far from the program.
+    advice: Option<String>,
 }
 
 #[derive(Default, Serialize)]
@@ -38,6 +40,8 @@ struct PathData {
     z: String,
     speed: String,
     line: String,
+    /// Of the stroke that ends here: 1 rapid, 0 feed.
+    rapid: String,
     cause: String,
 }
 
@@ -91,6 +95,7 @@ pub fn render(
             })
             .collect(),
         listing,
+        advice: figures.deviation.planned.advice(figures.length_unit),
     };
     Page {
         kind: "plan",
@@ -113,6 +118,7 @@ fn path_data(collected: &Collected) -> PathData {
         z: column(2),
         speed: floats(path.iter().map(|point| point.speed)),
         line: integers(path.iter().map(|point| point.line)),
+        rapid: integers(path.iter().map(|point| i32::from(point.is_rapid))),
         cause: integers(path.iter().map(|point| i32::from(point.cause))),
     }
 }

@@ -16,6 +16,8 @@ pub struct PathPoint {
     pub speed: f32,
     /// Line of the program.
     pub line: i32,
+    /// Whether the move is a rapid.
+    pub is_rapid: bool,
     /// What keeps the machine from being faster, see [`Cause::index`](super::cause::Cause::index).
     pub cause: u8,
 }
@@ -115,7 +117,8 @@ impl Thinning {
         let straight = start.speed + share as f32 * (point.speed - start.speed);
         let off_speed = (before.speed - straight).abs() > self.speed_tolerance
             || (point.speed - start.speed).abs() > 4.0 * self.speed_tolerance;
-        let marked = self.marks && (before.line != point.line || before.cause != point.cause);
+        let marked = before.is_rapid != point.is_rapid
+            || (self.marks && (before.line != point.line || before.cause != point.cause));
         if off_path || off_speed || marked {
             kept.push(before);
             self.probes.clear();
@@ -144,6 +147,7 @@ mod tests {
                 time,
                 speed: 10.0,
                 line: 1 + k as i32 / 7,
+                is_rapid: false,
                 cause: 0,
             });
         }

@@ -48,8 +48,9 @@ impl Progress {
         });
         // Subroutines and loops go back.
         let line = u64::try_from(line).unwrap_or(0).min(lines);
-        bar.set_position(bar.position().max(line));
+        // What it says comes first: the bar is drawn with its place.
         bar.set_message(format!("{time:.0} s of the machine's time"));
+        bar.set_position(bar.position().max(line));
     }
 
     /// Takes the bar away.

@@ -1,7 +1,9 @@
 //! The plan as text for a terminal: plain ASCII, aligned.
 
 use super::figures::{DistanceFigure, Figures};
-use crate::format::{duration, greatest_speed, grouped, length, significant, unit};
+use crate::format::{
+    duration, fixed, greatest_speed, grouped, in_column, length, significant, unit,
+};
 use crate::path::rates::Quantity;
 use std::fmt::{self, Write};
 
@@ -87,7 +89,10 @@ fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
                 100.0 * figure.distance / tolerance,
                 length(tolerance, u)
             ),
-            None => "G64 without P".to_owned(),
+            None => match figure.advice(u) {
+                Some(advice) => format!("G64 without P: {advice}"),
+                None => "G64 without P".to_owned(),
+            },
         };
         format!(
             "{}, line {} ({tolerance})",
@@ -125,11 +130,11 @@ fn times(out: &mut String, figures: &Figures) -> fmt::Result {
         for share in shares {
             writeln!(
                 out,
-                "  {:42}{:>12.3}{:>7.1} %{:>14.3}",
+                "  {:42}{:>12}{:>7.1} %{:>14}",
                 share.name,
-                share.time,
+                fixed(share.time, 3),
                 100.0 * share.share,
-                share.lost
+                fixed(share.lost, 3)
             )?;
         }
     }
@@ -157,11 +162,11 @@ fn places(out: &mut String, figures: &Figures) -> fmt::Result {
     )?;
     for place in figures.slowest.iter().take(LISTED_PLACES) {
         let row = format!(
-            "  {:>8}{:>11.3}{:>10.4}{:>12}{:>6.0} %  {:<22}{:<26}{}",
+            "  {:>8}{:>11.3}{:>10}{:>12}{:>6.0} %  {:<22}{:<26}{}",
             place.line,
             place.time,
-            place.lost,
-            significant(place.least_speed, 4),
+            fixed(place.lost, 4),
+            in_column(place.least_speed, 4),
             100.0 * place.least_share,
             place.phase,
             place.cause,
@@ -196,7 +201,7 @@ fn axes(out: &mut String, figures: &Figures) -> fmt::Result {
                 out,
                 "  {letter:4}{:14}{:>12}{:>12}  {:8}{:>8}{:>11.3}{:>9}",
                 peak.quantity.name(),
-                significant(peak.peak, 6),
+                in_column(peak.peak, 6),
                 limit.as_deref().unwrap_or("-"),
                 unit(axis.unit, peak.quantity),
                 share.as_deref().unwrap_or("-"),

@@ -51,6 +51,8 @@ struct PathData {
     speed: String,
     line: String,
     source: String,
+    /// Of the stroke that ends here: 1 rapid, 0 feed, and what the comparison with the program does not know.
+    rapid: String,
 }
 
 /// The programmed path; `rapid` of the stroke that ends here: 1 rapid, 0 feed, -1 no stroke.
@@ -123,12 +125,12 @@ fn path_data(analysis: &Analysis, recording: &Recording, contour: &[ContourMove]
         })
         .collect();
     // The line of the source where the comparison knows it: only of the program itself.
+    let programmed = |row: usize| {
+        let following = analysis.following.as_ref()?;
+        contour.get(*following.moves.get(row)? as usize)
+    };
     let source = |row: usize| {
-        analysis
-            .following
-            .as_ref()
-            .and_then(|following| following.moves.get(row))
-            .and_then(|index| contour.get(*index as usize))
+        programmed(row)
             .filter(|m| m.file == 0)
             .map_or(0, |m| i32::try_from(m.line).unwrap_or(0))
     };
@@ -155,6 +157,10 @@ fn path_data(analysis: &Analysis, recording: &Recording, contour: &[ContourMove]
                 .map(|row| i32::try_from(recording.lines[*row]).unwrap_or(0)),
         ),
         source: integers(rows.iter().map(|row| source(*row))),
+        rapid: integers(
+            rows.iter()
+                .map(|row| i32::from(programmed(*row).is_some_and(|m| m.rapid))),
+        ),
     }
 }
 
@@ -332,12 +338,28 @@ mod tests {
             STANDARD.decode(text).expect("base64")
         };
         let times = column("time");
-        for name in ["x", "y", "z", "speed", "line", "source"] {
+        for name in ["x", "y", "z", "speed", "line", "source", "rapid"] {
             assert_eq!(column(name).len(), times.len(), "{name}");
         }
         let last: [u8; 4] = times[times.len() - 4..].try_into().expect("four bytes");
         let end = data["profiles"]["end"].as_f64().expect("a number");
         assert!((f64::from(f32::from_le_bytes(last)) - end).abs() < 1e-6);
+    }
+
+    #[test]
+    fn strokes_of_rapid_moves_are_marked() {
+        let mill = machine(MILL).expect("a machine");
+        let (recording, mut contour) = circle_run(50.0, 0.005);
+        let marked = |contour: &[ContourMove]| {
+            let analysis = analyse("circle", &mill, &recording, contour, Some(0.01));
+            let column = path_data(&analysis, &recording, contour).rapid;
+            let numbers = STANDARD.decode(column).expect("base64");
+            let mut numbers = numbers.chunks(4).map(|number| number[0]);
+            numbers.any(|number| number == 1)
+        };
+        assert!(!marked(&contour));
+        contour[0].rapid = true;
+        assert!(marked(&contour));
     }
 
     #[test]

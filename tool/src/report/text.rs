@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 use super::differences::{Judgement, Peak};
 use super::summary::{FarthestReport, MemberReport, PathReport, Report, Verdict};
-use crate::format::{duration, greatest_speed, grouped, length, significant, unit};
+use crate::format::{duration, greatest_speed, grouped, in_column, length, significant, unit};
 use crate::machine::configuration::PathSource;
 
 /// Width of the column of labels.
@@ -188,7 +188,7 @@ fn members(out: &mut String, headline: &str, members: &[MemberReport]) -> fmt::R
                 out,
                 "  {name:12}{:14}{:>12}{limit:>12}  {:8}{share:>8}{:>10.3}{:>8}  {}",
                 peak.quantity.name(),
-                significant(peak.peak, 6),
+                in_column(peak.peak, 6),
                 unit(member.unit, peak.quantity),
                 peak.time,
                 peak.line,

@@ -101,3 +101,113 @@ fn a_click_on_a_line_shows_its_place() {
     );
     assert!(cursor.ends_with("G2 X0 Y10 I-10"), "{found}");
 }
+
+/// Looks at the tables, at the rapids and at the playback. A browser without a window draws no frames while it waits, so that
+/// scrolling is told by the script, and a timer stands for the frames.
+const CONTROLS: &str = r##"
+window.addEventListener("error", (event) => (document.title = JSON.stringify({ error: event.message })));
+window.addEventListener("load", () => setTimeout(async () => {
+  const get = (id) => document.getElementById(id);
+  const pause = (time) => new Promise((done) => setTimeout(done, time));
+  const places = get("places");
+  window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);
+  window.cancelAnimationFrame = clearTimeout;
+  const scroll = (place) => {
+    places.scrollLeft = place;
+    places.dispatchEvent(new Event("scroll"));
+  };
+  const sides = () => ["more-left", "more-right"].filter((side) => places.classList.contains(side)).join(" ");
+  const found = { hidden: places.scrollWidth - places.clientWidth, tables: [sides()] };
+  scroll(60);
+  found.tables.push(sides());
+  scroll(1e6);
+  found.tables.push(sides());
+  const drawn = () => get("space").firstChild.toDataURL();
+  const before = drawn();
+  found.offered = !get("rapids").closest("label").hidden;
+  get("rapids").click();
+  found.without = drawn() !== before;
+  get("rapids").click();
+  found.again = drawn() === before;
+  get("instant").value = 0.5;
+  get("instant").dispatchEvent(new Event("input"));
+  found.cursor = get("cursor").textContent;
+  get("play").click();
+  found.playing = get("play").textContent;
+  await pause(400);
+  get("play").click();
+  found.paused = get("play").textContent;
+  found.instant = Number(get("instant").value);
+  found.shown = get("cursor").textContent;
+  get("instant").value = get("instant").max;
+  get("instant").dispatchEvent(new Event("input"));
+  found.clock = document.querySelector("#playback output").textContent;
+  document.title = JSON.stringify(found);
+}, 200));
+"##;
+
+#[test]
+fn tables_say_that_they_go_on_rapids_go_and_time_runs() {
+    let bench = Bench::new();
+    let page = page(&bench);
+    let found = probe(
+        bench.path(),
+        &[TIME, "--window-size=700,1600"],
+        &page,
+        CONTROLS,
+    );
+    assert!(found["hidden"].as_f64() > Some(60.0), "{found}");
+    let sides = ["more-right", "more-left more-right", "more-left"];
+    assert_eq!(found["tables"], serde_json::json!(sides), "{found}");
+    for what in ["offered", "without", "again"] {
+        assert_eq!(found[what], true, "{what}: {found}");
+    }
+    let cursor = found["cursor"].as_str().expect("text");
+    assert!(cursor.starts_with("time0.500 s"), "{found}");
+    assert_eq!(found["playing"], "Pause", "{found}");
+    assert_eq!(found["paused"], "Play", "{found}");
+    // As fast as the machine: what the browser needs for its frames comes on top.
+    let instant = found["instant"].as_f64().expect("a time");
+    assert!((0.6..1.5).contains(&instant), "{found}");
+    assert!(
+        !found["shown"]
+            .as_str()
+            .expect("text")
+            .starts_with("time0.500"),
+        "{found}"
+    );
+    let clock = found["clock"].as_str().expect("text");
+    let (at, end) = clock.split_once(" of ").expect("two times");
+    assert_eq!(format!("{at} s"), end, "{found}");
+}
+
+#[test]
+fn in_a_wide_window_no_table_goes_on() {
+    let bench = Bench::new();
+    let page = page(&bench);
+    let found = probe(
+        bench.path(),
+        &[TIME, "--window-size=1400,1600"],
+        &page,
+        CONTROLS,
+    );
+    assert_eq!(found["tables"], serde_json::json!(["", "", ""]), "{found}");
+}
+
+#[test]
+fn far_from_the_program_the_page_says_what_to_write() {
+    let bench = Bench::new();
+    bench.write("part.ngc", "G21 G64 F6000\nG1 X20\nY20\nX0\nM2\n");
+    let output = bench.plan(&["part.ngc", "--html", "plan.html"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    let advice = "G64 P0.05 keeps it within 0.05 mm";
+    assert!(
+        text.contains(&format!("(G64 without P: {advice})")),
+        "{text}"
+    );
+    let script = r#"window.addEventListener("load", () => {
+      document.title = JSON.stringify(document.getElementById("figures").textContent);
+    });"#;
+    let found = probe(bench.path(), &[TIME], &bench.read("plan.html"), script);
+    assert!(found.as_str().expect("text").contains(advice), "{found}");
+}

@@ -16,7 +16,7 @@ const byCause = {
 function fillFigures() {
   const { greatest_speed: speed, deviation } = report;
   const phase = (name) => report.phases.find((share) => share.name === name);
-  addFigure("Time", duration(report.time), `${report.time.toFixed(3)} s, ${duration(phase("standing").time).join(" ")} standing`);
+  addFigure("Time", duration(report.time), `${fixed(report.time, 3)} s, ${duration(phase("standing").time).join(" ")} standing`);
   addFigure("At feed", [number(100 * phase("at feed").share, 3), "%"], `${duration(phase("at feed").time).join(" ")} of the time`);
   const turning = phase("in corners and curves");
   addFigure("Below feed in corners", [number(100 * turning.share, 3), "%"], `costs ${duration(turning.lost).join(" ")}`);
@@ -24,7 +24,7 @@ function fillFigures() {
   addFigure("Peak speed", [number(speed.value, 4), `${unit}/s`], `${number(speed.value * 60, 5)} ${unit}/min, line ${speed.line}`);
   const { planned, tightest } = deviation;
   const used = tightest ? `${number((100 * tightest.distance) / tightest.tolerance, 3)} % of P at most` : "";
-  addFigure("Off the program", length(planned.distance), [`line ${planned.line}`, used].filter(Boolean).join(", "));
+  addFigure("Off the program", length(planned.distance), [`line ${planned.line}`, used, data.advice].filter(Boolean).join(", "));
   byId("figures").style.setProperty("--columns", 6);
 }
 
@@ -47,7 +47,7 @@ function fillTimes() {
   const rows = (shares) => shares.map((share) => {
     const name = element("span", share.cause === undefined ? "" : "swatch", share.name);
     if (share.cause !== undefined) name.style.setProperty("--swatch", `var(--${data.causes[share.cause].kind})`);
-    return [name, share.time.toFixed(3), `${(100 * share.share).toFixed(1)} %`, bar(share.share), share.lost.toFixed(3)];
+    return [name, fixed(share.time, 3), `${fixed(100 * share.share, 1)} %`, bar(share.share), fixed(share.lost, 3)];
   });
   const headings = (first) => [first, "Time (s)", "", "", "Lost (s)"];
   byId("phases").append(table(headings("What it does"), rows(report.phases), [1, 2, 4]));
@@ -58,8 +58,8 @@ function fillPlaces() {
   if (!report.slowest.length) return;
   byId("slow").hidden = false;
   const rows = report.slowest.map((place) => [
-    String(place.line), place.time.toFixed(3), place.lost.toFixed(4), number(place.least_speed, 4),
-    `${(100 * place.least_share).toFixed(0)} %`, place.phase, place.cause,
+    String(place.line), fixed(place.time, 3), fixed(place.lost, 4), number(place.least_speed, 4),
+    `${fixed(100 * place.least_share, 0)} %`, place.phase, place.cause,
     place.position.map((v) => fixed(v, 3)).join(",  "), element("code", "", place.text),
   ]);
   const headings = ["Line", "at (s)", "Lost (s)", `Slowest (${unit}/s)`, "of the feed", "What it does", "Limited by", `X, Y, Z (${unit})`, "Program"];
@@ -73,7 +73,7 @@ function fillPlaces() {
 
 function fillPeaks() {
   const rows = report.axes.flatMap((axis) => axis.peaks.map((peak, i) => [
-    i ? "" : axis.letter, ...peakCells(peak, axis.unit), peak.time.toFixed(3), String(peak.line),
+    i ? "" : axis.letter, ...peakCells(peak, axis.unit), fixed(peak.time, 3), String(peak.line),
   ]));
   const headings = ["Axis", "Quantity", "Peak", "Limit", "Unit", "Share of the limit", "", "at (s)", "Line"];
   byId("peaks").append(table(headings, rows, [2, 3, 6, 7, 8], 3));

@@ -67,7 +67,7 @@ function fillPeaks() {
       const name = element("span", "", i ? "" : `${member.letter} `, element("span", "quiet", i ? "" : member.name));
       rows.push([
         name, ...peakCells(peak, member.unit),
-        element("span", className, word), peak.time.toFixed(3), String(peak.line),
+        element("span", className, word), fixed(peak.time, 3), String(peak.line),
       ]);
     });
   }
@@ -82,10 +82,10 @@ function fillAccuracy() {
   const point = (p) => p.map((v) => fixed(v, 4)).join(",  ");
   const rows = [];
   if (found.result === "departed") {
-    rows.push(["The executed path leaves the programmed path", "> " + length(found.farther_than).join(" "), "", found.place.time.toFixed(3), String(found.source_line)]);
+    rows.push(["The executed path leaves the programmed path", "> " + length(found.farther_than).join(" "), "", fixed(found.place.time, 3), String(found.source_line)]);
   } else {
     const line = (far) => String(far.source_line) + (far.source_file ? ` of file ${far.source_file}` : "");
-    const add = (text, far) => rows.push([text, length(far.distance).join(" "), point(far.point), far.time.toFixed(3), line(far)]);
+    const add = (text, far) => rows.push([text, length(far.distance).join(" "), point(far.point), fixed(far.time, 3), line(far)]);
     add("Executed path, farthest from the programmed path", found.executed);
     add("Programmed point, farthest from the executed path", found.programmed);
     rows.push(["Final position error", length(found.final_position_error).join(" "), "", "", ""]);
@@ -98,7 +98,7 @@ function fillAccuracy() {
 function fillFrames() {
   if (!report.frame_changes.length) return;
   byId("frames").hidden = false;
-  const rows = report.frame_changes.map((c) => [c.time.toFixed(3), String(c.line), number(c.axis_step, 6), number(c.joint_movement, 4)]);
+  const rows = report.frame_changes.map((c) => [fixed(c.time, 3), String(c.line), number(c.axis_step, 6), number(c.joint_movement, 4)]);
   byId("frames-table").append(table(["at (s)", "Line", `Step of an axis (${unit})`, `Joint movement (${unit})`], rows, [0, 1, 2, 3]));
 }
 
