@@ -36,21 +36,30 @@ impl Progress {
         if !self.cycles.is_multiple_of(CYCLES) || self.started.elapsed() < PATIENCE {
             return;
         }
-        let (name, lines) = (&self.name, self.lines);
-        let bar = self.bar.get_or_insert_with(|| {
-            let bar = ProgressBar::new(lines).with_prefix(name.clone());
-            // Without colours it is the same bar on every terminal.
-            let template = "{prefix} {wide_bar} line {human_pos} of {human_len}, {msg}, {eta} left";
-            match ProgressStyle::with_template(template) {
-                Ok(style) => bar.with_style(style),
-                Err(_) => bar,
+        let line = u64::try_from(line).unwrap_or(0).min(self.lines);
+        let message = format!("{time:.0} s of the machine's time");
+        match &self.bar {
+            Some(bar) => {
+                bar.set_message(message);
+                // Subroutines and loops go back.
+                bar.set_position(bar.position().max(line));
             }
-        });
-        // Subroutines and loops go back.
-        let line = u64::try_from(line).unwrap_or(0).min(lines);
-        // What it says comes first: the bar is drawn with its place.
-        bar.set_message(format!("{time:.0} s of the machine's time"));
-        bar.set_position(bar.position().max(line));
+            None => self.bar = Some(self.begin(line, message)),
+        }
+    }
+
+    /// The bar as it is drawn first, with all that it says.
+    fn begin(&self, line: u64, message: String) -> ProgressBar {
+        let bar = ProgressBar::new(self.lines)
+            .with_prefix(self.name.clone())
+            .with_message(message)
+            .with_position(line);
+        // Without colours it is the same bar on every terminal.
+        let template = "{prefix} {wide_bar} line {human_pos} of {human_len}, {msg}, {eta} left";
+        match ProgressStyle::with_template(template) {
+            Ok(style) => bar.with_style(style),
+            Err(_) => bar,
+        }
     }
 
     /// Takes the bar away.

@@ -28,6 +28,34 @@ fn plan(bench: &Bench, moves: usize) -> (f64, String) {
     (greatest, String::from_utf8(output.stdout).expect("text"))
 }
 
+/// Behind a terminal: `script` makes one.
+#[test]
+fn the_bar_says_at_once_what_it_counts() {
+    let bench = Bench::new();
+    bench.write("long.ngc", &surface(50_000));
+    let command = format!("{} plan long.ngc", env!("CARGO_BIN_EXE_framepath"));
+    let output = Command::new("script")
+        .current_dir(bench.path())
+        .args(["-qec", &command, "/dev/null"])
+        .env("TERM", "xterm")
+        .output()
+        .expect("script of bsdutils runs");
+    let text = String::from_utf8(output.stdout).expect("text");
+    let bars: Vec<&str> = text
+        .split(['\r', '\n', '\x1b'])
+        .filter(|line| line.ends_with(" left"))
+        .collect();
+    assert!(!bars.is_empty(), "{text}");
+    for bar in &bars {
+        let named = bar.trim_start_matches("[2K").starts_with("long.ngc ");
+        assert!(named && bar.contains(" of 50,004, "), "{bar}");
+        assert!(
+            !bar.contains(" line 0 of") && bar.contains(" s of the machine's time, "),
+            "{bar}"
+        );
+    }
+}
+
 #[test]
 fn memory_and_page_stay_small() {
     let bench = Bench::new();

@@ -3,6 +3,7 @@
 use crate::browser::{open, probe};
 use crate::pages::{assert_needs_nothing, click_on_line};
 use crate::support::Bench;
+use serde_json::Value;
 
 const PROGRAM: &str =
     "G21 G64 P0.05 F3000\nG1 X20 </script>\nX20 Y10 Z3\nG2 X0 Y10 I-10\nG0 X0 Y0 Z0\nM2\n";
@@ -146,16 +147,15 @@ window.addEventListener("load", () => setTimeout(async () => {
 }, 200));
 "##;
 
+/// What [`CONTROLS`] finds in a window of this size.
+fn controls(bench: &Bench, size: &str) -> Value {
+    let size = format!("--window-size={size}");
+    probe(bench.path(), &[TIME, &size], &page(bench), CONTROLS)
+}
+
 #[test]
 fn tables_say_that_they_go_on_rapids_go_and_time_runs() {
-    let bench = Bench::new();
-    let page = page(&bench);
-    let found = probe(
-        bench.path(),
-        &[TIME, "--window-size=700,1600"],
-        &page,
-        CONTROLS,
-    );
+    let found = controls(&Bench::new(), "700,1600");
     assert!(found["hidden"].as_f64() > Some(60.0), "{found}");
     let sides = ["more-right", "more-left more-right", "more-left"];
     assert_eq!(found["tables"], serde_json::json!(sides), "{found}");
@@ -183,14 +183,7 @@ fn tables_say_that_they_go_on_rapids_go_and_time_runs() {
 
 #[test]
 fn in_a_wide_window_no_table_goes_on() {
-    let bench = Bench::new();
-    let page = page(&bench);
-    let found = probe(
-        bench.path(),
-        &[TIME, "--window-size=1400,1600"],
-        &page,
-        CONTROLS,
-    );
+    let found = controls(&Bench::new(), "1400,1600");
     assert_eq!(found["tables"], serde_json::json!(["", "", ""]), "{found}");
 }
 
