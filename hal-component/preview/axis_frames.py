@@ -69,7 +69,8 @@ class AxisFrames:
             # AXIS reads none while one runs
             self.axis["root_window"].after(UP, self.read_again)
             return
-        if self.axis["loaded_file"]:
+        # what a filter has refused was said once, and there is nothing to read
+        if self.axis["loaded_file"] and self.window.canon:
             self.axis["reload_file"](False)
             self.centre()
         self.is_up = True

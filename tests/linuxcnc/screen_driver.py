@@ -90,11 +90,11 @@ class Screen(driver.Operator):
                 process.kill()
 
 
-def main():
+def main(kind=Screen):
     screens = []
 
     def operator():
-        screens.append(Screen())
+        screens.append(kind())
         return screens[0]
 
     try:
