@@ -36,15 +36,15 @@ class Sample(unittest.TestCase):
     #: of each axis: velocity, acceleration, jerk
     limits: dict[str, tuple[float, float, float]] = {}
 
-    def run_program(self, **options):
-        result = harness.run([["note", "homed"], ["run", "PROGRAMS/part.ngc"], ["note", "end"]],
-                             own_program(self.sample, self.program), sample=self.sample, joints=self.joints, axes=self.axes,
-                             **options)
+    @classmethod
+    def run_program(cls, **options):
+        return harness.run([["note", "homed"], ["run", "PROGRAMS/part.ngc"], ["note", "end"]],
+                           own_program(cls.sample, cls.program), sample=cls.sample, joints=cls.joints, axes=cls.axes, **options)
+
+    def good(self, result):
+        """It has run to its end, and nobody was told of anything."""
         self.assertIsNone(result.failure, result.log)
-        self.assertEqual(result.errors, [], result.log)
-        # a note of the interpreter or the screen would stand there as a message
         self.assertEqual(result.messages, [], result.log)
-        return result
 
     def running(self, result, *names):
         """Columns from the beginning of the program on."""
@@ -70,6 +70,7 @@ class Lathe(Sample):
 
     def test_a_shaft_is_turned_and_its_thread_follows_the_spindle(self):
         result = self.run_program(hal=TURNS, integers={"turns": "turns-out.out"})
+        self.good(result)
         self.kept(result)
         # diameters: faced to X-0.8, where G64 may cut a corner by .01, from X40
         least, greatest = self.reach(result, 0)
@@ -83,8 +84,7 @@ class Lathe(Sample):
             lines += [shift, "G1 X0", "G4 P.2"]
         result = harness.run([["run", "PROGRAMS/part.ngc"]], {"part.ngc": "\n".join([*lines, "M2"]) + "\n"}, sample=self.sample,
                              joints=self.joints, axes=self.axes)
-        self.assertIsNone(result.failure, result.log)
-        self.assertEqual(result.errors, [], result.log)
+        self.good(result)
         places = result.column("joint.0")
         rests = [now for before, now in pairwise(places[n] for n in range(0, len(places), 50)) if before == now]
         stands = [place for n, place in enumerate(rests) if not n or rests[n - 1] != place]
@@ -109,8 +109,15 @@ class Gantry(Sample):
     limits = {"joint.0": (200, 800, 16000), "joint.1": (200, 800, 16000), "joint.2": (200, 800, 16000),
               "joint.3": (100, 500, 10000)}
 
+    result: harness.Result
+
+    @classmethod
+    def setUpClass(cls):
+        cls.result = cls.run_program()
+
     def test_a_portal_is_made_square_and_its_sides_stay_together(self):
-        result = self.run_program()
+        result = self.result
+        self.good(result)
         self.kept(result)
         for name in ("homed", "end"):
             for place in result.answers[name]["joints"][:4]:
@@ -124,7 +131,8 @@ class Gantry(Sample):
         self.assertLess(max(abs(left - right - apart) for left, right in sides), 1e-6)
 
     def test_each_part_lies_in_its_frame(self):
-        result = self.run_program()
+        result = self.result
+        self.good(result)
         end = result.rows[-1]
         x, y = (result.header.index(name) for name in ("joint.0", "joint.1"))
         places = [(row[x] - end[x], row[y] - end[y]) for row in result.rows]
@@ -144,6 +152,7 @@ class Inches(Sample):
 
     def test_a_plate_in_inches(self):
         result = self.run_program()
+        self.good(result)
         self.kept(result)
         # the outside of 4 by 3 inches with a cutter of a quarter, and its corners are cut by a thousandth at most
         for joint, (least, greatest) in ((0, (-0.4, 4.125)), (1, (-0.125, 3.125))):
