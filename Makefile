@@ -29,6 +29,10 @@ HEADER_FOLDERS = rtapi hal emc emc/ini emc/kinematics emc/motion emc/nml_intf em
 empty :=
 export LINUXCNC_INCLUDE := $(subst $(empty) ,:,$(wildcard $(addprefix $(abspath $(LINUXCNC_SOURCE))/src/,$(HEADER_FOLDERS))))
 export LINUXCNC_VERSION := $(shell cat $(LINUXCNC_SOURCE)/VERSION)
+# Where it was built, the command runs the interpreter and the planner from there.
+ifneq ($(wildcard $(LINUXCNC_SOURCE)/lib/librs274.so),)
+export LINUXCNC_IN_PLACE := $(abspath $(LINUXCNC_SOURCE))
+endif
 ifeq ($(LINUXCNC_INCLUDE),)
 $(error LINUXCNC_SOURCE=$(LINUXCNC_SOURCE) has no src/emc/motion: it is to be the folder of LinuxCNC's source)
 endif
