@@ -29,6 +29,10 @@ HEADER_FOLDERS = rtapi hal emc emc/ini emc/kinematics emc/motion emc/nml_intf em
 empty :=
 export LINUXCNC_INCLUDE := $(subst $(empty) ,:,$(wildcard $(addprefix $(abspath $(LINUXCNC_SOURCE))/src/,$(HEADER_FOLDERS))))
 export LINUXCNC_VERSION := $(shell cat $(LINUXCNC_SOURCE)/VERSION)
+# Where it was built, the command runs the interpreter and the planner from there.
+ifneq ($(wildcard $(LINUXCNC_SOURCE)/lib/librs274.so),)
+export LINUXCNC_IN_PLACE := $(abspath $(LINUXCNC_SOURCE))
+endif
 ifeq ($(LINUXCNC_INCLUDE),)
 $(error LINUXCNC_SOURCE=$(LINUXCNC_SOURCE) has no src/emc/motion: it is to be the folder of LinuxCNC's source)
 endif
@@ -52,6 +56,8 @@ help:
 	@echo 'make sanitize   only the tests with the address and undefined-behaviour sanitizers and valgrind'
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
 	@echo 'make faults     what LinuxCNC does with both modules when something goes wrong, as the table of docs/faults.md'
+	@echo 'make suites LINUXCNC_SOURCE=/path/to/linuxcnc  LinuxCNC'"'"'s own suites with its own planner and with blendtp, as the table of'
+	@echo '                docs/suites.md: of the LinuxCNC that was built there, or of the installed one (SUITES="motion abort/g64": only these)'
 	@echo 'make short      thousands of random short programs through framepath plan: faults and limits that are exceeded'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make fuzz       any calls of the C interface of both modules, ten minutes each (FUZZ_SECONDS); make fuzz-filter: of the filter'
@@ -141,6 +147,16 @@ contract: modules tool
 faults: modules fault-modules tool
 	$(PYTHON) -B tests/linuxcnc/faults/fault_table.py
 	FRAMEPATH_FAULT_EVERY=1 $(PYTHON) -B tests/linuxcnc/test_faults_injected.py
+
+# LinuxCNC's own suites, which its packages lack: a quarter of an hour.
+SUITES ?=
+
+suites: $(if $(LINUXCNC_SOURCE),modules,no-source)
+	@./prerequisites suites
+	$(PYTHON) -B tests/linuxcnc/suites.py $(LINUXCNC_SOURCE) $(SUITES)
+
+no-source:
+	@echo "make suites LINUXCNC_SOURCE=/path/to/linuxcnc: LinuxCNC's packages have no suites, its source has" >&2; exit 1
 
 SHORT ?= 5000
 SEED ?= 1
@@ -283,6 +299,6 @@ debian-12 debian-13:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults short soak bench \
+.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults suites no-source short soak bench \
     fuzz fuzz-filter mutants compare figures tuning book screens header install uninstall deb deb-source \
     debian-12 debian-13 clean

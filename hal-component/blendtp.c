@@ -119,16 +119,15 @@ static void say_finding(void)
     }
 }
 
-/* Hands over the kinematics, whose joints are looked at on the way of each move. */
+/* Hands over the kinematics, whose joints are looked at on the way of each move. Their type is what motmod noted: kinematicsType
+ * sets matrixkins up anew each time, and the second time without its parameters. */
 static void find_kinematics(void)
 {
     int (*inverse)(const EmcPose *, double *, const unsigned long *, unsigned long *);
     int (*forward)(const double *, EmcPose *, const unsigned long *, unsigned long *);
-    KINEMATICS_TYPE (*type)(void);
     Dl_info file;
     *(void **)&inverse = dlsym(RTLD_DEFAULT, "kinematicsInverse");
     *(void **)&forward = dlsym(RTLD_DEFAULT, "kinematicsForward");
-    *(void **)&type = dlsym(RTLD_DEFAULT, "kinematicsType");
     if (inverse && dladdr(*(void **)&inverse, &file) && file.dli_fname) {
         const char *slash = strrchr(file.dli_fname, '/');
         const char *name = slash ? slash + 1 : file.dli_fname;
@@ -137,10 +136,10 @@ static void find_kinematics(void)
     /* It counts the turns of a joint from call to call, and would count those of the look along a move too. */
     if (!strcmp(kinematics, "rosekins"))
         inverse = NULL;
-    if (!inverse || !type)
+    if (!inverse)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s cannot be asked for joints on the way of a move: the soft limits are checked "
                         "at the ends of moves only\n", kinematics);
-    framepath_planner_kinematics(type ? inverse : NULL, forward, type ? type() : KINEMATICS_IDENTITY);
+    framepath_planner_kinematics(inverse, forward, motion.config->kinType);
 }
 
 int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
