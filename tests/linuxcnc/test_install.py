@@ -36,6 +36,7 @@ class Install(unittest.TestCase):
                          "usr/share/bash-completion/completions/framepath", "usr/share/zsh/vendor-completions/_framepath",
                          "usr/share/fish/vendor_completions.d/framepath.fish",
                          "usr/share/framepath/preview/frame_axis.py", "usr/share/framepath/preview/axis_frames.py",
+                         *(f"usr/share/framepath/panel/{name}" for name in ("time_table.py", "planner.xml", "frame.xml")),
                          "usr/share/framepath/configs/framepath-sim/framepath-sim.ini"):
                 self.assertIn(name, there)
             with open(os.path.join(folder, "usr/share/zsh/vendor-completions/_framepath"), encoding="utf-8") as file:
