@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Says when the program will end, from what `framepath plan --times PROGRAM.times` has written beside the program.
 
-A HAL component, loaded by the HAL file (see framepath-sim.hal). Its inputs are blendtp's pins of where the machine is;
+A HAL component, loaded by operator.hal. Its inputs are blendtp's pins of where the machine is;
 it puts out when the program ends, on blendtp's clock, and blendtp counts down to that (man blendtp). Where there are no
 times of the program it says nothing, and blendtp shows the time of what is queued.
 """
