@@ -161,6 +161,17 @@ def stretches_of(still):
         start += len(rows)
 
 
+class Gone(Operator):
+    def test_what_is_said_holds_for_a_second(self):
+        result = self.recorded([["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["expect", "blendtp.time-left.whole-program", "TRUE"],
+                                ["halcmd", "unloadusr", "program-time"],
+                                ["expect", "blendtp.time-left.whole-program", "FALSE"], ["getp", "left", "blendtp.time-left"],
+                                ["finish"]], with_times("part", program("F600", "G1 X30", "X60")))
+        # of what is queued: both moves
+        self.assertGreater(float(result.answers["left"]), 2)
+        self.assertLess(float(result.answers["left"]), 6)
+
+
 class Table(unittest.TestCase):
     #: a rest, a move, a move of less than a period, a dwell, the first line again
     ROWS: ClassVar = [(0.0, 0, 0, None), (0.1, 7, 0, 10.0), (0.3, 7, 0, 6.0), (0.4, 7, 0, 1.0), (0.5, 9, 2, 5.0), (0.9, 9, 2, 0.0),
