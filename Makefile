@@ -247,16 +247,18 @@ header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
 
 install: modules tool
-	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(MAN)/man1 $(MAN)/man9
+	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(SHARE)/panel $(MAN)/man1 $(MAN)/man9
 	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
 	install -m 755 $(TOOL) $(BIN)
 	install -m 644 hal-component/subroutines/*.ngc hal-component/subroutines/frame_[!g]*.py \
 	    hal-component/subroutines/README.md $(SHARE)/subroutines
 	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
 	install -m 644 hal-component/preview/*.py $(SHARE)/preview
+	install -m 644 $(addprefix hal-component/panel/,*.xml *.hal time_table.py) $(SHARE)/panel
+	install -m 755 hal-component/panel/program_time.py $(SHARE)/panel
 	cp -R hal-component/configs $(SHARE)
 # A copy in the user's folder has to find them, too.
-	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal
+	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal $(SHARE)/panel/*.xml $(SHARE)/panel/*.hal
 	install -d $(EXAMPLES)
 	ln -sfn $(PREFIX)/share/framepath/configs $(EXAMPLES)/framepath
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9

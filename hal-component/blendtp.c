@@ -65,6 +65,7 @@ static int (*linear_map)(double map[9]);
 #endif
 
 #include "linuxcnc_differences.h"
+#include "operator_pins.h"
 #include "pin_limits.h"
 
 /* With a greatest velocity of 0 in the INI a program would wait for ever without a word. */
@@ -390,6 +391,7 @@ int tcqFull(TC_QUEUE_STRUCT const * const queue)
     int full = framepath_planner_queue_full(planner);
     (void)queue;
     controller_ends();
+    show_operator();
     return full;
 }
 
@@ -447,7 +449,7 @@ int rtapi_app_main(void)
     if (!error)
         error |= hal_pin_float_newf(HAL_IN, &pins->default_tolerance, component, "blendtp.default-tolerance");
     if (!error)
-        error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "blendtp.version");
+        error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "blendtp.version") || make_operator_pins();
 #ifdef FRAMEPATH_FAULT_INJECTION
     if (!error)
         error |= make_fault_pins();

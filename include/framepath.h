@@ -101,6 +101,61 @@
 #define FRAMEPATH_RANGE_UNKNOWN 2
 
 /*
+ There is nothing to do.
+ */
+#define FRAMEPATH_LIMIT_NOTHING 0
+
+/*
+ The machine rests between moves.
+ */
+#define FRAMEPATH_LIMIT_REST 1
+
+/*
+ Pause, feed hold or an abort.
+ */
+#define FRAMEPATH_LIMIT_HOLD 2
+
+/*
+ It waits for a spindle, or follows its angle.
+ */
+#define FRAMEPATH_LIMIT_SPINDLE 3
+
+/*
+ The feed of the program.
+ */
+#define FRAMEPATH_LIMIT_FEED 4
+
+/*
+ An override below 100 %.
+ */
+#define FRAMEPATH_LIMIT_OVERRIDE 5
+
+/*
+ The greatest velocity along the path.
+ */
+#define FRAMEPATH_LIMIT_PATH_VELOCITY 6
+
+/*
+ The velocity of an axis.
+ */
+#define FRAMEPATH_LIMIT_AXIS_VELOCITY 7
+
+/*
+ The acceleration of an axis.
+ */
+#define FRAMEPATH_LIMIT_AXIS_ACCELERATION 8
+
+/*
+ The jerk of an axis.
+ */
+#define FRAMEPATH_LIMIT_AXIS_JERK 9
+
+/*
+ On the way between two limits.
+ */
+#define FRAMEPATH_LIMIT_BETWEEN 10
+
+/*
  The planner of the module, with what LinuxCNC handed over for it.
  */
 struct framepath_planner;
@@ -295,6 +350,52 @@ struct framepath_frame_outputs {
    From the tip of the tool to the position of the axes, X Y Z.
    */
   double turned_tool[3];
+};
+
+/*
+ What an operator sees, after a servo period.
+ */
+struct framepath_survey {
+  /*
+   What keeps the machine from being faster: one of `FRAMEPATH_LIMIT_..`.
+   */
+  int limit;
+  /*
+   The axis whose limit it is, 0 to 8 (X Y Z A B C U V W of the machine), or -1.
+   */
+  int axis;
+  /*
+   Moves that are queued, the running one included.
+   */
+  int moves_queued;
+  /*
+   Those of them that are planned.
+   */
+  int moves_ahead;
+  /*
+   Moves that have left the queue since the start of the machine, modulo 2^32: the number of the running one.
+   */
+  uint32_t moves_done;
+  /*
+   LinuxCNC's number of the running or next move: its line in the program; 0 if there is none.
+   */
+  int line;
+  /*
+   Whether the machine stands still.
+   */
+  bool stands;
+  /*
+   What F counts until the end of that move, machine units or degrees.
+   */
+  double to_go;
+  /*
+   Seconds until the rest at the end of what is planned, at an override of 100 %.
+   */
+  double seconds_ahead;
+  /*
+   Seconds until the end of what is queued, at an override of 100 %.
+   */
+  double seconds_queued;
 };
 
 /*
@@ -682,5 +783,13 @@ int framepath_planner_range_finding(const struct framepath_planner *handle,
                                     int *joint,
                                     double *position,
                                     double *limit);
+
+/*
+ What an operator sees after the last servo period. Returns 0, or -1 without a planner.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `survey` points to one.
+ */
+int framepath_planner_survey(const struct framepath_planner *handle, struct framepath_survey *survey);
 
 #endif  /* FRAMEPATH_H */

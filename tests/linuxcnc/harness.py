@@ -165,7 +165,7 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
     try:
         config = os.path.join(folder, "configs", sample)
         shutil.copytree(configuration or os.path.join(SAMPLES, "configs", sample), config)
-        for shared in ("subroutines", "preview"):
+        for shared in ("subroutines", "preview", "panel"):
             shutil.copytree(os.path.join(SAMPLES, shared), os.path.join(folder, shared))
         for name in ("driver.py", *files):
             shutil.copy(os.path.join(HERE, name), config)

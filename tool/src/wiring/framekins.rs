@@ -291,6 +291,11 @@ pub fn needs_table(pin: &str) -> bool {
         .is_some_and(|name| TABLE_ONLY.contains(&name))
 }
 
+/// Three rows of the map of a frame.
+const MAP: [&str; 12] = [
+    "xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z",
+];
+
 /// Whether framekins has this pin on some machine.
 pub fn has_pin(pin: &str) -> bool {
     let in_net = |net: &Net| net.pin == pin || matches!(net.source, Pin(name) if name == pin);
@@ -299,6 +304,9 @@ pub fn has_pin(pin: &str) -> bool {
             || TABLE_ONLY.contains(&name)
             || name.starts_with("guard.work-offset.")
             || name.starts_with("guard.frame-tool-offset.")
+            || name
+                .strip_prefix("frame.")
+                .is_some_and(|of| MAP.contains(&of))
     };
     NETS.iter().any(in_net) || pin.strip_prefix("framekins.").is_some_and(others)
 }
