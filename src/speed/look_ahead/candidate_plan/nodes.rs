@@ -118,6 +118,7 @@ impl CandidatePlan {
             GridStep::More if self.grid.reached() > self.cut + self.most => self.shorten(context),
             GridStep::More => CandidatePhase::Grid,
             GridStep::TooLong => refused(PlanRefusal::TooLong),
+            GridStep::TooFine => refused(PlanRefusal::NotFound),
             GridStep::Unsound => refused(PlanRefusal::Unsound),
             // So short that the arcs leave hardly anything between them.
             GridStep::Done if self.spline.last < LEAST_NODES => refused(PlanRefusal::NotFound),
