@@ -10,7 +10,7 @@ use crate::axes::Axes;
 use crate::frame::{ActiveFrame, ToolLength};
 use crate::kinematics::Behind;
 use crate::kinematics::control::FrameControl;
-use crate::kinematics::inner::{self, InnerType};
+use crate::kinematics::inner::{self, Guess, InnerType};
 use crate::machine::JOINT_COUNT;
 
 /// Chooses the kinematics of another module in place of a machine: `tool_types` is a list of their types that turn the
@@ -54,13 +54,18 @@ pub extern "C" fn framepath_kinematics_inner_functions(
 fn ask(
     forward_flags: c_ulong,
     inverse_flags: c_ulong,
-    question: impl FnOnce(Option<&ActiveFrame>, &mut Calls) -> (Axes, [f64; JOINT_COUNT], c_int),
+    question: impl FnOnce(
+        Option<&ActiveFrame>,
+        &mut Calls,
+        Guess<'_>,
+    ) -> (Axes, [f64; JOINT_COUNT], c_int),
 ) -> Option<(Calls, c_int)> {
     let Kinematics {
         control: Some(control),
         position,
         joints,
         inner,
+        old_guesses,
         ..
     } = module()
     else {
@@ -71,7 +76,13 @@ fn ask(
         forward_flags,
         inverse_flags,
     };
-    let (axes, found, result) = question(control.active(), &mut calls);
+    let last = Axes::from(*position);
+    let guess = if control.active().is_some() || *old_guesses > 0 {
+        Guess::At(&last)
+    } else {
+        Guess::Before
+    };
+    let (axes, found, result) = question(control.active(), &mut calls, guess);
     (*position, *joints) = (axes.into(), found);
     Some((calls, result))
 }
@@ -100,8 +111,8 @@ pub unsafe extern "C" fn framepath_kinematics_inner_forward(
         return -1;
     };
     let mut pose = axes_of(world);
-    let answer = ask(*read, *written, |frame, calls| {
-        let (axes, result) = inner::forward(frame, calls, joints, &mut pose);
+    let answer = ask(*read, *written, |frame, calls, guess| {
+        let (axes, result) = inner::forward(frame, calls, joints, guess, &mut pose);
         (axes, *joints, result)
     });
     let Some((calls, result)) = answer else {
@@ -109,6 +120,7 @@ pub unsafe extern "C" fn framepath_kinematics_inner_forward(
     };
     *world = pose_of(&pose);
     *written = calls.inverse_flags;
+    module().old_guesses = module().old_guesses.saturating_sub(1);
     result
 }
 
@@ -135,7 +147,7 @@ pub unsafe extern "C" fn framepath_kinematics_inner_inverse(
     else {
         return -1;
     };
-    let answer = ask(*written, *read, |frame, calls| {
+    let answer = ask(*written, *read, |frame, calls, _| {
         let mut axes = axes_of(world);
         let result = inner::inverse(frame, calls, &mut axes, joints);
         (axes, *joints, result)

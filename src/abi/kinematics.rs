@@ -44,6 +44,8 @@ pub(super) struct Kinematics {
     pub(super) joints: [f64; JOINT_COUNT],
     /// The other module.
     pub(super) inner: InnerModule,
+    /// How many guesses of motion's are still positions of the frame before: that of the command and that of the feedback.
+    pub(super) old_guesses: u8,
 }
 
 /// Memory for the one machine of a module.
@@ -58,6 +60,7 @@ static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
     position: [0.0; AXIS_COUNT],
     joints: [0.0; JOINT_COUNT],
     inner: InnerModule::NONE,
+    old_guesses: 0,
 }));
 
 /// The machine of the module.
@@ -282,6 +285,7 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
         position,
         joints,
         inner,
+        old_guesses,
     } = module()
     else {
         return -1;
@@ -289,7 +293,10 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
     let mut inputs = inputs_of(pins, *tool_length);
     inputs.fixed_axes = inner.fixed_axes(position, joints);
     match control.switch(slot, &inputs, |kind| inner.switch(kind)) {
-        Ok(()) => 0,
+        Ok(()) => {
+            *old_guesses = 2;
+            0
+        }
         Err(refusal) => refusal as c_int,
     }
 }
@@ -313,6 +320,7 @@ pub unsafe extern "C" fn framepath_kinematics_update(
         position,
         joints,
         inner,
+        ..
     } = module()
     else {
         return;

@@ -90,15 +90,28 @@ pub fn inverse(
     inner.inverse(axes, joints)
 }
 
-/// The position of the program for joints, from a guess at it, with the axes of the machine, and what the inner
-/// kinematics returned. Kinematics that iterate begin at the guess, which therefore has to go through the frame as well.
+/// Where the forward kinematics begin that iterate.
+#[derive(Clone, Copy, Debug)]
+pub enum Guess<'a> {
+    /// At the position of the program that motion had before, as if there was no frame.
+    Before,
+    /// At these axes of the machine: motion's position may be one of another frame, which leads far away.
+    At(&'a Axes),
+}
+
+/// The position of the program for joints, with the axes of the machine, and what the inner kinematics returned.
+/// `position` is the one before, and becomes the new one.
 pub fn forward(
     frame: Option<&ActiveFrame>,
     inner: &mut impl InnerKinematics,
     joints: &[f64; JOINT_COUNT],
+    guess: Guess<'_>,
     position: &mut Axes,
 ) -> (Axes, i32) {
-    let mut axes = frame.map_or(*position, |frame| frame.to_machine(position));
+    let mut axes = match guess {
+        Guess::Before => *position,
+        Guess::At(axes) => *axes,
+    };
     let result = inner.forward(joints, &mut axes);
     *position = frame.map_or(axes, |frame| frame.to_world(&axes));
     (axes, result)

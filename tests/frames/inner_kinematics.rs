@@ -2,7 +2,7 @@
 
 use crate::common::Motion;
 use framepath::axes::Axes;
-use framepath::kinematics::inner::{InnerKinematics, fixed_axes, forward, inverse};
+use framepath::kinematics::inner::{Guess, InnerKinematics, fixed_axes, forward, inverse};
 
 /// Joints are the axes times two, of which Y may be none. The forward kinematics go from the guess at most one unit.
 struct Halving {
@@ -65,21 +65,25 @@ fn joints_are_those_of_the_framed_position() {
 }
 
 #[test]
-fn the_guess_goes_through_the_frame() {
+fn a_guess_at_the_machine_leads_where_one_of_another_frame_does_not() {
     let (motion, mut inner) = (shifted(), Halving::new(true));
     let mut joints = [0.0; 16];
     joints[..3].copy_from_slice(&[2002.0, 4.0, 6.0]);
-    let mut position = at(0.5, 1.5, 2.5);
-    let (axes, result) = forward(motion.control.active(), &mut inner, &joints, &mut position);
+    let (near, frame) = (at(1000.5, 1.5, 2.5), motion.control.active());
+    let mut position = at(0.0, 0.0, 0.0);
+    let (axes, result) = forward(frame, &mut inner, &joints, Guess::At(&near), &mut position);
     assert_eq!((result, axes), (0, at(1001.0, 2.0, 3.0)));
     assert_eq!(position, at(1.0, 2.0, 3.0));
+    let mut position = at(0.0, 0.0, 0.0);
+    let (axes, _) = forward(frame, &mut inner, &joints, Guess::Before, &mut position);
+    assert_ne!(axes, at(1001.0, 2.0, 3.0));
 }
 
 #[test]
 fn without_a_frame_nothing_is_touched() {
     let mut inner = Halving::new(false);
     let mut position = at(0.1 + 0.2, -0.0, f64::MIN_POSITIVE);
-    let (axes, _) = forward(None, &mut inner, &[0.0; 16], &mut position);
+    let (axes, _) = forward(None, &mut inner, &[0.0; 16], Guess::Before, &mut position);
     assert_eq!(position.map(f64::to_bits), axes.map(f64::to_bits));
     assert_eq!(position[1].to_bits(), (-0.0_f64).to_bits());
 }
