@@ -259,8 +259,13 @@ KINEMATICS_TYPE kinematicsType(void)
     return inner_found.type == KINEMATICS_IDENTITY ? KINEMATICS_BOTH : inner_found.type;
 }
 
+/* motmod asks this in each period before it looks at motion.switchkins-type. */
 int kinematicsSwitchable(void)
 {
+    if (*inner && *pins->inner_type != *pins->inner_type_active) {
+        struct framepath_frame_inputs in = read_pins();
+        *pins->switchkins_type = framepath_kinematics_take_inner_type(&in);
+    }
     return 1;
 }
 

@@ -331,6 +331,15 @@ void framepath_kinematics_inner_functions(int (*inverse)(const EmcPose*, double*
                                           int (*switch_)(int));
 
 /*
+ Before motion looks at `motion.switchkins-type`, where the type on the pin is another one than that in force: what to
+ write to `framekins.switchkins-type`, so that motion switches in this very period, as it would without framekins.
+
+ # Safety
+ `pins` points to the values of the pins.
+ */
+int framepath_kinematics_take_inner_type(const struct framepath_frame_inputs *pins);
+
+/*
  The pose for joint positions, from a guess at it, with the flags of `kinematicsForward`. What the other module returns;
  -1 if there is none.
 

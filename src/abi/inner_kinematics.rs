@@ -2,6 +2,7 @@
 
 use libc::{c_char, c_double, c_int, c_ulong};
 
+use super::frame_pins::framepath_frame_inputs;
 use super::inner::{Calls, InnerModule};
 use super::kinematics::{FRAMEPATH_UNKNOWN_TOOL_TYPES, Kinematics, module, parameter};
 use super::linuxcnc::EmcPose;
@@ -47,6 +48,24 @@ pub extern "C" fn framepath_kinematics_inner_functions(
         forward,
         switch,
     };
+}
+
+/// Before motion looks at `motion.switchkins-type`, where the type on the pin is another one than that in force: what to
+/// write to `framekins.switchkins-type`, so that motion switches in this very period, as it would without framekins.
+///
+/// # Safety
+/// `pins` points to the values of the pins.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_kinematics_take_inner_type(
+    pins: *const framepath_frame_inputs,
+) -> c_int {
+    // SAFETY: see above.
+    let Some(pins) = (unsafe { pins.as_ref() }) else {
+        return 0;
+    };
+    let inputs = module().inputs(pins);
+    let control = module().control.as_mut();
+    control.map_or(0, |control| control.take_inner_type(&inputs))
 }
 
 /// A question to the other module, with flags as LinuxCNC hands them over: keeps the axes and the joints that it comes to,

@@ -15,7 +15,7 @@ use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::frame::{AffineMap, ToolLength};
-use crate::kinematics::control::FrameControl;
+use crate::kinematics::control::{FrameControl, FrameInputs};
 use crate::machine::{ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, TiltAxis};
 
 /// Errors of `framepath_kinematics_configure`: `coordinates=` names no axis.
@@ -46,6 +46,18 @@ pub(super) struct Kinematics {
     pub(super) inner: InnerModule,
     /// How many guesses of motion's are still positions of the frame before: that of the command and that of the feedback.
     pub(super) old_guesses: u8,
+}
+
+impl Kinematics {
+    /// What the pins say, and what has to be known for a frame that they ask for.
+    pub(super) fn inputs(&self, pins: &framepath_frame_inputs) -> FrameInputs {
+        let mut inputs = inputs_of(pins, self.tool_length);
+        let expected = self.control.as_ref();
+        if expected.is_some_and(|control| control.expects_frame(&inputs)) {
+            inputs.fixed_axes = self.inner.fixed_axes(&self.position, &self.joints);
+        }
+        inputs
+    }
 }
 
 /// Memory for the one machine of a module.
@@ -314,21 +326,11 @@ pub unsafe extern "C" fn framepath_kinematics_update(
     let (Some(pins), Some(out)) = (unsafe { (pins.as_ref(), out.as_mut()) }) else {
         return;
     };
-    let Kinematics {
-        control: Some(control),
-        tool_length,
-        position,
-        joints,
-        inner,
-        ..
-    } = module()
-    else {
+    let module = module();
+    let inputs = module.inputs(pins);
+    let Some(control) = module.control.as_mut() else {
         return;
     };
-    let mut inputs = inputs_of(pins, *tool_length);
-    if control.expects_frame(&inputs) {
-        inputs.fixed_axes = inner.fixed_axes(position, joints);
-    }
     let outputs = control.update(&inputs);
-    *out = outputs_of(&outputs, control, pins, &Axes::from(*position));
+    *out = outputs_of(&outputs, control, pins, &Axes::from(module.position));
 }

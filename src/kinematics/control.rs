@@ -214,8 +214,15 @@ impl FrameControl {
         }
     }
 
-    /// Asks for the type of the inner kinematics that the pin says, as soon as motion stands: LinuxCNC's own programs put
-    /// it there and wait for nothing but the next period.
+    /// Before motion looks at the number in a period: the one to show it, with the type of the inner kinematics that the pin
+    /// says. LinuxCNC's programs put it there and wait for nothing: their interpreter reads the position in the next
+    /// moment, and has to find that of the new kinematics.
+    pub fn take_inner_type(&mut self, inputs: &FrameInputs) -> i32 {
+        self.follow_inner_type(inputs);
+        self.outputs.switchkins_type
+    }
+
+    /// Asks for the type of the inner kinematics that the pin says, as soon as motion stands.
     fn follow_inner_type(&mut self, inputs: &FrameInputs) {
         if self.active.behind.machine().is_some() {
             return;

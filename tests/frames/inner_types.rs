@@ -43,6 +43,21 @@ fn the_type_is_there_in_the_period_behind_that_of_the_pin() {
 }
 
 #[test]
+fn the_type_is_there_in_the_very_period_in_which_motion_looks() {
+    let mut motion = inner();
+    motion.period();
+    motion.inputs.inner_type = 2.0;
+    assert_eq!(motion.control.take_inner_type(&motion.inputs), 2);
+    assert_eq!(motion.switch(2), Ok(()));
+    motion.out = motion.control.update(&motion.inputs);
+    assert_eq!((motion.out.inner_type, motion.out.hold), (2, false));
+    // The same again is nothing new; in motion it waits.
+    assert_eq!(motion.control.take_inner_type(&motion.inputs), 2);
+    (motion.inputs.inner_type, motion.inputs.in_position) = (1.0, false);
+    assert_eq!(motion.control.take_inner_type(&motion.inputs), 2);
+}
+
+#[test]
 fn frames_leave_the_type_and_types_leave_the_frame() {
     let mut motion = inner();
     ask(&mut motion, 2.0);
