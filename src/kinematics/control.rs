@@ -74,6 +74,8 @@ pub struct FrameControl {
     asked: i32,
     /// The type of the inner kinematics that cannot be had, and why: not asked for again while the pin says it.
     refused_type: Option<(i32, FrameRefusal)>,
+    /// The kinematics type that motion is shown again after one that the inner kinematics did not take: nothing changes.
+    put_back: Option<i32>,
     /// The machine's dimensions have been read once.
     started: bool,
     heartbeat: Heartbeat,
@@ -112,6 +114,7 @@ impl FrameControl {
             },
             asked: 0,
             refused_type: None,
+            put_back: None,
             started: false,
             heartbeat: Heartbeat::new(),
             release: FrameRelease::default(),
@@ -257,9 +260,14 @@ impl FrameControl {
         &mut self,
         number: i32,
         inputs: &FrameInputs,
-        switch_inner: impl FnOnce(i32) -> bool,
+        switch_inner: impl FnMut(i32) -> bool,
     ) -> Result<(), FrameRefusal> {
         let request = self.request.take();
+        let put_back = self.put_back.take();
+        if request.is_none() && put_back == Some(number) {
+            self.asked = number;
+            return Ok(());
+        }
         let by_itself = request.is_some_and(|it| it.removes() && it.number == number);
         let asked = request.unwrap_or(Request {
             staged: self.active,
@@ -336,6 +344,10 @@ impl FrameControl {
         );
         if is_final && wanted != self.active.behind.inner_type() {
             self.refused_type = Some((wanted, refusal));
+            if refusal == FrameRefusal::UnknownInnerType {
+                self.put_back = Some(request.previous);
+                self.outputs.switchkins_type = request.previous;
+            }
         }
     }
 
@@ -459,10 +471,12 @@ impl FrameControl {
 fn with_inner_type(
     staged: Staged,
     before: i32,
-    switch_inner: impl FnOnce(i32) -> bool,
+    mut switch_inner: impl FnMut(i32) -> bool,
 ) -> Result<Staged, FrameRefusal> {
     let wanted = staged.behind.inner_type();
     if wanted != before && !switch_inner(wanted) {
+        // Those of LinuxCNC 2.9 have taken what they refuse, and would answer nothing any more.
+        switch_inner(before);
         return Err(FrameRefusal::UnknownInnerType);
     }
     Ok(staged)

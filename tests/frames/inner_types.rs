@@ -98,7 +98,10 @@ fn a_type_that_the_kinematics_do_not_have_is_asked_for_once() {
     for _ in 0..300 {
         motion.period();
     }
-    assert_eq!(motion.switched, [3]);
+    // And goes back to the one before, in whatever state it was left; so does motion's number.
+    assert_eq!(motion.switched, [3, 0]);
+    assert_eq!((motion.type_seen, motion.out.slot), (16, 1));
+    assert_eq!(motion.machine([1.0, 0.0, 0.0]), [6.0, 0.0, 0.0]);
     let refused = Some(FrameRefusal::UnknownInnerType);
     assert_eq!(motion.out.inner_refusal, refused);
     assert!(motion.out.hold && motion.out.active);
@@ -109,6 +112,7 @@ fn a_type_that_the_kinematics_do_not_have_is_asked_for_once() {
     assert!(!motion.out.active);
     ask(&mut motion, 0.0);
     assert_eq!((motion.out.inner_refusal, motion.out.hold), (None, false));
+    assert_eq!(motion.type_seen, 0);
     assert_eq!(motion.send(1, [6.0, 0.0, 0.0]), None);
 }
 

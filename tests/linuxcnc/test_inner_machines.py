@@ -110,6 +110,21 @@ class WithAFrame(InnerMachines):
         # 10 to the right and 7 up on the workpiece, which has turned
         self.near([TABLE.joints(result)], [(-7, 10, 0, 0, 90)], 1e-6)
 
+    def test_what_needs_to_know_how_the_tool_turns_is_refused(self):
+        for line in ("o<tool_normal> call", "o<retract> call [50]"):
+            result = TILTING.run_program(line, "G1 X10", inner="inner=xyzac-trt-kins tool_types=0")
+            self.assertIn("does not know how the kinematics behind framekins turn the tool", "\n".join(result.errors), result.log)
+            self.near([TILTING.joints(result)], [(0,) * 5], CLOSE)
+
+    def test_a_type_that_is_not_there_holds_the_machine(self):
+        # by hand motion is in teleop mode, where no type changes
+        result = TABLE.run([["mdi", "G1 X0 F3000"], ["force", "framekins.inner-type", "7"], ["sleep", 0.3], ["mdi_start", "G1 X10 F3000"], ["sleep", 0.5],
+                            ["note", "held"], ["abort"], ["force", "framekins.inner-type", "0"], ["sleep", 0.3],
+                            ["mdi", "G1 X3 F3000"], ["note", "end"]], inner="inner=xyzac-trt-kins", record=False)
+        self.assertIn("framekins.inner-type = 7 is not taken by xyzac-trt-kins", "\n".join(result.errors))
+        self.assertNotIn("Inverse BAD", result.log)
+        self.near([TABLE.joints(result, "held"), TABLE.joints(result)], [(0,) * 5, (3, 0, 0, 0, 0)], CLOSE)
+
     def test_an_axis_that_is_not_there(self):
         lathe = Machine("trivkins coordinates=XZ", (0, 0), "XZ", joint_0=WIDE, joint_1=WIDE)
         lines = ["o<rot> call [0] [0] [30]", "G1 X10"]
