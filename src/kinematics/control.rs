@@ -280,7 +280,7 @@ impl FrameControl {
         self.asked = number;
         let checked = self.checked(number, request, inputs);
         let before = self.active.behind.inner_type();
-        match checked.and_then(|staged| with_inner_type(staged, before, switch_inner)) {
+        match checked.and_then(|staged| staged.taken(before, switch_inner)) {
             Ok(staged) => {
                 self.active = staged;
                 self.slot = staged.behind.switched_to(number).0;
@@ -465,21 +465,6 @@ impl FrameControl {
                 .is_ok_and(|wanted| wanted != self.active.behind);
         self.request.is_none() && standing(inputs).is_ok() && (commanded || restaged)
     }
-}
-
-/// What is staged, once the inner kinematics have taken its type.
-fn with_inner_type(
-    staged: Staged,
-    before: i32,
-    mut switch_inner: impl FnMut(i32) -> bool,
-) -> Result<Staged, FrameRefusal> {
-    let wanted = staged.behind.inner_type();
-    if wanted != before && !switch_inner(wanted) {
-        // Those of LinuxCNC 2.9 have taken what they refuse, and would answer nothing any more.
-        switch_inner(before);
-        return Err(FrameRefusal::UnknownInnerType);
-    }
-    Ok(staged)
 }
 
 /// Whether kinematics may change now.

@@ -62,6 +62,25 @@ impl Staged {
             ..Self::without_frame(source, behind, inputs)
         })
     }
+
+    /// This, once the inner kinematics have taken its type in place of the one before.
+    ///
+    /// # Errors
+    ///
+    /// [`FrameRefusal::UnknownInnerType`]: they have not.
+    pub fn taken(
+        self,
+        before: i32,
+        mut switch_inner: impl FnMut(i32) -> bool,
+    ) -> Result<Self, FrameRefusal> {
+        let wanted = self.behind.inner_type();
+        if wanted != before && !switch_inner(wanted) {
+            // Those of LinuxCNC 2.9 have taken what they refuse, and would answer nothing any more.
+            switch_inner(before);
+            return Err(FrameRefusal::UnknownInnerType);
+        }
+        Ok(self)
+    }
 }
 
 /// A frame with work offset and tool as they are now.
