@@ -46,7 +46,8 @@ class EachModule(unittest.TestCase):
     def comes_and_goes(self, kinematics, **options):
         """Loaded, unloaded, loaded again, switched to each of its types and back, and unloaded."""
         types = [*range(kinematics.types), 0]
-        text = BOTH + UNLOAD + LOAD + "".join(ASK.format(number=number) for number in types) + "stop\nunloadrt motmod\n" + UNLOAD
+        text = BOTH + UNLOAD + LOAD + "".join(ASK.format(number=number) for number in types)
+        text += "stop\nunloadrt motmod\n" + UNLOAD
         text = text.format(name=kinematics.name, joints=kinematics.joints)
         output, code = halrun("loadrt tpmod\nloadrt homemod\n" + text, **options)
         self.assertEqual(code, 0, output)

@@ -78,8 +78,8 @@ class WithoutAFrame(InnerMachines):
 class WithAFrame(InnerMachines):
     def test_it_is_that_of_our_own_machine(self):
         lines = ["G43.1 Z15", "o<frame_refresh> call", "G10 L2 P1 X10 Y5 Z2", "o<trans> call [5] [-3] [8]",
-                 "o<arot> call [20] [-15] [40]", "G1 X20 Y10 Z3", "G2 X30 Y0 I2 J-8 A15 C30", "o<ascale> call [1.5] [1.5] [1.5]",
-                 "G1 X10 Y-10 Z5 A-10 C80", "o<frame_off> call", "G1 X0 Y0 Z0"]
+                 "o<arot> call [20] [-15] [40]", "G1 X20 Y10 Z3", "G2 X30 Y0 I2 J-8 A15 C30",
+                 "o<ascale> call [1.5] [1.5] [1.5]", "G1 X10 Y-10 Z5 A-10 C80", "o<frame_off> call", "G1 X0 Y0 Z0"]
         own = self.good(OWN.run_program(*lines))
         inner = self.good(TILTING.run_program(*lines, inner="inner=xyzac-trt-kins tool_types=0"))
         self.assertGreater(len(OWN.way(own)), 1000)
@@ -113,12 +113,14 @@ class WithAFrame(InnerMachines):
     def test_what_needs_to_know_how_the_tool_turns_is_refused(self):
         for line in ("o<tool_normal> call", "o<retract> call [50]"):
             result = TILTING.run_program(line, "G1 X10", inner="inner=xyzac-trt-kins tool_types=0")
-            self.assertIn("does not know how the kinematics behind framekins turn the tool", "\n".join(result.errors), result.log)
+            said = "\n".join(result.errors)
+            self.assertIn("does not know how the kinematics behind framekins turn the tool", said, result.log)
             self.near([TILTING.joints(result)], [(0,) * 5], CLOSE)
 
     def test_a_type_that_is_not_there_holds_the_machine(self):
         # by hand motion is in teleop mode, where no type changes
-        result = TABLE.run([["mdi", "G1 X0 F3000"], ["force", "framekins.inner-type", "7"], ["sleep", 0.3], ["mdi_start", "G1 X10 F3000"], ["sleep", 0.5],
+        result = TABLE.run([["mdi", "G1 X0 F3000"], ["force", "framekins.inner-type", "7"], ["sleep", 0.3],
+                            ["mdi_start", "G1 X10 F3000"], ["sleep", 0.5],
                             ["note", "held"], ["abort"], ["force", "framekins.inner-type", "0"], ["sleep", 0.3],
                             ["mdi", "G1 X3 F3000"], ["note", "end"]], inner="inner=xyzac-trt-kins", record=False)
         self.assertIn("framekins.inner-type = 7 is not taken by xyzac-trt-kins", "\n".join(result.errors))

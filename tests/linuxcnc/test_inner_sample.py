@@ -18,7 +18,8 @@ CHANGES = [
     (SIM, f"HALFILE = before.hal\n{SIM} -no_use_hal_manualtoolchange\nHALFILE = after.hal"),
     ("=> motion.switchkins-type", "=> framekins.inner-type"),
     ("EMCMOT = motmod", "EMCMOT = motmod num_aio=16"),
-    ("SUBROUTINE_PATH = ./remap_subs", "SUBROUTINE_PATH = ./remap_subs:../../subroutines\nOWORD_NARGS = 1\n" + inner_machine.ABORT),
+    ("SUBROUTINE_PATH = ./remap_subs",
+     "SUBROUTINE_PATH = ./remap_subs:../../subroutines\nOWORD_NARGS = 1\n" + inner_machine.ABORT),
 ]
 
 #: signals that the sample has already
@@ -54,8 +55,9 @@ class Sample(unittest.TestCase):
 
     def test_types_and_frames(self):
         steps = [["mdi", "M428"], ["getp", "M428", "framekins.inner-type-active"], ["mdi", "G1 X5 A10 C20 F1000"],
-                 ["note", "turned"], ["mdi", "M429"], ["mdi", "o<trans> call [5] [0] [0]"], ["mdi", "G1 X0 Y0"], ["note", "framed"],
-                 ["mdi", "o<frame_off> call"], ["mdi", "M430"], ["getp", "M430", "framekins.inner-type-active"]]
+                 ["note", "turned"], ["mdi", "M429"], ["mdi", "o<trans> call [5] [0] [0]"], ["mdi", "G1 X0 Y0"],
+                 ["note", "framed"], ["mdi", "o<frame_off> call"], ["mdi", "M430"],
+                 ["getp", "M430", "framekins.inner-type-active"]]
         result = harness.run(steps, sample=SAMPLE, configuration=self.config, record=False)
         self.assertIsNone(result.failure, result.log)
         self.assertEqual(result.errors, [], result.log)
