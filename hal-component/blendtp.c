@@ -126,14 +126,19 @@ static void find_kinematics(void)
 {
     int (*inverse)(const EmcPose *, double *, const unsigned long *, unsigned long *);
     int (*forward)(const double *, EmcPose *, const unsigned long *, unsigned long *);
+    const char *(*inner)(void);
     Dl_info file;
     *(void **)&inverse = dlsym(RTLD_DEFAULT, "kinematicsInverse");
     *(void **)&forward = dlsym(RTLD_DEFAULT, "kinematicsForward");
+    *(void **)&inner = dlsym(RTLD_DEFAULT, "framekinsInner");
     if (inverse && dladdr(*(void **)&inverse, &file) && file.dli_fname) {
         const char *slash = strrchr(file.dli_fname, '/');
         const char *name = slash ? slash + 1 : file.dli_fname;
         snprintf(kinematics, sizeof kinematics, "%.*s", (int)strcspn(name, "."), name);
     }
+    /* Behind a frame it is these that are asked. */
+    if (inner && inner())
+        snprintf(kinematics, sizeof kinematics, "%s", inner());
     /* It counts the turns of a joint from call to call, and would count those of the look along a move too. */
     if (!strcmp(kinematics, "rosekins"))
         inverse = NULL;

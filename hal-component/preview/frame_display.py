@@ -13,7 +13,11 @@ SHOWN = 5e-4
 
 def joints_of_axes(ini) -> list[int | None]:
     """The joint of each of nine axes, None where there is none. ini: LinuxCNC's INI file, linuxcnc.ini."""
-    found = re.search(r"\bcoordinates=(\w+)", ini.find("KINS", "KINEMATICS") or "")
+    kinematics = ini.find("KINS", "KINEMATICS") or ""
+    if not re.match(r"(framekins|trivkins)\b|$", kinematics):
+        # joints of other kinematics are no axes
+        return [None] * len(LETTERS)
+    found = re.search(r"\bcoordinates=(\w+)", kinematics)
     letters = found.group(1).upper() if found else "XYZ"
     return [letters.index(letter) if letter in letters else None for letter in LETTERS]
 

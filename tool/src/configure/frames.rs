@@ -81,7 +81,8 @@ fn kinematics(subject: &Subject, edits: &mut Edits) {
             let machine = module.trim_end_matches("-trt-kins");
             let help = format!(
                 "framekins serves this machine as machine={machine}: begin with the sample framepath-xyzac, and take over the \
-                 dimensions from {module}"
+                 dimensions from {module}; or {}",
+                by_hand(module)
             );
             return edits.refuse(
                 &place,
@@ -90,12 +91,12 @@ fn kinematics(subject: &Subject, edits: &mut Edits) {
             );
         }
         (module, _) => {
-            let help =
-                "framekins serves trivkins, xyzac-trt-kins and xyzbc-trt-kins; do without --frames";
             return edits.refuse(
                 &place,
-                format!("framekins does not serve the kinematics {module}"),
-                help,
+                format!(
+                    "the kinematics are {module}, and --frames takes the place of trivkins only"
+                ),
+                by_hand(module),
             );
         }
     }
@@ -138,6 +139,14 @@ fn kinematics(subject: &Subject, edits: &mut Edits) {
             help,
         );
     }
+}
+
+/// How frames come before kinematics that stay.
+fn by_hand(module: &str) -> String {
+    format!(
+        "write loadrt framekins inner={module} before everything else and the nets of man framekins by hand (framepath check \
+         says which), and do without --frames"
+    )
 }
 
 /// The first of nine analog outputs in a row that nothing is linked to.

@@ -122,6 +122,12 @@ impl Subject {
             || self.first_naming("framekins").is_some()
     }
 
+    /// The kinematics module that framekins is loaded before: `inner=`.
+    pub fn inner(&self) -> Option<&str> {
+        let module = self.state.module("framekins")?;
+        module.parameter("inner").filter(|inner| !inner.is_empty())
+    }
+
     /// The axis that tilts the table, `A` or `B`.
     pub fn tilt(&self) -> Option<char> {
         let module = self.state.module("framekins");

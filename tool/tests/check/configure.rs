@@ -163,7 +163,7 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "KINEMATICS = trivkins",
         "KINEMATICS = rotatekins",
         &["--frames"],
-        "axis_mm.ini:135:1: error: framekins does not serve the kinematics rotatekins",
+        "axis_mm.ini:135:1: error: the kinematics are rotatekins, and --frames takes the place of trivkins only",
     ),
     (
         "KINEMATICS = trivkins",

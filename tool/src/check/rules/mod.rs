@@ -6,6 +6,7 @@ mod folders;
 mod frame_nets;
 mod frame_settings;
 mod guard;
+mod inner_kinematics;
 mod kinematics;
 mod limits;
 mod modules;
