@@ -184,8 +184,14 @@ class FrameCanon(Canon):
         self.straight_arcsegments(arc.chords(out, self.arcdivision, self.lo[3:], end))
 
     def frame_reach(self):
-        """The least and the greatest position of the machine's X Y Z in the program, inches: chords of arcs stay inside."""
-        ends = [self.min_extents_notool, self.max_extents_notool, *self.frame_hidden]
+        """The least and the greatest position of the machine's X Y Z in the program, inches: chords of arcs stay inside. None if
+        it does not move."""
+        ends = list(self.frame_hidden)
+        # without a move these are as far apart as can be, the wrong way round
+        if self.min_extents_notool[0] <= self.max_extents_notool[0]:
+            ends += [self.min_extents_notool, self.max_extents_notool]
+        if not ends:
+            return None
         least, greatest = ([side(values) for values in zip(*ends, strict=True)] for side in (min, max))
         for kept in self.frame_arcs:
             arc, out, tool = arc_of(*kept)
