@@ -1,16 +1,19 @@
-"""A line of text over a preview."""
+"""Text over a preview."""
+
+import textwrap
 
 from OpenGL import GL
 
-#: points from the left and from the top, as position displays are
-LEFT, TOP = 15, 5
+#: points from the left and from the bottom: above, some screens lay something over it
+LEFT, BOTTOM = 15, 10
 
 
 def draw_text(window, text: str):
-    """Writes into the upper left corner. window: rs274.glcanon.GlCanonDraw."""
-    _, height, letters = window.get_font_info()
+    """Writes into the lower left corner, in as many lines as it takes. window: rs274.glcanon.GlCanonDraw."""
+    width, height, letters = window.get_font_info()
     GL.glPushAttrib(GL.GL_ENABLE_BIT | GL.GL_CURRENT_BIT | GL.GL_TRANSFORM_BIT)
-    GL.glDisable(GL.GL_DEPTH_TEST)
+    for ability in (GL.GL_DEPTH_TEST, GL.GL_LIGHTING, GL.GL_BLEND):
+        GL.glDisable(ability)
     GL.glMatrixMode(GL.GL_PROJECTION)
     GL.glPushMatrix()
     GL.glLoadIdentity()
@@ -19,9 +22,11 @@ def draw_text(window, text: str):
     GL.glPushMatrix()
     GL.glLoadIdentity()
     GL.glColor3f(*window.colors["overlay_foreground"])
-    GL.glRasterPos2i(LEFT, int(window.winfo_height() - height - TOP))
-    for letter in text:
-        GL.glCallList(letters + ord(letter))
+    columns = max(1, int((window.winfo_width() - LEFT) / width))
+    for number, line in enumerate(reversed(textwrap.wrap(text, columns))):
+        GL.glRasterPos2i(LEFT, int(BOTTOM + number * height))
+        for letter in line:
+            GL.glCallList(letters + ord(letter))
     GL.glPopMatrix()
     GL.glMatrixMode(GL.GL_PROJECTION)
     GL.glPopMatrix()

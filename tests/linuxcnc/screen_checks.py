@@ -13,6 +13,12 @@ TRAIL = 1e-5
 #: half of the last digit of a position display, mm
 SHOWN = 6e-4
 
+#: gmoccapy presses its own buttons when it sees the emergency stop go, which switches the machine off again
+SWITCH_ON = [["on"], ["sleep", 1], ["on"], ["sleep", 1], ["home"]]
+
+#: what LinuxCNC says when a screen of qtvcp reads a program in AUTO
+QTVCP_READS = "can't do that (EMC_TASK_PLAN_SYNCH) in auto mode with the interpreter idle"
+
 
 class Screen:
     """A screen in tests."""
@@ -20,9 +26,8 @@ class Screen:
     def __init__(self, command, probe, files=(), own_errors=()):
         """command: its words. probe: its USER_COMMAND_FILE; files: what that imports. own_errors: what LinuxCNC says of this
         screen without frames, too."""
-        self.first = [["show", *command], ["wait_pin", "frame-preview.answer"], ["ask", "up", "notes"],
-                      # gmoccapy presses its own buttons when it sees the emergency stop go, which switches the machine off
-                      ["on"], ["sleep", 1], ["on"], ["sleep", 1], ["home"], ["ask", "ready", "ready"]]
+        self.first = [["show", *command], ["wait_pin", "frame-preview.answer"], ["ask", "up", "notes"], *SWITCH_ON,
+                      ["ask", "ready", "ready"]]
         self.probe = probe
         self.own_errors = own_errors
         self.files = ("screen_driver.py", "screen_probe.py", probe, *files)

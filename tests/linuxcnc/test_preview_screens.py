@@ -6,9 +6,8 @@ import screen_checks
 from test_preview import program
 
 GMOCCAPY = screen_checks.Screen(["gmoccapy"], "probe_gmoccapy.py", ["gmoccapy_screen.py"])
-QTDRAGON = screen_checks.Screen(["qtvcp", "qtdragon"], "probe_qtvcp.py", ["qtvcp_screen.py"],
-                                # it wants that whenever it reads a program
-                                ["can't do that (EMC_TASK_PLAN_SYNCH) in auto mode with the interpreter idle"])
+QTDRAGON = screen_checks.Screen(["qtvcp", "qtdragon"], "probe_qtvcp.py", ["qtvcp_screen.py"], [screen_checks.QTVCP_READS])
+
 
 class Gmoccapy(screen_checks.OnTheScreen):
     screen = GMOCCAPY
