@@ -11,7 +11,8 @@ ABSOLUTE, RELATIVE = 0, 1
 
 def start(handler):
     """Installs what users have, and answers questions."""
-    (frames,) = qtvcp_frames.install(handler)
+    # its utilities may have a preview, too
+    frames = next(window for window in qtvcp_frames.install(handler) if window.window is handler.w.gcodegraphics)
 
     def show(relative):
         displays = [handler.w[f"dro_axis_{letter}"] for letter in "xyz"]

@@ -4,6 +4,7 @@
 pub mod blendtp;
 pub mod codes;
 pub mod framekins;
+pub mod previews;
 pub mod settings;
 pub mod subject;
 

@@ -51,7 +51,7 @@ fn copy(from: &Path, to: &Path) {
 impl Bench {
     pub fn new() -> Bench {
         let folder = tempfile::tempdir().expect("a folder");
-        for part in ["configs", "subroutines"] {
+        for part in ["configs", "preview", "subroutines"] {
             copy(&samples().join(part), &folder.path().join(part));
         }
         Bench { folder }

@@ -10,6 +10,7 @@ mod kinematics;
 mod limits;
 mod planner;
 mod planner_module;
+mod previews;
 mod remaps;
 mod sections;
 mod subroutines;
@@ -45,6 +46,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck) -> Findings {
         guard::look(subject, &mut findings);
         subroutines::look(subject, &mut findings);
         remaps::look(subject, &mut findings);
+        previews::look(subject, &mut findings);
     }
     frame_settings::look(subject, &mut findings);
     limits::look(subject, &mut findings);
