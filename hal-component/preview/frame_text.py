@@ -8,9 +8,14 @@ from OpenGL import GL
 LEFT, BOTTOM = 15, 10
 
 
+def fitting(window, text: str) -> list[str]:
+    """A text as lines that are not longer than the window. window: rs274.glcanon.GlCanonDraw."""
+    return textwrap.wrap(text, max(1, int((window.winfo_width() - LEFT) / window.get_font_info()[0])))
+
+
 def draw_text(window, text: str):
     """Writes into the lower left corner, in as many lines as it takes. window: rs274.glcanon.GlCanonDraw."""
-    width, height, letters = window.get_font_info()
+    _, height, letters = window.get_font_info()
     GL.glPushAttrib(GL.GL_ENABLE_BIT | GL.GL_CURRENT_BIT | GL.GL_TRANSFORM_BIT)
     for ability in (GL.GL_DEPTH_TEST, GL.GL_LIGHTING, GL.GL_BLEND):
         GL.glDisable(ability)
@@ -22,8 +27,7 @@ def draw_text(window, text: str):
     GL.glPushMatrix()
     GL.glLoadIdentity()
     GL.glColor3f(*window.colors["overlay_foreground"])
-    columns = max(1, int((window.winfo_width() - LEFT) / width))
-    for number, line in enumerate(reversed(textwrap.wrap(text, columns))):
+    for number, line in enumerate(reversed(fitting(window, text))):
         GL.glRasterPos2i(LEFT, int(BOTTOM + number * height))
         for letter in line:
             GL.glCallList(letters + ord(letter))

@@ -14,7 +14,7 @@ from frame_display import MachineStatus, axis_positions, describe, joints_of_axe
 from frame_limits import exceeded, joint_limits
 from frame_map import product
 from frame_screen import turns_tool
-from frame_text import draw_text
+from frame_text import draw_text, fitting
 from frame_trail import FrameTrail
 from frame_triad import draw_triad
 
@@ -98,8 +98,8 @@ class FrameWindow:
         finally:
             window.stat = status
         if self.state.active and not self.shows_joints():
-            line = self.line()
-            positions, offsets = [*positions, line], [*offsets, line]
+            lines = fitting(window, self.line())
+            positions, offsets = [*positions, *lines], [*offsets, *lines]
         return limit, homed, positions, offsets
 
     def line(self) -> str:

@@ -60,6 +60,9 @@ class Screen(driver.Operator):
         """Switches the machine on until it stays so: gmoccapy presses its own buttons when it sees the emergency stop come and
         go, which switches the machine off again."""
         for _ in range(10):
+            # screens look ten times a second, and are to see one after the other
+            self.command.state(linuxcnc.STATE_ESTOP_RESET)
+            self.sleep(0.5)
             self.on()
             self.sleep(2)
             self.poll()
