@@ -69,7 +69,7 @@ help:
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
 	@echo 'make tuning     what each constant that tunes the planner does to the times of programs: docs/tuning.md'
 	@echo 'make book       docs, DESIGN and CONTRIBUTING as a book (mdbook)'
-	@echo 'make screens    each sample in AXIS without a monitor: pictures in target/screens'
+	@echo 'make screens    each sample in AXIS, one in gmoccapy and qtdragon, without a monitor: pictures in target/screens'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -238,7 +238,7 @@ tuning: modules tool
 book:
 	mdbook build
 
-# Pictures of each sample in AXIS, on an X server without a monitor: target/screens.
+# Pictures of each sample in AXIS, and of one in gmoccapy and qtdragon, on an X server without a monitor: target/screens.
 screens: modules
 	@./prerequisites screen
 	$(PYTHON) -B tests/linuxcnc/screens.py $(TARGET)/screens

@@ -5,6 +5,7 @@ use super::ConfigureArguments;
 use super::edits::Edits;
 use crate::wiring::codes::{CODES, Remap};
 use crate::wiring::framekins::{ADD_FUNCTION, MOST_OUTPUTS, NETS, OUTPUTS, SAMPLE_OUTPUTS, Source};
+use crate::wiring::previews::screen;
 use crate::wiring::settings::{KEYS, SECTION};
 use crate::wiring::subject::{Subject, guard_line};
 
@@ -36,6 +37,7 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
     subroutines(subject, arguments, edits);
     codes(subject, edits);
     settings(subject, first, edits);
+    preview(subject, arguments, edits);
 }
 
 /// What is linked and loaded has to be known.
@@ -269,6 +271,14 @@ fn codes(subject: &Subject, edits: &mut Edits) {
                 edits.refuse(&entry.place, found, help);
             }
         }
+    }
+}
+
+/// The preview follows frames; a file of the user's own stays, and `check` says what it needs.
+fn preview(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edits) {
+    let key = ("DISPLAY", "USER_COMMAND_FILE");
+    if let (Some(screen), None) = (screen(subject), subject.ini.entry(key.0, key.1)) {
+        edits.set(key.0, key.1, &screen.value(&arguments.subroutines));
     }
 }
 

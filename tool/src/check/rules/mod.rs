@@ -12,6 +12,7 @@ mod limits;
 mod modules;
 mod planner;
 mod planner_module;
+mod previews;
 mod remaps;
 mod sections;
 mod subroutines;
@@ -49,6 +50,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
         guard::look(subject, &mut findings);
         subroutines::look(subject, &mut findings);
         remaps::look(subject, &mut findings);
+        previews::look(subject, &mut findings);
     }
     frame_settings::look(subject, &mut findings);
     limits::look(subject, &mut findings);
