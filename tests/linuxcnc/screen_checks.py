@@ -19,6 +19,9 @@ SHOWN = 6e-4
 #: how LinuxCNC begins what it says when a screen of qtvcp reads a program in AUTO
 QTVCP_READS = "can't do that (EMC_TASK_PLAN_SYNCH) in auto mode"
 
+#: keys of the samples that are for AXIS alone: to be removed under another screen
+WITHOUT_PANEL = {("DISPLAY", "PYVCP"): None, ("HAL", "POSTGUI_HALFILE"): None}
+
 #: Screens read a program that somebody else has opened, and qtdragon sends a command then, which may take the place of that to run.
 START = [["open", "PROGRAMS/part.ngc"], ["sleep", 2], ["start", "PROGRAMS/part.ngc"]]
 
@@ -32,12 +35,13 @@ class Screen:
         self.first = [["show", *command], ["wait_pin", "frame-preview.answer"], ["ask", "up", "notes"], ["on_for_good"],
                       ["home"], ["ask", "ready", "ready"]]
         self.probe = probe
+        self.panel = {} if command[0] == "axis" else WITHOUT_PANEL
         self.own_errors = own_errors
         self.files = ("screen_driver.py", "screen_probe.py", probe, *files)
 
     def watch(self, steps, programs, ini=None, **options):
         """Runs steps in front of the screen."""
-        changes = {("DISPLAY", "USER_COMMAND_FILE"): f"./{self.probe}", **(ini or {})}
+        changes = {("DISPLAY", "USER_COMMAND_FILE"): f"./{self.probe}", **self.panel, **(ini or {})}
         result = harness.run([*steps, ["ask", "notes", "notes"]], programs, display="screen_driver.py", files=self.files,
                            ini=changes, first=self.first, **options)
         result.errors = [error for error in result.errors if not error.startswith(self.own_errors)]

@@ -57,7 +57,7 @@ def main(folder):
     for name, (command, hook) in SCREENS.items():
         first = [["show", *command], ["wait_pin", "frame-preview.answer"], ["sleep", 10], ["on_for_good"], ["home"]]
         keep(folder, name, [["sleep", 5], ["open", "PROGRAMS/part.ngc"], ["sleep", 5], *RUN], PROGRAM, first=first,
-             ini={("DISPLAY", "USER_COMMAND_FILE"): f"../../preview/{hook}"})
+             ini={("DISPLAY", "USER_COMMAND_FILE"): f"../../preview/{hook}", **screen_checks.WITHOUT_PANEL})
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ mod findings;
 mod inner;
 mod left_out;
 mod modules;
+mod panel;
 mod random;
 mod samples;
 mod text;

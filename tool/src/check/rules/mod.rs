@@ -10,6 +10,7 @@ mod inner_kinematics;
 mod kinematics;
 mod limits;
 mod modules;
+mod panel;
 mod planner;
 mod planner_module;
 mod previews;
@@ -52,6 +53,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
         remaps::look(subject, &mut findings);
         previews::look(subject, &mut findings);
     }
+    panel::look(subject, &mut findings);
     frame_settings::look(subject, &mut findings);
     limits::look(subject, &mut findings);
     filters::look(subject, filter, &mut findings);
