@@ -25,15 +25,16 @@ ALLOWED = 0.005
 OURS = os.path.join(harness.MODULES, "blendtp.so")
 
 
-def without_jerk(folder):
-    """A copy of the sample that sets no limits of jerk: LinuxCNC's planner has none. Returns its path."""
+def without_blendtp(folder):
+    """A copy of the sample for LinuxCNC's planner, which has no limits of jerk and no pins. Returns its path."""
     copy = os.path.join(folder, "configuration")
     shutil.copytree(os.path.join(harness.SAMPLES, "configs", SAMPLE), copy)
-    path = os.path.join(copy, f"{SAMPLE}.hal")
-    with open(path, encoding="utf-8") as file:
-        lines = file.readlines()
-    with open(path, "w", encoding="utf-8") as file:
-        file.writelines(line for line in lines if not line.startswith("setp blendtp."))
+    for ending, left_out in (("hal", "setp blendtp."), ("ini", "HALFILE = ../../panel/operator.hal")):
+        path = os.path.join(copy, f"{SAMPLE}.{ending}")
+        with open(path, encoding="utf-8") as file:
+            lines = file.readlines()
+        with open(path, "w", encoding="utf-8") as file:
+            file.writelines(line for line in lines if not line.startswith(left_out))
     return copy
 
 
@@ -64,7 +65,7 @@ def compared(folder):
 class AgainstLinuxCnc(unittest.TestCase):
     def test_times(self):
         with tempfile.TemporaryDirectory() as folder:
-            times, configuration = compared(folder), without_jerk(folder)
+            times, configuration = compared(folder), without_blendtp(folder)
             self.assertEqual(set(times), set(PROGRAMS))
             left = list(PROGRAMS)
             for _ in range(ATTEMPTS):
