@@ -29,6 +29,10 @@ HEADER_FOLDERS = rtapi hal emc emc/ini emc/kinematics emc/motion emc/nml_intf em
 empty :=
 export LINUXCNC_INCLUDE := $(subst $(empty) ,:,$(wildcard $(addprefix $(abspath $(LINUXCNC_SOURCE))/src/,$(HEADER_FOLDERS))))
 export LINUXCNC_VERSION := $(shell cat $(LINUXCNC_SOURCE)/VERSION)
+# Where it was built, the command runs the interpreter and the planner from there.
+ifneq ($(wildcard $(LINUXCNC_SOURCE)/lib/librs274.so),)
+export LINUXCNC_IN_PLACE := $(abspath $(LINUXCNC_SOURCE))
+endif
 ifeq ($(LINUXCNC_INCLUDE),)
 $(error LINUXCNC_SOURCE=$(LINUXCNC_SOURCE) has no src/emc/motion: it is to be the folder of LinuxCNC's source)
 endif
@@ -52,6 +56,8 @@ help:
 	@echo 'make sanitize   only the tests with the address and undefined-behaviour sanitizers and valgrind'
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
 	@echo 'make faults     what LinuxCNC does with both modules when something goes wrong, as the table of docs/faults.md'
+	@echo 'make suites LINUXCNC_SOURCE=/path/to/linuxcnc  LinuxCNC'"'"'s own suites with its own planner and with blendtp, as the table of'
+	@echo '                docs/suites.md: of the LinuxCNC that was built there, or of the installed one (SUITES="motion abort/g64": only these)'
 	@echo 'make short      thousands of random short programs through framepath plan: faults and limits that are exceeded'
 	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
 	@echo 'make fuzz       any calls of the C interface of both modules, ten minutes each (FUZZ_SECONDS); make fuzz-filter: of the filter'
@@ -63,7 +69,7 @@ help:
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
 	@echo 'make tuning     what each constant that tunes the planner does to the times of programs: docs/tuning.md'
 	@echo 'make book       docs, DESIGN and CONTRIBUTING as a book (mdbook)'
-	@echo 'make screens    each sample in AXIS without a monitor: pictures in target/screens'
+	@echo 'make screens    each sample in AXIS, one in gmoccapy and qtdragon, without a monitor: pictures in target/screens'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -141,6 +147,16 @@ contract: modules tool
 faults: modules fault-modules tool
 	$(PYTHON) -B tests/linuxcnc/faults/fault_table.py
 	FRAMEPATH_FAULT_EVERY=1 $(PYTHON) -B tests/linuxcnc/test_faults_injected.py
+
+# LinuxCNC's own suites, which its packages lack: a quarter of an hour.
+SUITES ?=
+
+suites: $(if $(LINUXCNC_SOURCE),modules,no-source)
+	@./prerequisites suites
+	$(PYTHON) -B tests/linuxcnc/suites.py $(LINUXCNC_SOURCE) $(SUITES)
+
+no-source:
+	@echo "make suites LINUXCNC_SOURCE=/path/to/linuxcnc: LinuxCNC's packages have no suites, its source has" >&2; exit 1
 
 SHORT ?= 5000
 SEED ?= 1
@@ -222,7 +238,7 @@ tuning: modules tool
 book:
 	mdbook build
 
-# Pictures of each sample in AXIS, on an X server without a monitor: target/screens.
+# Pictures of each sample in AXIS, and of one in gmoccapy and qtdragon, on an X server without a monitor: target/screens.
 screens: modules
 	@./prerequisites screen
 	$(PYTHON) -B tests/linuxcnc/screens.py $(TARGET)/screens
@@ -231,16 +247,18 @@ header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
 
 install: modules tool
-	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(MAN)/man1 $(MAN)/man9
+	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(SHARE)/panel $(MAN)/man1 $(MAN)/man9
 	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
 	install -m 755 $(TOOL) $(BIN)
 	install -m 644 hal-component/subroutines/*.ngc hal-component/subroutines/frame_[!g]*.py \
 	    hal-component/subroutines/README.md $(SHARE)/subroutines
 	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
 	install -m 644 hal-component/preview/*.py $(SHARE)/preview
+	install -m 644 $(addprefix hal-component/panel/,*.xml *.hal time_table.py) $(SHARE)/panel
+	install -m 755 hal-component/panel/program_time.py $(SHARE)/panel
 	cp -R hal-component/configs $(SHARE)
 # A copy in the user's folder has to find them, too.
-	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal
+	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal $(SHARE)/panel/*.xml $(SHARE)/panel/*.hal
 	install -d $(EXAMPLES)
 	ln -sfn $(PREFIX)/share/framepath/configs $(EXAMPLES)/framepath
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
@@ -283,6 +301,6 @@ debian-12 debian-13:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults short soak bench \
+.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults suites no-source short soak bench \
     fuzz fuzz-filter mutants compare figures tuning book screens header install uninstall deb deb-source \
     debian-12 debian-13 clean

@@ -1,7 +1,7 @@
 //! What the planner costs in a servo period, and when a move is added.
 
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use framepath::axes::{Axes, AxisLimits};
@@ -68,6 +68,18 @@ fn circles(planner: &mut Planner, radius: f64, inputs: &CycleInputs) {
     planner.cycle(inputs);
 }
 
+/// What it takes to say what the operator sees, `count` servo periods in sum; with what it takes to look at the clock.
+fn survey_time(planner: &mut Planner, radius: f64, inputs: &CycleInputs, count: u64) -> Duration {
+    (0..count)
+        .map(|_| {
+            circles(planner, radius, inputs);
+            let start = Instant::now();
+            black_box(planner.survey(inputs));
+            start.elapsed()
+        })
+        .sum()
+}
+
 fn cycles(c: &mut Criterion) {
     let full = CycleInputs::default();
     let half = CycleInputs {
@@ -92,6 +104,10 @@ fn cycles(c: &mut Criterion) {
         let mut planner = planner();
         c.bench_function(name, |b| b.iter(|| circles(&mut planner, radius, &full)));
     }
+    let mut moving = planner();
+    c.bench_function("survey/circles of 20 mm", |b| {
+        b.iter_custom(|count| survey_time(&mut moving, 20.0, &full, count))
+    });
     let mut idle = planner();
     c.bench_function("cycle/nothing to do", |b| b.iter(|| idle.cycle(&full).done));
 }

@@ -65,6 +65,7 @@ static int (*linear_map)(double map[9]);
 #endif
 
 #include "linuxcnc_differences.h"
+#include "operator_pins.h"
 #include "pin_limits.h"
 
 /* With a greatest velocity of 0 in the INI a program would wait for ever without a word. */
@@ -119,28 +120,32 @@ static void say_finding(void)
     }
 }
 
-/* Hands over the kinematics, whose joints are looked at on the way of each move. */
+/* Hands over the kinematics, whose joints are looked at on the way of each move. Their type is what motmod noted: kinematicsType
+ * sets matrixkins up anew each time, and the second time without its parameters. */
 static void find_kinematics(void)
 {
     int (*inverse)(const EmcPose *, double *, const unsigned long *, unsigned long *);
     int (*forward)(const double *, EmcPose *, const unsigned long *, unsigned long *);
-    KINEMATICS_TYPE (*type)(void);
+    const char *(*inner)(void);
     Dl_info file;
     *(void **)&inverse = dlsym(RTLD_DEFAULT, "kinematicsInverse");
     *(void **)&forward = dlsym(RTLD_DEFAULT, "kinematicsForward");
-    *(void **)&type = dlsym(RTLD_DEFAULT, "kinematicsType");
+    *(void **)&inner = dlsym(RTLD_DEFAULT, "framekinsInner");
     if (inverse && dladdr(*(void **)&inverse, &file) && file.dli_fname) {
         const char *slash = strrchr(file.dli_fname, '/');
         const char *name = slash ? slash + 1 : file.dli_fname;
         snprintf(kinematics, sizeof kinematics, "%.*s", (int)strcspn(name, "."), name);
     }
+    /* Behind a frame it is these that are asked. */
+    if (inner && inner())
+        snprintf(kinematics, sizeof kinematics, "%s", inner());
     /* It counts the turns of a joint from call to call, and would count those of the look along a move too. */
     if (!strcmp(kinematics, "rosekins"))
         inverse = NULL;
-    if (!inverse || !type)
+    if (!inverse)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s cannot be asked for joints on the way of a move: the soft limits are checked "
                         "at the ends of moves only\n", kinematics);
-    framepath_planner_kinematics(type ? inverse : NULL, forward, type ? type() : KINEMATICS_IDENTITY);
+    framepath_planner_kinematics(inverse, forward, motion.config->kinType);
 }
 
 int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
@@ -391,6 +396,7 @@ int tcqFull(TC_QUEUE_STRUCT const * const queue)
     int full = framepath_planner_queue_full(planner);
     (void)queue;
     controller_ends();
+    show_operator();
     return full;
 }
 
@@ -448,7 +454,7 @@ int rtapi_app_main(void)
     if (!error)
         error |= hal_pin_float_newf(HAL_IN, &pins->default_tolerance, component, "blendtp.default-tolerance");
     if (!error)
-        error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "blendtp.version");
+        error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "blendtp.version") || make_operator_pins();
 #ifdef FRAMEPATH_FAULT_INJECTION
     if (!error)
         error |= make_fault_pins();

@@ -1,4 +1,5 @@
-/* framekins: a kinematics module of LinuxCNC with programmable frames in front of the machine's own kinematics.
+/* framekins: a kinematics module of LinuxCNC with programmable frames in front of the machine's own kinematics, which are
+ * the library's or those of another module.
  *
  * This file owns the HAL pins and the parameters of loadrt and forwards to the library (include/framepath.h).
  * The pins are explained in framekins.9.
@@ -14,6 +15,7 @@
 #include "framepath.h"
 #include "first_loaded.h"
 #include "impossible_pins.h"
+#include "inner_kinematics.h"
 #include "linuxcnc_version.h"
 #include "servo_thread.h"
 
@@ -24,11 +26,17 @@ MODULE_LICENSE("GPL");
 static char *coordinates = "";
 RTAPI_MP_STRING(coordinates, "Axis letters, one for each joint: coordinates=XYZ");
 
-static char *machine = "identity";
-RTAPI_MP_STRING(machine, "identity, xyzac or xyzbc");
+static char *machine = "";
+RTAPI_MP_STRING(machine, "identity (also without it), xyzac or xyzbc");
 
-static char *tool_length = "frame";
-RTAPI_MP_STRING(tool_length, "frame: the tool's length turns with a frame; machine: it stays along the machine's axes");
+static char *tool_length = "";
+RTAPI_MP_STRING(tool_length, "frame (also without it): the tool's length turns with a frame; machine: it stays along the machine's axes");
+
+static char *inner = "";
+RTAPI_MP_STRING(inner, "In place of coordinates and machine: the kinematics module that is loaded behind this one");
+
+static char *tool_types = "";
+RTAPI_MP_STRING(tool_types, "Types of the inner kinematics that turn the tool's length themselves: tool_types=0,2");
 
 /* The dimensions of a machine with a tilting rotary table have the names of LinuxCNC's xyzac-trt-kins. */
 static struct {
@@ -49,6 +57,8 @@ static struct {
     hal_s32_t *releases, *releases_seen;
     hal_u32_t *heartbeat, *version;
     hal_float_t *frame[12], *position[9], *turned_tool[3];
+    hal_float_t *inner_type;
+    hal_s32_t *inner_type_active, *inner_refusal;
     /* What frame_guard looks at. It has these linked to pins of its own, which are read without HAL's lock: a process that is
        killed while it holds that would stop every other one. Users link the ones of the same names above. */
     struct {
@@ -104,6 +114,7 @@ static struct framepath_frame_inputs read_pins(void)
     in.heartbeat = *pins->heartbeat;
     in.period = 0.0;
     in.clock = 0;
+    in.inner_type = *inner ? *pins->inner_type : 0.0;
     return in;
 }
 
@@ -132,6 +143,18 @@ static void write_pins(const struct framepath_frame_outputs *out)
         *pins->position[i] = out->position[i];
     for (int i = 0; i < 3; i++)
         *pins->turned_tool[i] = out->turned_tool[i];
+}
+
+/* What is behind the frame, and why not what the pin asks for; that is told once. */
+static void write_inner_pins(const struct framepath_frame_outputs *out)
+{
+    if (!*inner)
+        return;
+    if (out->inner_refusal && out->inner_refusal != *pins->inner_refusal)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: framekins.inner-type = %g is not taken by %s, and the machine is held: %s\n",
+                        *pins->inner_type, inner, framepath_kinematics_refusal_text(out->inner_refusal));
+    *pins->inner_refusal = out->inner_refusal;
+    *pins->inner_type_active = out->inner_type;
 }
 
 static void write_guard_pins(const struct framepath_frame_inputs *in, const struct framepath_frame_outputs *out)
@@ -184,43 +207,76 @@ static void update(void *argument, long period)
         tell_impossible_pin(&in);
     tell_alarm(out.alarm);
     write_pins(&out);
+    write_inner_pins(&out);
     write_guard_pins(&in, &out);
 }
 
 /* For blendtp: the linear part of the frame, and whether one is in force. */
 int framekinsLinearMap(double map[9]);
 
+/* For blendtp: the name of the kinematics behind the frame; NULL if they are ours. */
+const char *framekinsInner(void);
+
 int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags,
                       KINEMATICS_INVERSE_FLAGS *iflags)
 {
-    (void)fflags;
-    (void)iflags;
     this_is_the_servo_thread();
+    if (*inner)
+        return framepath_kinematics_inner_forward(joints, world, fflags, iflags);
     return framepath_kinematics_forward(joints, world);
 }
 
 int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMATICS_INVERSE_FLAGS *iflags,
                       KINEMATICS_FORWARD_FLAGS *fflags)
 {
-    (void)iflags;
-    (void)fflags;
+    if (*inner)
+        return framepath_kinematics_inner_inverse(world, joints, iflags, fflags);
     return framepath_kinematics_inverse(world, joints);
 }
 
-KINEMATICS_TYPE kinematicsType(void)
+/* Exports the function of the module once the kinematics behind it are found: without them addf fails in the HAL file, and
+ * LinuxCNC does not start. */
+static int begin_inner(void)
 {
-    return KINEMATICS_BOTH;
+    if (find_inner(inner, &pins))
+        return -1;
+    hal_set_unready(component);
+    if (hal_export_funct("framekins", update, 0, 1, 0, component))
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: HAL has no room for the function; raise HAL_SIZE or load fewer components\n");
+    hal_ready(component);
+    return 0;
 }
 
+/* motmod asks for it while it is loaded. Behind a frame that turns, axes are no joints any more. */
+KINEMATICS_TYPE kinematicsType(void)
+{
+    if (!*inner)
+        return KINEMATICS_BOTH;
+    if (is_in_inner(inner, &pins, __builtin_return_address(0)))
+        return own_type_of_inner(inner, &pins);
+    if (!inner_found.module && (servo_thread.seen || begin_inner()))
+        return KINEMATICS_BOTH;
+    return inner_found.type == KINEMATICS_IDENTITY ? KINEMATICS_BOTH : inner_found.type;
+}
+
+/* motmod asks this in each period before it looks at motion.switchkins-type. */
 int kinematicsSwitchable(void)
 {
+    if (*inner && *pins->inner_type != *pins->inner_type_active) {
+        struct framepath_frame_inputs in = read_pins();
+        *pins->switchkins_type = framepath_kinematics_take_inner_type(&in);
+    }
     return 1;
 }
 
 /* 0 is success; anything else makes motion report an error and keep its pose. */
 int kinematicsSwitch(int type)
 {
-    struct framepath_frame_inputs in = read_pins();
+    struct framepath_frame_inputs in;
+    /* Modules switch themselves to type 0 while they are loaded. */
+    if (*inner && !inner_found.module)
+        return 0;
+    in = read_pins();
     return framepath_kinematics_switch(type, &in);
 }
 
@@ -230,12 +286,18 @@ int framekinsLinearMap(double map[9])
     return framepath_kinematics_linear_map(map);
 }
 
+const char *framekinsInner(void)
+{
+    return *inner ? inner : NULL;
+}
+
 EXPORT_SYMBOL(kinematicsForward);
 EXPORT_SYMBOL(kinematicsInverse);
 EXPORT_SYMBOL(kinematicsType);
 EXPORT_SYMBOL(kinematicsSwitchable);
 EXPORT_SYMBOL(kinematicsSwitch);
 EXPORT_SYMBOL(framekinsLinearMap);
+EXPORT_SYMBOL(framekinsInner);
 
 /* What passes between framekins, motion and frame_guard so that a frame does not outlive its program. */
 static int export_guard_pins(void)
@@ -349,6 +411,36 @@ static int export_table_pins(void)
     return 0;
 }
 
+/* For kinematics of another module. */
+static int export_inner_pins(void)
+{
+    int error = 0;
+    error |= hal_pin_float_newf(HAL_IN, &pins->inner_type, component, "framekins.inner-type");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->inner_type_active, component, "framekins.inner-type-active");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->inner_refusal, component, "framekins.inner-refusal");
+    return error;
+}
+
+/* Chooses the kinematics of another module; 0, or what is wrong has been said. */
+static int configure_inner(void)
+{
+    const char *beside = *coordinates ? "coordinates" : *machine ? "machine" : *tool_length ? "tool_length" : NULL;
+    int error;
+    if (beside) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: inner=%s and %s= exclude each other, since the joints are those of %s: %s\n",
+                        inner, beside, inner, *coordinates || *machine
+                            ? "give coordinates= to that module, and to framekins inner= alone"
+                            : "write TOOL_LENGTH under [FRAMEPATH] in the INI, or tool_types= for types with a tool-offset pin");
+        return -22; /* EINVAL */
+    }
+    if (check_inner_file(inner, &pins))
+        return -22; /* EINVAL */
+    error = framepath_kinematics_configure_inner(tool_types);
+    if (error)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_types=%s: %s\n", tool_types, framepath_kinematics_configure_text(error));
+    return error ? -22 : 0; /* EINVAL */
+}
+
 /* Chooses the machine; 0, or what is wrong has been said. */
 static int configure(void)
 {
@@ -374,10 +466,13 @@ static int configure(void)
 int rtapi_app_main(void)
 {
     int error;
-    if (check_version("framekins") || check_first("framekins", "kinematicsForward", &pins, "write KINEMATICS = framekins "
-                                                  "coordinates=.. under [KINS] in the INI, and no loadrt of kinematics"))
+    const char *remedy = *inner ? "loadrt framekins inner=.. has to come first in the HAL files, before loadrt [KINS]KINEMATICS and "
+                                  "before motmod"
+                                : "write KINEMATICS = framekins coordinates=.. under [KINS] in the INI, and no loadrt of "
+                                  "kinematics; or load framekins before it, with inner=";
+    if (check_version("framekins") || check_first("framekins", "kinematicsForward", &pins, remedy))
         return -22; /* EINVAL */
-    error = configure();
+    error = *inner ? configure_inner() : configure();
     if (error)
         return error;
     has_table = framepath_kinematics_tilt_axis() != 0;
@@ -387,8 +482,8 @@ int rtapi_app_main(void)
         return component;
     }
     pins = hal_malloc(sizeof *pins);
-    if (!pins || export_frame_pins() || (has_table && export_table_pins())
-        || hal_export_funct("framekins", update, 0, 1, 0, component)) {
+    if (!pins || export_frame_pins() || (has_table && export_table_pins()) || (*inner && export_inner_pins())
+        || (!*inner && hal_export_funct("framekins", update, 0, 1, 0, component))) {
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: HAL has no room for the pins; raise HAL_SIZE or load fewer components\n");
         hal_exit(component);
         return -12; /* ENOMEM */
@@ -400,4 +495,5 @@ int rtapi_app_main(void)
 void rtapi_app_exit(void)
 {
     hal_exit(component);
+    forget_inner();
 }

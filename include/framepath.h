@@ -16,6 +16,16 @@
 #define FRAMEPATH_VERSION 100
 
 /*
+ Alarm: the guard is late with a frame in force, and the machine is held.
+ */
+#define FRAMEPATH_GUARD_LATE 1
+
+/*
+ Alarm: the guard is lost with a frame in force, and the machine is switched off.
+ */
+#define FRAMEPATH_GUARD_LOST 2
+
+/*
  Errors of `framepath_kinematics_configure`: `coordinates=` names no axis.
  */
 #define FRAMEPATH_NO_AXIS 1
@@ -46,14 +56,9 @@
 #define FRAMEPATH_UNKNOWN_TOOL_LENGTH 6
 
 /*
- Alarm: the guard is late with a frame in force, and the machine is held.
+ `tool_types=` is no list of types.
  */
-#define FRAMEPATH_GUARD_LATE 1
-
-/*
- Alarm: the guard is lost with a frame in force, and the machine is switched off.
- */
-#define FRAMEPATH_GUARD_LOST 2
+#define FRAMEPATH_UNKNOWN_TOOL_TYPES 7
 
 /*
  The most moves that motmod may ask room for (it asks for 2000).
@@ -99,6 +104,61 @@
  The kinematics gave no joints for a place on its way, so that it could not be looked at.
  */
 #define FRAMEPATH_RANGE_UNKNOWN 2
+
+/*
+ There is nothing to do.
+ */
+#define FRAMEPATH_LIMIT_NOTHING 0
+
+/*
+ The machine rests between moves.
+ */
+#define FRAMEPATH_LIMIT_REST 1
+
+/*
+ Pause, feed hold or an abort.
+ */
+#define FRAMEPATH_LIMIT_HOLD 2
+
+/*
+ It waits for a spindle, or follows its angle.
+ */
+#define FRAMEPATH_LIMIT_SPINDLE 3
+
+/*
+ The feed of the program.
+ */
+#define FRAMEPATH_LIMIT_FEED 4
+
+/*
+ An override below 100 %.
+ */
+#define FRAMEPATH_LIMIT_OVERRIDE 5
+
+/*
+ The greatest velocity along the path.
+ */
+#define FRAMEPATH_LIMIT_PATH_VELOCITY 6
+
+/*
+ The velocity of an axis.
+ */
+#define FRAMEPATH_LIMIT_AXIS_VELOCITY 7
+
+/*
+ The acceleration of an axis.
+ */
+#define FRAMEPATH_LIMIT_AXIS_ACCELERATION 8
+
+/*
+ The jerk of an axis.
+ */
+#define FRAMEPATH_LIMIT_AXIS_JERK 9
+
+/*
+ On the way between two limits.
+ */
+#define FRAMEPATH_LIMIT_BETWEEN 10
 
 /*
  The planner of the module, with what LinuxCNC handed over for it.
@@ -209,6 +269,10 @@ struct framepath_frame_inputs {
    A clock that runs on, ns.
    */
   long long clock;
+  /*
+   The type that inner kinematics are to have.
+   */
+  double inner_type;
 };
 
 /*
@@ -295,7 +359,110 @@ struct framepath_frame_outputs {
    From the tip of the tool to the position of the axes, X Y Z.
    */
   double turned_tool[3];
+  /*
+   The type of the inner kinematics in effect.
+   */
+  int inner_type;
+  /*
+   Why it is not the one that the pin says; 0 if it is.
+   */
+  int inner_refusal;
 };
+
+/*
+ What an operator sees, after a servo period.
+ */
+struct framepath_survey {
+  /*
+   What keeps the machine from being faster: one of `FRAMEPATH_LIMIT_..`.
+   */
+  int limit;
+  /*
+   The axis whose limit it is, 0 to 8 (X Y Z A B C U V W of the machine), or -1.
+   */
+  int axis;
+  /*
+   Moves that are queued, the running one included.
+   */
+  int moves_queued;
+  /*
+   Those of them that are planned.
+   */
+  int moves_ahead;
+  /*
+   Moves that have left the queue since the start of the machine, modulo 2^32: the number of the running one.
+   */
+  uint32_t moves_done;
+  /*
+   LinuxCNC's number of the running or next move: its line in the program; 0 if there is none.
+   */
+  int line;
+  /*
+   Whether the machine stands still.
+   */
+  bool stands;
+  /*
+   What F counts until the end of that move, machine units or degrees.
+   */
+  double to_go;
+  /*
+   Seconds until the rest at the end of what is planned, at an override of 100 %.
+   */
+  double seconds_ahead;
+  /*
+   Seconds until the end of what is queued, at an override of 100 %.
+   */
+  double seconds_queued;
+};
+
+/*
+ Chooses the kinematics of another module in place of a machine: `tool_types` is a list of their types that turn the
+ tool's length themselves, empty if none do. Returns 0, or an error for `framepath_kinematics_configure_text`.
+
+ # Safety
+ The text is a string or null.
+ */
+int framepath_kinematics_configure_inner(const char *tool_types);
+
+/*
+ The functions of the other module, which has type 0 now; null for `switch` if it cannot be switched.
+ */
+void framepath_kinematics_inner_functions(int (*inverse)(const EmcPose*, double*, const unsigned long*, unsigned long*),
+                                          int (*forward)(const double*, EmcPose*, const unsigned long*, unsigned long*),
+                                          int (*switch_)(int));
+
+/*
+ Before motion looks at `motion.switchkins-type`, where the type on the pin is another one than that in force: what to
+ write to `framekins.switchkins-type`, so that motion switches in this very period, as it would without framekins.
+
+ # Safety
+ `pins` points to the values of the pins.
+ */
+int framepath_kinematics_take_inner_type(const struct framepath_frame_inputs *pins);
+
+/*
+ The pose for joint positions, from a guess at it, with the flags of `kinematicsForward`. What the other module returns;
+ -1 if there is none.
+
+ # Safety
+ `joints` has 16 numbers, `world` is a pose, the flags are numbers.
+ */
+int framepath_kinematics_inner_forward(const double *joints,
+                                       EmcPose *world,
+                                       const unsigned long *forward_flags,
+                                       unsigned long *inverse_flags);
+
+/*
+ The joint positions for a pose, from the joints of before, with the flags of `kinematicsInverse`. What the other module
+ returns; -1 if there is none.
+
+ # Safety
+ `world` is a pose, `joints` has 16 numbers, the flags are numbers.
+ */
+int framepath_kinematics_inner_inverse(const EmcPose *world,
+                                       double *joints,
+                                       const unsigned long *inverse_flags,
+                                       unsigned long *forward_flags);
 
 /*
  Chooses the machine from the texts of `coordinates=`, `machine=` and `tool_length=`. Returns 0, or an error for
@@ -318,7 +485,7 @@ const char *framepath_kinematics_configure_text(int error);
 int framepath_kinematics_tilt_axis(void);
 
 /*
- The pose for joint positions. 0, or -1 if the module is not configured or a result is not finite.
+ The pose for joint positions of a machine of ours. 0, or -1 if none is configured or a result is not finite.
 
  # Safety
  `joints` has 16 numbers, `world` is a pose.
@@ -326,7 +493,7 @@ int framepath_kinematics_tilt_axis(void);
 int framepath_kinematics_forward(const double *joints, EmcPose *world);
 
 /*
- The joint positions for a pose. 0, or -1 if the module is not configured or a result is not finite.
+ The joint positions for a pose, of a machine of ours. 0, or -1 if none is configured or a result is not finite.
 
  # Safety
  `world` is a pose, `joints` has room for 16 numbers.
@@ -343,12 +510,13 @@ int framepath_kinematics_inverse(const EmcPose *world, double *joints);
 int framepath_kinematics_linear_map(double *map);
 
 /*
- Motion switches to a kinematics type. 0, or the number of a refusal: then nothing has changed.
+ Motion switches to a kinematics type; with inner kinematics it is 16 times the slot of the frame plus theirs. 0, or the number of a refusal: then nothing has changed.
 
  # Safety
  `pins` points to the values of the pins.
  */
-int framepath_kinematics_switch(int slot, const struct framepath_frame_inputs *pins);
+int framepath_kinematics_switch(int slot,
+                                const struct framepath_frame_inputs *pins);
 
 /*
  One servo period of taking commands: what is to be written to the pins.
@@ -682,5 +850,13 @@ int framepath_planner_range_finding(const struct framepath_planner *handle,
                                     int *joint,
                                     double *position,
                                     double *limit);
+
+/*
+ What an operator sees after the last servo period. Returns 0, or -1 without a planner.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `survey` points to one.
+ */
+int framepath_planner_survey(const struct framepath_planner *handle, struct framepath_survey *survey);
 
 #endif  /* FRAMEPATH_H */

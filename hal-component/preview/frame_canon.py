@@ -12,11 +12,11 @@ The interpreter takes it over by a G28 to there, which is not drawn.
 A canon has the tip of the tool in inches of the machine's X Y Z (`lo`) and the tool's length with it (`xo`, `yo`, `zo`).
 """
 
-import functools
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from frame_arc import Arc
-from frame_commands import Frame, FrameList, FrameRefused, work_map
+from frame_commands import Frame, FrameList, FrameRefused, described, work_map
 from frame_map import Map, Point, applied, inverse, product, shift, turned
 
 MM_PER_INCH = 25.4
@@ -67,6 +67,7 @@ class FrameCanon(Canon):
     #: the tool's length that the frame was made with
     frame_made_with: Point = (0.0, 0.0, 0.0)
     lo: tuple[float, ...]
+    rotate_and_translate: Callable[..., tuple[float, ...]]
 
     def __init__(self, *args, **words):
         super().__init__(*args, **words)
@@ -96,7 +97,7 @@ class FrameCanon(Canon):
             inches = [value / MM_PER_INCH for value in values] if code % 100 == 1 else values
             self.frame_list.take(code, inches)
         except FrameRefused as refused:
-            self.frame_refuse(str(refused))
+            self.frame_refuse(f"{described(code, values)} would be refused, {refused}")
         self.frame = self.frame_list.frame(self.frame_work(), self.rules.turns_tool())
         self.frame_made_with = self.frame_tool
         if self.frame and len(self.frames_seen) < MOST_TRIADS and self.frame.axes not in self.frames_seen:
@@ -111,11 +112,11 @@ class FrameCanon(Canon):
         self.rules.answer(None)
 
     def frame_refuse(self, reason):
-        """The machine would stop here: nothing more is drawn."""
+        """The machine would stop here: nothing more is drawn. reason: begins a sentence."""
         if not self.frame_refused:
             self.frame_refused = True
             self.suppress += 1
-            self.rules.tell(f"line {self.lineno}: this frame would be refused, {reason}: the preview ends here")
+            self.rules.tell(f"{reason}: the preview ends here")
 
     def frame_units(self):
         """Machine units in an inch."""
@@ -139,7 +140,6 @@ class FrameCanon(Canon):
         tool = self.frame_tool
         if self.frame is None:
             self.frame_out = None
-            self.__dict__.pop("rotate_and_translate", None)
         else:
             tool = turned(self.frame.tool, self.frame_tool)
             # a tool that was changed in the frame moves the axes as framekins does: with the map of the frame
@@ -147,7 +147,7 @@ class FrameCanon(Canon):
             by = [a + b - c for a, b, c in zip(turned(self.frame.tip, since), turned(self.frame.tool, self.frame_made_with),
                                                tool, strict=True)]
             self.frame_out = product(shift(by), self.frame.tip)
-            self.rotate_and_translate = functools.partial(self.frame_rotated, self.frame_out)
+        self.frame_map()
         self.xo, self.yo, self.zo = tool
         self.lo = (*(axis - part for axis, part in zip(axes, tool, strict=True)), *self.lo[3:])
 
@@ -158,12 +158,24 @@ class FrameCanon(Canon):
             tip = applied(inverse(self.frame_out), tip)
         return tuple((part + tool) * self.frame_units() for part, tool in zip(tip, self.frame_tool, strict=True))
 
-    def frame_rotated(self, out: Map, *place):
-        """What stands in for rotate_and_translate in a frame; without one moves are read as fast as ever."""
-        x, y, z, u, v, w, k, m, n = super().rotate_and_translate(*place)
-        # written out, since a program has many moves
-        (a, b, c, p), (d, e, f, q), (g, h, i, r) = out
-        return (a * x + b * y + c * z + p, d * x + e * y + f * z + q, g * x + h * y + i * z + r, u, v, w, k, m, n)
+    def frame_map(self):
+        """What stands in for rotate_and_translate in a frame; without one moves are read as ever."""
+        self.__dict__.pop("rotate_and_translate", None)
+        if self.frame_out is not None:
+            others = self.rotate_and_translate(*(0.0,) * 9)[3:]
+            self.rotate_and_translate = mapped(product(self.frame_out, self.frame_work()), others)
+
+    def set_g5x_offset(self, *offset):
+        super().set_g5x_offset(*offset)
+        self.frame_map()
+
+    def set_g92_offset(self, *offset):
+        super().set_g92_offset(*offset)
+        self.frame_map()
+
+    def set_xy_rotation(self, degrees):
+        super().set_xy_rotation(degrees)
+        self.frame_map()
 
     def straight_traverse(self, *place):
         super().straight_traverse(*place)
@@ -184,8 +196,14 @@ class FrameCanon(Canon):
         self.straight_arcsegments(arc.chords(out, self.arcdivision, self.lo[3:], end))
 
     def frame_reach(self):
-        """The least and the greatest position of the machine's X Y Z in the program, inches: chords of arcs stay inside."""
-        ends = [self.min_extents_notool, self.max_extents_notool, *self.frame_hidden]
+        """The least and the greatest position of the machine's X Y Z in the program, inches: chords of arcs stay inside. None if
+        it does not move."""
+        ends = list(self.frame_hidden)
+        # without a move these are as far apart as can be, the wrong way round
+        if self.min_extents_notool[0] <= self.max_extents_notool[0]:
+            ends += [self.min_extents_notool, self.max_extents_notool]
+        if not ends:
+            return None
         least, greatest = ([side(values) for values in zip(*ends, strict=True)] for side in (min, max))
         for kept in self.frame_arcs:
             arc, out, tool = arc_of(*kept)
@@ -199,6 +217,23 @@ class FrameCanon(Canon):
         super().tool_offset(xo, yo, zo, *others)
         self.frame_tool = (xo, yo, zo)
         self.frame_place(axes)
+
+
+def mapped(out: Map, others):
+    """A function from nine axes of a program to where they are drawn: X Y Z behind the map `out`, to the six others `others` is
+    added."""
+    # written out, since a program has many moves
+    (xx, xy, xz, x0), (yx, yy, yz, y0), (zx, zy, zz, z0) = out
+    a0, b0, c0, u0, v0, w0 = others
+
+    def without_others(x, y, z, *rest):
+        return (xx * x + xy * y + xz * z + x0, yx * x + yy * y + yz * z + y0, zx * x + zy * y + zz * z + z0, *rest)
+
+    def where(x, y, z, a, b, c, u, v, w):
+        return (xx * x + xy * y + xz * z + x0, yx * x + yy * y + yz * z + y0, zx * x + zy * y + zz * z + z0,
+                a + a0, b + b0, c + c0, u + u0, v + v0, w + w0)
+
+    return where if any(others) else without_others
 
 
 def arc_of(frame_out, work, plane, start, end, centre, turns, tool):

@@ -17,6 +17,10 @@ TRANSLATE, ROTATE, ROTATE_IN_PLANE, ROTS_XY, ROTS_ZX, ROTS_YZ, SCALE, MIRROR = r
 REMOVE, DROP_SCALES, REFRESH = 9, 10, 11
 SUSPEND = 13
 
+#: subroutines of the operations
+NAMES = {TRANSLATE: "trans", ROTATE: "rot", ROTATE_IN_PLANE: "rot_rpl", ROTS_XY: "rots_xy", ROTS_ZX: "rots_zx", ROTS_YZ: "rots_yz",
+         SCALE: "scale", MIRROR: "mirror"}
+
 #: of two solid angles: the axes of the first and of the second rotation
 SOLID_ANGLES = {ROTS_XY: (1, 0), ROTS_ZX: (0, 2), ROTS_YZ: (2, 1)}
 
@@ -53,6 +57,12 @@ class Frame:
     tool: Map
     #: the origin and the directions of the program's X Y Z, in the machine's
     axes: Map
+
+
+def described(code: int, values) -> str:
+    """A command as a program calls it."""
+    name = NAMES.get(code % ADDITIVE, str(code))
+    return f"o<{'a' if code > ADDITIVE else ''}{name}> with " + ", ".join(f"{value:g}" for value in values)
 
 
 def operation(code: int, values, k2: bool) -> Operation:

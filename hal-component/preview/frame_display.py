@@ -13,7 +13,11 @@ SHOWN = 5e-4
 
 def joints_of_axes(ini) -> list[int | None]:
     """The joint of each of nine axes, None where there is none. ini: LinuxCNC's INI file, linuxcnc.ini."""
-    found = re.search(r"\bcoordinates=(\w+)", ini.find("KINS", "KINEMATICS") or "")
+    kinematics = ini.find("KINS", "KINEMATICS") or ""
+    if not re.match(r"(framekins|trivkins)\b|$", kinematics):
+        # joints of other kinematics are no axes
+        return [None] * len(LETTERS)
+    found = re.search(r"\bcoordinates=(\w+)", kinematics)
     letters = found.group(1).upper() if found else "XYZ"
     return [letters.index(letter) if letter in letters else None for letter in LETTERS]
 
@@ -24,14 +28,16 @@ class MachineStatus:
     def __init__(self, status, joints):
         """joints: see joints_of_axes."""
         self._status = status
-        self.position = _positions(status.position, status.joint_position, joints)
-        self.actual_position = _positions(status.actual_position, status.joint_actual_position, joints)
+        self.position = axis_positions(status.position, status.joint_position, joints)
+        self.actual_position = axis_positions(status.actual_position, status.joint_actual_position, joints)
 
     def __getattr__(self, name):
         return getattr(self._status, name)
 
 
-def _positions(axes, joint_positions, joints):
+def axis_positions(axes, joint_positions, joints):
+    """Positions of the machine's own axes: those of the joints, and `axes` where an axis has none. joints: see
+    joints_of_axes."""
     return tuple(value if joint is None else joint_positions[joint] for value, joint in zip(axes, joints, strict=True))
 
 

@@ -13,9 +13,11 @@ def joint_limits(status, joints):
 
 
 def exceeded(reach, limits, inches: float) -> list[str]:
-    """A sentence for each limit that is exceeded. reach: least and greatest X Y Z of the axes, inches; limits: the same of the
-    joints, machine units; inches: in a machine unit."""
-    sentences = []
+    """A sentence for each limit that is exceeded. reach: least and greatest X Y Z of the axes, inches, None of a program
+    that does not move; limits: the same of the joints, machine units; inches: in a machine unit."""
+    sentences: list[str] = []
+    if reach is None:
+        return sentences
     for axis, letter in enumerate("XYZ"):
         (least, greatest), (minimum, maximum) = ([side[axis] for side in both] for both in (reach, limits))
         if least / inches < minimum - ROUNDING:

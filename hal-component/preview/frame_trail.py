@@ -76,6 +76,13 @@ class FrameTrail:
         with self.lock:
             self.npts = 0
 
+    def get_colors(self):
+        return tuple(tuple(colour) for colour in self.colours)
+
+    def set_colors(self, *colours):
+        """Colours of what comes now, as many as get_colors gives."""
+        self.colours = colours
+
     def set_depth(self, z, w):
         """For machines that cut foam, which have no frames."""
 

@@ -325,6 +325,7 @@ class Guard:
             self.wait(lambda: self.look().idle, 1.0)
         now = self.look()
         if now.on and now.auto:
+            self.wait(lambda: not self.look().idle, self.settings.screen_patience)
             # in AUTO LinuxCNC accepts nothing but a start; in MDI no program can start meanwhile
             if not self.mode(linuxcnc.MODE_MDI):
                 # a program was started since that look, and LinuxCNC refuses the change: the next step stops it

@@ -1,6 +1,9 @@
 //! The edge to LinuxCNC's C: the only place with `unsafe` code and with C's types.
 #![allow(unsafe_code)]
 
+pub mod frame_pins;
+pub mod inner;
+pub mod inner_kinematics;
 pub mod kinematics;
 pub mod kinematics_words;
 pub mod linuxcnc;

@@ -15,47 +15,52 @@
 //!
 //! Motion notices a request only when the number of the kinematics changes, so two slots are used
 //! in turn.
+//!
+//! Where the kinematics behind the frame are another module's, programs switch these by a pin of their
+//! own. Motion is then asked for both in one number, see [`Behind::number`].
 
-use nalgebra::{Matrix3, Vector3};
-
+use super::behind::Behind;
 use super::check;
 use super::command::{Command, Source};
 use super::heartbeat::{Guard, Heartbeat};
+use super::inner::InnerType;
 pub use super::pins::{FrameInputs, FrameOutputs};
 use super::refusal::FrameRefusal;
 use super::release::FrameRelease;
-use crate::axes::Axes;
-use crate::frame::{ActiveFrame, AffineMap, ProgrammableFrame, ToolLength, WorkOffset};
-use crate::machine::{Coordinates, Machine, TableTiltingParameters};
+use super::staged::Staged;
+use crate::frame::ActiveFrame;
 
 /// Motion switches in the period after the request. If it has not done so by now, nobody listens.
 const PATIENCE: u32 = 100;
 
-/// How far, in machine units, an axis without a joint may be taken along, and how much of another
-/// axis may reach it: rounding.
-const STILL: f64 = 1e-9;
-
-/// Kinematics that are ready to be switched to.
-#[derive(Clone, Copy, Debug)]
-struct Staged {
-    source: Source,
-    /// `None`: no frame.
-    frame: Option<ActiveFrame>,
-    machine: Machine,
-    /// The tool offset it was made with.
-    tool_offset: [f64; 3],
+/// Why motion is asked for a switch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Purpose {
+    /// A command of this number.
+    Command(f64),
+    /// Nobody asked, the frame has to go.
+    Removal,
+    /// The inner kinematics are to have another type.
+    InnerType,
 }
 
 /// A switch that motion was asked for.
 #[derive(Clone, Copy, Debug)]
 struct Request {
     staged: Staged,
-    slot: i32,
-    /// The slot that was asked for before.
+    /// The kinematics type, see [`Behind::number`].
+    number: i32,
+    /// The one that was asked for before.
     previous: i32,
-    /// Number of the command; `None`: nobody asked, the frame has to go.
-    number: Option<f64>,
+    purpose: Purpose,
     waited: u32,
+}
+
+impl Request {
+    /// Whether it is to remove the frame without a command.
+    fn removes(&self) -> bool {
+        self.purpose == Purpose::Removal
+    }
 }
 
 /// The frame of a machine with the machine's own kinematics, and the way to change them.
@@ -65,8 +70,12 @@ pub struct FrameControl {
     slot: i32,
     request: Option<Request>,
     outputs: FrameOutputs,
-    /// The slot that was asked for last: asking for it again would go unnoticed.
+    /// The kinematics type that was asked for last: asking for it again would go unnoticed.
     asked: i32,
+    /// The type of the inner kinematics that cannot be had, and why: not asked for again while the pin says it.
+    refused_type: Option<(i32, FrameRefusal)>,
+    /// The kinematics type that motion is shown again after one that the inner kinematics did not take: nothing changes.
+    put_back: Option<i32>,
     /// The machine's dimensions have been read once.
     started: bool,
     heartbeat: Heartbeat,
@@ -75,12 +84,12 @@ pub struct FrameControl {
 
 impl FrameControl {
     /// No frame. The dimensions of the machine are read at the first [`Self::update`].
-    pub fn new(machine: Machine) -> Self {
+    pub fn new(behind: impl Into<Behind>) -> Self {
         Self {
             active: Staged {
                 source: Source::nothing(),
                 frame: None,
-                machine,
+                behind: behind.into(),
                 tool_offset: [0.0; 3],
             },
             slot: 0,
@@ -100,8 +109,12 @@ impl FrameControl {
                 hold: false,
                 guarded: true,
                 guard: Guard::Never,
+                inner_type: 0,
+                inner_refusal: None,
             },
             asked: 0,
+            refused_type: None,
+            put_back: None,
             started: false,
             heartbeat: Heartbeat::new(),
             release: FrameRelease::default(),
@@ -114,10 +127,10 @@ impl FrameControl {
         self.active.frame.as_ref()
     }
 
-    /// The machine with the dimensions in force.
+    /// What is behind the frame, with the dimensions and the type in force.
     #[inline]
-    pub fn machine(&self) -> &Machine {
-        &self.active.machine
+    pub fn behind(&self) -> &Behind {
+        &self.active.behind
     }
 
     /// One servo period: takes a new command, asks for a switch, sees whether it took place.
@@ -126,9 +139,12 @@ impl FrameControl {
     pub fn update(&mut self, inputs: &FrameInputs) -> FrameOutputs {
         if !self.started {
             self.started = true;
-            match self.machine_with(&inputs.table) {
-                Ok(machine) => self.active.machine = machine,
-                Err(refusal) => self.outputs.refusal = Some(refusal),
+            // The type of inner kinematics is motion's to change.
+            if self.active.behind.machine().is_some() {
+                match self.active.behind.as_on_pins(inputs) {
+                    Ok(behind) => self.active.behind = behind,
+                    Err(refusal) => self.outputs.refusal = Some(refusal),
+                }
             }
         }
         self.heartbeat
@@ -137,17 +153,18 @@ impl FrameControl {
             Some(request) => {
                 request.waited += 1;
                 if request.waited > PATIENCE {
-                    let (number, previous) = (request.number, request.previous);
+                    let request = *request;
                     self.request = None;
                     // Taken back, or motion would switch whenever somebody links the pin.
-                    self.asked = previous;
-                    self.outputs.switchkins_type = previous;
-                    self.refuse(number, FrameRefusal::NotSwitched);
+                    self.asked = request.previous;
+                    self.outputs.switchkins_type = request.previous;
+                    self.refuse(&request, FrameRefusal::NotSwitched);
                 }
             }
             None => self.take_command(inputs),
         }
         self.remove_what_has_to_go(inputs);
+        self.follow_inner_type(inputs);
         self.show(inputs);
         self.outputs
     }
@@ -157,9 +174,10 @@ impl FrameControl {
         self.outputs.slot = self.slot;
         self.outputs.active = self.active.frame.is_some();
         self.outputs.operations = self.active.source.count();
-        let wanted = self.machine_with(&inputs.table);
-        self.outputs.tool_centre_point = self.machine().tool_centre_point();
-        self.outputs.parameters_pending = wanted != Ok(self.active.machine);
+        let wanted = self.behind_on_pins(inputs);
+        self.outputs.tool_centre_point = self.active.behind.turns_tool();
+        self.outputs.inner_type = self.active.behind.inner_type();
+        self.outputs.parameters_pending = wanted != Ok(self.active.behind);
         self.outputs.tool_offset = shown(&self.active.tool_offset);
         let guard = self.heartbeat.guard();
         let framed = self.outputs.active;
@@ -173,7 +191,7 @@ impl FrameControl {
     /// The interpreter has positions with a frame that is gone or about to go, and somebody is there to
     /// tell it.
     fn is_unread(&self, inputs: &FrameInputs) -> bool {
-        let going = self.request.is_some_and(|request| request.number.is_none());
+        let going = self.request.as_ref().is_some_and(Request::removes);
         let told = self.outputs.releases == inputs.releases_seen;
         matches!(self.heartbeat.guard(), Guard::Lives | Guard::Late) && (going || !told)
     }
@@ -193,18 +211,44 @@ impl FrameControl {
             self.active.source = Source::nothing();
         }
         if self.release.is_ripe() && framed && self.request.is_none() {
-            let machine = self.machine_with(&inputs.table);
-            let staged = Staged {
-                source: Source::nothing(),
-                frame: None,
-                machine: machine.unwrap_or(self.active.machine),
-                tool_offset: inputs.tool_offset,
-            };
-            self.ask(staged, None);
+            let behind = self.behind_on_pins(inputs).unwrap_or(self.active.behind);
+            let staged = Staged::without_frame(Source::nothing(), behind, inputs);
+            self.ask(staged, Purpose::Removal);
         }
     }
 
-    /// Motion switches to kinematics `slot`: 0 without a frame, 1 or 2 with one.
+    /// Before motion looks at the number in a period: the one to show it, with the type of the inner kinematics that the pin
+    /// says. LinuxCNC's programs put it there and wait for nothing: their interpreter reads the position in the next
+    /// moment, and has to find that of the new kinematics.
+    pub fn take_inner_type(&mut self, inputs: &FrameInputs) -> i32 {
+        self.follow_inner_type(inputs);
+        self.outputs.switchkins_type
+    }
+
+    /// Asks for the type of the inner kinematics that the pin says, as soon as motion stands.
+    fn follow_inner_type(&mut self, inputs: &FrameInputs) {
+        if self.active.behind.machine().is_some() {
+            return;
+        }
+        let said = InnerType::on_pin(inputs.inner_type);
+        self.refused_type = self
+            .refused_type
+            .filter(|(number, _)| Some(*number) == said);
+        self.outputs.inner_refusal = match self.behind_on_pins(inputs) {
+            Err(refusal) => Some(refusal),
+            Ok(wanted) if wanted == self.active.behind || self.request.is_some() => None,
+            Ok(wanted) => match standing(inputs).and_then(|()| self.again(wanted, inputs)) {
+                Err(refusal) => Some(refusal),
+                Ok(staged) => {
+                    self.ask(staged, Purpose::InnerType);
+                    None
+                }
+            },
+        };
+    }
+
+    /// Motion switches to kinematics `number`: slot 0 without a frame, 1 or 2 with one, and the type of inner kinematics,
+    /// which `switch_inner` is asked for where it changes; it returns whether they took it.
     ///
     /// A slot that was not asked for by [`Self::update`] takes the map pins as they are now: so a
     /// frame can also be switched on by hand. Every switch takes over the machine's dimensions.
@@ -212,64 +256,105 @@ impl FrameControl {
     /// # Errors
     ///
     /// Why nothing changes.
-    pub fn switch(&mut self, slot: i32, inputs: &FrameInputs) -> Result<(), FrameRefusal> {
+    pub fn switch(
+        &mut self,
+        number: i32,
+        inputs: &FrameInputs,
+        switch_inner: impl FnMut(i32) -> bool,
+    ) -> Result<(), FrameRefusal> {
         let request = self.request.take();
-        let by_itself = request.is_some_and(|it| it.number.is_none() && it.slot == slot);
-        let number = match request {
-            Some(request) => request.number,
-            None => Some(self.outputs.acknowledged),
-        };
+        let put_back = self.put_back.take();
+        if request.is_none() && put_back == Some(number) {
+            self.asked = number;
+            return Ok(());
+        }
+        let by_itself = request.is_some_and(|it| it.removes() && it.number == number);
+        let asked = request.unwrap_or(Request {
+            staged: self.active,
+            number,
+            previous: self.asked,
+            purpose: Purpose::Command(self.outputs.acknowledged),
+            waited: 0,
+        });
         // Motion remembers the number, whatever comes of it.
-        self.asked = slot;
-        match self.checked(slot, request, inputs) {
+        self.asked = number;
+        let checked = self.checked(number, request, inputs);
+        let before = self.active.behind.inner_type();
+        match checked.and_then(|staged| staged.taken(before, switch_inner)) {
             Ok(staged) => {
                 self.active = staged;
-                self.slot = slot;
+                self.slot = staged.behind.switched_to(number).0;
                 // The refusal that ended the program stays to be read.
-                self.answer(number, None);
+                self.answer(&asked, None);
                 if by_itself && self.heartbeat.guard() != Guard::Lost {
                     self.outputs.releases = self.outputs.releases.wrapping_add(1);
                 }
                 Ok(())
             }
             Err(refusal) => {
-                self.refuse(number, refusal);
+                self.refuse(&asked, refusal);
                 Err(refusal)
             }
         }
     }
 
-    /// What a switch to `slot` would make the active frame.
+    /// What a switch to `number` would make the active frame.
     fn checked(
         &self,
-        slot: i32,
+        number: i32,
         request: Option<Request>,
         inputs: &FrameInputs,
     ) -> Result<Staged, FrameRefusal> {
-        match request {
-            Some(removal) if removal.number.is_none() && removal.slot == slot => {
-                may_remove(inputs)?
-            }
-            _ => standing(inputs)?,
+        let request = request.filter(|request| request.number == number);
+        if request.as_ref().is_some_and(Request::removes) {
+            may_remove(inputs)?;
+        } else {
+            standing(inputs)?;
         }
-        match request {
-            Some(request) if request.slot == slot => Ok(request.staged),
-            _ if slot == 0 => self.staged(Source::nothing(), inputs),
-            _ if slot == 1 || slot == 2 => self.staged(Source::map_pins(), inputs),
+        if let Some(request) = request {
+            return Ok(request.staged);
+        }
+        let (slot, behind) = self.active.behind.switched_to(number);
+        let behind = match behind {
+            Behind::Own(_) => behind.as_on_pins(inputs)?,
+            Behind::Inner(_) => behind,
+        };
+        match slot {
+            0 => Staged::new(Source::nothing(), behind, inputs),
+            1 | 2 => Staged::new(Source::map_pins(), behind, inputs),
             _ => Err(FrameRefusal::UnknownType),
         }
     }
 
-    /// The answer to a command; nobody waits for one where the frame went by itself.
-    fn answer(&mut self, number: Option<f64>, refusal: Option<FrameRefusal>) {
-        if let Some(number) = number {
+    /// The answer to a command; nobody waits for one where none was given.
+    fn answer(&mut self, request: &Request, refusal: Option<FrameRefusal>) {
+        if let Purpose::Command(number) = request.purpose {
             self.outputs.acknowledged = number;
             self.outputs.refusal = refusal;
         }
     }
 
-    fn refuse(&mut self, number: Option<f64>, refusal: FrameRefusal) {
-        self.answer(number, Some(refusal));
+    /// What motion did not do, or the inner kinematics did not take.
+    fn refuse(&mut self, request: &Request, refusal: FrameRefusal) {
+        self.answer(request, Some(refusal));
+        let wanted = request.staged.behind.inner_type();
+        let is_final = matches!(
+            refusal,
+            FrameRefusal::NotSwitched | FrameRefusal::UnknownInnerType
+        );
+        if is_final && wanted != self.active.behind.inner_type() {
+            self.refused_type = Some((wanted, refusal));
+            if refusal == FrameRefusal::UnknownInnerType {
+                self.put_back = Some(request.previous);
+                self.outputs.switchkins_type = request.previous;
+            }
+        }
+    }
+
+    /// The answer to a command that motion is not asked for.
+    fn answer_at_once(&mut self, number: f64, refusal: Option<FrameRefusal>) {
+        self.outputs.acknowledged = number;
+        self.outputs.refusal = refusal;
     }
 
     /// Whether a command can be believed, and somebody is there to remove its frame.
@@ -299,12 +384,12 @@ impl FrameControl {
             return;
         }
         match self.commanded(&command, inputs) {
-            Err(refusal) => self.refuse(Some(number), refusal),
+            Err(refusal) => self.answer_at_once(number, Some(refusal)),
             Ok(staged) if self.changes_nothing(&staged) => {
                 self.active.source = staged.source;
-                self.answer(Some(number), None);
+                self.answer_at_once(number, None);
             }
-            Ok(staged) => self.ask(staged, Some(number)),
+            Ok(staged) => self.ask(staged, Purpose::Command(number)),
         }
     }
 
@@ -313,114 +398,73 @@ impl FrameControl {
         self.trusted(command, inputs)?;
         if command.suspends() {
             standing(inputs)?;
-            return self.suspended(inputs);
+            let behind = self.behind_on_pins(inputs)?;
+            return Ok(Staged::without_frame(self.active.source, behind, inputs));
         }
         let source = self.active.source.after(command, &inputs.value)?;
         standing(inputs)?;
-        self.staged(source, inputs)
+        let behind = match self.behind_on_pins(inputs) {
+            // Whatever the pin says, a frame can go.
+            Err(FrameRefusal::UnknownInnerType) if command.removes() => self.active.behind,
+            behind => behind?,
+        };
+        Staged::new(source, behind, inputs)
+    }
+
+    /// The frame of now with something else behind it.
+    fn again(&self, behind: Behind, inputs: &FrameInputs) -> Result<Staged, FrameRefusal> {
+        match self.active.frame {
+            Some(_) => Staged::new(self.active.source, behind, inputs),
+            None => Ok(Staged::without_frame(self.active.source, behind, inputs)),
+        }
     }
 
     /// There was no frame, there will be none, and the machine is the same.
     fn changes_nothing(&self, staged: &Staged) -> bool {
         let frames = staged.frame.is_some() || self.active.frame.is_some();
-        !frames && self.slot == 0 && staged.machine == self.active.machine
+        !frames && self.slot == 0 && staged.behind == self.active.behind
     }
 
     /// Asks motion for a switch, under a number that differs from the last.
-    fn ask(&mut self, staged: Staged, number: Option<f64>) {
-        let slot = match (staged.frame, self.asked) {
-            (None, asked) if asked != 0 => 0,
+    fn ask(&mut self, staged: Staged, purpose: Purpose) {
+        let (last, behind) = self.active.behind.switched_to(self.asked);
+        let same = behind.inner_type() == staged.behind.inner_type();
+        let slot = match (staged.frame, last) {
+            (None, last) if last != 0 || !same => 0,
             (_, 1) => 2,
             _ => 1,
         };
+        let number = staged.behind.number(slot);
         self.request = Some(Request {
             staged,
-            slot,
-            previous: self.asked,
             number,
+            previous: self.asked,
+            purpose,
             waited: 0,
         });
-        self.asked = slot;
-        self.outputs.switchkins_type = slot;
+        self.asked = number;
+        self.outputs.switchkins_type = number;
     }
 
-    /// The machine with other dimensions.
-    fn machine_with(&self, table: &TableTiltingParameters) -> Result<Machine, FrameRefusal> {
-        let mut machine = self.active.machine;
-        match machine.set_parameters(table) {
-            Ok(()) => Ok(machine),
-            Err(_) => Err(FrameRefusal::MachineParameters),
+    /// What is behind the frame with the dimensions and the type that the pins say.
+    fn behind_on_pins(&self, inputs: &FrameInputs) -> Result<Behind, FrameRefusal> {
+        let wanted = self.active.behind.as_on_pins(inputs)?;
+        match self.refused_type {
+            Some((number, refusal)) if number == wanted.inner_type() => Err(refusal),
+            _ => Ok(wanted),
         }
     }
 
-    /// No frame, with what it was made of kept for later.
-    fn suspended(&self, inputs: &FrameInputs) -> Result<Staged, FrameRefusal> {
-        Ok(Staged {
-            source: self.active.source,
-            frame: None,
-            machine: self.machine_with(&inputs.table)?,
-            tool_offset: inputs.tool_offset,
-        })
+    /// Whether a frame may be made in this period, for which the axes that inner kinematics cannot move have to be known.
+    pub fn expects_frame(&self, inputs: &FrameInputs) -> bool {
+        let commanded = Command::on_pin(inputs.command)
+            .is_some_and(|command| command.number != self.outputs.acknowledged);
+        let restaged = self.active.frame.is_some()
+            && self
+                .behind_on_pins(inputs)
+                .is_ok_and(|wanted| wanted != self.active.behind);
+        self.request.is_none() && standing(inputs).is_ok() && (commanded || restaged)
     }
-
-    /// The kinematics that this makes, with machine, work offset and tool as they are now.
-    fn staged(&self, source: Source, inputs: &FrameInputs) -> Result<Staged, FrameRefusal> {
-        let machine = self.machine_with(&inputs.table)?;
-        let programmed = match source.operations() {
-            Some(list) if list.is_empty() => None,
-            Some(list) => Some(list.fold()?),
-            None => {
-                let [xx, xy, xz, x, yx, yy, yz, y, zx, zy, zz, z] = inputs.map;
-                let linear = Matrix3::new(xx, xy, xz, yx, yy, yz, zx, zy, zz);
-                let map = AffineMap::new(linear, Vector3::new(x, y, z))?;
-                Some(ProgrammableFrame::from_map(map)?)
-            }
-        };
-        let frame = match programmed {
-            None => None,
-            Some(programmed) => Some(joined(&programmed, &machine, inputs)?),
-        };
-        Ok(Staged {
-            source,
-            frame,
-            machine,
-            tool_offset: inputs.tool_offset,
-        })
-    }
-}
-
-/// A frame with work offset and tool as they are now.
-fn joined(
-    programmed: &ProgrammableFrame,
-    machine: &Machine,
-    inputs: &FrameInputs,
-) -> Result<ActiveFrame, FrameRefusal> {
-    let offset = spread(&inputs.work_offset);
-    let work = WorkOffset::new(offset, Axes::zeros(), inputs.work_rotation)?;
-    let tool = spread(&inputs.tool_offset);
-    // With the tool centre point on, the kinematics behind the frame turn the tool's length.
-    let tool_length = if machine.tool_centre_point() {
-        ToolLength::Machine
-    } else {
-        inputs.tool_length
-    };
-    let frame = ActiveFrame::new(programmed, inputs.mirror, &work, &tool, tool_length)?;
-    if moves_missing_axis(frame.map(), machine.coordinates()) {
-        return Err(FrameRefusal::MissingAxis);
-    }
-    Ok(frame)
-}
-
-/// Whether an axis that has no joint would have to leave its zero for the program to be run.
-fn moves_missing_axis(map: &AffineMap, coordinates: &Coordinates) -> bool {
-    map.to_rows().iter().enumerate().any(|(axis, row)| {
-        let [x, y, z, shift] = *row;
-        let others = [x, y, z]
-            .iter()
-            .enumerate()
-            .any(|(other, part)| other != axis && part.abs() > STILL);
-        coordinates.joint_of_axis(axis).is_none() && (others || shift.abs() > STILL)
-    })
 }
 
 /// Whether kinematics may change now.
@@ -446,9 +490,4 @@ fn may_remove(inputs: &FrameInputs) -> Result<(), FrameRefusal> {
 /// A tool offset as operators see it: without a frame it may be anything, and removing a frame must not depend on it.
 fn shown(tool_offset: &[f64; 3]) -> [f64; 3] {
     tool_offset.map(|offset| if offset.is_finite() { offset } else { 0.0 })
-}
-
-/// X Y Z of nine axes, the others 0.
-fn spread([x, y, z]: &[f64; 3]) -> Axes {
-    Axes::from([*x, *y, *z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 }

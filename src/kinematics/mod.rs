@@ -1,17 +1,23 @@
 //! What framekins does in each servo period: commands for the frame, the checks of them, the switch
 //! from one frame to the next, and where the rotary axes have to go for the tool to stand normal to
-//! a frame. [`crate::frame`] says what a frame is, [`crate::machine`] where the joints are.
+//! a frame. [`crate::frame`] says what a frame is, [`crate::machine`] where the joints are, unless the
+//! kinematics of another module do ([`inner`]).
 
+pub mod behind;
 pub mod check;
 pub mod command;
 pub mod control;
 pub mod heartbeat;
+pub mod inner;
 pub mod pins;
 pub mod refusal;
 pub mod release;
+pub mod staged;
 pub mod tool_angles;
 pub mod tool_normal;
 
+pub use behind::Behind;
+pub use inner::{InnerKinematics, InnerType};
 pub use refusal::FrameRefusal;
 pub use tool_angles::{AngleRange, OrientationError, RotaryAngles, tool_angles};
 pub use tool_normal::{RotaryLimits, ToolNormalError, tool_normal};

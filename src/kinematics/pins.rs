@@ -28,6 +28,10 @@ pub struct FrameInputs {
     pub mirror: [bool; 6],
     /// Dimensions of a machine with a tilting table, and whether the tool centre point is wanted.
     pub table: TableTiltingParameters,
+    /// The type that inner kinematics are to have.
+    pub inner_type: f64,
+    /// Which of X Y Z the inner kinematics cannot move, where that has been looked at.
+    pub fixed_axes: [bool; 3],
     /// Motion stands still.
     pub in_position: bool,
     /// Motion is in teleop (world jogging) mode.
@@ -57,7 +61,7 @@ pub struct FrameOutputs {
     pub acknowledged: f64,
     /// A frame is active.
     pub active: bool,
-    /// Kinematics type in effect: 0, 1 or 2.
+    /// The slot in effect: 0, 1 or 2.
     pub slot: i32,
     /// How many operations make up the frame.
     pub operations: i32,
@@ -81,4 +85,8 @@ pub struct FrameOutputs {
     pub guarded: bool,
     /// What is known of the guard.
     pub guard: Guard,
+    /// The type of the inner kinematics in effect.
+    pub inner_type: i32,
+    /// Why it is not the one that the pin says.
+    pub inner_refusal: Option<FrameRefusal>,
 }

@@ -30,7 +30,7 @@ pub enum FrameRefusal {
     Teleop = 11,
     /// Motion did not switch: motion.switchkins-type is not linked.
     NotSwitched = 12,
-    /// Motion asked for a kinematics type other than 0, 1 and 2.
+    /// Motion asked for a slot other than 0, 1 and 2.
     UnknownType = 13,
     /// The frame moves an axis X, Y or Z that the machine does not have.
     MissingAxis = 14,
@@ -40,6 +40,8 @@ pub enum FrameRefusal {
     WrongCheck = 16,
     /// Nobody would remove the frame again.
     Unguarded = 17,
+    /// The inner kinematics do not have this type.
+    UnknownInnerType = 18,
 }
 
 impl From<FrameError> for FrameRefusal {

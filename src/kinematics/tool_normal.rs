@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::behind::Behind;
 use super::tool_angles::{AngleRange, OrientationError, RotaryAngles, tool_angles};
 use crate::axes::Axes;
 use crate::frame::ActiveFrame;
@@ -23,6 +24,8 @@ pub enum ToolNormalError {
     Unreachable = 3,
     /// A limit is not a number, or the greatest is below the smallest.
     WrongLimits = 4,
+    /// How the kinematics of another module turn the tool is not known.
+    UnknownKinematics = 5,
 }
 
 /// What a rotary axis can reach, for both of them.
@@ -44,11 +47,12 @@ pub struct RotaryLimits {
 ///
 /// [`ToolNormalError`].
 pub fn tool_normal(
-    machine: &Machine,
+    behind: &Behind,
     frame: Option<&ActiveFrame>,
     position: &Axes,
     limits: &RotaryLimits,
 ) -> Result<Option<RotaryAngles>, ToolNormalError> {
+    let machine = behind.machine().ok_or(ToolNormalError::UnknownKinematics)?;
     let direction = frame.map_or_else(Vector3::z, ActiveFrame::tool_axis);
     let Machine::TableTilting(table) = machine else {
         let upright = direction.z > 0.0 && direction.x.hypot(direction.y) <= NORMAL_TOLERANCE;

@@ -34,6 +34,10 @@ pub struct MoveQueue {
     released: u64,
     /// Serial number of the first move that has not begun.
     begun: u64,
+    /// How long all moves before each one take at their feeds, seconds.
+    seconds_before: Ring<f64, SLOTS>,
+    /// The same before the next move to come.
+    seconds: f64,
 }
 
 const VACANT: Move = Move {
@@ -62,6 +66,8 @@ impl MoveQueue {
             cleared: 0,
             released: 0,
             begun: 0,
+            seconds_before: Ring::filled_with(0.0),
+            seconds: 0.0,
         }
     }
 
@@ -111,9 +117,20 @@ impl MoveQueue {
         if self.len() >= SLOTS {
             return Err(QueueFull);
         }
+        *self.seconds_before.at_mut(self.next) = self.seconds;
+        self.seconds += queued.seconds_at_feed();
         *self.slots.at_mut(self.next) = queued;
         self.next += 1;
         Ok(())
+    }
+
+    /// How long the moves from `serial` on take at their feeds, seconds; of those that are remembered.
+    pub fn seconds_at_feed_from(&self, serial: u64) -> f64 {
+        if serial < self.next {
+            self.seconds - *self.seconds_before.at(serial.max(self.oldest()))
+        } else {
+            0.0
+        }
     }
 
     /// Drops the oldest move, if there is one; it is remembered.
@@ -170,6 +187,7 @@ impl MoveQueue {
         self.first = self.next;
         self.cleared = self.next;
         self.released = self.next;
+        self.seconds = 0.0;
     }
 }
 
@@ -181,7 +199,9 @@ impl Default for MoveQueue {
 
 #[cfg(test)]
 mod tests {
+    use super::super::shape::Line9;
     use super::*;
+    use crate::axes::Axes;
 
     /// A queue is too large for the stack of a test.
     fn with_queue(test: fn(&mut MoveQueue)) {
@@ -221,6 +241,32 @@ mod tests {
             queue.return_to(oldest);
             assert_eq!(queue.len(), SLOTS);
             assert_eq!(queue.front().map(|m| m.id), Some(oldest as i32));
+        });
+    }
+
+    #[test]
+    fn the_time_at_feed_is_that_of_the_moves_behind() {
+        with_queue(|queue| {
+            let mut end = Axes::zeros();
+            for k in 0..3 * SLOTS {
+                let start = end;
+                end[0] += 3.0;
+                let feed = if k % 2 == 0 { 6.0 } else { 60.0 };
+                let queued = Move {
+                    shape: Shape::Line(Line9::new(&start, &end).expect("a line")),
+                    feed,
+                    max_velocity: 12.0,
+                    ..VACANT
+                };
+                queue.push(queued).expect("room");
+                if queue.len() > 1000 {
+                    queue.pop();
+                }
+            }
+            let first = queue.first_serial();
+            assert!((queue.seconds_at_feed_from(first) - 375.0).abs() < 1e-9);
+            assert!((queue.seconds_at_feed_from(first + 1) - 374.5).abs() < 1e-9);
+            assert_eq!(queue.seconds_at_feed_from(first + 1000), 0.0);
         });
     }
 

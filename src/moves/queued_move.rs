@@ -47,4 +47,9 @@ impl Move {
     pub fn override_enabled(&self) -> bool {
         self.enables & FEED_OVERRIDE_ENABLED != 0
     }
+
+    /// How long it takes at its feed and 100 % from end to end, seconds: the least there may be.
+    pub fn seconds_at_feed(&self) -> f64 {
+        self.shape.length() / self.feed.min(self.max_velocity)
+    }
 }

@@ -11,8 +11,10 @@ use super::next_move::NextMove;
 use super::range::RangeCheck;
 use super::reference::Reference;
 use super::request::{AddError, Added, LEAST_VELOCITY, MoveRequest};
+use super::speed_limit::AxisMotion;
 use super::spindle::SpindleFollower;
 use super::status::{Fault, ORIGIN, Status};
+use super::survey::SurveyState;
 use super::velocity_slider::VelocitySlider;
 use crate::axes::{Axes, AxisLimits};
 use crate::cycle::Executor;
@@ -48,6 +50,9 @@ pub struct Planner {
     pub(super) range_check: RangeCheck,
     /// Where the last queued move ends.
     pub(super) goal: Axes,
+    /// How the axes of the machine move, for those who look at it.
+    pub(super) axis_motion: AxisMotion,
+    pub(super) survey: SurveyState,
 }
 
 impl Planner {
@@ -69,6 +74,8 @@ impl Planner {
             indexer: Indexer::Locked,
             range_check: RangeCheck::OFF,
             goal: ORIGIN,
+            axis_motion: AxisMotion::NONE,
+            survey: SurveyState::NONE,
         }
     }
 

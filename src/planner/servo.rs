@@ -289,7 +289,7 @@ impl Planner {
     }
 
     /// The operator's slider for the running move.
-    fn slider_for(&self, running: Option<&Move>) -> f64 {
+    pub(super) fn slider_for(&self, running: Option<&Move>) -> f64 {
         match running {
             Some(running) if running.shape.is_rotary() => {
                 running.max_velocity * self.slider.share()
@@ -299,7 +299,7 @@ impl Planner {
     }
 
     /// Whether pause, abort, feed hold or a slider at 0 hold the machine, unless it is in a thread.
-    fn is_held(&self, inputs: &CycleInputs) -> bool {
+    pub(super) fn is_held(&self, inputs: &CycleInputs) -> bool {
         let held = inputs.net_feed_scale.is_nan() || inputs.net_feed_scale <= 0.0;
         let slider = self.slider_for(self.queue.front());
         self.status.pausing || self.status.aborting || held || slider <= 0.0
@@ -470,7 +470,11 @@ impl Planner {
 ///
 /// LinuxCNC hands over the product of all, made with the motion type and the enables that were
 /// reported in the last cycle; the override is divided out again.
-fn further_scale(inputs: &CycleInputs, running: Option<&Move>, reported: &Status) -> f64 {
+pub(super) fn further_scale(
+    inputs: &CycleInputs,
+    running: Option<&Move>,
+    reported: &Status,
+) -> f64 {
     let Some(running) = running.filter(|_| reported.active_depth > 0) else {
         return 1.0;
     };

@@ -193,6 +193,7 @@ static struct shared *new_structures(size_t room)
     for (int i = 0; i < EMCMOT_MAX_SPINDLES; i++)
         status->spindle_status[i].scale = 1.0;
     structures->config.numJoints = 3;
+    structures->config.kinType = KINEMATICS_IDENTITY;
     structures->config.numSpindles = 1;
     structures->config.numDIO = structures->config.numAIO = 4;
     for (int i = 0; i < EMCMOT_MAX_JOINTS; i++) {

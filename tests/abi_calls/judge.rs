@@ -6,6 +6,10 @@ use framepath::abi::linuxcnc::EmcPose;
 use framepath::abi::planner::run::{
     framepath_planner_fault_text, framepath_planner_position, framepath_planner_spindle_error_text,
 };
+use framepath::abi::planner::survey::{
+    FRAMEPATH_LIMIT_AXIS_JERK, FRAMEPATH_LIMIT_AXIS_VELOCITY, FRAMEPATH_LIMIT_BETWEEN,
+    FramepathSurvey, framepath_planner_survey,
+};
 use framepath::axes::AXIS_COUNT;
 use nalgebra::Matrix3;
 
@@ -111,6 +115,7 @@ impl Judge {
     pub fn check(&mut self, shared: &mut Shared, kind: Kind) {
         self.check_numbers(shared);
         self.check_faults(shared);
+        check_survey(shared);
         let position = coordinates(&shared.tp().currentPos);
         match kind {
             Kind::Cycle => self.check_way(&position),
@@ -216,4 +221,26 @@ impl Judge {
             assert_eq!(running, Some(tp.execId), "the id of the first of {depth}");
         }
     }
+}
+
+/// What the operator sees is possible.
+fn check_survey(shared: &mut Shared) {
+    let mut survey = FramepathSurvey::default();
+    // SAFETY: a handle of the planner, and room for what is answered.
+    assert_eq!(0, unsafe {
+        framepath_planner_survey(shared.handle, &mut survey)
+    });
+    let limits = FRAMEPATH_LIMIT_AXIS_VELOCITY..=FRAMEPATH_LIMIT_AXIS_JERK;
+    assert!((0..=FRAMEPATH_LIMIT_BETWEEN).contains(&survey.limit));
+    let axes = if limits.contains(&survey.limit) {
+        0..AXIS_COUNT as i32
+    } else {
+        -1..0
+    };
+    assert!(axes.contains(&survey.axis), "{survey:?}");
+    assert_eq!(survey.moves_queued, shared.tp().depth);
+    for seconds in [survey.seconds_ahead, survey.seconds_queued, survey.to_go] {
+        assert!(seconds.is_finite() && seconds >= 0.0, "{survey:?}");
+    }
+    assert!(survey.moves_ahead >= 0, "{survey:?}");
 }

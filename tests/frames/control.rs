@@ -279,16 +279,16 @@ fn a_command_waits_until_the_interpolator_of_motion_stands() {
 fn by_hand() {
     let mut motion = xyz();
     motion.inputs.map[3] = 3.0;
-    assert_eq!(motion.control.switch(1, &motion.inputs), Ok(()));
+    assert_eq!(motion.switch(1), Ok(()));
     motion.out = motion.control.update(&motion.inputs);
     assert_eq!((motion.out.slot, motion.out.active), (1, true));
     assert_eq!(motion.machine([0.0; 3]), [3.0, 0.0, 0.0]);
     for kind in [-1, 3, i32::MIN, i32::MAX] {
-        let result = motion.control.switch(kind, &motion.inputs);
+        let result = motion.switch(kind);
         assert_eq!(result, Err(FrameRefusal::UnknownType));
     }
     assert_eq!(motion.machine([0.0; 3]), [3.0, 0.0, 0.0]);
-    assert_eq!(motion.control.switch(0, &motion.inputs), Ok(()));
+    assert_eq!(motion.switch(0), Ok(()));
     assert_eq!(motion.machine([0.0; 3]), [0.0; 3]);
 }
 

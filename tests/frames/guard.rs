@@ -88,7 +88,7 @@ fn while_it_has_to_go_nothing_else_is_switched_to_in_teleop() {
             motion.period();
         }
         assert_eq!(motion.out.switchkins_type, 0, "it has been asked for");
-        let switched = motion.control.switch(slot, &motion.inputs);
+        let switched = motion.switch(slot);
         if slot == 0 {
             assert_eq!(switched, Ok(()));
             assert!(motion.control.active().is_none());
@@ -234,7 +234,7 @@ fn without_a_guard_there_are_no_frames() {
     let mut motion = Motion::new("identity", "XYZ");
     motion.beating = false;
     motion.inputs.heartbeat = 0;
-    motion.control = framepath::kinematics::control::FrameControl::new(*motion.control.machine());
+    motion.control = framepath::kinematics::control::FrameControl::new(*motion.control.behind());
     assert_eq!(
         motion.send(1, [1.0, 0.0, 0.0]),
         Some(FrameRefusal::Unguarded)

@@ -25,21 +25,21 @@ fn the_table_is_taken_over_at_a_switch_only() {
     assert!(motion.out.tool_centre_point && !motion.out.parameters_pending);
     assert!(!motion.out.active);
     assert_ne!(motion.out.slot, 0);
-    let before = *motion.control.machine();
+    let before = *motion.control.behind();
     motion.inputs.table.tool_offset = f64::NAN;
     assert_eq!(
         motion.send(1, [1.0, 0.0, 0.0]),
         Some(FrameRefusal::MachineParameters)
     );
     assert!(motion.out.parameters_pending && !motion.out.active);
-    assert_eq!(*motion.control.machine(), before);
+    assert_eq!(*motion.control.behind(), before);
     motion.inputs.table.tool_offset = 10.0;
     motion.inputs.in_position = false;
     assert_eq!(motion.send(11, [0.0; 3]), Some(FrameRefusal::Moving));
-    assert_eq!(*motion.control.machine(), before);
+    assert_eq!(*motion.control.behind(), before);
     motion.inputs.in_position = true;
     assert_eq!(motion.send(11, [0.0; 3]), None);
-    assert_ne!(*motion.control.machine(), before);
+    assert_ne!(*motion.control.behind(), before);
     motion.inputs.table.tool_centre_point = false;
     assert_eq!(motion.send(9, [0.0; 3]), None);
     assert!(!motion.out.tool_centre_point && !motion.out.parameters_pending);
@@ -90,7 +90,7 @@ fn the_tool_normal_is_asked_of_the_whole_machine() {
     let now = Axes::zeros();
     let normal = |motion: &Motion, limits: &RotaryLimits| {
         tool_normal(
-            motion.control.machine(),
+            motion.control.behind(),
             motion.control.active(),
             &now,
             limits,
@@ -154,10 +154,10 @@ proptest! {
             motion.inputs.work_rotation = offset;
             // Scales of a sensible size are wanted too.
             let value = if code == 7 { value.map(|v| 1.0 + v / 500.0) } else { value };
-            let before = (motion.control.active().copied(), *motion.control.machine(), motion.out.operations);
+            let before = (motion.control.active().copied(), *motion.control.behind(), motion.out.operations);
             let refusal = motion.send(code + if additive { 100 } else { 0 }, value);
             if refusal.is_some() {
-                let now = (motion.control.active().copied(), *motion.control.machine(), motion.out.operations);
+                let now = (motion.control.active().copied(), *motion.control.behind(), motion.out.operations);
                 prop_assert_eq!(before, now);
             }
             let world = Axes::from([10.0, -20.0, 30.0, 40.0, 0.0, 50.0, 0.0, 0.0, 0.0]);

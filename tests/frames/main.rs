@@ -3,6 +3,8 @@
 mod common;
 mod control;
 mod guard;
+mod inner_kinematics;
+mod inner_types;
 mod machine_control;
 mod machine_kinematics;
 mod properties;

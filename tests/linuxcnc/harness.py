@@ -147,10 +147,10 @@ def edit_ini(text, changes):
 
 def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3, axes="xyz", timeout=300,
         record=True, modules=None, integers=None, configuration=None, files=(), display="driver.py", recorder=None,
-        edit_hal=None, linger=0):
+        edit_hal=None, linger=0, first=(("on",), ("home",))):
     """Carries out a scenario.
 
-    steps: list of [name, argument, ...], see driver.Operator; "on" and "home" are done first.
+    steps: list of [name, argument, ...], see driver.Operator; what is done first is `first`.
     programs: {file name: text}; steps name them by their file name with PROGRAMS in front: "PROGRAMS/part.ngc".
     ini: {(section, key): value or None} changes to the sample's INI. hal: text of a further HAL file.
     integers: {column: pin} further pins to record, of type s32.
@@ -165,7 +165,7 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
     try:
         config = os.path.join(folder, "configs", sample)
         shutil.copytree(configuration or os.path.join(SAMPLES, "configs", sample), config)
-        for shared in ("subroutines", "preview"):
+        for shared in ("subroutines", "preview", "panel"):
             shutil.copytree(os.path.join(SAMPLES, shared), os.path.join(folder, shared))
         for name in ("driver.py", *files):
             shutil.copy(os.path.join(HERE, name), config)
@@ -202,7 +202,7 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
         scenario = os.path.join(folder, "scenario.json")
         outcome = os.path.join(folder, "outcome.json")
         steps = [[str(a).replace("PROGRAMS", program_folder) if isinstance(a, str) else a for a in step]
-                 for step in [["on"], ["home"], *steps]]
+                 for step in [*first, *steps]]
         with open(scenario, "w", encoding="utf-8") as file:
             json.dump(steps, file)
         environment = dict(os.environ, KEEP=folder, FRAMEPATH_SCENARIO=scenario, FRAMEPATH_RESULT=outcome)

@@ -55,6 +55,7 @@ void host_forget(void)
 int hal_init(const char *name) { (void)name; return 1; }
 int hal_exit(int component) { (void)component; return 0; }
 int hal_ready(int component) { (void)component; return 0; }
+int hal_set_unready(int component) { (void)component; return 0; }
 void *hal_malloc(long size) { return calloc(1, size); }
 
 int hal_export_funct(const char *name, void (*function)(void *, long), void *argument, int fp, int reentrant, int component)
@@ -85,7 +86,27 @@ NEW_PIN(float)
 NEW_PIN(s32)
 NEW_PIN(u32)
 
+int hal_param_float_newf(int direction, double *place, int component, const char *format, ...)
+{
+    (void)direction; (void)component;
+    char name[64];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    return keep(name, place);
+}
+
 long long rtapi_get_time(void) { return 0; }
+
+int rtapi_snprintf(char *text, unsigned long size, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(text, size, format, arguments);
+    va_end(arguments);
+    return length;
+}
 
 static void note(const char *format, va_list arguments)
 {

@@ -32,13 +32,13 @@ class Module:
     class LoadError(Exception):
         """What the module printed."""
 
-    def __init__(self, path, prefix, **parameters):
+    def __init__(self, path, prefix, beside=None, **parameters):
+        """beside: a folder in which it keeps its name, for modules that look for each other."""
         self.host, folder = host()
         self.prefix = prefix
         self.host.host_forget()
         # a copy of its own has variables of its own
-        handle, copy = tempfile.mkstemp(suffix=".so", dir=folder.name)
-        os.close(handle)
+        copy = os.path.join(beside or tempfile.mkdtemp(dir=folder.name), os.path.basename(path))
         shutil.copy(path, copy)
         self.library = ctypes.CDLL(copy, mode=ctypes.RTLD_LOCAL)
         # the module keeps the addresses of the texts
@@ -51,7 +51,10 @@ class Module:
         self.pins = {}
         self.flags = ctypes.c_ulong(0)
         # found now, since the next module makes pins of its own
-        self.function = self.host.host_find(f"function {prefix}".encode())
+        self.function = self.find_function()
+
+    def find_function(self):
+        return self.host.host_find(f"function {self.prefix}".encode())
 
     def find(self, pin, kind):
         """To be called for all pins before another module is loaded."""
@@ -71,16 +74,16 @@ class Module:
     def switch(self, kinematics_type):
         return self.library.kinematicsSwitch(kinematics_type)
 
-    def forward(self, joints):
-        pose = Pose()
+    def forward(self, joints, guess=()):
+        pose = Pose(*guess)
         result = self.library.kinematicsForward(Joints(*joints), pose, ctypes.byref(self.flags),
                                                 ctypes.byref(self.flags))
         if result:
             raise ArithmeticError(f"kinematicsForward returned {result}")
         return list(pose)
 
-    def inverse(self, pose):
-        joints = Joints()
+    def inverse(self, pose, near=()):
+        joints = Joints(*near)
         result = self.library.kinematicsInverse(Pose(*pose), joints, ctypes.byref(self.flags),
                                                 ctypes.byref(self.flags))
         if result:

@@ -56,6 +56,20 @@ class Screen(driver.Operator):
 
         self.wait_for(name, is_there, timeout)
 
+    def on_for_good(self):
+        """Switches the machine on until it stays so: gmoccapy presses its own buttons when it sees the emergency stop come and
+        go, which switches the machine off again."""
+        for _ in range(10):
+            # screens look ten times a second, and are to see one after the other
+            self.command.state(linuxcnc.STATE_ESTOP_RESET)
+            self.sleep(0.5)
+            self.on()
+            self.sleep(2)
+            self.poll()
+            if self.status.task_state == linuxcnc.STATE_ON:
+                return
+        raise driver.Failure("the screen switches the machine off")
+
     def ask(self, name, question, *arguments):
         """Keeps what screen_probe.py answers; waits until it does."""
         with open(f"{QUESTION}.new", "w", encoding="utf-8") as file:

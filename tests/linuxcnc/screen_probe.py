@@ -1,15 +1,9 @@
-"""[DISPLAY]USER_COMMAND_FILE of AXIS in tests: what users have, and answers to the questions of screen_driver.py."""
+"""What answers the questions of screen_driver.py within a screen. probe_axis.py and its siblings, each the
+[DISPLAY]USER_COMMAND_FILE of its screen in tests, install what users have and hand it over."""
 
 import json
 import os
-import sys
 import traceback
-
-sys.path.insert(0, os.path.abspath("../../preview"))
-
-import axis_frames
-
-AXIS = globals()
 
 #: ms between two looks for a question
 PERIOD = 20
@@ -20,64 +14,83 @@ QUESTION, ANSWER = "question.json", "answer.json"
 class Probe:
     """One method for each question."""
 
-    def __init__(self, frames):
-        self.frames = frames
-        #: what the operator was told
+    def __init__(self, window, read, show, may_run=lambda: True):
+        """window: frame_window.FrameWindow. read(program): opens a program. show(relative): X, Y and Z of the position
+        display, in mm. may_run(): the machine is homed, and the screen knows it."""
+        self.frames = window
+        self.window = window.window
+        self.read = read
+        self.show = show
+        self.may_run = may_run
+        #: what the operator was told, and what has gone wrong where screens say nothing
         self.told: list[str] = []
-        self.stock_add = AXIS["notifications"].add
-        AXIS["notifications"].add = self.tell
+        #: how often frames and live plot have been drawn
+        self.plots = 0
+        self.watch(self.window, "user_plot")
+        self.watch(self.window.lp, "call")
 
-    def tell(self, kind, text):
-        self.told.append(text)
-        self.stock_add(kind, text)
+    def watch(self, of, name):
+        """Screens swallow errors of what draws."""
+        stock = getattr(of, name)
+
+        def draw():
+            try:
+                stock()
+                self.plots += 1
+            except Exception:
+                self.told.append(traceback.format_exc())
+                raise
+
+        setattr(of, name, draw)
 
     def open(self, program):
         """Opens a program."""
-        AXIS["open_file_guts"](program, False, False)
+        self.read(program)
         return self.drawn()
 
     def drawn(self):
         """The places of the preview in millimetres, where the axes are."""
-        canon = AXIS["o"].canon
+        canon = self.window.canon
         return [[25.4 * (place + tool) for place, tool in zip(end[:3], rest[-1], strict=True)]
                 for moves in (canon.traverse, canon.feed, canon.arcfeed) for _, _, end, *rest in moves]
 
     def trail(self):
         """The points of the live plot."""
-        return AXIS["o"].lp.points[:AXIS["o"].lp.npts].tolist()
+        return self.window.lp.points[:self.window.lp.npts].tolist()
 
     def display(self, relative):
-        """The lines of the position display."""
-        AXIS["vars"].coord_type.set(relative)
-        AXIS["vars"].metric.set(1)
-        AXIS["o"].stat.poll()
-        return AXIS["o"].posstrs()[2]
+        """The numbers of the position display, and the line that names the frame."""
+        self.window.stat.poll()
+        return [self.show(relative), self.frames.line()]
 
     def warned(self):
-        """What AXIS says before it runs the program."""
+        """What the operator is told of limits."""
         return self.frames.warnings()
 
     def notes(self):
         """What the operator was told."""
         return self.told
 
+    def plotted(self):
+        """How often frames and live plot have been drawn."""
+        return self.plots
 
-def look(probe):
-    """Answers a question."""
-    if probe.frames.is_up and os.path.exists(QUESTION):
+    def ready(self):
+        """Is answered when the screen lets a program run."""
+
+    def look(self):
+        """Answers a question, if there is one."""
+        if not os.path.exists(QUESTION):
+            return
         with open(QUESTION, encoding="utf-8") as file:
             question, *arguments = json.load(file)
+        if question == "ready" and not self.may_run():
+            return
         os.remove(QUESTION)
         try:
-            answer = {"answer": getattr(probe, question)(*arguments)}
+            answer = {"answer": getattr(self, question)(*arguments)}
         except Exception:
             answer = {"error": traceback.format_exc()}
         with open(f"{ANSWER}.new", "w", encoding="utf-8") as file:
             json.dump(answer, file)
         os.replace(f"{ANSWER}.new", ANSWER)
-    AXIS["root_window"].after(PERIOD, lambda: look(probe))
-
-
-FRAMES = axis_frames.install(AXIS)
-PROBE = Probe(FRAMES)
-AXIS["root_window"].after(PERIOD, lambda: look(PROBE))

@@ -168,15 +168,20 @@ def program(seed, axes="XYZB"):
 
 
 def too_fast(table, moves):
-    """How many times its F the machine runs at most. A line is blended or merged with its neighbours: theirs count."""
+    """How many times its F the machine runs at most. A line is blended or merged with its neighbours: theirs count. A speed is
+    the mean of a cycle: of one that ends in another line than it began in, either line's F counts."""
     number = {line: n for n, (line, _) in enumerate(moves)}
     allowed = []
     for n in range(len(moves)):
         near = [feed for _, feed in moves[max(0, n - NEIGHBOURS):n + NEIGHBOURS + 1]]
         allowed.append(math.inf if None in near else max(near))
-    ratios = ((float(row["speed"]) - SPEED_DIGIT) * 60 / allowed[number[int(row["line"])]] for row in csv.DictReader(table)
-              if int(row["line"]) in number)
-    return max(ratios, default=0.0)
+    worst = before = 0.0
+    for row in csv.DictReader(table):
+        if int(row["line"]) in number:
+            here = allowed[number[int(row["line"])]]
+            worst = max(worst, (float(row["speed"]) - SPEED_DIGIT) * 60 / max(before, here))
+            before = here
+    return worst
 
 
 class Finding:

@@ -35,11 +35,13 @@ class Install(unittest.TestCase):
                            for part in ("guard", "heart", "offsets", "settings")),
                          "usr/share/bash-completion/completions/framepath", "usr/share/zsh/vendor-completions/_framepath",
                          "usr/share/fish/vendor_completions.d/framepath.fish",
-                         "usr/share/framepath/preview/frame_axis.py", "usr/share/framepath/preview/axis_frames.py",
+                         *(f"usr/share/framepath/preview/{part}.py" for screen in ("axis", "gmoccapy", "qtvcp")
+                           for part in (f"frame_{screen}", f"{screen}_frames")),
                          "usr/share/framepath/configs/framepath-sim/framepath-sim.ini",
                          "usr/share/framepath/configs/framepath-lathe/thread.ngc",
                          "usr/share/framepath/configs/framepath-gantry/sheet.ngc",
-                         "usr/share/framepath/configs/framepath-inch/plate.ngc"):
+                         "usr/share/framepath/configs/framepath-inch/plate.ngc",
+                         *(f"usr/share/framepath/panel/{name}" for name in ("time_table.py", "planner.xml", "frame.xml"))):
                 self.assertIn(name, there)
             with open(os.path.join(folder, "usr/share/zsh/vendor-completions/_framepath"), encoding="utf-8") as file:
                 self.assertEqual(file.readline(), "#compdef framepath\n")

@@ -81,6 +81,14 @@ class Loading(Refusals):
             # LinuxCNC's own loader refuses it by name
             self.assertIn(f"{name}: already exists", output)
 
+    def test_kinematics_are_asked_for_their_type_by_motmod_alone(self):
+        with tempfile.TemporaryDirectory() as modules:
+            harness.modules_with("asked_kins", modules)
+            os.chmod(modules, 0o755)
+            output, code = halrun(MOTION.replace("framekins coordinates=XYZ", "asked_kins") + "getp asked_kins.asked\n", modules)
+        self.assertEqual(code, 0, output)
+        self.assertEqual([line for line in output.splitlines() if line.strip().isdigit()], ["1"], output)
+
     def test_duplicate_letters_are_accepted(self):
         output, code = halrun("loadrt framekins coordinates=xyyz\ngetp framekins.version\n")
         self.assertEqual(code, 0, output)

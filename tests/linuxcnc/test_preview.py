@@ -158,10 +158,10 @@ class Unchanged(unittest.TestCase):
 
 class Refused(unittest.TestCase):
     def test_a_frame_that_would_be_refused_ends_the_preview(self):
-        for command, reason in (("o<scale> call [1] [0] [1]", "a scale factor is 0"),
+        for command, reason in (("o<scale> call [1] [0] [1]", "o<scale> with 1, 0, 1 would be refused, a scale factor is 0"),
                                 ("o<scale> call [1] [200] [1]", "too unequal"),
                                 ("o<trans> call [2000000] [0] [0]", "larger than a machine"),
-                                ("o<rots_xy> call [90] [20]", "no plane meets")):
+                                ("o<arots_xy> call [90] [20]", "o<arots_xy> with 90, 20, 0 would be refused, no plane meets")):
             with self.subTest(command=command):
                 result = view([PREVIEW, ["sleep", 0.2]], program("G1 X5", command, "G1 X10"), record=False)
                 self.assertIsNone(result.failure, result.log)

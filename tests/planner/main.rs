@@ -28,3 +28,4 @@ mod short_programs;
 mod soft_limits;
 mod spindle;
 mod spindle_events;
+mod survey;

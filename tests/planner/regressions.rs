@@ -43,6 +43,7 @@ regressions! {
     a_soft_machine_leaves_a_helix_at_its_limits
     a_wide_corner_of_two_arcs_keeps_the_acceleration
     a_wide_peaked_corner_keeps_the_jerk
+    an_arc_at_rest_finer_than_the_path_distance_is_given_up
     an_arc_that_is_paused_as_it_is_raised_goes_on
     any_limit_of_jerk_gives_a_plan
     arcs_without_a_jerk_limit_keep_the_acceleration

@@ -3,28 +3,89 @@
 //! HAL stands for a planner module (C, src/host/stubs.c).
 
 use std::env;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::exit;
+use std::process::{Command, Stdio, exit};
 
 include!("../../build/headers.rs");
+
+/// Where Debian's linuxcnc-uspace has its modules.
+const INSTALLED_MODULES: &str = "/usr/lib/linuxcnc/modules";
+
+/// Asks the C compiler what LinuxCNC's headers have, as for the modules.
+const LINUXCNC_HAS: &str = "../hal-component/linuxcnc-has";
+
+/// What C++ compiles since 2.10, whose canonical calls differ from those before.
+const SCOPED_PLANES: &str = "#include \"canon.hh\"\nCANON_PLANE plane = CANON_PLANE::XY;\n";
 
 pub fn build() {
     println!("cargo:rerun-if-changed=src/canon/interpreter");
     println!("cargo:rerun-if-changed=src/host/stubs.c");
+    println!("cargo:rerun-if-changed={LINUXCNC_HAS}");
+    println!("cargo:rustc-check-cfg=cfg(linuxcnc_move_jerk)");
     let include = headers("interp_base.hh");
+    if has_move_jerk(&include) {
+        println!("cargo:rustc-cfg=linuxcnc_move_jerk");
+    }
+    let modules = in_place().map(|folder| folder.join("rtlib"));
+    let modules = modules.unwrap_or_else(|| INSTALLED_MODULES.into());
+    println!("cargo:rustc-env=LINUXCNC_MODULES={}", modules.display());
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     compile_interpreter(&include, &out.join("interpreter"));
     compile_stubs(&include, &out.join("stubs.so"));
 }
 
+/// The folder of a LinuxCNC that is run in place, `None` for the installed one.
+fn in_place() -> Option<PathBuf> {
+    println!("cargo:rerun-if-env-changed=LINUXCNC_IN_PLACE");
+    env::var_os("LINUXCNC_IN_PLACE").map(PathBuf::from)
+}
+
+/// Whether LinuxCNC gives a limit of jerk with each move.
+fn has_move_jerk(include: &[String]) -> bool {
+    let answer = Command::new(LINUXCNC_HAS)
+        .arg(cc::Build::new().get_compiler().path())
+        .args(["-DRTAPI", "-DUSPACE"])
+        .args(include.iter().flat_map(|folder| ["-isystem", folder]))
+        .output();
+    answer.is_ok_and(|answer| String::from_utf8_lossy(&answer.stdout).contains("HAS_MOVE_JERK"))
+}
+
+/// Whether a text compiles as C++.
+fn compiles(compiler: &cc::Tool, include: &[String], text: &str) -> bool {
+    let mut child = match compiler
+        .to_command()
+        .args(["-std=c++17", "-w", "-fsyntax-only"])
+        .args(include.iter().flat_map(|folder| ["-isystem", folder]))
+        .args(["-x", "c++", "-"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+    {
+        Ok(child) => child,
+        // what is compiled in earnest says why
+        Err(_) => return false,
+    };
+    let written = child
+        .stdin
+        .take()
+        .map(|mut input| input.write_all(text.as_bytes()));
+    written.is_some_and(|written| written.is_ok())
+        && child.wait().is_ok_and(|status| status.success())
+}
+
 /// An executable, linked with LinuxCNC's interpreter.
 fn compile_interpreter(include: &[String], output: &Path) {
     let folder = Path::new("src/canon/interpreter");
-    let mut compiler = cc::Build::new()
-        .cpp(true)
-        .opt_level(2)
-        .get_compiler()
-        .to_command();
+    let cpp = cc::Build::new().cpp(true).opt_level(2).get_compiler();
+    let mut compiler = cpp.to_command();
+    if compiles(&cpp, include, SCOPED_PLANES) {
+        compiler.arg("-DLINUXCNC_HAS_SCOPED_PLANES");
+    }
+    if let Some(folder) = in_place() {
+        let libraries = folder.join("lib").display().to_string();
+        compiler.args([format!("-L{libraries}"), format!("-Wl,-rpath,{libraries}")]);
+    }
     compiler
         .arg("-std=c++17")
         .arg("-I")

@@ -1,20 +1,12 @@
 //! The kinematics module as the planner asks it.
 
-use libc::{c_double, c_int, c_uint, c_ulong};
+use libc::{c_uint, c_ulong};
 
-use crate::abi::linuxcnc::{EmcPose, KINEMATICS_TYPE};
+use crate::abi::inner::{Forward, Inverse};
+use crate::abi::linuxcnc::KINEMATICS_TYPE;
 use crate::abi::pose::pose_of;
 use crate::axes::Axes;
 use crate::planner::range::{JointSolver, Joints};
-
-/// LinuxCNC's `kinematicsInverse`.
-type Inverse = Option<
-    unsafe extern "C" fn(*const EmcPose, *mut c_double, *const c_ulong, *mut c_ulong) -> c_int,
->;
-/// LinuxCNC's `kinematicsForward`.
-type Forward = Option<
-    unsafe extern "C" fn(*const c_double, *mut EmcPose, *const c_ulong, *mut c_ulong) -> c_int,
->;
 
 /// Positions that are asked for in a servo period.
 const CALLS_A_CYCLE: usize = 16;

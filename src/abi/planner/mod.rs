@@ -12,6 +12,7 @@ mod path_motion;
 pub mod run;
 pub mod settings;
 pub mod soft_limits;
+pub mod survey;
 
 use core::ptr;
 

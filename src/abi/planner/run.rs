@@ -231,6 +231,7 @@ pub unsafe extern "C" fn framepath_planner_run_cycle(
     handle.planner.set_limits(&limits);
     handle.check_range();
     handle.planner.cycle(&inputs);
+    handle.planner.survey(&inputs);
     let now = handle.planner.status();
     let velocity = now.motion_type.map(|_| now.current_velocity);
     handle

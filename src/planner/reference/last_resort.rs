@@ -40,7 +40,7 @@ impl Reference {
         if self.is_coasting() {
             return false;
         }
-        let Some(last) = self.segments.back_mut() else {
+        let Some(last) = self.segments.back() else {
             return false;
         };
         let start = last.state(self.frontier, self.frontier);
@@ -72,9 +72,7 @@ impl Reference {
             end: end.max(start.distance),
             backwards,
         };
-        if let Some(last) = self.segments.back_mut() {
-            last.duration = self.frontier;
-        }
+        self.segments.cut_last(self.frontier);
         self.segments.push_last(ReferenceSegment {
             motion: SegmentMotion::Coast(coast),
             duration: f64::INFINITY,

@@ -25,6 +25,8 @@ mod rest_to_rest;
 mod return_route;
 mod runs;
 mod single_move;
+mod time_ahead;
 
 pub use outlook::{Conditions, Outlook};
 pub use reference::{Ahead, Reference, ReferencePoint, Rest};
+pub use time_ahead::{PlaceInMoves, TimeAhead};

@@ -129,6 +129,8 @@ pub(super) struct ReferenceSegments {
     slots: Ring<ReferenceSegment, SLOTS>,
     first: u64,
     count: u64,
+    /// Seconds of all of them.
+    duration: f64,
 }
 
 impl ReferenceSegments {
@@ -137,11 +139,18 @@ impl ReferenceSegments {
             slots: Ring::filled_with(ReferenceSegment::VACANT),
             first: 0,
             count: 0,
+            duration: 0.0,
         }
     }
 
     pub fn clear(&mut self) {
         self.count = 0;
+        self.duration = 0.0;
+    }
+
+    /// How long they last, seconds; infinite where the last one has no end.
+    pub fn duration(&self) -> f64 {
+        self.duration
     }
 
     pub fn len(&self) -> u64 {
@@ -188,12 +197,25 @@ impl ReferenceSegments {
     pub fn push_last(&mut self, segment: ReferenceSegment) {
         if self.count < SLOTS as u64 {
             self.count += 1;
+            self.duration += segment.duration;
             *self.slots.at_mut(self.last()) = segment;
         }
     }
 
-    pub fn pop(&mut self) {
+    /// The last one ends after `duration` seconds: another takes over.
+    pub fn cut_last(&mut self, duration: f64) {
         if self.count > 0 {
+            let last = self
+                .slots
+                .at_mut(self.first.wrapping_add(self.count).wrapping_sub(1));
+            self.duration += duration - last.duration;
+            last.duration = duration;
+        }
+    }
+
+    pub fn pop(&mut self) {
+        if let Some(front) = self.front() {
+            self.duration -= front.duration;
             self.first = self.first.wrapping_add(1);
             self.count -= 1;
         }
@@ -203,6 +225,8 @@ impl ReferenceSegments {
     pub fn truncate(&mut self, last: u64) {
         let kept = last.wrapping_sub(self.first).wrapping_add(1);
         self.count = self.count.min(kept);
+        let all = (0..self.count).map(|number| self.slots.at(self.first.wrapping_add(number)));
+        self.duration = all.map(|segment| segment.duration).sum();
     }
 
     /// Number of the last segment; only asked for if there is one.
@@ -239,5 +263,25 @@ mod tests {
         }
         segments.pop();
         assert_eq!(segments.len(), 0);
+    }
+
+    #[test]
+    fn the_duration_is_that_of_all_of_them() {
+        let mut segments = ReferenceSegments::new();
+        for duration in [0.5, 0.25, 0.125, 1.0] {
+            segments.push(ReferenceSegment {
+                duration,
+                ..ReferenceSegment::VACANT
+            });
+        }
+        assert_eq!(segments.duration(), 1.875);
+        segments.pop();
+        segments.cut_last(0.25);
+        assert_eq!(segments.duration(), 0.625);
+        segments.truncate(segments.last() - 1);
+        assert_eq!(segments.duration(), 0.375);
+        segments.clear();
+        segments.cut_last(1.0);
+        assert_eq!(segments.duration(), 0.0);
     }
 }

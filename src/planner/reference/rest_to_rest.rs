@@ -7,7 +7,7 @@ use super::reference_segment::ProfiledMotion;
 use super::return_route::{ReturnRoute, may_go_back};
 use crate::moves::MoveQueue;
 use crate::path::BlendedPath;
-use crate::speed::look_ahead::{LookAhead, PlanProgress, PlanRefusal, PlannedSegment};
+use crate::speed::look_ahead::{LookAhead, PlanEnd, PlanProgress, PlanRefusal, PlannedSegment};
 
 /// Vertices that are looked at in a cycle, in search of the end of the run.
 const VERTICES_A_CYCLE: usize = 64;
@@ -169,6 +169,23 @@ impl RestToRest {
     /// Where the plan ends so far.
     pub fn end(&self) -> f64 {
         self.signed(self.speed.end())
+    }
+
+    /// Goes on with the sum of how long the plan takes. Once in each servo period.
+    pub fn sum_time(&mut self) {
+        if self.is_begun() {
+            self.speed.sum_time();
+        }
+    }
+
+    /// Where the plan comes to rest, as it was summed last, and how long it is until then from what has been handed out,
+    /// seconds; `None` before it was.
+    pub fn planned_end(&self) -> Option<PlanEnd> {
+        let end = self.speed.planned_end().filter(|_| self.is_ready())?;
+        Some(PlanEnd {
+            time: (end.time - self.speed.frozen_time()).max(0.0),
+            place: self.signed(end.place),
+        })
     }
 
     /// Looks where the path asks for a rest.

@@ -91,7 +91,7 @@ impl Reference {
                 profile,
                 ..*motion
             };
-            segment.duration = frontier;
+            self.segments.cut_last(frontier);
             self.segments.push(ReferenceSegment {
                 motion: SegmentMotion::Move(motion),
                 duration: profile.duration(),

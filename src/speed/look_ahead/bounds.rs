@@ -242,18 +242,6 @@ impl PathBounds {
         let inverse = 1.0 / b.sqrt();
         (self.jerk_at_rest * inverse - self.jerk_fall * b).max(self.jerk * inverse)
     }
-
-    /// Lower ones.
-    pub fn lower(&mut self) {
-        self.cap *= 0.9;
-        self.acceleration *= 0.9;
-        self.acceleration_at_rest *= 0.9;
-        self.jerk *= 0.7;
-        self.jerk_at_rest *= 0.7;
-        // 0.7 of the jerk over 0.9^1.5 of the way.
-        self.jerk_fall *= 0.82;
-        self.across *= 0.5;
-    }
 }
 
 #[cfg(test)]

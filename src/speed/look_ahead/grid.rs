@@ -35,6 +35,8 @@ pub(super) enum GridStep {
     Done,
     /// There are more nodes than there is room for.
     TooLong,
+    /// The next node is nearer than the path distance can tell, beside an arc at rest of that size.
+    TooFine,
     /// The path is not a number, or has a place that must not be passed at any speed.
     Unsound,
 }
@@ -107,8 +109,11 @@ impl Grid {
 
         let previous = candidate.at(k - 1).length;
         let step = self.step(route, s, previous, free, &left);
-        if !(step.length > 0.0 && step.end > s) {
+        if step.length.is_nan() {
             return GridStep::Unsound;
+        }
+        if step.end <= s {
+            return GridStep::TooFine;
         }
         let (step, middle, right) = self.resolve(context, s, step, &left);
         if !(middle.sample.is_sound() && right.sample.is_sound()) {

@@ -8,6 +8,7 @@ use super::final_braking::FinalBraking;
 use super::first_plan::FirstPlan;
 use super::frozen::Frozen;
 use super::newton::NewtonStep;
+use super::plan_time::{PlanEnd, PlanTime};
 use super::planned_segment::PlannedSegment;
 use super::refinement_pace::RefinementPace;
 use super::refusal::PlanRefusal;
@@ -54,6 +55,7 @@ pub struct LookAhead {
     work: Work,
     frozen: Frozen,
     braking: FinalBraking,
+    time: PlanTime,
     refinement: RefinementPace,
     first_plan: FirstPlan,
     extensions: Extensions,
@@ -74,6 +76,7 @@ impl LookAhead {
             work: Work::Nothing,
             frozen: Frozen::NOTHING,
             braking: FinalBraking::AT_REST,
+            time: PlanTime::NONE,
             refinement: RefinementPace::AT_REST,
             first_plan: FirstPlan::NONE,
             extensions: Extensions::NONE,
@@ -91,6 +94,7 @@ impl LookAhead {
         self.work = Work::Nothing;
         self.frozen = Frozen::NOTHING;
         self.braking = FinalBraking::AT_REST;
+        self.time.begin();
         self.refinement = RefinementPace::AT_REST;
         self.first_plan = FirstPlan::NONE;
         self.extensions = Extensions::NONE;
@@ -110,6 +114,18 @@ impl LookAhead {
     /// Seconds of the plan that are frozen.
     pub fn frozen_time(&self) -> f64 {
         self.frozen.time()
+    }
+
+    /// Goes on with the sum of how long the plan takes. Once in each servo period.
+    pub fn sum_time(&mut self) {
+        if self.progress == PlanProgress::Ready {
+            self.time.pass(&self.plan, &self.frozen);
+        }
+    }
+
+    /// Where the plan comes to rest, as it was summed last; `None` before that.
+    pub fn planned_end(&self) -> Option<PlanEnd> {
+        self.time.end()
     }
 
     /// Whether the whole plan is frozen: the reference ends at rest.
@@ -290,6 +306,7 @@ impl LookAhead {
         self.refinement
             .replan(base, self.candidate.settled(), self.plan.last);
         self.braking.replan(&self.plan, &self.frozen, base);
+        self.time.replan(&self.frozen, base);
         self.extensions.note_adopted(self.candidate.added());
         if self.progress == PlanProgress::Starting {
             self.progress = PlanProgress::Ready;

@@ -33,6 +33,7 @@ mod interval_samples;
 #[allow(clippy::module_inception, reason = "the type that the folder is about")]
 mod look_ahead;
 mod newton;
+mod plan_time;
 mod planned_segment;
 mod refinement_pace;
 mod refusal;
@@ -47,6 +48,7 @@ mod sweeps;
 mod work;
 
 pub use look_ahead::{LookAhead, PlanProgress};
+pub use plan_time::PlanEnd;
 pub use planned_segment::PlannedSegment;
 pub use refusal::PlanRefusal;
 pub use route::{MOST_BREAKPOINTS, Route, RouteVertex, SpeedCap};

@@ -63,13 +63,6 @@ impl Sweeps {
         self.at_mut(k).bounds = bounds;
     }
 
-    /// Makes interval k and its neighbours slower, where all bounds together allowed too much.
-    pub fn lower(&mut self, k: usize) {
-        for k in [k - 1, k, k + 1] {
-            self.at_mut(k).bounds.lower();
-        }
-    }
-
     /// Begins at `base`, whose coefficient and the one before it the spline has.
     pub fn begin_forward(&mut self, spline: &Spline, base: usize) {
         self.base = base;
@@ -136,11 +129,6 @@ impl Sweeps {
         self.at_mut(k - 1).backward = next;
         let swept = self.at_mut(k);
         swept.lower = swept.forward.value.min(swept.backward.value);
-    }
-
-    /// What both sweeps say of a coefficient at or behind the base, from the end.
-    pub fn backward_value(&self, k: usize) -> f64 {
-        self.at(k).backward.value
     }
 
     /// Begins the hull, if the sweeps have met both ends.

@@ -2,9 +2,9 @@
 
 use framepath::axes::Axes;
 use framepath::frame::ToolLength;
-use framepath::kinematics::FrameRefusal;
 use framepath::kinematics::check::check_sum;
 use framepath::kinematics::control::{FrameControl, FrameInputs, FrameOutputs};
+use framepath::kinematics::{Behind, FrameRefusal};
 use framepath::machine::{Machine, TableTiltingParameters};
 
 const IDENTITY: [f64; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
@@ -25,11 +25,19 @@ pub struct Motion {
     pub number: f64,
     /// The guard lives.
     pub beating: bool,
+    /// How many types inner kinematics have, and what they were switched to.
+    pub types: i32,
+    pub switched: Vec<i32>,
 }
 
 impl Motion {
     pub fn new(name: &str, coordinates: &str) -> Self {
         let machine = Machine::configured(name.as_bytes(), coordinates.as_bytes()).unwrap();
+        Self::before(machine.into())
+    }
+
+    /// Behind the frame is this.
+    pub fn before(behind: Behind) -> Self {
         let inputs = FrameInputs {
             command: 0.0,
             value: [0.0; 3],
@@ -40,6 +48,8 @@ impl Motion {
             map: IDENTITY,
             mirror: [false; 6],
             table: TableTiltingParameters::default(),
+            inner_type: 0.0,
+            fixed_axes: [false; 3],
             in_position: true,
             teleop: false,
             check: 0.0,
@@ -51,7 +61,7 @@ impl Motion {
             period: 0.001,
             clock: 0,
         };
-        let mut control = FrameControl::new(machine);
+        let mut control = FrameControl::new(behind);
         let out = control.update(&inputs);
         Self {
             control,
@@ -61,6 +71,8 @@ impl Motion {
             out,
             number: 0.0,
             beating: true,
+            types: 0,
+            switched: Vec::new(),
         }
     }
 
@@ -68,11 +80,20 @@ impl Motion {
     pub fn period(&mut self) {
         if self.linked && self.out.switchkins_type != self.type_seen {
             self.type_seen = self.out.switchkins_type;
-            let _ = self.control.switch(self.type_seen, &self.inputs);
+            let _ = self.switch(self.type_seen);
         }
         self.inputs.heartbeat += u32::from(self.beating);
         self.inputs.clock += (self.inputs.period * 1e9).round() as i64;
         self.out = self.control.update(&self.inputs);
+    }
+
+    /// Motion switches, whoever asks for it.
+    pub fn switch(&mut self, number: i32) -> Result<(), FrameRefusal> {
+        let (types, switched) = (self.types, &mut self.switched);
+        self.control.switch(number, &self.inputs, |kind| {
+            switched.push(kind);
+            kind < types
+        })
     }
 
     /// Puts a command on the pins as a program sends it.

@@ -21,8 +21,8 @@ use crate::layer::program::Program;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Where Debian's linuxcnc-uspace has its modules.
-const STOCK: &str = "/usr/lib/linuxcnc/modules/tpmod.so";
+/// LinuxCNC's own planner, in the folder of modules that the build script has found.
+const STOCK: &str = concat!(env!("LINUXCNC_MODULES"), "/tpmod.so");
 
 /// A module to run.
 struct Module {

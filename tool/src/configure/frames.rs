@@ -5,6 +5,7 @@ use super::ConfigureArguments;
 use super::edits::Edits;
 use crate::wiring::codes::{CODES, Remap};
 use crate::wiring::framekins::{ADD_FUNCTION, MOST_OUTPUTS, NETS, OUTPUTS, SAMPLE_OUTPUTS, Source};
+use crate::wiring::previews::screen;
 use crate::wiring::settings::{KEYS, SECTION};
 use crate::wiring::subject::{Subject, guard_line};
 
@@ -36,6 +37,7 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
     subroutines(subject, arguments, edits);
     codes(subject, edits);
     settings(subject, first, edits);
+    preview(subject, arguments, edits);
 }
 
 /// What is linked and loaded has to be known.
@@ -81,7 +83,8 @@ fn kinematics(subject: &Subject, edits: &mut Edits) {
             let machine = module.trim_end_matches("-trt-kins");
             let help = format!(
                 "framekins serves this machine as machine={machine}: begin with the sample framepath-xyzac, and take over the \
-                 dimensions from {module}"
+                 dimensions from {module}; or {}",
+                by_hand(module)
             );
             return edits.refuse(
                 &place,
@@ -90,12 +93,12 @@ fn kinematics(subject: &Subject, edits: &mut Edits) {
             );
         }
         (module, _) => {
-            let help =
-                "framekins serves trivkins, xyzac-trt-kins and xyzbc-trt-kins; do without --frames";
             return edits.refuse(
                 &place,
-                format!("framekins does not serve the kinematics {module}"),
-                help,
+                format!(
+                    "the kinematics are {module}, and --frames takes the place of trivkins only"
+                ),
+                by_hand(module),
             );
         }
     }
@@ -138,6 +141,14 @@ fn kinematics(subject: &Subject, edits: &mut Edits) {
             help,
         );
     }
+}
+
+/// How frames come before kinematics that stay.
+fn by_hand(module: &str) -> String {
+    format!(
+        "write loadrt framekins inner={module} before everything else and the nets of man framekins by hand (framepath check \
+         says which), and do without --frames"
+    )
 }
 
 /// The first of nine analog outputs in a row that nothing is linked to.
@@ -260,6 +271,14 @@ fn codes(subject: &Subject, edits: &mut Edits) {
                 edits.refuse(&entry.place, found, help);
             }
         }
+    }
+}
+
+/// The preview follows frames; a file of the user's own stays, and `check` says what it needs.
+fn preview(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edits) {
+    let key = ("DISPLAY", "USER_COMMAND_FILE");
+    if let (Some(screen), None) = (screen(subject), subject.ini.entry(key.0, key.1)) {
+        edits.set(key.0, key.1, &screen.value(&arguments.subroutines));
     }
 }
 

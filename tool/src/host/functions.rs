@@ -6,17 +6,17 @@ use framepath::abi::linuxcnc::{
 use std::ffi::{CStr, CString, c_char, c_int, c_long, c_uchar};
 
 macro_rules! planner_functions {
-    ($($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
+    ($($(#[$only:meta])* $name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
         /// The functions of a module.
         #[allow(non_snake_case, reason = "the names are LinuxCNC's")]
         pub(super) struct Functions {
-            $(pub $name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
+            $($(#[$only])* pub $name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
         }
 
         impl Functions {
             fn find(module: Module) -> Result<Self, String> {
                 Ok(Self {
-                    $($name: {
+                    $($(#[$only])* $name: {
                         let name = concat!(stringify!($name), "\0");
                         let address = module.symbol(name).ok_or(concat!(
                             "it is not a planner: ", stringify!($name), " is missing"
@@ -56,14 +56,28 @@ planner_functions! {
     tpSetTermCond: fn(Tp, c_int, f64) -> c_int;
     tpSetPos: fn(Tp, *const EmcPose) -> c_int;
     tpSetSpindleSync: fn(Tp, c_int, f64, c_int) -> c_int;
+    #[cfg(not(linuxcnc_move_jerk))]
     tpAddLine: fn(
         Tp, EmcPose, c_int, f64, f64, f64, c_uchar, c_char, c_int, state_tag_t
     ) -> c_int;
+    #[cfg(not(linuxcnc_move_jerk))]
     tpAddCircle: fn(
         Tp, EmcPose, PmCartesian, PmCartesian, c_int, c_int, f64, f64, f64, c_uchar, c_char,
         state_tag_t
     ) -> c_int;
+    #[cfg(not(linuxcnc_move_jerk))]
     tpAddRigidTap: fn(Tp, EmcPose, f64, f64, f64, c_uchar, f64, state_tag_t) -> c_int;
+    #[cfg(linuxcnc_move_jerk)]
+    tpAddLine: fn(
+        Tp, EmcPose, c_int, f64, f64, f64, f64, c_uchar, c_char, c_int, state_tag_t
+    ) -> c_int;
+    #[cfg(linuxcnc_move_jerk)]
+    tpAddCircle: fn(
+        Tp, EmcPose, PmCartesian, PmCartesian, c_int, c_int, f64, f64, f64, f64, c_uchar, c_char,
+        state_tag_t
+    ) -> c_int;
+    #[cfg(linuxcnc_move_jerk)]
+    tpAddRigidTap: fn(Tp, EmcPose, f64, f64, f64, f64, c_uchar, f64, state_tag_t) -> c_int;
     tpRunCycle: fn(Tp, c_long) -> c_int;
     tpPause: fn(Tp) -> c_int;
     tpResume: fn(Tp) -> c_int;
@@ -77,6 +91,19 @@ planner_functions! {
     tpActiveDepth: fn(Tp) -> c_int;
     tcqFull: fn(*const TC_QUEUE_STRUCT) -> c_int;
 }
+
+/// Calls a function that adds a move, with what comes before, among and behind the limits of the
+/// move. Since LinuxCNC 2.10 the last limit is that of the jerk along the path: 0, not limited.
+macro_rules! add_move {
+    ($function:expr, [$($before:expr),*], [$($limit:expr),*], [$($behind:expr),*]) => {{
+        #[cfg(linuxcnc_move_jerk)]
+        let result = $function($($before,)* $($limit,)* 0.0, $($behind),*);
+        #[cfg(not(linuxcnc_move_jerk))]
+        let result = $function($($before,)* $($limit,)* $($behind),*);
+        result
+    }};
+}
+pub(super) use add_move;
 
 /// A module that was loaded; it stays loaded.
 #[derive(Clone, Copy)]

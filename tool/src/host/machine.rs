@@ -6,8 +6,8 @@ use crate::canon::call::Tag;
 use crate::path::Position;
 use framepath::abi::linuxcnc::{
     EMCMOT_MOTION_COORD_BIT, EMCMOT_MOTION_ENABLE_BIT, EMCMOT_MOTION_INPOS_BIT, EmcPose,
-    FH_ENABLED, FS_ENABLED, PmCartesian, SS_ENABLED, TP_STRUCT, emcmot_config_t, emcmot_error_t,
-    emcmot_internal_t, emcmot_status_t, state_tag_t,
+    FH_ENABLED, FS_ENABLED, KINEMATICS_TYPE, PmCartesian, SS_ENABLED, StateFieldFloat, TP_STRUCT,
+    emcmot_config_t, emcmot_error_t, emcmot_internal_t, emcmot_status_t, state_tag_t,
 };
 use framepath::abi::pose::axes_of;
 use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
@@ -86,6 +86,7 @@ impl Machine {
         // SAFETY: memory of this type, all zero, which nobody else knows yet.
         let config = unsafe { &mut *self.config };
         config.numJoints = 9;
+        config.kinType = KINEMATICS_TYPE::KINEMATICS_IDENTITY;
         config.numSpindles = 1;
         config.numDIO = 4;
         config.numAIO = 4;
@@ -157,16 +158,24 @@ pub(super) fn position(pose: &EmcPose) -> Position {
 
 /// The state tag of a move, with P and Q as the interpreter put them there.
 pub(super) fn state_tag(tag: &Tag, line: i32) -> state_tag_t {
-    let single = |number: f64| number as f32;
-    state_tag_t {
-        fields_float: [
-            line as f32,
-            single(tag.feed),
-            single(tag.speed),
-            single(tag.path_tolerance),
-            single(tag.naive_cam_tolerance),
-        ],
-        fields: tag.fields,
-        packed_flags: tag.flags,
+    // SAFETY: plain numbers; LinuxCNC 2.10 has more of them.
+    let mut made: state_tag_t = unsafe { std::mem::zeroed() };
+    for (field, number) in [
+        (StateFieldFloat::GM_FIELD_FLOAT_LINE_NUMBER, f64::from(line)),
+        (StateFieldFloat::GM_FIELD_FLOAT_FEED, tag.feed),
+        (StateFieldFloat::GM_FIELD_FLOAT_SPEED, tag.speed),
+        (
+            StateFieldFloat::GM_FIELD_FLOAT_PATH_TOLERANCE,
+            tag.path_tolerance,
+        ),
+        (
+            StateFieldFloat::GM_FIELD_FLOAT_NAIVE_CAM_TOLERANCE,
+            tag.naive_cam_tolerance,
+        ),
+    ] {
+        made.fields_float[field as usize] = number as _;
     }
+    made.fields = tag.fields;
+    made.packed_flags = tag.flags;
+    made
 }

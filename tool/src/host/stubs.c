@@ -296,6 +296,7 @@ EXPORTED int hal_init(const char *name) { (void)name; return 1; }
 EXPORTED int hal_exit(int id) { (void)id; return 0; }
 EXPORTED int hal_ready(int id) { (void)id; return 0; }
 EXPORTED int hal_unready(int id) { (void)id; return 0; }
+EXPORTED int hal_set_unready(int id) { (void)id; return 0; }
 EXPORTED char *hal_comp_name(int id) { (void)id; return "framepath"; }
 EXPORTED int hal_set_lock(unsigned char type) { (void)type; return 0; }
 EXPORTED unsigned char hal_get_lock(void) { return 0; }

@@ -1,6 +1,7 @@
 //! The task controller's part: hands over the operations of the program, one after the other.
 
 use super::drive::Drive;
+use super::functions::add_move;
 use super::machine::{Machine, point, pose, state_tag};
 use super::progress::Step;
 use super::recording::{Ending, Recorder};
@@ -98,39 +99,28 @@ impl Drive<'_> {
             unsafe {
                 (f.tpSetId)(tp, id);
                 match a_move.shape {
-                    Shape::Line => (f.tpAddLine)(
-                        tp,
-                        end,
-                        kind,
-                        feed,
-                        most,
-                        acceleration,
-                        enables,
-                        at_speed,
-                        -1,
-                        tag,
+                    Shape::Line => add_move!(
+                        (f.tpAddLine),
+                        [tp, end, kind],
+                        [feed, most, acceleration],
+                        [enables, at_speed, -1, tag]
                     ),
                     Shape::Arc {
                         centre,
                         normal,
                         turn,
-                    } => (f.tpAddCircle)(
-                        tp,
-                        end,
-                        point(&centre),
-                        point(&normal),
-                        turn,
-                        kind,
-                        feed,
-                        most,
-                        acceleration,
-                        enables,
-                        at_speed,
-                        tag,
+                    } => add_move!(
+                        (f.tpAddCircle),
+                        [tp, end, point(&centre), point(&normal), turn, kind],
+                        [feed, most, acceleration],
+                        [enables, at_speed, tag]
                     ),
-                    Shape::Tap => {
-                        (f.tpAddRigidTap)(tp, end, feed, most, acceleration, enables, 1.0, tag)
-                    }
+                    Shape::Tap => add_move!(
+                        (f.tpAddRigidTap),
+                        [tp, end],
+                        [feed, most, acceleration],
+                        [enables, 1.0, tag]
+                    ),
                 }
             }
         })

@@ -231,6 +231,8 @@ mod tests {
             share_of_feed,
             awaits_spindle: false,
             activity: Activity::Moves,
+            moves_done: 0,
+            distance_to_go: 0.0,
         };
         classify(&sample, &rates, Some(asked), &LIMITS, 1e9)
     }

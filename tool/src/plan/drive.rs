@@ -59,6 +59,10 @@ pub struct Sample {
     pub awaits_spindle: bool,
     /// What goes on.
     pub activity: Activity,
+    /// How many moves are behind the machine.
+    pub moves_done: u64,
+    /// What F counts until the end of the running or next move, machine units or degrees.
+    pub distance_to_go: f64,
 }
 
 /// A move on its way through the planner, with what the program says of it.
@@ -412,6 +416,8 @@ impl<'a> Drive<'a> {
                 0.0
             },
             awaits_spindle: status.waiting_for_spindle || status.waiting_for_index,
+            moves_done: self.planner.moves_done(),
+            distance_to_go: status.distance_to_go,
             activity: if dwells {
                 Activity::Dwells
             } else if status.done {

@@ -29,6 +29,7 @@ mod source;
 mod spindle;
 mod svg;
 mod text;
+mod times;
 mod turn_feeds;
 
 pub use error::PlanError;
@@ -51,6 +52,7 @@ use setup::Setup;
 use source::Source;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use times::Times;
 
 /// Stack for a planner, which is a few megabytes and made in place.
 const STACK: usize = 256 << 20;
@@ -119,6 +121,10 @@ pub struct PlanArguments {
     /// Write a row for every servo cycle to this file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+    /// Write when the machine is where in the program to this file, for the operator's time left: PROGRAM.times beside the
+    /// program
+    #[arg(long, value_name = "FILE")]
+    pub times: Option<PathBuf>,
 }
 
 /// What `--json` prints.
@@ -132,16 +138,20 @@ struct Programs<'a> {
 /// # Errors
 /// See [`PlanError`]. Then nothing is on standard output, and files are as they were before.
 pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
-    let files = [&arguments.html, &arguments.svg, &arguments.csv];
+    let files = [
+        &arguments.html,
+        &arguments.svg,
+        &arguments.csv,
+        &arguments.times,
+    ];
     let single = files.iter().any(|file| file.is_some()) || arguments.arrivals.is_some();
     if arguments.files.len() > 1 && single {
-        let problem =
-            "--html, --svg, --csv and --arrivals are for one program: plan them one by one";
+        let problem = "--html, --svg, --csv, --times and --arrivals are for one program: plan them one by one";
         return Err(PlanError::Option(problem.to_owned()));
     }
     if let Some(file) = named_twice(&files) {
         return Err(PlanError::Option(format!(
-            "{}: two of --html, --svg and --csv would be written there: give each a file of its own",
+            "{}: two of --html, --svg, --csv and --times would be written there: give each a file of its own",
             file.display()
         )));
     }
@@ -219,7 +229,11 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
     let html = begin(arguments.html.as_ref())?;
     let svg = begin(arguments.svg.as_ref())?;
     let csv = begin(arguments.csv.as_ref())?;
+    let times = begin(arguments.times.as_ref())?;
     let mut table = csv.map(|csv| Table::new(csv, setup)).transpose()?;
+    let mut times = times
+        .map(|times| Times::new(times, file, setup.period))
+        .transpose()?;
     let supply = match &arguments.arrivals {
         Some(recording) => Supply::Recorded(Arrivals::read(recording)?),
         None if arguments.fill_queue => Supply::BeforeStart,
@@ -228,11 +242,16 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
     let handed_over = supply.name();
     let mut drive = Drive::new(file, setup, supply)?;
     let mut collector = Collector::new(setup);
+    let mut end = 0.0;
     while let Some(sample) = drive.step(&mut source, |handed| collector.add(&handed))? {
         let shown = collector.note(&sample);
         if let Some(table) = &mut table {
             table.note(&shown)?;
         }
+        if let Some(times) = &mut times {
+            times.note(&sample, shown.line)?;
+        }
+        end = shown.time;
         progress.note(shown.line, shown.time);
         limit.note(shown.line)?;
     }
@@ -248,6 +267,9 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
         place.text = listing.text(place.line);
     }
     let mut files = Vec::from_iter(table.map(Table::into_file));
+    if let Some(times) = times {
+        files.push(times.finish(end)?);
+    }
     if let Some(html) = html {
         let text = text::render(&figures).map_err(io::Error::other);
         let page = text.and_then(|text| Ok(page::render(&figures, &collected, &listing, &text)?));

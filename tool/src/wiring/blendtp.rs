@@ -41,16 +41,58 @@ pub fn axis_of_pin(pin: &str) -> Option<char> {
 
 /// Whether blendtp has this pin.
 pub fn has_pin(pin: &str) -> bool {
-    let others = [
-        "millimetre",
-        "rotary-tolerance",
-        "default-tolerance",
-        "version",
-    ];
-    axis_of_pin(pin).is_some()
-        || pin
-            .strip_prefix("blendtp.")
-            .is_some_and(|name| others.contains(&name))
+    let Some(name) = pin.strip_prefix("blendtp.") else {
+        return false;
+    };
+    axis_of_pin(pin).is_some() || OTHERS.contains(&name) || is_limit(name)
+}
+
+/// The pins that are there once.
+const OTHERS: [&str; 20] = [
+    "millimetre",
+    "rotary-tolerance",
+    "default-tolerance",
+    "version",
+    "move.number",
+    "move.line",
+    "move.stands",
+    "move.to-go",
+    "queued.moves",
+    "queued.seconds",
+    "ahead.moves",
+    "ahead.seconds",
+    "clock",
+    "program.ends-at",
+    "program.said-at",
+    "time-left",
+    "time-left.whole-program",
+    "time-left.minutes",
+    "time-left.seconds",
+    "limit.kind",
+];
+
+/// What `blendtp.limit` has a bit for, besides the axes.
+const LIMITS: [&str; 12] = [
+    "axis",
+    "nothing",
+    "rest",
+    "hold",
+    "spindle",
+    "feed",
+    "override",
+    "path-velocity",
+    "velocity",
+    "acceleration",
+    "jerk",
+    "between",
+];
+
+fn is_limit(name: &str) -> bool {
+    let Some(limit) = name.strip_prefix("limit.") else {
+        return false;
+    };
+    let of_axis = |letter: &str| letter.len() == 1 && LETTERS.contains(letter);
+    LIMITS.contains(&limit) || limit.strip_prefix("axis.").is_some_and(of_axis)
 }
 
 /// Less than this makes blendtp refuse every move: a fifth of the acceleration.

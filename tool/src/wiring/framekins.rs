@@ -234,6 +234,9 @@ const TABLE_ONLY: [&str; 13] = [
     "rotary-max",
 ];
 
+/// Pins that are there before the kinematics of another module only.
+const INNER_ONLY: [&str; 3] = ["inner-type", "inner-type-active", "inner-refusal"];
+
 /// All others that are not in [`NETS`].
 const OTHERS: [&str; 47] = [
     "map.xx",
@@ -291,14 +294,29 @@ pub fn needs_table(pin: &str) -> bool {
         .is_some_and(|name| TABLE_ONLY.contains(&name))
 }
 
+/// Three rows of the map of a frame.
+const MAP: [&str; 12] = [
+    "xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z",
+];
+
+/// Whether framekins has this pin before the kinematics of another module.
+pub fn needs_inner(pin: &str) -> bool {
+    pin.strip_prefix("framekins.")
+        .is_some_and(|name| INNER_ONLY.contains(&name))
+}
+
 /// Whether framekins has this pin on some machine.
 pub fn has_pin(pin: &str) -> bool {
     let in_net = |net: &Net| net.pin == pin || matches!(net.source, Pin(name) if name == pin);
     let others = |name: &str| {
         OTHERS.contains(&name)
             || TABLE_ONLY.contains(&name)
+            || INNER_ONLY.contains(&name)
             || name.starts_with("guard.work-offset.")
             || name.starts_with("guard.frame-tool-offset.")
+            || name
+                .strip_prefix("frame.")
+                .is_some_and(|of| MAP.contains(&of))
     };
     NETS.iter().any(in_net) || pin.strip_prefix("framekins.").is_some_and(others)
 }

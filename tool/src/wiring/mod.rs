@@ -5,6 +5,7 @@ pub mod blendtp;
 pub mod codes;
 pub mod framekins;
 pub mod installed;
+pub mod previews;
 pub mod settings;
 pub mod subject;
 

@@ -29,6 +29,12 @@ pub struct Subject {
     pub joints: Vec<char>,
 }
 
+/// Whether a file lies with the operator's panel (hal-component/panel).
+fn is_of_panel(file: &Path) -> bool {
+    file.parent()
+        .is_some_and(|folder| folder.ends_with("panel"))
+}
+
 impl Subject {
     /// Brings it all together.
     pub fn new(ini: Ini, ini_problems: Vec<IniError>, script: Script) -> Subject {
@@ -116,6 +122,12 @@ impl Subject {
             || self.first_naming("framekins").is_some()
     }
 
+    /// The kinematics module that framekins is loaded before: `inner=`.
+    pub fn inner(&self) -> Option<&str> {
+        let module = self.state.module("framekins")?;
+        module.parameter("inner").filter(|inner| !inner.is_empty())
+    }
+
     /// The axis that tilts the table, `A` or `B`.
     pub fn tilt(&self) -> Option<char> {
         let module = self.state.module("framekins");
@@ -173,14 +185,16 @@ impl Subject {
         }
     }
 
-    /// The HAL file for lines of ours: the last one that names framekins or blendtp, else the last one at all.
+    /// The HAL file for lines of ours: the last one that names framekins or blendtp, else the last one at all. Those of the
+    /// operator's panel serve many machines.
     pub fn hal_file(&self) -> String {
         let ours = |statement: &&Statement| {
-            statement.text.contains("framekins") || statement.text.contains("blendtp")
+            let names = |module| statement.text.contains(module);
+            (names("framekins") || names("blendtp")) && !is_of_panel(&statement.place.file)
         };
         let statement = self.script.statements.iter().rfind(ours);
         let named = statement.map(|statement| statement.place.file.to_path_buf());
-        let own = |file: &&PathBuf| !file.starts_with(crate::hal::HALLIB);
+        let own = |file: &&PathBuf| !file.starts_with(crate::hal::HALLIB) && !is_of_panel(file);
         let last = self.script.files.iter().rfind(own);
         match named.or_else(|| last.cloned()) {
             Some(file) => file.display().to_string(),

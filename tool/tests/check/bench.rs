@@ -89,7 +89,7 @@ fn copy(from: &Path, to: &Path) {
 impl Bench {
     pub fn new() -> Bench {
         let folder = tempfile::tempdir().expect("a folder");
-        for part in ["configs", "subroutines"] {
+        for part in ["configs", "panel", "preview", "subroutines"] {
             copy(&samples().join(part), &folder.path().join(part));
         }
         Bench { folder }

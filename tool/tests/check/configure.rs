@@ -70,6 +70,10 @@ fn frames_need_no_other_change_by_hand() {
         "KINEMATICS = framekins coordinates=XYZ",
         "EMCMOT = motmod num_aio=16",
         "ANALOG_OUTPUT = 0",
+        &format!(
+            "USER_COMMAND_FILE = {}",
+            samples().join("preview/frame_axis.py").display()
+        ),
     ] {
         assert!(ini.lines().any(|known| known == line), "{line} in {ini}");
     }
@@ -111,6 +115,34 @@ fn signals_and_outputs_that_are_taken_are_kept() {
         "+EMCMOT = motmod num_dio=8 num_aio=16\n",
     ] {
         assert!(written.contains(line), "{line} in {written}");
+    }
+}
+
+#[test]
+fn other_screens_get_files_of_their_own_and_a_file_of_the_users_stays() {
+    for (screen, line) in [
+        (
+            "gmoccapy",
+            "+USER_COMMAND_FILE = /usr/share/framepath/preview/frame_gmoccapy.py\n",
+        ),
+        (
+            "qtvcp qtdragon",
+            "+USER_COMMAND_FILE = /usr/share/framepath/preview/frame_qtvcp.py\n",
+        ),
+    ] {
+        let to = format!("DISPLAY = {screen}");
+        let (_, output) = changed("DISPLAY = axis", &to, &["--frames"]);
+        let written = text(&output.stdout);
+        assert!(written.contains(line), "{line} in {written}");
+    }
+    for to in [
+        "DISPLAY = touchy",
+        "DISPLAY = axis\nUSER_COMMAND_FILE = own.py",
+    ] {
+        let (_, output) = changed("DISPLAY = axis", to, &["--frames"]);
+        let written = text(&output.stdout);
+        assert!(written.contains("framekins"), "{written}");
+        assert!(!written.contains("+USER_COMMAND_FILE"), "{written}");
     }
 }
 
@@ -163,7 +195,7 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "KINEMATICS = trivkins",
         "KINEMATICS = rotatekins",
         &["--frames"],
-        "axis_mm.ini:135:1: error: framekins does not serve the kinematics rotatekins",
+        "axis_mm.ini:135:1: error: the kinematics are rotatekins, and --frames takes the place of trivkins only",
     ),
     (
         "KINEMATICS = trivkins",

@@ -31,7 +31,25 @@ const fn case(
     }
 }
 
-const CASES: [Case; 40] = [
+const CASES: [Case; 43] = [
+    case(
+        ("ini", "DISPLAY = axis", "DISPLAY = gmoccapy"),
+        "warning",
+        "frame_axis.py has no word of gmoccapy_frames",
+        "frame_gmoccapy.py",
+    ),
+    case(
+        ("ini", "DISPLAY = axis", "DISPLAY = qtvcp qtdragon"),
+        "warning",
+        "frame_axis.py has no word of qtvcp_frames",
+        "frame_qtvcp.py",
+    ),
+    case(
+        ("ini", "/frame_axis.py", "/nowhere.py"),
+        "warning",
+        "nowhere.py cannot be read",
+        "frame_axis.py",
+    ),
     case(
         ("hal", " num_aio=16", ""),
         "error",

@@ -43,6 +43,7 @@ fn is_ours_in_ini(section: &str, line: &str) -> bool {
         "REMAP",
         "PROGRAM_EXTENSION",
         "LINEAR_UNITS",
+        "USER_COMMAND_FILE",
     ];
     let key = line.split('=').next().unwrap_or("").trim();
     let own = matches!(section, "[FRAMEPATH]" | "[TABLE]")

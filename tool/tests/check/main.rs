@@ -5,6 +5,7 @@ mod configure;
 #[path = "../common/fields.rs"]
 mod fields;
 mod findings;
+mod inner;
 mod left_out;
 mod modules;
 mod random;

@@ -82,6 +82,8 @@ fn a_refused_plan_writes_nothing() {
         "plan.svg",
         "--html",
         "plan.html",
+        "--times",
+        "part.ngc.times",
     ];
     let refused = |program: &str, more: &[&str]| {
         bench.write("part.ngc", program);
@@ -113,8 +115,64 @@ fn a_refused_plan_writes_nothing() {
     bench.write("part.ngc", PROGRAM);
     let output = bench.plan(&[&["part.ngc"], &outputs[..]].concat());
     assert!(output.status.success(), "{output:?}");
-    assert_eq!(files(), ["part.ngc", "plan.csv", "plan.html", "plan.svg"]);
+    let written = [
+        "part.ngc",
+        "part.ngc.times",
+        "plan.csv",
+        "plan.html",
+        "plan.svg",
+    ];
+    assert_eq!(files(), written);
     assert!(bench.read("plan.csv").starts_with("time,"));
+}
+
+/// In a straight line between the rows: when the machine is where in which move, to half a servo period.
+#[test]
+fn times_by_line_are_those_of_the_plan() {
+    let bench = Bench::new();
+    let program = "G21 G64 P0.05 F3000\nG1 X40\nY40\nG4 P0.5\nG1 X0 F900\nM2\n";
+    let figures = bench.figures(program, &["--times", "part.ngc.times"]);
+    let text = bench.read("part.ngc.times");
+    let mut lines = text.lines();
+    let sum = program.bytes().fold((1u32, 0u32), |(low, high), byte| {
+        let low = (low + u32::from(byte)) % 65_521;
+        (low, (high + low) % 65_521)
+    });
+    let head = format!(
+        "framepath times,1,{},{:04x}{:04x}",
+        program.len(),
+        sum.1,
+        sum.0
+    );
+    assert_eq!(lines.next(), Some(head.as_str()));
+    assert_eq!(lines.next(), Some("time,line,move,to_go"));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let time = |row: &Vec<&str>| -> f64 { row[0].parse().expect("a time") };
+    assert!(rows.windows(2).all(|pair| time(&pair[0]) <= time(&pair[1])));
+    let whole = figures["time"].as_f64().expect("a number");
+    assert!((time(rows.last().expect("an end")) - whole).abs() < 0.01);
+    // The dwell, with what it takes to notice the end of motion.
+    let rest = rows
+        .iter()
+        .position(|row| row[2] == "2" && row[3].is_empty());
+    let rest = rest.expect("a dwell");
+    let dwell = time(&rows[rest + 1]) - time(&rows[rest]);
+    assert!((0.5..0.51).contains(&dwell), "{dwell}");
+    // At 900 mm/min a quarter of the way of 40 mm takes .667 s.
+    let last: Vec<_> = rows
+        .iter()
+        .filter(|row| row[1] == "5" && !row[3].is_empty())
+        .collect();
+    let at = |to_go: f64| {
+        let place = |row: &Vec<&str>| -> f64 { row[3].parse().expect("a length") };
+        let pair = last
+            .windows(2)
+            .find(|pair| place(pair[1]) <= to_go)
+            .expect("there");
+        let share = (place(pair[0]) - to_go) / (place(pair[0]) - place(pair[1]));
+        time(pair[0]) + share * (time(pair[1]) - time(pair[0]))
+    };
+    assert!((at(15.0) - at(25.0) - 10.0 / 15.0).abs() < 2.5e-3);
 }
 
 /// One file that cannot be written, and there is none.

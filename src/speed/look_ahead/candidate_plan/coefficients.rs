@@ -40,7 +40,7 @@ impl CandidatePlan {
             self.spline.at_mut(base).coefficient = here;
         } else {
             // Coefficients of an attempt before this one are not those of the plan.
-            for k in self.first_base..self.cut {
+            for k in base..self.cut {
                 self.spline.at_mut(k).coefficient = plan.at(k).coefficient;
             }
         }

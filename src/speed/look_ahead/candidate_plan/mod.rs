@@ -2,9 +2,8 @@
 //!
 //! A candidate is begun with the place where it is to come to rest. It searches for the arcs at rest,
 //! places the nodes, sweeps forward and backward, takes the hull, and checks every interval
-//! against the rows of all axes. Only then may it replace the plan. Where a step fails, what caused
-//! it is changed (a shorter arc, a later first coefficient) and the candidate begins again, a bounded
-//! number of times.
+//! against the rows of all axes. Only then may it replace the plan. Where a step fails, the arc that has
+//! to do with it becomes shorter and the candidate begins again, a bounded number of times.
 
 mod coefficients;
 mod nodes;
@@ -80,8 +79,6 @@ pub(super) struct CandidatePlan {
     pub spline: Spline,
     /// The last coefficient that is not changed.
     pub base: usize,
-    /// The base of the first attempt.
-    first_base: usize,
     first: bool,
     cut: usize,
     /// From here on the nodes are placed in the attempt that is under way.
@@ -91,8 +88,8 @@ pub(super) struct CandidatePlan {
     most_start: f64,
     most_end: f64,
     attempt: usize,
-    /// How often bounds were lowered since they were made.
-    lowered: usize,
+    /// How often it was made slower.
+    slowed: usize,
     /// Intervals that it adds at most.
     most: usize,
     /// Cost of an evaluation of the path.
@@ -106,7 +103,6 @@ impl CandidatePlan {
     pub const NONE: Self = Self {
         spline: Spline::NONE,
         base: 1,
-        first_base: 1,
         first: true,
         cut: 1,
         grid_from: 1,
@@ -114,7 +110,7 @@ impl CandidatePlan {
         most_start: 0.0,
         most_end: 0.0,
         attempt: 0,
-        lowered: 0,
+        slowed: 0,
         most: MOST_INTERVALS,
         evaluation: 0,
         phase: CandidatePhase::Finished(CandidateStep::Refused(PlanRefusal::NotFound)),
@@ -134,6 +130,7 @@ impl CandidatePlan {
         self.cut = 1;
         self.grid_from = 1;
         self.attempt = 0;
+        self.slowed = 0;
         self.most_start = free_length(context.route, start, end - start);
         self.most_end = free_length(context.route, end, end - start);
         self.phase = self.search_start(context);
@@ -159,7 +156,6 @@ impl CandidatePlan {
         self.evaluation = cost::evaluation(context.kernels_before(end));
         self.first = false;
         self.most = most;
-        self.first_base = base;
         self.attempt = 0;
         // Intervals that are short only for the old rest are made anew.
         let mut cut = plan.last;
@@ -172,7 +168,7 @@ impl CandidatePlan {
         self.cut = cut;
         self.grid_from = cut;
         let total = end - plan.at(cut).start;
-        self.most_end = free_length(context.route, end, total).min(0.3 * total);
+        self.most_end = free_length(context.route, end, total);
         self.phase = self.search_end(context);
     }
 
@@ -243,7 +239,7 @@ impl CandidatePlan {
 
     /// The first interval that may differ from the plan.
     pub fn changed(&self) -> usize {
-        if self.first { 0 } else { self.first_base }
+        if self.first { 0 } else { self.base }
     }
 
     /// The mean length of the intervals that were made.

@@ -16,6 +16,9 @@ const NODES_BEFORE_REST: f64 = 6.0;
 /// How many times its length the start of the last interval that is kept is away from the arc at least.
 const ROOM_BEFORE_ARC: f64 = 3.0;
 
+/// Nodes that the sweeps need.
+const LEAST_NODES: usize = 3;
+
 impl CandidatePlan {
     pub(super) fn search_start<R: Route>(&self, context: &PlanContext<R>) -> CandidatePhase {
         CandidatePhase::StartArc(RestArcSearch::from_rest(
@@ -115,14 +118,10 @@ impl CandidatePlan {
             GridStep::More if self.grid.reached() > self.cut + self.most => self.shorten(context),
             GridStep::More => CandidatePhase::Grid,
             GridStep::TooLong => refused(PlanRefusal::TooLong),
+            GridStep::TooFine => refused(PlanRefusal::NotFound),
             GridStep::Unsound => refused(PlanRefusal::Unsound),
-            GridStep::Done if self.first && self.spline.last < 3 => {
-                // So short that the arcs leave hardly anything between them.
-                self.most_start = 0.35 * self.spline.start_arc.length;
-                self.most_end = 0.35 * self.spline.end_arc.length;
-                self.grid_from = self.cut;
-                self.again().unwrap_or_else(|| self.search_start(context))
-            }
+            // So short that the arcs leave hardly anything between them.
+            GridStep::Done if self.spline.last < LEAST_NODES => refused(PlanRefusal::NotFound),
             GridStep::Done => {
                 if self.first {
                     let length = self.spline.at(1).length;
@@ -134,7 +133,6 @@ impl CandidatePlan {
                 } else {
                     0
                 };
-                self.lowered = 0;
                 CandidatePhase::Bounds(kept.max(self.base - 1))
             }
         }

@@ -1,132 +1,92 @@
 //! What is changed in a candidate that does not work as it is.
+//!
+//! An arc at rest becomes shorter where the fault has to do with it. A first plan, which leads from rest to rest, is made
+//! slower as a whole where it breaks a limit on the way: what a limit bounds falls with the square or the cube of the speed.
+//! An extension, which has to join the plan, is given up: the next one is shorter and leaves it later (`extensions.rs`).
 
 use super::super::context::PlanContext;
 use super::super::refusal::PlanRefusal;
 use super::super::route::Route;
-use super::super::spline::{CAPACITY, Spline};
 use super::super::sweeps::SweepFault;
 use super::{CandidateFault, CandidatePhase, CandidatePlan, refused};
 
 /// Candidates that are tried from one beginning.
 const MOST_ATTEMPTS: usize = 12;
 
+/// The length of the next arc, of that before.
+const SHORTER: f64 = 0.3;
+
 /// Intervals more that an arc of a third of the length takes.
 const INTERVALS_FOR_SHORTER_ARC: usize = 12;
 
-/// How often bounds are lowered before something else is tried.
-const MOST_LOWERED: usize = 4;
+/// Intervals beside an arc that may break a limit because of it.
+const BESIDE_ARC: usize = 12;
+
+/// A first plan that breaks a limit on the way is run at this share of its speed ..
+const SLOWER: f64 = 0.8;
+/// .. and again, so often at most.
+const MOST_SLOWED: usize = 24;
+
+/// What a fault has to do with.
+enum Cause {
+    ArcAtStart,
+    ArcAtEnd,
+    /// The candidate as a whole, from rest to rest.
+    Speed,
+    /// The plan that is to be continued.
+    Plan,
+}
 
 impl CandidatePlan {
-    /// Changes what caused a fault, as long as there are attempts left.
+    /// Changes what a fault has to do with, as long as there are attempts left.
     pub(super) fn repair<R: Route>(
         &mut self,
         context: &PlanContext<R>,
         fault: CandidateFault,
     ) -> CandidatePhase {
-        let last = self.spline.last;
-        let at_start = match fault {
-            CandidateFault::Sweep(SweepFault::Base | SweepFault::Stall) => true,
-            CandidateFault::Sweep(SweepFault::End) => false,
-            CandidateFault::Interval(k) => k < self.base + (last - self.base) / 2,
-        };
-        if let Some(refused) = self.again() {
-            return refused;
-        }
-        // The arc at the start leaves its first interval no choice.
-        let free = |k: usize| !self.first || k > self.base;
-        // Brakes or bends down harder than it may: lower bounds do not change that.
-        let late = match fault {
-            _ if self.first => None,
-            CandidateFault::Interval(k) if k <= self.base + 1 => self.last_above(context.plan),
-            CandidateFault::Sweep(SweepFault::Base) => self.last_above(context.plan),
-            _ => None,
-        };
-        if let CandidateFault::Interval(k) = fault
-            && late.is_none()
-            && self.lowered < MOST_LOWERED
-            && free(k)
-        {
-            self.lowered += 1;
-            self.sweeps.lower(k);
-            return self.pin(context.plan);
-        }
-        match (at_start, self.first) {
-            (false, _) => {
-                self.most_end = 0.3 * self.spline.end_arc.length;
-                // A shorter arc takes more intervals, not an earlier end.
-                self.most = self.most.max(last - self.cut + INTERVALS_FOR_SHORTER_ARC);
-                self.keep_nodes(last.saturating_sub(self.cut));
-                self.bounded = true;
-                self.search_end(context)
-            }
-            (true, true) => {
-                self.most_start = 0.3 * self.spline.start_arc.length;
+        match self.cause(fault) {
+            Cause::Plan => refused(PlanRefusal::NotFound),
+            Cause::Speed => self.slow_down(),
+            Cause::ArcAtStart => self.again().unwrap_or_else(|| {
+                self.most_start = SHORTER * self.spline.start_arc.length;
                 self.grid_from = self.cut;
                 self.search_start(context)
-            }
-            (true, false) => self.advance_base(context, late),
+            }),
+            Cause::ArcAtEnd => self.again().unwrap_or_else(|| {
+                let intervals = self.spline.last - self.cut;
+                self.most_end = SHORTER * self.spline.end_arc.length;
+                // A shorter arc takes more intervals, not an earlier end.
+                self.most = self.most.max(intervals + INTERVALS_FOR_SHORTER_ARC);
+                self.keep_nodes(intervals);
+                self.bounded = true;
+                self.search_end(context)
+            }),
         }
     }
 
-    /// The last coefficient behind the base at which the plan is above the backward sweep, if any.
-    ///
-    /// A plan that passes a slow place below its cap may come to it faster than any that passes it
-    /// at the cap: the sweep is not the fastest in all places. There is no leaving the plan before.
-    fn last_above(&self, plan: &Spline) -> Option<usize> {
-        let mut k = self.kept_end(plan);
-        for _ in 0..CAPACITY {
-            if k <= self.base + 1 {
-                return None;
-            }
-            if plan.at(k).coefficient >= 0.995 * self.sweeps.backward_value(k) {
-                return Some(k);
-            }
-            k -= 1;
+    fn cause(&self, fault: CandidateFault) -> Cause {
+        match fault {
+            CandidateFault::Sweep(SweepFault::End) => Cause::ArcAtEnd,
+            CandidateFault::Interval(k) if k + BESIDE_ARC >= self.spline.last => Cause::ArcAtEnd,
+            _ if !self.first => Cause::Plan,
+            CandidateFault::Interval(k) if k > self.base + BESIDE_ARC => Cause::Speed,
+            _ => Cause::ArcAtStart,
         }
-        None
     }
 
-    /// The last coefficient that plan and candidate have both.
-    fn kept_end(&self, plan: &Spline) -> usize {
-        self.cut.min(plan.last) - 1
-    }
-
-    /// Follows the plan a little farther before leaving it: behind coefficient `late`, if there is no
-    /// leaving it before.
-    fn advance_base<R: Route>(
-        &mut self,
-        context: &PlanContext<R>,
-        late: Option<usize>,
-    ) -> CandidatePhase {
-        let mut base = self.base + if self.attempt <= 3 { 3 } else { 6 };
-        if let Some(above) = late {
-            base = (above + 1).max(self.base + 2);
-        }
-        self.base = base;
-        self.lowered = 0;
-        if base + 3 > self.cut {
-            return self.keep_more(context);
-        }
-        CandidatePhase::Bounds(base - 1)
-    }
-
-    /// Keeps more of the intervals that the plan has for the sake of its rest only: where it is left
-    /// so late that the nodes behind cannot be made anew from there.
-    fn keep_more<R: Route>(&mut self, context: &PlanContext<R>) -> CandidatePhase {
-        let plan = context.plan;
-        let cut = self.base + 3;
-        if cut > plan.last {
+    /// Runs all of the candidate, with its arcs, at a share of its speed.
+    fn slow_down(&mut self) -> CandidatePhase {
+        self.slowed += 1;
+        if self.slowed > MOST_SLOWED {
             return refused(PlanRefusal::NotFound);
         }
-        for k in self.cut..=cut {
-            *self.spline.at_mut(k) = *plan.at(k);
+        for k in 0..=self.spline.last + 1 {
+            self.spline.at_mut(k).coefficient *= SLOWER * SLOWER;
         }
-        self.cut = cut;
-        self.grid_from = cut;
-        self.bounded = false;
-        let total = self.spline.end - plan.at(cut).start;
-        self.most_end = self.most_end.min(0.3 * total);
-        self.search_end(context)
+        for arc in [&mut self.spline.start_arc, &mut self.spline.end_arc] {
+            arc.jerk *= SLOWER * SLOWER * SLOWER;
+        }
+        CandidatePhase::Check(self.base)
     }
 
     /// Counts an attempt; what it ends with if there are no more.

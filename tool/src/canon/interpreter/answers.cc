@@ -120,9 +120,9 @@ static CANON_TOOL_TABLE tool_at(int index)
 }
 
 CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int pocket) { return tool_at(pocket); }
-CANON_TOOL_TABLE tooldata_entry_init() { return tool_without_length(-1); }
-int tooldata_find_index_for_tool(int number) { return index_of(number); }
-toolidx_t tooldata_get(CANON_TOOL_TABLE *tool, int index)
+TOOL_DATA CANON_TOOL_TABLE tooldata_entry_init() { return tool_without_length(-1); }
+TOOL_DATA int tooldata_find_index_for_tool(int number) { return index_of(number); }
+TOOL_DATA toolidx_t tooldata_get(CANON_TOOL_TABLE *tool, int index)
 {
     *tool = tool_at(index);
     return IDX_OK;

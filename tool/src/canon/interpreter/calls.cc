@@ -149,8 +149,8 @@ void ARC_FEED(int line, double first_end, double second_end, double first_axis, 
 {
     /* Which machine axis the first, second and third axis of the plane is. */
     static const int order[3][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}};
-    int plane = now.plane == CANON_PLANE_YZ ? 1 : now.plane == CANON_PLANE_XZ ? 2 : 0;
-    if (now.plane > CANON_PLANE_XZ)
+    int plane = now.plane == PLANE_YZ ? 1 : now.plane == PLANE_XZ ? 2 : 0;
+    if (now.plane > PLANE_XZ)
         refused = "an arc in a plane of U, V or W";
     const int *axis = order[plane];
     Pose end = pose(0, 0, 0, a, b, c, u, v, w), centre;
@@ -173,10 +173,22 @@ void ARC_FEED(int line, double first_end, double second_end, double first_axis, 
     now.here = end;
 }
 
+#ifdef LINUXCNC_HAS_SCOPED_PLANES
+void NURBS_G5_FEED(int, const std::vector<NURBS_CONTROL_POINT> &, unsigned int, CANON_PLANE)
+{
+    refused = "a spline (G5, G5.2)";
+}
+
+void NURBS_G6_FEED(int, const std::vector<NURBS_G6_CONTROL_POINT> &, unsigned int, double, int, CANON_PLANE)
+{
+    refused = "a spline (G6.2)";
+}
+#else
 void NURBS_FEED(int, std::vector<CONTROL_POINT>, unsigned int)
 {
     refused = "a spline (G5, G5.2)";
 }
+#endif
 
 void SET_FEED_RATE(double rate)
 {
@@ -189,7 +201,7 @@ void SET_FEED_MODE(int, int mode)
     fprintf(output, "FEEDMODE %d\n", mode);
 }
 
-void SET_MOTION_CONTROL_MODE(CANON_MOTION_MODE mode, double tolerance)
+void SET_MOTION_CONTROL_MODE(CANON_MOTION_MODE mode, double tolerance PLANNER_OF_G64)
 {
     now.mode = mode;
     now.tolerance = tolerance;
@@ -212,7 +224,7 @@ void STOP_SPEED_FEED_SYNCH()
     fputs("SYNC 0 0\n", output);
 }
 
-void UPDATE_TAG(StateTag with_flags)
+void UPDATE_TAG(GivenTag with_flags)
 {
     state_tag_t tag = with_flags.get_state_tag();
     double values[4] = {tag.fields_float[GM_FIELD_FLOAT_PATH_TOLERANCE],
@@ -273,7 +285,7 @@ void SET_XY_ROTATION(double degrees)
     waits();
 }
 
-void USE_TOOL_LENGTH_OFFSET(EmcPose o)
+void USE_TOOL_LENGTH_OFFSET(GivenPose o)
 {
     now.tool_in_program_units = o;
     now.tool = metric(pose(o.tran.x, o.tran.y, o.tran.z, o.a, o.b, o.c, o.u, o.v, o.w));
@@ -320,7 +332,7 @@ void SPINDLE_RETRACT() {}
 void USE_NO_SPINDLE_FORCE() {}
 void START_SPINDLE_CLOCKWISE(int spindle, int) { turn(spindle, 1); }
 void START_SPINDLE_COUNTERCLOCKWISE(int spindle, int) { turn(spindle, -1); }
-void STOP_SPINDLE_TURNING(int spindle) { turn(spindle, 0); }
+void STOP_SPINDLE_TURNING(int spindle WAIT_AT_SPEED) { turn(spindle, 0); }
 
 void SET_SPINDLE_SPEED(int spindle, double speed)
 {
@@ -338,12 +350,12 @@ void WAIT_SPINDLE_ORIENT_COMPLETE(int, double) { waits(); }
 
 /* ------------------------------------------------- tools, coolant, others */
 
-void CHANGE_TOOL(int) { now.tool_number = now.selected_tool; waits(); }
+void CHANGE_TOOL(TOOL_SLOT) { now.tool_number = now.selected_tool; waits(); }
 void SELECT_TOOL(int tool) { now.selected_tool = tool; }
 void CHANGE_TOOL_NUMBER(int number) { now.tool_number = number; }
 void START_CHANGE() { waits(); }
 void RELOAD_TOOLDATA() { waits(); }
-void SET_TOOL_TABLE_ENTRY(int, int, EmcPose, double, double, double, int) { waits(); }
+void SET_TOOL_TABLE_ENTRY(int, int, GivenPose, double, double, double, int) { waits(); }
 void FLOOD_ON() { now.flood = 1; waits(); }
 void FLOOD_OFF() { now.flood = 0; waits(); }
 void MIST_ON() { now.mist = 1; waits(); }

@@ -5,7 +5,7 @@
 #pragma once
 #include <string>
 #include <vector>
-#include "canon.hh"
+#include "versions.hh"
 
 const int AXES = 9;
 
@@ -16,7 +16,7 @@ struct Pose {
 struct Where {
     double unit = 1;
     CANON_UNITS units = CANON_UNITS_MM;
-    CANON_PLANE plane = CANON_PLANE_XY;
+    CANON_PLANE plane = PLANE_XY;
     CANON_MOTION_MODE mode = CANON_CONTINUOUS;
     double tolerance = 0, naive_cam = 0;
     Pose work, shift, tool;         /* offsets: G5x, G92, tool; mm and degrees */

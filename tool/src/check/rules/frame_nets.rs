@@ -2,7 +2,8 @@
 
 use crate::check::finding::{Findings, Remedy, add, advice, if_missing, replace};
 use crate::wiring::framekins::{
-    MOST_OUTPUTS, NETS, Net, OUTPUTS, SAMPLE_OUTPUTS, Source, USUAL_OUTPUTS, has_pin, needs_table,
+    MOST_OUTPUTS, NETS, Net, OUTPUTS, SAMPLE_OUTPUTS, Source, USUAL_OUTPUTS, has_pin, needs_inner,
+    needs_table,
 };
 use crate::wiring::subject::Subject;
 
@@ -41,6 +42,13 @@ fn unknown_pins(subject: &Subject, findings: &mut Findings) {
                     word.text
                 );
                 let remedy = "write machine=xyzac or machine=xyzbc behind framekins under [KINS]KINEMATICS, or remove the line";
+                findings.error(&word.place, found, advice(remedy));
+            } else if needs_inner(&word.text) && subject.inner().is_none() {
+                let found = format!(
+                    "{} is there with inner= only, and halcmd refuses the line",
+                    word.text
+                );
+                let remedy = "write loadrt framekins inner= with the module of [KINS]KINEMATICS before all others, or remove the line";
                 findings.error(&word.place, found, advice(remedy));
             }
         }

@@ -1,5 +1,6 @@
 //! Which kinematics are loaded, and what their parameters say of joints and axes.
 
+use super::inner_kinematics;
 use crate::check::finding::{Findings, Remedy, add, advice, if_missing, replace};
 use crate::hal::{Fix, Module};
 use crate::machine::configuration::AXIS_LETTERS;
@@ -39,6 +40,10 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
     several(subject, findings);
     let loaded = subject.state.module("framekins");
     match loaded {
+        Some(module) if subject.inner().is_some() => {
+            let inner = subject.inner().unwrap_or("");
+            inner_kinematics::look(subject, module, inner, findings);
+        }
         Some(module) => {
             parameters(
                 subject,
@@ -86,7 +91,7 @@ fn joint_letters(subject: &Subject) -> String {
     }
 }
 
-/// Motmod takes the first; ours refuses to be another one.
+/// Motmod takes the first; ours refuses to be another one, and goes before the one of `inner=`.
 fn several(subject: &Subject, findings: &mut Findings) {
     let modules = subject.state.modules.iter();
     let kinematics: Vec<&Module> = modules
@@ -96,6 +101,9 @@ fn several(subject: &Subject, findings: &mut Findings) {
         return;
     };
     for module in others {
+        if first.name == "framekins" && subject.inner() == Some(&module.name) {
+            continue;
+        }
         if module.name == "framekins" || first.name == "framekins" {
             let found = format!(
                 "{} is loaded already, and {} is never asked",

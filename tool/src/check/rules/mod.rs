@@ -6,11 +6,13 @@ mod folders;
 mod frame_nets;
 mod frame_settings;
 mod guard;
+mod inner_kinematics;
 mod kinematics;
 mod limits;
 mod modules;
 mod planner;
 mod planner_module;
+mod previews;
 mod remaps;
 mod sections;
 mod subroutines;
@@ -48,6 +50,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
         guard::look(subject, &mut findings);
         subroutines::look(subject, &mut findings);
         remaps::look(subject, &mut findings);
+        previews::look(subject, &mut findings);
     }
     frame_settings::look(subject, &mut findings);
     limits::look(subject, &mut findings);

@@ -1,0 +1,155 @@
+//! The C interface of framekins before the kinematics of another module: what is handed on to its functions and back.
+#![allow(unsafe_code)]
+
+mod abi_calls;
+
+use std::ffi::{CStr, c_double, c_int, c_ulong};
+use std::ptr::{null, null_mut};
+
+use abi_calls::words;
+use framepath::abi::inner_kinematics::{
+    framepath_kinematics_configure_inner, framepath_kinematics_inner_forward,
+    framepath_kinematics_inner_functions, framepath_kinematics_inner_inverse,
+    framepath_kinematics_take_inner_type,
+};
+use framepath::abi::kinematics::{
+    framepath_frame_inputs, framepath_frame_outputs, framepath_kinematics_configure_text,
+    framepath_kinematics_forward, framepath_kinematics_inverse, framepath_kinematics_switch,
+    framepath_kinematics_tilt_axis, framepath_kinematics_update,
+};
+use framepath::abi::kinematics_words::framepath_kinematics_refusal_text;
+use framepath::abi::linuxcnc::EmcPose;
+
+/// Joints are twice the axes and a part of the joints of before; flags are handed back increased.
+unsafe extern "C" fn inverse(
+    world: *const EmcPose,
+    joints: *mut c_double,
+    read: *const c_ulong,
+    written: *mut c_ulong,
+) -> c_int {
+    // SAFETY: called with a pose, 16 numbers and flags.
+    unsafe {
+        *joints = (*world).tran.x * 2.0;
+        *joints.add(1) = (*world).tran.y * 2.0;
+        *joints.add(2) = (*world).tran.z * 2.0;
+        *joints.add(3) += 0.5;
+        *written = *read + 1;
+    }
+    0
+}
+
+/// The way back; U is a guess that is left. Fails for a first joint beyond 1000.
+unsafe extern "C" fn forward(
+    joints: *const c_double,
+    world: *mut EmcPose,
+    read: *const c_ulong,
+    written: *mut c_ulong,
+) -> c_int {
+    // SAFETY: called with 16 numbers, a pose and flags.
+    unsafe {
+        (*world).tran.x = *joints / 2.0;
+        (*world).tran.y = *joints.add(1) / 2.0;
+        (*world).tran.z = *joints.add(2) / 2.0;
+        *written = *read + 10;
+        if *joints > 1000.0 { -7 } else { 0 }
+    }
+}
+
+/// Types 0 and 1.
+unsafe extern "C" fn switch(kind: c_int) -> c_int {
+    if kind < 2 { 0 } else { -1 }
+}
+
+fn zeroed_pose() -> EmcPose {
+    // SAFETY: plain numbers.
+    unsafe { std::mem::zeroed() }
+}
+
+fn joints_of(world: &EmcPose, near: [f64; 16], flags: c_ulong) -> (c_int, [f64; 16], c_ulong) {
+    let (mut joints, mut written) = (near, 0);
+    // SAFETY: a pose, 16 numbers and flags.
+    let answer = unsafe {
+        framepath_kinematics_inner_inverse(world, joints.as_mut_ptr(), &flags, &mut written)
+    };
+    (answer, joints, written)
+}
+
+fn configure(types: &CStr) -> c_int {
+    // SAFETY: a string.
+    unsafe { framepath_kinematics_configure_inner(types.as_ptr()) }
+}
+
+/// One after the other: the memory is one for the process.
+#[test]
+fn what_passes_between_motion_and_the_other_module() {
+    assert_eq!(configure(c"0,x"), 7);
+    assert!(words(framepath_kinematics_configure_text(7)).contains("tool_types=0,2"));
+    assert!(words(framepath_kinematics_refusal_text(18)).contains("framekins.inner-type"));
+    assert_eq!(configure(c"1"), 0);
+    assert_eq!(framepath_kinematics_tilt_axis(), 0);
+
+    // Nothing is there yet, and the functions of our own machines have nothing to say.
+    let mut world = zeroed_pose();
+    (world.tran.x, world.tran.y, world.u) = (3.0, 4.0, 9.0);
+    let mut near = [0.25; 16];
+    assert_eq!(joints_of(&world, near, 5), (-1, near, 0));
+    // SAFETY: a pose and 16 numbers.
+    unsafe {
+        assert_eq!(framepath_kinematics_inverse(&world, near.as_mut_ptr()), -1);
+        assert_eq!(framepath_kinematics_forward(near.as_ptr(), &mut world), -1);
+        assert_eq!(
+            framepath_kinematics_inner_forward(null(), null_mut(), null(), null_mut()),
+            -1
+        );
+        assert_eq!(
+            framepath_kinematics_inner_inverse(null(), null_mut(), null(), null_mut()),
+            -1
+        );
+        assert_eq!(framepath_kinematics_take_inner_type(null()), 0);
+    }
+
+    // Joints of before, guesses and flags arrive, and answers come back as they are.
+    framepath_kinematics_inner_functions(Some(inverse), Some(forward), Some(switch));
+    let (answer, joints, flags) = joints_of(&world, near, 5);
+    assert_eq!((answer, flags), (0, 6));
+    assert_eq!(joints[..5], [6.0, 8.0, 0.0, 0.75, 0.25]);
+    let (read, mut written) = (30, 0);
+    let mut there = world;
+    // SAFETY: 16 numbers, a pose and flags.
+    let mut back = |joints: &[f64; 16], there: &mut EmcPose| unsafe {
+        framepath_kinematics_inner_forward(joints.as_ptr(), there, &read, &mut written)
+    };
+    assert_eq!(back(&joints, &mut there), 0);
+    assert_eq!((there.tran.x, there.tran.y, there.u), (3.0, 4.0, 9.0));
+    assert_eq!(back(&[2000.0; 16], &mut there), -7);
+    assert_eq!(back(&joints, &mut there), 0);
+    assert_eq!(written, 40);
+
+    // The type on the pin is motion's number; one that is not there is refused by the module.
+    // SAFETY: plain numbers.
+    let (mut pins, mut shown): (framepath_frame_inputs, framepath_frame_outputs) =
+        unsafe { (std::mem::zeroed(), std::mem::zeroed()) };
+    (pins.in_position, pins.enabled) = (1, 1);
+    (pins.map[0], pins.map[5], pins.map[10]) = (1.0, 1.0, 1.0);
+    for (kind, answer) in [(1, 0), (0, 0), (5, 18)] {
+        pins.inner_type = kind.into();
+        // SAFETY: structures of the interface.
+        unsafe {
+            assert_eq!(framepath_kinematics_take_inner_type(&pins), kind);
+            assert_eq!(framepath_kinematics_switch(kind, &pins), answer);
+            framepath_kinematics_update(&pins, &mut shown);
+        }
+        assert_eq!(
+            (shown.inner_refusal, shown.hold),
+            (answer, (answer != 0).into())
+        );
+        assert_eq!(shown.inner_type, if answer == 0 { kind } else { 0 });
+    }
+
+    // A frame by hand: the module is asked for the framed place.
+    pins.inner_type = 1.0;
+    pins.map[3] = 100.0;
+    // SAFETY: a structure of the interface.
+    assert_eq!(unsafe { framepath_kinematics_switch(17, &pins) }, 0);
+    assert_eq!(joints_of(&world, near, 0).1[0], 206.0);
+}

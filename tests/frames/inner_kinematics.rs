@@ -1,0 +1,117 @@
+//! Frames composed with kinematics that iterate, remember, or lack an axis.
+
+use crate::common::Motion;
+use framepath::axes::Axes;
+use framepath::kinematics::inner::{Guess, InnerKinematics, fixed_axes, forward, inverse};
+
+/// Joints are the axes times two, of which Y may be none. The forward kinematics go from the guess at most one unit.
+struct Halving {
+    has_y: bool,
+    fails: bool,
+    asked: Vec<Axes>,
+}
+
+impl Halving {
+    fn new(has_y: bool) -> Self {
+        Self {
+            has_y,
+            fails: false,
+            asked: Vec::new(),
+        }
+    }
+}
+
+impl InnerKinematics for Halving {
+    fn inverse(&mut self, axes: &Axes, joints: &mut [f64; 16]) -> i32 {
+        self.asked.push(*axes);
+        joints[0] = axes[0] * 2.0;
+        joints[2] = axes[2] * 2.0;
+        if self.has_y {
+            joints[1] = axes[1] * 2.0;
+        }
+        if self.fails { -3 } else { 0 }
+    }
+
+    fn forward(&mut self, joints: &[f64; 16], axes: &mut Axes) -> i32 {
+        for axis in (0..3).filter(|axis| self.has_y || *axis != 1) {
+            let step = joints[axis] / 2.0 - axes[axis];
+            axes[axis] += step.clamp(-1.0, 1.0);
+        }
+        0
+    }
+}
+
+fn at(x: f64, y: f64, z: f64) -> Axes {
+    Axes::from([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+}
+
+/// Shifted by a metre in X.
+fn shifted() -> Motion {
+    let mut motion = Motion::new("identity", "XYZ");
+    assert_eq!(motion.send(1, [1000.0, 0.0, 0.0]), None);
+    motion
+}
+
+#[test]
+fn joints_are_those_of_the_framed_position() {
+    let (motion, mut inner) = (shifted(), Halving::new(true));
+    let (mut axes, mut joints) = (at(1.0, 2.0, 3.0), [9.0; 16]);
+    let result = inverse(motion.control.active(), &mut inner, &mut axes, &mut joints);
+    assert_eq!((result, axes), (0, at(1001.0, 2.0, 3.0)));
+    assert_eq!(joints[..4], [2002.0, 4.0, 6.0, 9.0]);
+    inner.fails = true;
+    let result = inverse(None, &mut inner, &mut axes, &mut joints);
+    assert_eq!((result, axes), (-3, at(1001.0, 2.0, 3.0)));
+}
+
+#[test]
+fn a_guess_at_the_machine_leads_where_one_of_another_frame_does_not() {
+    let (motion, mut inner) = (shifted(), Halving::new(true));
+    let mut joints = [0.0; 16];
+    joints[..3].copy_from_slice(&[2002.0, 4.0, 6.0]);
+    let (near, frame) = (at(1000.5, 1.5, 2.5), motion.control.active());
+    let mut position = at(0.0, 0.0, 0.0);
+    let (axes, result) = forward(frame, &mut inner, &joints, Guess::At(&near), &mut position);
+    assert_eq!((result, axes), (0, at(1001.0, 2.0, 3.0)));
+    assert_eq!(position, at(1.0, 2.0, 3.0));
+    let mut position = at(0.0, 0.0, 0.0);
+    let (axes, _) = forward(frame, &mut inner, &joints, Guess::Before, &mut position);
+    assert_ne!(axes, at(1001.0, 2.0, 3.0));
+}
+
+#[test]
+fn without_a_frame_nothing_is_touched() {
+    let mut inner = Halving::new(false);
+    let mut position = at(0.1 + 0.2, -0.0, f64::MIN_POSITIVE);
+    let (axes, _) = forward(None, &mut inner, &[0.0; 16], Guess::Before, &mut position);
+    assert_eq!(position.map(f64::to_bits), axes.map(f64::to_bits));
+    assert_eq!(position[1].to_bits(), (-0.0_f64).to_bits());
+}
+
+#[test]
+fn an_axis_that_stands_is_found_and_the_kinematics_are_asked_last_where_the_machine_is() {
+    let here = at(10.0, 0.0, -4.0);
+    let joints = {
+        let mut joints = [0.0; 16];
+        joints[..3].copy_from_slice(&[20.0, 0.0, -8.0]);
+        joints
+    };
+    for has_y in [true, false] {
+        let mut inner = Halving::new(has_y);
+        assert_eq!(
+            fixed_axes(&mut inner, &here, &joints),
+            [false, !has_y, false]
+        );
+        assert_eq!(inner.asked.last(), Some(&here));
+    }
+}
+
+#[test]
+fn an_axis_that_is_not_known_is_not_taken_for_one_that_stands() {
+    let mut inner = Halving::new(false);
+    inner.fails = true;
+    assert_eq!(
+        fixed_axes(&mut inner, &at(0.0, 0.0, 0.0), &[0.0; 16]),
+        [false; 3]
+    );
+}

@@ -1,0 +1,127 @@
+"""What holds for every screen that follows frames: AXIS (test_preview_axis.py), gmoccapy and qtdragon (test_preview_screens.py)."""
+
+import unittest
+
+import numpy
+
+import harness
+from test_preview import ARC, nearest, program
+
+#: how exactly the live plot is on the path of the joints, mm
+TRAIL = 1e-5
+
+#: the way of a servo period at the feed of these programs, mm
+PERIOD = 500 / 60 * 0.001
+
+#: half of the last digit of a position display, mm
+SHOWN = 6e-4
+
+#: how LinuxCNC begins what it says when a screen of qtvcp reads a program in AUTO
+QTVCP_READS = "can't do that (EMC_TASK_PLAN_SYNCH) in auto mode"
+
+#: Screens read a program that somebody else has opened, and qtdragon sends a command then, which may take the place of that to run.
+START = [["open", "PROGRAMS/part.ngc"], ["sleep", 2], ["start", "PROGRAMS/part.ngc"]]
+
+
+class Screen:
+    """A screen in tests."""
+
+    def __init__(self, command, probe, files=(), own_errors: tuple[str, ...] = ()):
+        """command: its words. probe: its USER_COMMAND_FILE; files: what that imports. own_errors: how that begins what LinuxCNC
+        says of this screen without frames, too."""
+        self.first = [["show", *command], ["wait_pin", "frame-preview.answer"], ["ask", "up", "notes"], ["on_for_good"],
+                      ["home"], ["ask", "ready", "ready"]]
+        self.probe = probe
+        self.own_errors = own_errors
+        self.files = ("screen_driver.py", "screen_probe.py", probe, *files)
+
+    def watch(self, steps, programs, ini=None, **options):
+        """Runs steps in front of the screen."""
+        changes = {("DISPLAY", "USER_COMMAND_FILE"): f"./{self.probe}", **(ini or {})}
+        result = harness.run([*steps, ["ask", "notes", "notes"]], programs, display="screen_driver.py", files=self.files,
+                           ini=changes, first=self.first, **options)
+        result.errors = [error for error in result.errors if not error.startswith(self.own_errors)]
+        return result
+
+
+class OnTheScreen(unittest.TestCase):
+    """One program with shifts, turns and a scale, watched from its opening to its end."""
+
+    screen: Screen
+    result: harness.Result
+
+    @classmethod
+    def setUpClass(cls):
+        cls.result = cls.screen.watch(
+            [["ask", "drawn", "open", "PROGRAMS/part.ngc"], *START, ["wait_paused"],
+             ["ask", "relative", "display", 1], ["ask", "machine", "display", 0], ["note", "place"], ["resume"], ["finish"],
+             ["sleep", 0.3], ["ask", "trail", "trail"], ["ask", "plotted", "plotted"]],
+            program("T2 M6 G43", "G1 X1 Y1 Z1", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]",
+                    "G1 X7 Y8 Z9", "G1 X0 Y0 Z0", "M0", "G1 X40", "G2 X40 Y20 R10", "G1 X0", "G4 P0.1",
+                    "o<ascale> call [0.5] [0.5] [0.5]", "G3 X40 Y20 R30", "G49", "o<frame_refresh> call", "G1 X3 Y4 Z5",
+                    "o<frame_off> call", "G1 X5"))
+
+    def setUp(self):
+        good(self, self.result)
+        self.joints = numpy.array([self.result.commanded(joint) for joint in range(3)]).T
+
+    def test_the_preview_is_where_the_joints_run(self):
+        self.assertGreater(len(self.result.answers["drawn"]), 20)
+        for place in self.result.answers["drawn"]:
+            self.assertLess(nearest(self.joints, place).min(), ARC, place)
+
+    def test_frames_and_live_plot_are_drawn(self):
+        self.assertGreater(self.result.answers["plotted"], 2)
+
+    def test_the_live_plot_ends_at_the_tip_of_the_tool(self):
+        # without a tool now, that is where the axes are
+        place = self.result.answers["trail"][-1]
+        for value, joint in zip(place, self.joints[-1], strict=True):
+            self.assertAlmostEqual(value, joint, delta=TRAIL)
+
+    def test_the_live_plot_is_drawn_at_the_tip_of_a_turned_tool(self):
+        # the tool, 20 mm long, stands in the frame: at its origin the plot is there, and the axes are elsewhere
+        trail = numpy.array(self.result.answers["trail"])
+        self.assertLess(numpy.abs(trail - (20, 30, 5)).max(axis=1).min(), TRAIL)
+        self.assertGreater(nearest(self.joints, (20, 30, 5)).min(), 1)
+
+    def test_relative_positions_are_those_of_the_program(self):
+        numbers, line = self.result.answers["relative"]
+        self.assertLess(max(abs(number) for number in numbers), SHOWN)
+        self.assertEqual(line, "FRAME X20.000 Y30.000 Z5.000 turned 36.762")
+
+    def test_machine_positions_are_those_of_the_joints(self):
+        shown, _ = self.result.answers["machine"]
+        for value, joint in zip(shown, self.result.answers["place"]["joints"][:3], strict=True):
+            self.assertAlmostEqual(value, joint, delta=SHOWN)
+
+
+class Trail(unittest.TestCase):
+    """The live plot, between its places too."""
+
+    screen: Screen
+
+    def test_the_live_plot_is_on_the_path_of_the_joints(self):
+        result = self.screen.watch(
+            [*START, ["finish"], ["sleep", 0.3], ["ask", "trail", "trail"]],
+            program("G1 X10 Y5", "G4 P0.1", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]", "G1 X0 Y0 Z0",
+                    "G4 P0.1", "G1 X40", "G4 P0.1", "G2 X40 Y20 R10", "o<amirror> call [1] [0] [0]", "G1 X3 Y4 Z2", "G4 P0.1"))
+        good(self, result)
+        joints = numpy.array([result.commanded(joint) for joint in range(3)]).T
+        trail = result.answers["trail"]
+        self.assertGreater(len(trail), 20)
+        *gaps, greatest = sorted(nearest(joints, place).min() for place in trail)
+        self.assertLess(gaps[-1], TRAIL)
+        # a servo thread without real-time rights may be interrupted while it writes X, Y and Z, and one of them be a period older
+        self.assertLess(greatest, PERIOD)
+        # where the machine rests the plot has its place
+        points = numpy.array(trail)
+        for rest in ((10, 5, 0), (20, 30, 5)):
+            self.assertLess(numpy.abs(points - rest).max(axis=1).min(), 2e-6, rest)
+
+
+def good(test, result):
+    """Nothing went wrong, and the operator was told nothing."""
+    test.assertIsNone(result.failure, result.log)
+    test.assertEqual(result.errors, [], result.log)
+    test.assertEqual(result.answers["notes"], [])

@@ -1,0 +1,165 @@
+"""framekins before LinuxCNC's own kinematics in a running LinuxCNC: the same joints without a frame, the right ones with it."""
+
+import math
+import unittest
+
+from inner_machine import Machine
+
+SCARA = Machine("scarakins", (45, -90, 150, 0, 0, 0), "XYZABC", "setp scarakins.D6 0\n")
+BRIDGE = Machine("5axiskins", (0, 0, 0, 0, 0, 0), "XYZBCW")
+DELTA = Machine("lineardeltakins", (math.sqrt(269 ** 2 - 130.25 ** 2) - 100,) * 3)
+HEXAPOD = Machine("genhexkins", (29.7466,) * 6, "XYZABC", world_home="HOME = 0 0 20 0 0 0")
+TABLE_HAL = """\
+net tool-z motion.tooloffset.z => xyzac-trt-kins.tool-offset
+setp xyzac-trt-kins.y-offset 20
+setp xyzac-trt-kins.z-offset 10
+setp xyzac-trt-kins.z-rot-point -50
+"""
+#: as LinuxCNC's sample has it: type 0 are the joints, type 1 is the tool centre point
+TABLE = Machine("xyzac-trt-kins sparm=identityfirst", (0,) * 5, "XYZAC", TABLE_HAL, switches=True)
+TILTING = Machine("xyzac-trt-kins", (0,) * 5, "XYZAC", TABLE_HAL)
+OWN = Machine("framekins coordinates=XYZAC machine=xyzac", (0,) * 5, "XYZAC",
+              TABLE_HAL.replace("xyzac-trt-kins", "framekins") + "setp framekins.tool-centre-point 1\n")
+
+WIDE = (-10000, 10000)
+
+#: how far joints may be from those that they are compared with
+CLOSE = 1e-9
+
+
+class InnerMachines(unittest.TestCase):
+    def good(self, result):
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [], result.log)
+        return result
+
+    def near(self, found, expected, delta):
+        """Row by row, with the first that differs."""
+        for number, (row, other) in enumerate(zip(found, expected, strict=False)):
+            if any(abs(a - b) > delta for a, b in zip(row, other, strict=True)):
+                self.fail(f"row {number}: {row} instead of {other}")
+        self.assertEqual(len(found), len(expected))
+
+
+class WithoutAFrame(InnerMachines):
+    """The same program by itself and behind framekins: every period is the same."""
+
+    def is_the_same(self, machine, *lines):
+        inner = f"inner={machine.kinematics.split()[0]}"
+        alone, behind = (self.good(machine.run_program(*lines, inner=inner)) for inner in (None, inner))
+        expected, found = machine.way(alone), machine.way(behind)
+        self.assertGreater(len(expected), 200)
+        # to the recorder's last digit
+        self.near(found, expected, 0)
+
+    def test_scara(self):
+        self.is_the_same(SCARA, "G91", "G1 X-20 Y-30 C10", "G2 X20 Y0 I10 J5", "G1 Z-20", "G3 X-10 Y10 R30 Z5")
+
+    def test_a_bridge_mill(self):
+        self.is_the_same(BRIDGE, "G1 X20 Y10 Z-5 B20 C30", "G2 X40 Y10 I10 J0 B-10", "G1 X0 Y0 Z0 B0 C0 W3")
+
+    def test_a_linear_delta(self):
+        self.is_the_same(DELTA, "G91", "G1 X30 Y-10 Z20", "G2 X-10 Y20 R40", "G1 Z-15 X5")
+
+    def test_a_hexapod(self):
+        self.is_the_same(HEXAPOD, "G91", "G1 X1 Y-1 Z.5 A2", "G2 X-1 Y1 R2", "G1 B-3 C4")
+
+    def test_a_table_that_is_switched(self):
+        # a switch as the motion ends takes a pose on the way, and which one is a matter of time, by itself as well
+        self.is_the_same(TABLE, "G1 X10 Y20 Z-5", "G4 P.02", "M428", "G1 X20 A20 C40", "G2 X0 Y0 R30 C0", "G4 P.02", "M429",
+                         "G1 X5 Y5 Z5 A0 C10")
+
+    def test_a_table_that_is_switched_forty_times(self):
+        # what was read too early would be a wrong place for the next relative move
+        self.is_the_same(TABLE, "G91", "o1 repeat [20]", "G4 P.02", "M428", "G1 X.1 A.5 C1", "G4 P.02", "M429",
+                         "G1 X-.3 Y.1 C.5", "o1 endrepeat")
+
+
+class WithAFrame(InnerMachines):
+    def test_it_is_that_of_our_own_machine(self):
+        lines = ["G43.1 Z15", "o<frame_refresh> call", "G10 L2 P1 X10 Y5 Z2", "o<trans> call [5] [-3] [8]",
+                 "o<arot> call [20] [-15] [40]", "G1 X20 Y10 Z3", "G2 X30 Y0 I2 J-8 A15 C30",
+                 "o<ascale> call [1.5] [1.5] [1.5]", "G1 X10 Y-10 Z5 A-10 C80", "o<frame_off> call", "G1 X0 Y0 Z0"]
+        own = self.good(OWN.run_program(*lines))
+        inner = self.good(TILTING.run_program(*lines, inner="inner=xyzac-trt-kins tool_types=0"))
+        self.assertGreater(len(OWN.way(own)), 1000)
+        self.near(TILTING.way(inner), OWN.way(own), CLOSE)
+
+    def test_the_tool_is_turned_by_the_frame_unless_the_kinematics_do(self):
+        lines = ["G43.1 Z30", "o<trans> call [300] [200] [500]", "o<arot> call [0] [90] [0]", "G1 X0 Y0 Z0"]
+        # a tool along Z that is turned about Y lies along X; or it stays
+        for types, along in (("", 30), ("tool_types=0", 0)):
+            result = self.good(SCARA.run_program(*lines, inner=f"inner=scarakins {types}"))
+            elbow = math.radians(SCARA.joints(result)[1])
+            reach = math.hypot(340 + 250 * math.cos(elbow), 250 * math.sin(elbow))
+            self.assertAlmostEqual(reach, math.hypot(300 + along, 200), places=6)
+
+    def test_a_shift_that_is_larger_than_the_machine(self):
+        """Kinematics that iterate begin where the machine is, and not at a position of another frame."""
+        plain = self.good(HEXAPOD.run_program("G1 X1 Y1", "G2 X2 Y0 R3", "G1 X0 Y0 A5"))
+        lines = ["o<trans> call [100] [-200] [50]", "G1 X-99 Y201", "G2 X-98 Y200 R3", "G1 X-100 Y200 A5", "o<frame_off> call",
+                 "G1 A5"]
+        framed = self.good(HEXAPOD.run_program(*lines, inner="inner=genhexkins"))
+        self.near([HEXAPOD.joints(framed)], [HEXAPOD.joints(plain)], 1e-6)
+
+    def test_the_type_changes_in_a_frame(self):
+        lines = ["o<trans> call [10] [0] [0]", "o<arot_rpl> call [90]", "G1 X5 Y0", "G4 P.02", "M68 E3 Q1", "M66 E0 L0",
+                 "o1 if [#<_hal[framekins.inner-type-active]> NE 1]", "(ABORT, not switched)", "o1 endif", "G1 C90", "G1 X7",
+                 "o<frame_off> call"]
+        result = self.good(TABLE.run_program(*lines, inner="inner=xyzac-trt-kins tool_types=1"))
+        # 10 to the right and 7 up on the workpiece, which has turned
+        self.near([TABLE.joints(result)], [(-7, 10, 0, 0, 90)], 1e-6)
+
+    def test_what_needs_to_know_how_the_tool_turns_is_refused(self):
+        for line in ("o<tool_normal> call", "o<retract> call [50]"):
+            result = TILTING.run_program(line, "G1 X10", inner="inner=xyzac-trt-kins tool_types=0")
+            said = "\n".join(result.errors)
+            self.assertIn("does not know how the kinematics behind framekins turn the tool", said, result.log)
+            self.near([TILTING.joints(result)], [(0,) * 5], CLOSE)
+
+    def test_a_type_that_is_not_there_holds_the_machine(self):
+        # by hand motion is in teleop mode, where no type changes
+        result = TABLE.run([["mdi", "G1 X0 F3000"], ["force", "framekins.inner-type", "7"], ["sleep", 0.3],
+                            ["mdi_start", "G1 X10 F3000"], ["sleep", 0.5],
+                            ["note", "held"], ["abort"], ["force", "framekins.inner-type", "0"], ["sleep", 0.3],
+                            ["mdi", "G1 X3 F3000"], ["note", "end"]], inner="inner=xyzac-trt-kins", record=False)
+        self.assertIn("framekins.inner-type = 7 is not taken by xyzac-trt-kins", "\n".join(result.errors))
+        self.assertNotIn("Inverse BAD", result.log)
+        self.near([TABLE.joints(result, "held"), TABLE.joints(result)], [(0,) * 5, (3, 0, 0, 0, 0)], CLOSE)
+
+    def test_an_axis_that_is_not_there(self):
+        lathe = Machine("trivkins coordinates=XZ", (0, 0), "XZ", joint_0=WIDE, joint_1=WIDE)
+        lines = ["o<rot> call [0] [0] [30]", "G1 X10"]
+        result = lathe.run_program(*lines, inner="inner=trivkins")
+        self.assertIn("framekins.refusal = 14", "\n".join(result.errors), result.log)
+
+
+class SoftLimits(InnerMachines):
+    """On the way of moves, in a frame: as without one, from the joints of before."""
+
+    FRAME = ["mdi", "o<rot> call [0] [0] [30]"]
+
+    def errors(self, machine, *moves):
+        steps = [self.FRAME, *(["mdi", move] for move in moves)]
+        return machine.run(steps, inner=f"inner={machine.kinematics}", record=False)
+
+    def scara(self, limit):
+        return Machine("scarakins", (45, -90, 150, 0, 0, 0), "XYZABC", "setp scarakins.D6 0\n", joint_1=(limit, 10))
+
+    def test_an_arc_that_bends_the_elbow_too_far(self):
+        result = self.errors(self.scara(-92), "G91 G2 X0 Y0 I-20 J0 F6000")
+        said = [error for error in result.errors if "the move would take joint 1 to" in error]
+        self.assertEqual((len(said), len(result.errors)), (1, 1), result.errors)
+
+    def test_an_arc_that_fits(self):
+        # with the elbow on the other side it would not
+        self.assertEqual(self.errors(self.scara(-170), "G91 G2 X0 Y0 I-20 J0 F6000").errors, [])
+
+    def test_kinematics_that_count_are_not_asked(self):
+        rose = Machine("rosekins", (50, 0, 0))
+        result = self.errors(rose, "o<frame_off> call", "G3 X50 Y0 I-50 J0 F6000")
+        self.assertEqual(sum("rosekins cannot be asked" in line for line in result.log.splitlines()), 1, result.log)
+
+
+if __name__ == "__main__":
+    unittest.main()

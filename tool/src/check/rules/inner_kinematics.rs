@@ -1,0 +1,121 @@
+//! framekins before the kinematics of another module (`inner=`): what is loaded in which order, and the type of the
+//! kinematics that programs ask for.
+
+use crate::check::finding::{Findings, add, advice, if_missing, replace};
+use crate::hal::Module;
+use crate::wiring::framekins::OUTPUTS;
+use crate::wiring::subject::Subject;
+use framepath::kinematics::inner::tool_types;
+
+/// Where framekins reads the type.
+const TYPE: &str = "framekins.inner-type";
+/// Where motion does.
+const MOTION: &str = "motion.switchkins-type";
+
+pub fn look(subject: &Subject, module: &Module, inner: &str, findings: &mut Findings) {
+    parameters(module, inner, findings);
+    named(subject, module, inner, findings);
+    order(subject, module, inner, findings);
+    types(subject, findings);
+}
+
+fn parameters(module: &Module, inner: &str, findings: &mut Findings) {
+    let place = &module.statement.place;
+    for name in ["coordinates", "machine", "tool_length"] {
+        if module
+            .parameter(name)
+            .is_some_and(|value| !value.is_empty())
+        {
+            let found = format!(
+                "framekins is not loaded: inner={inner} and {name}= exclude each other, since the joints are those of {inner}"
+            );
+            findings.error(
+                place,
+                found,
+                replace(format!("loadrt framekins inner={inner}")),
+            );
+        }
+    }
+    let types = module.parameter("tool_types").unwrap_or("");
+    if tool_types(types.as_bytes()).is_none() {
+        let found =
+            format!("framekins is not loaded: tool_types={types} is no list of types from 0 to 15");
+        findings.error(place, found, advice("tool_types=0,2"));
+    }
+}
+
+/// What the INI file says is what screens believe.
+fn named(subject: &Subject, module: &Module, inner: &str, findings: &mut Findings) {
+    if subject.kinematics() != inner {
+        let found = format!(
+            "framekins is loaded before {inner}, and [KINS]KINEMATICS is {}",
+            subject.kinematics()
+        );
+        let remedy = format!(
+            "write loadrt framekins inner= with the module of [KINS]KINEMATICS, or KINEMATICS = {inner}"
+        );
+        findings.warning(&module.statement.place, found, advice(remedy));
+    }
+}
+
+/// framekins, the module, motmod.
+fn order(subject: &Subject, module: &Module, inner: &str, findings: &mut Findings) {
+    let position = |name: &str| {
+        let mut modules = subject.state.modules.iter();
+        modules.position(|module| module.name == name)
+    };
+    let (own, other) = (position("framekins"), position(inner));
+    let remedy = format!(
+        "first loadrt framekins inner={inner}, then loadrt [KINS]KINEMATICS, then loadrt [EMCMOT]EMCMOT"
+    );
+    let place = &module.statement.place;
+    match (other, position("motmod")) {
+        (None, _) => {
+            let found = format!(
+                "nothing loads {inner}, and framekins finds no kinematics{}",
+                subject.unless_unread()
+            );
+            let line = add("the line behind it", "loadrt [KINS]KINEMATICS");
+            findings.add(if_missing(subject), place, found, line);
+        }
+        (Some(_), _) if other < own => {
+            let found = format!("{inner} is loaded before framekins, which is not loaded then");
+            findings.error(place, found, advice(remedy));
+        }
+        (Some(_), Some(motion)) if other > Some(motion) => {
+            let found =
+                format!("motmod is loaded before {inner}, and framekins finds no kinematics");
+            findings.error(place, found, advice(remedy));
+        }
+        _ => {}
+    }
+}
+
+/// What went to motion to choose a type goes to framekins, over an output that is not one of a frame's.
+fn types(subject: &Subject, findings: &mut Findings) {
+    let output = |pin: &str| pin.strip_prefix("motion.analog-out-")?.parse::<u32>().ok();
+    let is_linked = subject.state.signal_of(TYPE).is_some();
+    for (pin, place) in subject.state.beside(MOTION) {
+        if !is_linked && output(pin).is_some() {
+            let found =
+                format!("{pin} chooses the kinematics past framekins, which knows nothing of it");
+            findings.error(
+                place,
+                found,
+                replace(format!("net inner-type {pin} => {TYPE}")),
+            );
+        }
+    }
+    let frames = subject.first_output()..subject.first_output() + OUTPUTS;
+    for (pin, place) in subject.state.beside(TYPE) {
+        if let Some(taken) = output(pin).filter(|output| frames.contains(output)) {
+            let found = format!("{pin} chooses the kinematics and carries a part of each frame");
+            let remedy = format!(
+                "ANALOG_OUTPUT = {} under [FRAMEPATH], with num_aio={} and the nets of frames from there",
+                taken + 1,
+                taken + 1 + OUTPUTS
+            );
+            findings.error(place, found, advice(remedy));
+        }
+    }
+}
