@@ -117,7 +117,7 @@ def record(names, programs=None, axes=AXES, **machine):
         result = harness.run(steps, {f"{name}.ngc": programs[name] for name in names}, modules=modules,
                              hal="loadrt arrivals\naddf arrivals servo-thread\n" + machine.pop("hal", ""),
                              integers={"moves": "arrivals.moves", "scale": "arrivals.scale", "program": ""},
-                             **machine)
+                             axes=axes, **machine)
     if result.failure or result.errors:
         raise AssertionError(f"{result.failure} {result.errors}\n{result.log}")
     return {name: Recording(result, number, axes) for number, name in enumerate(names, 1)}

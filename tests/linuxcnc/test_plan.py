@@ -9,13 +9,14 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import tempfile
 import unittest
 from typing import ClassVar
 
 import harness
-from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, motion, record
+from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, motion, program, record
 
 INI = os.path.join(harness.SAMPLES, "configs", "framepath-sim", "framepath-sim.ini")
 PERIOD = 1e-3
@@ -101,6 +102,32 @@ class AgainstLinuxCnc(unittest.TestCase):
             if not left:
                 return
         self.skipTest(f"the computer is too busy: the moves of {left} came late, {ATTEMPTS} times")
+
+
+def at_once(hal):
+    """The lathe with a spindle that has its commanded speed at once, as that of a plan has."""
+    ramped = re.compile(r"((loadrt (limit3|near)|addf spindle-(ramp|near)|net spindle-(at-speed|command|speed)) |setp spindle-).*\n")
+    direct = "net spindle-speed spindle.0.speed-out-rps => spindle-encoder.velocity-cmd spindle.0.speed-in\n"
+    return ramped.sub("", hal) + direct
+
+
+#: The spindle is at its speed, and the planner knows it, when the next move comes: from then on the time at which it was told
+#: does not matter.
+KNOWN = "G4 P.4"
+LATHE = program(
+    "G7 G18 G64 P.02", "G43.1 X3 Z2", "G0 X40 Z5", "G96 D2500 S240 M3", KNOWN, "G95 F.08", "G0 X34 Z0", "G1 X-.8", "G0 Z2 X30",
+    "G0 X26", "G1 Z-6 F.25", "X31", "G0 Z2", "S100", KNOWN, "G0 X14", "G1 X20 Z-1 F.12", "Z-4", "G2 X24 Z-6 I2", "G1 X30",
+    "G92 X36", KNOWN, "G1 Z-8", "G92.1", "G20", "S600", KNOWN, "G1 X1.5 F.01", "G21 G97 S800", KNOWN, "G1 Z-3 F.2", "G94 F600 X20", "M5",
+    "G49")
+
+
+class ConstantSurfaceSpeed(AgainstLinuxCnc):
+    """Feed per turn of a spindle that follows the diameter (G96), with offsets of work and tool, in metres and in feet."""
+    programs, axes = {"lathe": LATHE}, "xz"
+    ini = os.path.join(harness.SAMPLES, "configs", "framepath-lathe", "framepath-lathe.ini")
+    #: A rapid goes on from where the turns of the spindle have taken the machine, which are counted from another angle.
+    same = 1e-6
+    machine: ClassVar[dict] = {"sample": "framepath-lathe", "joints": 2, "edit_hal": at_once}
 
 
 class Refusals(unittest.TestCase):

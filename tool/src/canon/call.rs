@@ -120,14 +120,21 @@ pub enum Call {
         /// Only the speed follows (G95), not the position (G33).
         velocity_mode: bool,
     },
+    /// How S counts in the calls of the spindle that follow.
+    Surface {
+        /// Constant surface speed (G96) with at most so many revolutions per minute; 0: none.
+        greatest: f64,
+        /// Where the work turns about: X of the machine.
+        centre: f64,
+    },
     /// The spindle is switched.
     Spindle {
-        /// Revolutions per minute.
+        /// Revolutions per minute; millimetres per minute with a constant surface speed.
         speed: f64,
         /// 1 clockwise, -1 counter-clockwise, 0 off.
         direction: i32,
     },
-    /// S, revolutions per minute.
+    /// S, as in [`Call::Spindle`].
     Speed(f64),
     /// Waits for the end of motion, then as many seconds.
     Dwell(f64),
@@ -210,6 +217,10 @@ impl Call {
             "SYNC" => Call::Synchronise {
                 per_revolution: words.number()?,
                 velocity_mode: words.flag()?,
+            },
+            "SURFACE" => Call::Surface {
+                greatest: words.number()?,
+                centre: words.number()?,
             },
             "SPINDLE" => Call::Spindle {
                 speed: words.number()?,

@@ -12,6 +12,7 @@ use super::recording::{
 use super::stop_watch::StopWatch;
 use super::stubs::Stubs;
 use crate::layer::program::{MotionType, Operation};
+use crate::layer::spindle::{SpindleCommand, Surface};
 use crate::path::Position;
 use crate::path::segment::largest_difference;
 use framepath::abi::linuxcnc::{
@@ -103,6 +104,8 @@ pub(super) struct Drive<'a> {
     /// Where the last move ends that was handed over, and its line.
     pub(super) goal: (Position, i32),
     revolutions: f64,
+    /// Constant surface speed of the spindle.
+    pub(super) surface: Option<Surface>,
     position: Position,
     last_motion: u64,
 }
@@ -124,6 +127,7 @@ impl<'a> Drive<'a> {
             refused: None,
             goal: ([0.0; 9], 0),
             revolutions: 0.0,
+            surface: None,
             position: [0.0; 9],
             last_motion: 0,
         }
@@ -302,15 +306,20 @@ impl<'a> Drive<'a> {
     fn turn_spindle(&mut self) {
         // SAFETY: the structures of the machine.
         let spindle = unsafe { &mut (*self.machine.status).spindle_status[0] };
+        let command = SpindleCommand {
+            speed: spindle.speed,
+            surface: self.surface,
+        };
+        let speed = command.at(self.position[0]);
         let before = self.revolutions;
-        self.revolutions += spindle.speed.abs() / 60.0 * self.job.period;
+        self.revolutions += speed.abs() / 60.0 * self.job.period;
         if spindle.spindle_index_enable != 0 && before.floor() != self.revolutions.floor() {
             self.revolutions -= self.revolutions.floor();
             spindle.spindle_index_enable = 0;
         }
-        let sign = if spindle.speed < 0.0 { -1.0 } else { 1.0 };
+        let sign = if speed < 0.0 { -1.0 } else { 1.0 };
         spindle.spindleRevs = sign * self.revolutions;
-        spindle.spindleSpeedIn = spindle.speed / 60.0;
+        spindle.spindleSpeedIn = speed / 60.0;
         spindle.at_speed = 1;
     }
 

@@ -85,6 +85,7 @@ mod tests {
     use super::*;
     use crate::canon::call::{PathMode, Tag};
     use crate::layer::program::{MotionType, Move, Shape};
+    use crate::layer::spindle::{SpindleCommand, Surface};
 
     fn job() -> Job {
         let a_move = Move {
@@ -131,7 +132,13 @@ mod tests {
                     per_revolution: 1.5,
                     velocity_mode: true,
                 },
-                Operation::Spindle(-100.0),
+                Operation::Spindle(SpindleCommand {
+                    speed: -100.0,
+                    surface: Some(Surface {
+                        speed: -1e5,
+                        centre: 3.0,
+                    }),
+                }),
                 Operation::WaitForMotion,
             ],
         }

@@ -7,6 +7,7 @@ use super::progress::Step;
 use super::recording::{Ending, Recorder};
 use crate::canon::call::PathMode;
 use crate::layer::program::{Move, Operation, Shape};
+use crate::layer::spindle::SpindleCommand;
 use framepath::abi::linuxcnc::tc_term_cond_t;
 use std::ffi::c_int;
 use std::io::{self, Write};
@@ -72,7 +73,7 @@ impl Drive<'_> {
                         (f.tpSetSpindleSync)(tp, 0, per_revolution, c_int::from(velocity_mode))
                     });
                 }
-                Operation::Spindle(speed) => self.switch_spindle(speed),
+                Operation::Spindle(command) => self.switch_spindle(command),
             }
             self.next_operation += 1;
         }
@@ -125,7 +126,9 @@ impl Drive<'_> {
         })
     }
 
-    fn switch_spindle(&self, speed: f64) {
+    fn switch_spindle(&mut self, command: SpindleCommand) {
+        let speed = command.speed;
+        self.surface = command.surface;
         // SAFETY: the structures of the machine.
         let spindle = unsafe { &mut (*self.machine.status).spindle_status[0] };
         spindle.speed = speed;

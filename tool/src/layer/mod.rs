@@ -3,13 +3,14 @@
 //! modes, spindle synchronisation; and where the task controller waits for the end of motion.
 //!
 //! Behaviour read in LinuxCNC 2.9 (`emccanon.cc`, `emctaskmain.cc`). [`straight`] is the arithmetic
-//! of a straight move, [`arc`] that of an arc, [`merging`] joins short lines, [`builder`] keeps
+//! of a straight move, [`arc`] that of an arc, [`merging`] joins short lines, [`spindle`] is what the spindle is told, [`builder`] keeps
 //! the list of operations and pieces, which make a [`program`], [`stream`] hands them out while the program is read.
 
 mod arc;
 mod builder;
 mod merging;
 pub(crate) mod program;
+pub(crate) mod spindle;
 mod straight;
 pub(crate) mod stream;
 #[cfg(test)]
@@ -22,6 +23,7 @@ use crate::path::segment::Segment;
 use builder::Builder;
 use merging::Chain;
 use program::{MotionType, Move, Operation, Program, Shape};
+use spindle::Spindle;
 use straight::Straight;
 
 /// How the layer is to work.
@@ -59,8 +61,7 @@ struct Layer<'a> {
     /// End of the last programmed move.
     programmed_end: Position,
     tag: Tag,
-    spindle_speed: f64,
-    spindle_direction: i32,
+    spindle: Spindle,
     /// The next move at feed waits for the spindle.
     at_speed_next: bool,
 }
@@ -79,8 +80,7 @@ impl<'a> Layer<'a> {
             end: [0.0; 9],
             programmed_end: [0.0; 9],
             tag: Tag::default(),
-            spindle_speed: 0.0,
-            spindle_direction: 0,
+            spindle: Spindle::default(),
             at_speed_next: false,
         }
     }
@@ -111,14 +111,9 @@ impl<'a> Layer<'a> {
                 per_revolution,
                 velocity_mode,
             } => self.synchronise(per_revolution, velocity_mode),
-            Call::Spindle { speed, direction } => {
-                self.spindle_speed = speed;
-                self.switch_spindle(direction);
-            }
-            Call::Speed(speed) => {
-                self.spindle_speed = speed;
-                self.switch_spindle(self.spindle_direction);
-            }
+            Call::Surface { greatest, centre } => self.surface(greatest, centre),
+            Call::Spindle { speed, direction } => self.switch_spindle(speed, direction),
+            Call::Speed(speed) => self.spindle_speed(speed),
             Call::Dwell(seconds) => {
                 self.wait();
                 self.builder.operation(Operation::Dwell(seconds));
@@ -131,16 +126,6 @@ impl<'a> Layer<'a> {
     fn wait(&mut self) {
         self.flush();
         self.builder.wait();
-    }
-
-    fn switch_spindle(&mut self, direction: i32) {
-        self.wait();
-        let speed = self.spindle_speed * f64::from(direction);
-        self.builder.operation(Operation::Spindle(speed));
-        if direction != 0 && self.spindle_direction == 0 {
-            self.at_speed_next = true;
-        }
-        self.spindle_direction = direction;
     }
 
     fn synchronise(&mut self, per_revolution: f64, velocity_mode: bool) {
@@ -208,6 +193,7 @@ impl<'a> Layer<'a> {
                 &straight,
                 self.tag,
             );
+            self.await_new_diameter();
         }
         if self.per_revolution {
             self.synchronise(self.linear_feed * self.unit, true);

@@ -1,5 +1,6 @@
 //! A program as task controller and motion controller see it, and the path that it describes.
 
+use super::spindle::SpindleCommand;
 use crate::canon::call::{PathMode, Tag};
 use crate::path::Position;
 use crate::path::segment::Segment;
@@ -62,8 +63,7 @@ pub(crate) enum Operation {
         per_revolution: f64,
         velocity_mode: bool,
     },
-    /// Revolutions per minute, negative for counter-clockwise, 0 for off.
-    Spindle(f64),
+    Spindle(SpindleCommand),
 }
 
 /// A piece of the path with the tolerance that rules it.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::layer::spindle::{SpindleCommand, Surface};
 use crate::path::segment::distance;
 
 /// Lays the calls of a program that are written as the interpreter program prints them.
@@ -167,6 +168,53 @@ fn a_feed_move_behind_the_start_of_a_spindle_begins_at_rest() {
     );
     let stops: Vec<bool> = program.handed.iter().map(|piece| piece.stops).collect();
     assert_eq!(stops, [false, true, false, false]);
+}
+
+#[test]
+fn a_feed_move_waits_for_each_new_speed_of_the_spindle() {
+    let waits = |calls: &str| -> Vec<bool> {
+        let program = plain(&format!("RATE 60\n{calls}"));
+        moves(&program)
+            .iter()
+            .map(|a_move| a_move.at_speed)
+            .collect()
+    };
+    let run = "TRAVERSE 1 1 0 0 0 0 0 0 0 0\nFEED 2 2 0 0 0 0 0 0 0 0\nFEED 3 3 0 0 0 0 0 0 0 0\n\
+               TRAVERSE 4 4 0 0 0 0 0 0 0 0\nFEED 5 5 0 0 0 0 0 0 0 0\n";
+    let turning = format!("SPINDLE 1000 1\n{run}");
+    assert_eq!(waits(&turning), [false, true, false, false, false]);
+    let faster = waits(&format!("{turning}SPEED 2000\n{run}"));
+    assert_eq!(faster[5..], [false, true, false, false, false]);
+    let standing = waits(&format!("SPINDLE 0 0\nSPEED 2000\n{run}"));
+    assert!(!standing.contains(&true));
+    // Behind a rapid the diameter is another one, as long as the speed follows it.
+    let surface = format!("SURFACE 2500 4\nSPINDLE 1e5 1\n{run}");
+    assert_eq!(waits(&surface), [false, true, false, false, true]);
+    let back = waits(&format!("{surface}SURFACE 0 4\nSPEED 500\n{run}"));
+    assert_eq!(back[5..], [false, true, false, false, false]);
+}
+
+#[test]
+fn a_constant_surface_speed_is_commanded_with_the_next_speed() {
+    let program = plain("SPINDLE 1000 -1\nSURFACE 2500 4\nSPEED 1e5\nSPINDLE 1e5 0");
+    let commands: Vec<SpindleCommand> = program
+        .operations
+        .iter()
+        .filter_map(|operation| match operation {
+            Operation::Spindle(command) => Some(*command),
+            _ => None,
+        })
+        .collect();
+    let surface = |speed| Some(Surface { speed, centre: 4.0 });
+    let expected = [
+        (-1000.0, None),
+        (-2500.0, surface(-1e5)),
+        (0.0, surface(0.0)),
+    ];
+    assert_eq!(
+        commands,
+        expected.map(|(speed, surface)| SpindleCommand { speed, surface })
+    );
 }
 
 #[test]

@@ -219,7 +219,7 @@ impl<'a> Collector<'a> {
         );
         let moves = phase != Phase::Standing;
         if moves {
-            self.follower.step(&sample.position);
+            self.follower.step(&sample.position, sample.running);
             self.extend_box(&before, &position);
         }
         let line = self.running.map_or(0, |known| known.line);

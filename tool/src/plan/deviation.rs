@@ -17,6 +17,9 @@ const FAR: usize = 400;
 /// Pieces behind the nearest one that are kept: the path may still come near their ends.
 const KEPT: usize = 32;
 
+/// Pieces whose distances differ by less are as near as each other, mm or degrees.
+const SAME: f64 = 1e-6;
+
 /// The largest distance found.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Farthest {
@@ -89,6 +92,10 @@ pub struct Follower {
     pieces: VecDeque<Tracked>,
     /// The piece that the machine was nearest to.
     near: usize,
+    /// The move that runs.
+    running: usize,
+    /// Its pieces, from and to; where none is there any more, the one that follows.
+    own: [usize; 2],
     all_axes: bool,
     /// How far rotary axes may leave the program, degrees; 0: as many as P has mm.
     rotary_tolerance: f64,
@@ -134,14 +141,16 @@ impl Follower {
         }
     }
 
-    /// A servo cycle in which the machine moves.
-    pub fn step(&mut self, position: &Position) {
+    /// A servo cycle in which the machine moves, and the number of the move that runs.
+    pub fn step(&mut self, position: &Position, running: Option<usize>) {
+        self.go_on_to(running.unwrap_or(self.running));
         let Some((near, distance)) = self.nearest(position) else {
             return;
         };
         let chord = Segment::line(self.last.unwrap_or(*position), *position);
-        let from = self.near.min(near).saturating_sub(NEAR);
-        let to = (self.near.max(near) + NEAR + 1).min(self.pieces.len());
+        let [first, last] = self.own;
+        let from = first.min(near).saturating_sub(NEAR);
+        let to = (last.max(near) + NEAR + 1).min(self.pieces.len());
         for tracked in self.pieces.range_mut(from..to) {
             let missed = chord.deviation(&tracked.piece.segment.end, self.all_axes).0;
             tracked.end_missed = tracked.end_missed.min(missed);
@@ -158,10 +167,32 @@ impl Follower {
             let (tolerance, line) = (tracked.tolerance, tracked.piece.line);
             self.note_beyond(distance, tolerance, line);
         }
-        while self.near > KEPT {
+        while self.near.min(self.own[0]) > KEPT {
             self.leave();
             self.near -= 1;
+            self.own = self.own.map(|index| index - 1);
         }
+    }
+
+    /// The machine is at this move. What is nearest is looked for around it: a program may come by at the same place again
+    /// and again, as in the passes of a thread.
+    fn go_on_to(&mut self, running: usize) {
+        self.running = running;
+        let of = |index: usize| {
+            self.pieces
+                .get(index)
+                .map(|tracked| tracked.piece.move_index)
+        };
+        let [mut first, mut last] = self.own;
+        while of(first).is_some_and(|index| index < running) {
+            first += 1;
+        }
+        last = last.max(first);
+        while of(last + 1).is_some_and(|index| index <= running) {
+            last += 1;
+        }
+        self.own = [first, last];
+        self.near = self.near.clamp(first.saturating_sub(NEAR), last + NEAR);
     }
 
     /// Keeps the place that is farthest beyond its tolerance.
@@ -209,6 +240,21 @@ impl Follower {
         }
     }
 
+    /// Whether a piece at a distance is rather where the machine is than another before it: of two that run along each other it
+    /// is the one that belongs to the move that runs.
+    fn is_better(&self, (index, distance): (usize, f64), best: (usize, f64)) -> bool {
+        if (distance - best.1).abs() > SAME {
+            return distance < best.1;
+        }
+        let away = |index: usize| {
+            let found = self.pieces.get(index);
+            found.map_or(usize::MAX, |tracked| {
+                tracked.piece.move_index.abs_diff(self.running)
+            })
+        };
+        away(index) <= away(best.0)
+    }
+
     /// The nearest piece, and its distance.
     fn nearest(&self, position: &Position) -> Option<(usize, f64)> {
         let away = |index: usize| {
@@ -222,7 +268,9 @@ impl Follower {
         while index < best.0.max(self.near) + NEAR && index < self.near + FAR {
             index += 1;
             match away(index) {
-                Some(distance) if distance <= best.1 => best = (index, distance),
+                Some(distance) if self.is_better((index, distance), best) => {
+                    best = (index, distance);
+                }
                 Some(_) => {}
                 None => break,
             }
@@ -241,5 +289,92 @@ impl Follower {
             self.leave();
         }
         self.found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canon::call::Tag;
+    use crate::layer::program::{MotionType, Move, Shape};
+
+    /// In X and Z, mm, through these places, each move with a line of its own.
+    fn moves(places: &[[f64; 2]]) -> Vec<Handed> {
+        let at = |[x, z]: [f64; 2]| [x, 0.0, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let ends = places.windows(2).enumerate();
+        let handed = ends.map(|(index, ends)| {
+            let line = index as i32 + 1;
+            let piece = Piece {
+                segment: Segment::line(at(ends[0]), at(ends[1])),
+                line,
+                move_index: index,
+                mode: PathMode::Continuous,
+                tolerance: 0.01,
+                merged_within: 0.0,
+                stops: false,
+            };
+            let a_move = Move {
+                index,
+                line,
+                shape: Shape::Line,
+                end: at(ends[1]),
+                motion_type: MotionType::Feed,
+                velocity: 1.0,
+                greatest_velocity: 1.0,
+                acceleration: 1.0,
+                at_speed: false,
+                tag: Tag::default(),
+            };
+            let pieces = vec![piece];
+            Handed { a_move, pieces }
+        });
+        handed.collect()
+    }
+
+    /// Follows a machine that is exactly on the program, but off by `off` in X on the move with this number.
+    fn followed(moves: &[Handed], (wrong, off): (usize, f64)) -> Deviation {
+        let mut follower = Follower::new(0.0);
+        for handed in moves {
+            follower.add(handed);
+        }
+        for handed in moves {
+            for n in 0..50 {
+                let mut place = handed.pieces[0].segment.point(f64::from(n) / 50.0);
+                let index = handed.a_move.index;
+                place[0] += if index == wrong { off } else { 0.0 };
+                follower.step(&place, Some(index));
+            }
+        }
+        let end = moves.last().expect("moves").a_move.end;
+        follower.step(&end, Some(moves.len() - 1));
+        follower.finish()
+    }
+
+    /// A cycle for threads whose last passes are as deep as each other, and the way off.
+    fn thread() -> Vec<Handed> {
+        let mut places = vec![[20.0, 5.0]];
+        for depth in [0.5, 0.8, 1.0, 1.0, 1.0] {
+            let inside = 11.0 - depth;
+            places.extend([[11.0, 6.0], [inside, 6.0], [inside, -15.0], [11.0, -15.0]]);
+        }
+        places.push([20.0, 5.0]);
+        moves(&places)
+    }
+
+    #[test]
+    fn passes_along_each_other_are_no_deviation() {
+        let found = followed(&thread(), (usize::MAX, 0.0));
+        assert!(found.planned.distance < 1e-9, "{found:?}");
+        assert!(found.programmed.distance < 1e-9, "{found:?}");
+        assert!(found.beyond.is_none());
+    }
+
+    #[test]
+    fn a_pass_beside_its_place_is_found_with_its_line() {
+        // the second pass, to the outside
+        let found = followed(&thread(), (6, 0.1));
+        let beyond = found.beyond.expect("a deviation");
+        assert!((beyond.distance - 0.1).abs() < 1e-9, "{beyond:?}");
+        assert_eq!(beyond.line, 7);
     }
 }

@@ -6,6 +6,7 @@ use super::error::{PlanError, refusal, spindle_error};
 use super::setup::Setup;
 use super::source::Source;
 use super::spindle::Spindle;
+use super::turn_feeds::TurnFeeds;
 use crate::canon::call::PathMode;
 use crate::layer::program::{self, Move, Operation, Piece, Shape};
 use crate::path::Position;
@@ -100,6 +101,7 @@ pub struct Drive<'a> {
     setup: &'a Setup,
     planner: Box<Planner>,
     spindle: Spindle,
+    turn_feeds: TurnFeeds,
     inputs: CycleInputs,
     cycle: u64,
     dwell_until: Option<u64>,
@@ -150,7 +152,8 @@ impl<'a> Drive<'a> {
             file,
             setup,
             planner,
-            spindle: Spindle::default(),
+            spindle: Spindle::new(setup.spindle),
+            turn_feeds: TurnFeeds::default(),
             inputs: CycleInputs::default(),
             cycle: 0,
             dwell_until: None,
@@ -196,7 +199,8 @@ impl<'a> Drive<'a> {
         };
         self.inputs.spindles[0] = self.spindle.turn(self.setup.period);
         let status = *self.planner.cycle(&self.inputs);
-        self.spindle.obey(&status);
+        let x = status.position[0] / self.setup.scale(0);
+        self.spindle.obey(&status, x);
         self.judge(&status)?;
         self.cycle += 1;
         let at_end = !dwells && status.done && source.peek()?.is_none();
@@ -239,6 +243,7 @@ impl<'a> Drive<'a> {
             match operation {
                 Operation::Move(a_move) => {
                     self.add(&a_move)?;
+                    self.turn_feeds.add(a_move.index);
                     self.moves += 1;
                     if let Some(until) = &mut self.hold_until {
                         *until = self.cycle + SETTLING;
@@ -271,8 +276,9 @@ impl<'a> Drive<'a> {
                     let per_turn = per_revolution / self.setup.millimetres;
                     self.planner
                         .set_spindle_synchronisation(0, per_turn, velocity_mode);
+                    self.turn_feeds.set(per_turn);
                 }
-                Operation::Spindle(revolutions) => self.spindle.command(revolutions),
+                Operation::Spindle(command) => self.spindle.command(command),
             }
         }
         Ok(())
@@ -350,6 +356,11 @@ impl<'a> Drive<'a> {
         self.planner.goal()[axis] / self.setup.scale(axis)
     }
 
+    /// The least and the greatest speed of the spindle in motion with a constant surface speed, turns a minute.
+    pub fn surface_speeds(&self) -> Option<[f64; 2]> {
+        self.spindle.surface_speeds()
+    }
+
     /// What must not happen.
     fn judge(&mut self, status: &Status) -> Result<(), PlanError> {
         let stopped = |reason: String| {
@@ -384,12 +395,16 @@ impl<'a> Drive<'a> {
         Ok(())
     }
 
-    fn sample(&self, status: &Status, dwells: bool) -> Sample {
+    fn sample(&mut self, status: &Status, dwells: bool) -> Sample {
         let running = (status.active_depth > 0)
             .then(|| usize::try_from(status.exec_id).ok()?.checked_sub(1))
             .flatten();
-        let asked = status
-            .requested_velocity
+        // Where motion follows the spindle the planner counts on more, should the spindle become faster.
+        let turn_feed = running.and_then(|index| self.turn_feeds.running(index));
+        let asked = turn_feed
+            .map_or(status.requested_velocity, |per_turn| {
+                per_turn * self.spindle.speed()
+            })
             .min(self.setup.velocity_limit / self.setup.millimetres);
         Sample {
             time: self.cycle as f64 * self.setup.period,

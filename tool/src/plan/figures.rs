@@ -74,6 +74,21 @@ pub struct SpeedFigure {
     pub line: i32,
 }
 
+/// The spindle under constant surface speed (G96), while the machine moves.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct SurfaceFigures {
+    /// Turns a minute.
+    pub least: f64,
+    /// See above.
+    pub greatest: f64,
+}
+
+impl From<[f64; 2]> for SurfaceFigures {
+    fn from([least, greatest]: [f64; 2]) -> Self {
+        SurfaceFigures { least, greatest }
+    }
+}
+
 /// A largest distance.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct DistanceFigure {
@@ -163,6 +178,8 @@ pub struct Figures {
     pub path_length: f64,
     /// Along the path.
     pub greatest_speed: SpeedFigure,
+    /// The spindle under constant surface speed; `None`: there is none. Put in by the caller.
+    pub surface_speed: Option<SurfaceFigures>,
     /// Where the time goes.
     pub phases: Vec<TimeShare>,
     /// What limits the machine.
@@ -228,6 +245,7 @@ impl Figures {
                 time: collected.speed.time,
                 line: collected.speed.line,
             },
+            surface_speed: None,
             phases: phases.into(),
             limited_by,
             slowest: collected.places.iter().map(place_figure).collect(),

@@ -2,7 +2,7 @@
 //!
 //! The files in the order of the work: [`setup`] is the machine, [`source`] the program as the task
 //! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with a
-//! [`spindle`], moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
+//! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
 //! cycle: [`cause`] says what limits the machine, [`places`] where time is lost,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
 //! drawings; [`figures`] holds all of it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
@@ -30,6 +30,7 @@ mod spindle;
 mod svg;
 mod text;
 mod times;
+mod turn_feeds;
 
 pub use error::PlanError;
 
@@ -43,7 +44,7 @@ use arrivals::Arrivals;
 use collector::Collector;
 use csv::Table;
 use drive::{Drive, Supply};
-use figures::Figures;
+use figures::{Figures, SurfaceFigures};
 use limit::Limit;
 use progress::Progress;
 use serde::Serialize;
@@ -260,6 +261,7 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
         return Err(PlanError::NoMoves(file.to_owned()));
     }
     let mut figures = Figures::new(&name, setup, (source.moves, handed_over), &collected);
+    figures.surface_speed = drive.surface_speeds().map(SurfaceFigures::from);
     let listing = listing::read(file, &figures, &collected);
     for place in &mut figures.slowest {
         place.text = listing.text(place.line);

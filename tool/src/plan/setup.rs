@@ -2,6 +2,7 @@
 
 use super::PlanArguments;
 use super::error::PlanError;
+use super::spindle::SpeedLimits;
 use crate::canon::Surroundings;
 use crate::canon::tool_table::{Tool, read_tool_table};
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
@@ -33,6 +34,8 @@ pub struct Setup {
     pub axes: [bool; AXIS_COUNT],
     /// Greatest velocity along the path, mm/s.
     pub velocity_limit: f64,
+    /// What the speed of the spindle is limited to.
+    pub spindle: SpeedLimits,
     /// How far rotary axes may leave the program, degrees; 0: as many as P has millimetres.
     pub rotary_tolerance: f64,
     /// Tolerance of short moves under G64 without P, mm.
@@ -123,6 +126,7 @@ fn without_ini() -> Setup {
         jerk: [f64::INFINITY; AXIS_COUNT],
         axes: [true; AXIS_COUNT],
         velocity_limit: f64::INFINITY,
+        spindle: SpeedLimits::default(),
         rotary_tolerance: 0.0,
         default_tolerance: DEFAULT_TOLERANCE,
         surroundings: Surroundings::default(),
@@ -158,6 +162,7 @@ fn from_ini(file: &Path) -> Result<Setup, PlanError> {
     if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
         setup.velocity_limit = velocity * millimetres;
     }
+    setup.spindle = SpeedLimits::from_ini(&ini)?;
     setup.surroundings = surroundings(&ini, file, &machine, millimetres)?;
     setup.ini.clone_from(&setup.surroundings.ini);
     Ok(setup)

@@ -1,6 +1,6 @@
 //! The plan as text for a terminal: plain ASCII, aligned.
 
-use super::figures::{DistanceFigure, Figures};
+use super::figures::{DistanceFigure, Figures, SurfaceFigures};
 use crate::format::{
     duration, fixed, greatest_speed, grouped, in_column, length, significant, unit,
 };
@@ -34,6 +34,23 @@ pub fn render(figures: &Figures) -> Result<String, fmt::Error> {
         writeln!(out, "{label}  {finding}")?;
     }
     Ok(text)
+}
+
+/// A spindle cannot be as fast as G96 without D asks for near its middle, turns a minute.
+const NO_SPINDLE: f64 = 1e5;
+
+/// What the plan does not count is said, too.
+fn surface_speed(speeds: &SurfaceFigures) -> String {
+    let least = significant(speeds.least, 4);
+    if speeds.greatest > NO_SPINDLE {
+        return format!(
+            "from {least} turns a minute on without an end: G96 has no D, the greatest speed of the spindle; give it one"
+        );
+    }
+    let greatest = significant(speeds.greatest, 4);
+    format!(
+        "{least} to {greatest} turns a minute, each at once: the time in which a spindle changes its speed is not counted"
+    )
 }
 
 fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
@@ -81,6 +98,9 @@ fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
         "Greatest speed",
         greatest_speed(speed.value, u, speed.time, speed.line.into()),
     )?;
+    if let Some(speeds) = &figures.surface_speed {
+        entry("Spindle with G96", surface_speed(speeds))?;
+    }
     let far = |figure: &DistanceFigure| {
         let tolerance = match figure.tolerance {
             Some(0.0) => "exact mode".to_owned(),

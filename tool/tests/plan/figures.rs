@@ -226,3 +226,81 @@ fn a_thread_and_a_tap_follow_the_spindle() {
     let time = number(&figures["time"]);
     assert!((4.0..6.0).contains(&time), "{time}");
 }
+
+/// Facing at a constant surface speed takes the time in which the spiral of the feed is as long as the surface has run.
+#[test]
+fn with_g96_the_spindle_follows_the_diameter() {
+    let bench = Bench::new();
+    let time = |turning: &str| {
+        let program = format!(
+            "G21 G64 P0.01 G18\nG43.1 X7\nG0 X50\n{turning} M3\nG95 F0.2\nG1 X10\nM5 G49\nM2\n"
+        );
+        number(&bench.figures(&program, &[])["time"])
+    };
+    // the rapid, and what the spindle takes to be known
+    let before = 0.8;
+    let surface = |speed: f64, from: f64, to: f64| {
+        60.0 * std::f64::consts::PI * (from * from - to * to) / (0.2 * 1000.0 * speed)
+    };
+    let metres = time("G96 D3000 S100");
+    let expected = before + surface(100.0, 50.0, 10.0);
+    assert!((metres - expected).abs() < 0.2, "{metres}");
+    let feet = time(&format!("G20\nG96 D3000 S{}\nG21", 100.0 / 0.3048));
+    assert!((feet - metres).abs() < CYCLES, "{feet}");
+    // from 500 turns a minute on it is the greatest speed
+    let radius = 100_000.0 / (2.0 * std::f64::consts::PI * 500.0);
+    let limited = time("G96 D500 S100");
+    let expected = before + surface(100.0, 50.0, radius) + 60.0 * (radius - 10.0) / (0.2 * 500.0);
+    assert!((limited - expected).abs() < 0.2, "{limited}");
+    let turns = time("G97 S500");
+    assert!((turns - before - 24.0).abs() < 0.2, "{turns}");
+}
+
+#[test]
+fn the_speeds_of_g96_are_told() {
+    let bench = Bench::new();
+    let speeds = |greatest: &str| {
+        let program =
+            format!("G21 G61.1 G18\nG0 X50\nG96 {greatest} S100 M3\nG95 F0.2\nG1 X10\nM5\nM2\n");
+        bench.figures(&program, &[])["surface_speed"].take()
+    };
+    let at_50 = 2000.0 / (2.0 * std::f64::consts::PI);
+    let found = speeds("D1000");
+    assert!((number(&found["least"]) - at_50).abs() < 0.01, "{found}");
+    assert!(
+        (number(&found["greatest"]) - 1000.0).abs() < 1e-6,
+        "{found}"
+    );
+    assert!(bench.figures("G21 S500 M3 F600\nG1 X1\nM2\n", &[])["surface_speed"].is_null());
+    bench.write(
+        "part.ngc",
+        "G21 G18 F600\nG0 X50\nG96 S100 M3\nG1 X-1\nM5\nM2\n",
+    );
+    let text = String::from_utf8(bench.plan(&["part.ngc"]).stdout).expect("text");
+    assert!(text.contains("without an end: G96 has no D"), "{text}");
+}
+
+#[test]
+fn the_ini_file_limits_the_spindle() {
+    let bench = Bench::new();
+    let time = |limit: &str| {
+        let ini = format!("{MILL}[SPINDLE_0]\n{limit}\n");
+        number(&bench.figures_on(&ini, "G21 G61.1 S1000 M3\nG95 F0.2\nG1 X20\nM5\nM2\n")["time"])
+    };
+    // 20 mm with 0.2 mm a turn
+    assert!((time("") - 6.0).abs() < 0.1);
+    assert!((time("MAX_FORWARD_VELOCITY = 500") - 12.0).abs() < 0.1);
+}
+
+/// The last two passes of the cycle run along each other.
+#[test]
+fn a_threading_cycle_is_where_it_is_programmed() {
+    let bench = Bench::new();
+    let program = "G21 G18 G64 P0.01\nG0 X20 Z5\nG97 S600 M3\nG0 X11 Z6\n\
+                   G76 P1.5 Z-15.5 I-1 J0.3 K0.92 R1.5 Q29.5 H1\nG0 X20 Z5\nM5\nM2\n";
+    let figures = bench.figures(program, &[]);
+    for what in ["planned", "programmed", "tightest"] {
+        let found = &figures["deviation"][what];
+        assert!(number(&found["distance"]) < 0.0101, "{what}: {found}");
+    }
+}

@@ -196,7 +196,10 @@ fn fields_of_the_json_are_documented() {
     bench.write("exact.ngc", "G21 G61.1 F600\nG1 X5\nG64 P0.1\nX9\nY4\nM2\n");
     let plans = bench.plan(&["part.ngc", "exact.ngc", "--ini", "mill.ini", "--json"]);
     let unlimited = bench.plan(&["exact.ngc", "--jerk", "unlimited", "--json"]);
-    assert_documented("plan", &[json(&plans), json(&unlimited)]);
+    bench.write("turned.ngc", "G21 G18 F600\nG96 D900 S100 M3\nG1 X5\nM2\n");
+    let turned = bench.plan(&["turned.ngc", "--json"]);
+    let all = [plans, unlimited, turned].map(|plan| json(&plan));
+    assert_documented("plan", &all);
 }
 
 #[test]

@@ -12,7 +12,9 @@
  *   NAIVECAM tolerance
  *   TAG P Q feed speed flags fields(8)                      of the moves that follow, in program units
  *   SYNC per-revolution velocity-mode                       0: ends
- *   SPINDLE speed direction      rpm; direction 0: off      SPEED speed
+ *   SURFACE greatest centre      of the two below: their speed is mm a minute (G96), up to so many rpm; X in the middle of the work,
+ *                                mm of the machine; greatest 0: their speed is rpm
+ *   SPINDLE speed direction      direction 0: off           SPEED speed
  *   DWELL seconds                WAIT (motion comes to its end)     FLUSH (ends the merging of short lines)
  *   END (the program came to its end)
  *
@@ -255,16 +257,26 @@ void USE_LENGTH_UNITS(CANON_UNITS units)
 
 void SELECT_PLANE(CANON_PLANE plane) { now.plane = plane; }
 
+/* With an offset the diameter changes: under constant surface speed LinuxCNC commands the spindles anew. */
+static void centre_moved()
+{
+    for (int spindle = 0; spindle < EMCMOT_MAX_SPINDLES; spindle++)
+        if (now.greatest[spindle] != 0)
+            SET_SPINDLE_SPEED(spindle, now.speed[spindle]);
+}
+
 void SET_G5X_OFFSET(int, double x, double y, double z, double a, double b, double c, double u, double v, double w)
 {
     now.work = metric(pose(x, y, z, a, b, c, u, v, w));
     waits();
+    centre_moved();
 }
 
 void SET_G92_OFFSET(double x, double y, double z, double a, double b, double c, double u, double v, double w)
 {
     now.shift = metric(pose(x, y, z, a, b, c, u, v, w));
     waits();
+    centre_moved();
 }
 
 void SET_XY_ROTATION(double degrees)
@@ -278,9 +290,24 @@ void USE_TOOL_LENGTH_OFFSET(GivenPose o)
     now.tool_in_program_units = o;
     now.tool = metric(pose(o.tran.x, o.tran.y, o.tran.z, o.a, o.b, o.c, o.u, o.v, o.w));
     waits();
+    centre_moved();
 }
 
 /* --------------------------------------------------------------- spindle */
+
+/* S of the first spindle, said how it counts where that is not what goes without saying. */
+static double speed_of_first()
+{
+    static bool said = false;
+    bool surface = now.greatest[0] != 0;
+    if (surface || said)
+        fprintf(output, "SURFACE %.17g %.17g\n", now.greatest[0], now.work.at[0] + now.shift.at[0] + now.tool.at[0]);
+    said = surface;
+    if (!surface)
+        return now.speed[0];
+    /* feet or metres a minute */
+    return now.speed[0] * (now.units == CANON_UNITS_INCHES ? 12 * 25.4 : 1000);
+}
 
 /* Only the first spindle is passed on: it is the one that motion waits for. */
 static void turn(int spindle, int direction)
@@ -288,11 +315,18 @@ static void turn(int spindle, int direction)
     if (!known(spindle))
         return;
     now.turning[spindle] = direction;
-    if (spindle == 0)
-        fprintf(output, "SPINDLE %.17g %d\n", now.speed[0], direction);
+    if (spindle == 0) {
+        double speed = speed_of_first();
+        fprintf(output, "SPINDLE %.17g %d\n", speed, direction);
+    }
 }
 
-void SET_SPINDLE_MODE(int, double) {}
+void SET_SPINDLE_MODE(int spindle, double greatest)
+{
+    if (known(spindle))
+        now.greatest[spindle] = fabs(greatest);
+}
+
 void SPINDLE_RETRACT_TRAVERSE() {}
 void SPINDLE_RETRACT() {}
 void USE_NO_SPINDLE_FORCE() {}
@@ -305,8 +339,10 @@ void SET_SPINDLE_SPEED(int spindle, double speed)
     if (!known(spindle))
         return;
     now.speed[spindle] = fabs(speed);
-    if (spindle == 0)
-        fprintf(output, "SPEED %.17g\n", now.speed[0]);
+    if (spindle == 0) {
+        double converted = speed_of_first();
+        fprintf(output, "SPEED %.17g\n", converted);
+    }
 }
 
 void ORIENT_SPINDLE(int, double, int) { waits(); }

@@ -26,6 +26,7 @@ struct Where {
     double rate = 0;
     bool feed_override = true, block_delete = false, optional_stop = false;
     double speed[EMCMOT_MAX_SPINDLES] = {};
+    double greatest[EMCMOT_MAX_SPINDLES] = {};  /* D of G96; 0: S is rpm */
     int turning[EMCMOT_MAX_SPINDLES] = {};
     int selected_tool = 0, tool_number = 0;
     int flood = 0, mist = 0;
