@@ -123,6 +123,11 @@ class Commands(Compared):
                    "G68.2 P2 Q1 X0 Y0 Z0", "G68.2 P2 Q2 X9 Y1 Z2", "G68.2 P2 Q3 X1 Y8 Z-3", "G1 X3 Y4 Z5",
                    "G68.2 P3 Q1 X1 Y2 Z3 I1 J1 K0", "G68.2 P3 Q2 I0 J0.01 K1", "G1 X8 Y3 Z1", "G69", "G1 X1 Y1 Z1")
 
+    def test_the_tool_centre_point_with_the_table_level(self):
+        # it is known of the machine: a preview takes M64 for any output
+        self.check("G43.4 H2", "G1 X5 Y6 Z7", "G68.2 X10 Y5 I30 J20 K-10", "G1 X4 Y5 Z6", "G43.4 H1", "G1 X1 Y2 Z3", "G69",
+                   "G1 X1 Y1 Z1", steps=[["mdi", "T2 M6"], ["mdi", "G43.4"]], sample="framepath-xyzac", joints=5, axes="xyzac")
+
     def test_motion_codes_stay_across_a_frame(self):
         self.check("G1 X5 Y5 Z5", "G2 X10 Y10 R5", "o<trans> call [3] [1] [0]", "X11 Y11 R5", "G1 X6",
                    "o<arot_rpl> call [25]", "X8", "Y3", "G98 G81 X2 Y2 Z-3 R2 F600", "o<atrans> call [20] [0] [0]", "X3 Y3",
