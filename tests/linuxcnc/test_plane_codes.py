@@ -4,18 +4,23 @@ import itertools
 import math
 import unittest
 
-import harness
 import numpy
+
+import harness
 from test_gcode import QUICK, said
 from test_machines import on_the_table
 
 RUN = ["run", "PROGRAMS/part.ngc"]
 
-#: shows where the joints are, from inside a program, under a number, to more digits than o<say> of other tests
+#: shows where the joints are, from inside a program, under a number, to more digits than o<say> of other tests; motion is done
+#: some periods before its interpolator brings them to rest
 SAY = """\
 o<say> sub
 G4 P0.01
 M66 E0 L0
+o1 while [ABS[#<_hal[joint.0.vel-cmd]>] + ABS[#<_hal[joint.1.vel-cmd]>] + ABS[#<_hal[joint.2.vel-cmd]>] GT 0]
+M66 E0 L0
+o1 endwhile
 (DEBUG, AT %.9f#1 #<_hal[joint.0.pos-cmd]> #<_hal[joint.1.pos-cmd]> #<_hal[joint.2.pos-cmd]>)
 o<say> endsub
 """
@@ -99,7 +104,8 @@ class Planes(unittest.TestCase):
         rotation = about(3, 35) @ turned((3, 1, 3), ANGLES)
         self.check([([f"G68.2 {words('XYZ', ORIGIN)} {words('IJK', ANGLES)}"], POINT,
                      offset + about(3, 35) @ ORIGIN + rotation @ POINT)], ["G10 L2 P1 X30 Y20 Z10 R35"])
-        self.check([(["G20", "G68.2 X1 J90"], (0, 1, 0), (25.4, 0, 25.4)), (["G91", "G68.2 J90", "G90"], (0, 1, 0), (0, 0, 25.4))])
+        self.check([(["G20", "G68.2 X1 J90"], (0, 1, 0), (25.4, 0, 25.4)),
+                    (["G91", "G68.2 J90", "G90"], (0, 1, 0), (0, 0, 25.4))])
 
     def test_three_points_and_two_vectors(self):
         origin, second, third = (numpy.array(point, dtype=float) for point in ((10, 5, 2), (16, 8, 4), (9, 12, 7)))
@@ -206,10 +212,9 @@ class FiveAxes(unittest.TestCase):
     def test_a_move_behind_g49_is_refused_by_name(self):
         for last in ("G49", "G43 H1"):
             with self.subTest(last):
-                result = self.run_steps([RUN, ["note", "end"], ["forget"], ["mdi", last], ["mdi", "G0 X7"],
-                                         ["sleep", 0.2], ["recall", "mdi"], ["note", "held"], ["mdi", "o<tool_centre_off> call"],
-                                         ["mdi", "G0 X7"], ["note", "again"]],
-                                        "T2 M6", "G43.4 H2", "G1 X1", last, "G1 X5")
+                by_hand = [["forget"], ["mdi", last], ["mdi", "G0 X7"], ["sleep", 0.2], ["recall", "mdi"], ["note", "held"]]
+                remedy = [["mdi", "o<tool_centre_off> call"], ["mdi", "G0 X7"], ["note", "again"]]
+                result = self.run_steps([RUN, ["note", "end"], *by_hand, *remedy], "T2 M6", "G43.4 H2", "G1 X1", last, "G1 X5")
                 self.assertIsNone(result.failure, result.log)
                 text = "\n".join(result.errors)
                 for part in ("the length of the tool", "G43.4", "o<tool_centre_off> call", "o<frame_refresh> call"):
