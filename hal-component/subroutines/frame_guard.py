@@ -406,7 +406,7 @@ def set_up_framekins(settings):
     if "framekins.active" not in pins:
         return ("framekins is not loaded: write [KINS]KINEMATICS = framekins coordinates=..., and load frame_guard "
                 "behind it")
-    if "framekins.guard.active" not in pins:
+    if "framekins.guard.parameters-pending" not in pins:
         return "the framekins that is installed is older than frame_guard: install both from one version of framepath"
     hal.set_p("framekins.release-on-abort", str(int(settings.clear_on_abort)))
     machine = settings.tool_length == "machine"
