@@ -9,7 +9,8 @@ Reads the settings (frame_settings.py) and does not come up if one is wrong, so 
 - has framekins remove the frame at the start and end of programs, as the settings say, leaves teleop mode where that
   keeps a frame, and makes the interpreter read its position anew afterwards;
 - lives visibly (frame_heart.py): without it framekins stops the machine and takes no frame;
-- stops moves that LinuxCNC would run through the frame although they are not meant so.
+- stops moves that LinuxCNC would run through the frame although they are not meant so, and those that framekins would hold
+  for ever.
 
 The README beside this file tells what an operator sees of it.
 """
@@ -24,6 +25,7 @@ import hal
 import linuxcnc
 
 from frame_heart import Heart
+from frame_held import Held
 from frame_offsets import SAME, Offsets, differ
 from frame_settings import Settings, SettingsError
 
@@ -52,6 +54,7 @@ SETTLING = 0.2
 #: every other process that wants it.
 TOLD = {"release": ("release", hal.HAL_BIT), "releases-seen": ("releases-seen", hal.HAL_S32)}
 WATCHED = {"releases": ("releases", hal.HAL_S32), "active": ("guard.active", hal.HAL_BIT),
+           "parameters-pending": ("guard.parameters-pending", hal.HAL_BIT),
            **{name: (f"guard.{name}", hal.HAL_FLOAT) for name in (
                "command", "acknowledged", "work-offset.x", "work-offset.y", "work-offset.z", "work-offset.rotation",
                "frame-tool-offset.x", "frame-tool-offset.y", "frame-tool-offset.z")}}
@@ -96,6 +99,8 @@ class Look:
         turned = turn(status.rotation_xy, status.g92_offset)
         self.work_offset = (*(a + b for a, b in zip(status.g5x_offset[:3], turned, strict=True)), status.rotation_xy)
         self.active = pins["active"]
+        #: framekins holds the machine for what has changed on its pins
+        self.pending = pins["parameters-pending"]
         self.command = pins["command"]
         self.acknowledged = pins["acknowledged"]
         #: how often framekins has removed a frame by itself
@@ -140,6 +145,8 @@ class Guard:
         self.status.poll()
         # what the one before has not done is done by whoever switches the machine on again
         pins["releases-seen"] = self.pins["releases"]
+        inner = "framekins.inner-type" in {pin["NAME"] for pin in hal.get_info_pins()}
+        self.held = Held(SETTLING + 3 * settings.task_cycle, inner)
         #: the HAL file has been looked at
         self.checked = False
 
@@ -167,6 +174,9 @@ class Guard:
             self.stopped = False
         if now.active and not now.idle and not self.stopped:
             self.check_run(now, last)
+        held = self.held.reason(now.pending and now.moving and not now.idle, time.monotonic())
+        if held and not self.stopped:
+            self.stop(held)
         going = bool(self.due) and now.idle
         unread = now.releases != self.pins["releases-seen"]
         self.pins["release"] = going
@@ -396,7 +406,7 @@ def set_up_framekins(settings):
     if "framekins.active" not in pins:
         return ("framekins is not loaded: write [KINS]KINEMATICS = framekins coordinates=..., and load frame_guard "
                 "behind it")
-    if "framekins.guard.active" not in pins:
+    if "framekins.guard.parameters-pending" not in pins:
         return "the framekins that is installed is older than frame_guard: install both from one version of framepath"
     hal.set_p("framekins.release-on-abort", str(int(settings.clear_on_abort)))
     machine = settings.tool_length == "machine"

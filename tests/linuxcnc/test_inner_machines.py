@@ -120,10 +120,12 @@ class WithAFrame(InnerMachines):
     def test_a_type_that_is_not_there_holds_the_machine(self):
         # by hand motion is in teleop mode, where no type changes
         result = TABLE.run([["mdi", "G1 X0 F3000"], ["force", "framekins.inner-type", "7"], ["sleep", 0.3],
-                            ["mdi_start", "G1 X10 F3000"], ["sleep", 0.5],
-                            ["note", "held"], ["abort"], ["force", "framekins.inner-type", "0"], ["sleep", 0.3],
+                            ["mdi_start", "G1 X10 F3000"], ["sleep", 1],
+                            ["note", "held"], ["force", "framekins.inner-type", "0"], ["sleep", 0.3],
                             ["mdi", "G1 X3 F3000"], ["note", "end"]], inner="inner=xyzac-trt-kins", record=False)
         self.assertIn("framekins.inner-type = 7 is not taken by xyzac-trt-kins", "\n".join(result.errors))
+        # the move does not wait for ever
+        self.assertIn("the type on framekins.inner-type is not in force", "\n".join(result.errors))
         self.assertNotIn("Inverse BAD", result.log)
         self.near([TABLE.joints(result, "held"), TABLE.joints(result)], [(0,) * 5, (3, 0, 0, 0, 0)], CLOSE)
 

@@ -249,6 +249,7 @@ class InLinuxCNC(unittest.TestCase):
                       ["note", "held"], ["abort"]],
                      *TOOL_CENTRE_POINT, "T2 M6", "G43", "G1 X10")
         self.assertEqual(result.answers["pending"], "TRUE", result.log)
+        self.assertIn("o<frame_refresh> call behind the change", "\n".join(result.errors))
         self.near(result.answers["held"]["joints"], [0] * 5)
 
     def test_linuxcnc_moves_the_tool_centre_point_as_by_hand(self):

@@ -117,6 +117,17 @@ class Commands(Compared):
                    "X0.1", "G78.2 X20 Z10", "Y0.2 Z0.1", "G78.6 X1", "X0.3", "G2 X0.2 Y0.1 R1", "G90", "G21", "G78.4 X10 Y20",
                    "G1 X5 F900", "G78.5 X0.333333333333 Y0.333333333333 Z0.333333333333", "G1 X300 Y100", "G77.1", "G1 X0 Y0")
 
+    def test_planes_of_five_axis_programs(self):
+        self.check("G10 L2 P1 X12 Y-7 Z3 R20", "G1 X5 Y5", "G68.2 X10 Y5 I30 J20 K-10", "G1 X4 Y5 Z6", "G2 X9 Y7 R6",
+                   "G68.2 P1 Q321 X3 Y1 Z2 I10 J-25 K40 R15", "G1 X4 Y5 Z6", "G53.1", "G1 X7", "G68.2 P2 Q0 X1 Y2 Z3 R10",
+                   "G68.2 P2 Q1 X0 Y0 Z0", "G68.2 P2 Q2 X9 Y1 Z2", "G68.2 P2 Q3 X1 Y8 Z-3", "G1 X3 Y4 Z5",
+                   "G68.2 P3 Q1 X1 Y2 Z3 I1 J1 K0", "G68.2 P3 Q2 I0 J0.01 K1", "G1 X8 Y3 Z1", "G69", "G1 X1 Y1 Z1")
+
+    def test_the_tool_centre_point_with_the_table_level(self):
+        # it is known of the machine: a preview takes M64 for any output
+        self.check("G43.4 H2", "G1 X5 Y6 Z7", "G68.2 X10 Y5 I30 J20 K-10", "G1 X4 Y5 Z6", "G43.4 H1", "G1 X1 Y2 Z3", "G69",
+                   "G1 X1 Y1 Z1", steps=[["mdi", "T2 M6"], ["mdi", "G43.4"]], sample="framepath-xyzac", joints=5, axes="xyzac")
+
     def test_motion_codes_stay_across_a_frame(self):
         self.check("G1 X5 Y5 Z5", "G2 X10 Y10 R5", "o<trans> call [3] [1] [0]", "X11 Y11 R5", "G1 X6",
                    "o<arot_rpl> call [25]", "X8", "Y3", "G98 G81 X2 Y2 Z-3 R2 F600", "o<atrans> call [20] [0] [0]", "X3 Y3",

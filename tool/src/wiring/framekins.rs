@@ -238,7 +238,7 @@ const TABLE_ONLY: [&str; 13] = [
 const INNER_ONLY: [&str; 3] = ["inner-type", "inner-type-active", "inner-refusal"];
 
 /// All others that are not in [`NETS`].
-const OTHERS: [&str; 47] = [
+const OTHERS: [&str; 48] = [
     "map.xx",
     "map.xy",
     "map.xz",
@@ -280,6 +280,7 @@ const OTHERS: [&str; 47] = [
     "releasing",
     "releases",
     "guard.active",
+    "guard.parameters-pending",
     "guard.command",
     "guard.acknowledged",
     "guard.work-offset.rotation",
