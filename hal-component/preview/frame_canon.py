@@ -196,8 +196,8 @@ class FrameCanon(Canon):
         self.straight_arcsegments(arc.chords(out, self.arcdivision, self.lo[3:], end))
 
     def frame_reach(self):
-        """The least and the greatest position of the machine's X Y Z in the program, inches: chords of arcs stay inside. None if
-        it does not move."""
+        """The least and the greatest position of the machine's X Y Z in the program, inches: chords of arcs stay inside. None
+        if it does not move."""
         ends = list(self.frame_hidden)
         # without a move these are as far apart as can be, the wrong way round
         if self.min_extents_notool[0] <= self.max_extents_notool[0]:

@@ -18,8 +18,8 @@ REMOVE, DROP_SCALES, REFRESH = 9, 10, 11
 SUSPEND = 13
 
 #: subroutines of the operations
-NAMES = {TRANSLATE: "trans", ROTATE: "rot", ROTATE_IN_PLANE: "rot_rpl", ROTS_XY: "rots_xy", ROTS_ZX: "rots_zx", ROTS_YZ: "rots_yz",
-         SCALE: "scale", MIRROR: "mirror"}
+NAMES = {TRANSLATE: "trans", ROTATE: "rot", ROTATE_IN_PLANE: "rot_rpl", ROTS_XY: "rots_xy", ROTS_ZX: "rots_zx",
+         ROTS_YZ: "rots_yz", SCALE: "scale", MIRROR: "mirror"}
 
 #: of two solid angles: the axes of the first and of the second rotation
 SOLID_ANGLES = {ROTS_XY: (1, 0), ROTS_ZX: (0, 2), ROTS_YZ: (2, 1)}

@@ -1,4 +1,5 @@
-"""[DISPLAY]USER_COMMAND_FILE of qtdragon and other screens of qtvcp: preview, extents, warnings of limits, live plot and positions follow frames.
+"""[DISPLAY]USER_COMMAND_FILE of qtdragon and other screens of qtvcp: preview, extents, warnings of limits, live plot and
+positions follow frames.
 
 With a USER_COMMAND_FILE of your own write these lines into it instead, with the folder of this file:
 

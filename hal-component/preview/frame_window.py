@@ -28,8 +28,8 @@ PROGRAM_TRIAD, ACTIVE_TRIAD = 0.35, 0.6
 
 
 def follow(ini, tell):
-    """The state of the machine's frame, and what a preview has to know. ini: LinuxCNC's INI file, linuxcnc.ini. tell(text): tells
-    the operator. None, and the operator was told why, if frames cannot be followed."""
+    """The state of the machine's frame, and what a preview has to know. ini: LinuxCNC's INI file, linuxcnc.ini. tell(text):
+    tells the operator. None, and the operator was told why, if frames cannot be followed."""
     try:
         state = frame_state.FrameState()
         return state, FrameRules(frame_state.k2(), lambda: turns_tool(state, ini), state.answer, tell)

@@ -6,7 +6,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "linuxcnc"))
 
-import harness  # noqa: E402  # from the folder beside this one
+import harness  # from the folder beside this one
 
 SAMPLE = "/usr/share/framepath/configs/framepath-sim"
 PROGRAM = "G21 G90 G17 G61.1\no<trans> call [10] [5] [0]\nG1 X20 Y5 F1500\no<frame_off> call\nM2\n"

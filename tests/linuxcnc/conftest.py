@@ -10,7 +10,8 @@ import pytest
 BUSY = ("test_contract_table", "test_contract_soak", "test_plan", "test_compare", "test_short_programs", "test_faults_table",
         "test_preview_speed")
 #: What takes longest comes first, or the others would wait for it at the end.
-FIRST = ("test_dialect_examples", "test_spindle", "test_preview", "test_preview_axis", "test_preview_screens", "test_look_ahead")
+FIRST = ("test_dialect_examples", "test_spindle", "test_preview", "test_preview_axis", "test_preview_screens",
+         "test_look_ahead")
 
 
 def is_set_up_once(item):

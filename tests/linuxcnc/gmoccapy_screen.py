@@ -1,8 +1,9 @@
 """gmoccapy for screen_probe.py."""
 
+from gi.repository import GLib
+
 import gmoccapy_frames
 import screen_probe
-from gi.repository import GLib
 
 
 def start(screen):

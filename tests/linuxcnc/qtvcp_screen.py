@@ -1,9 +1,10 @@
 """qtdragon for screen_probe.py."""
 
-import qtvcp_frames
-import screen_probe
 from PyQt5.QtCore import QTimer
 from qtvcp.core import Status
+
+import qtvcp_frames
+import screen_probe
 
 #: kinds of positions of the displays of qtvcp
 ABSOLUTE, RELATIVE = 0, 1

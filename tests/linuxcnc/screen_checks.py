@@ -1,4 +1,5 @@
-"""What holds for every screen that follows frames: AXIS (test_preview_axis.py), gmoccapy and qtdragon (test_preview_screens.py)."""
+"""What holds for every screen that follows frames: AXIS (test_preview_axis.py), gmoccapy and qtdragon
+(test_preview_screens.py)."""
 
 import unittest
 
@@ -20,9 +21,10 @@ SHOWN = 6e-4
 QTVCP_READS = "can't do that (EMC_TASK_PLAN_SYNCH) in auto mode"
 
 #: keys of the samples that are for AXIS alone: to be removed under another screen
-WITHOUT_PANEL = {("DISPLAY", "PYVCP"): None, ("HAL", "POSTGUI_HALFILE"): None}
+WITHOUT_PANEL: dict[tuple[str, str], str | None] = {("DISPLAY", "PYVCP"): None, ("HAL", "POSTGUI_HALFILE"): None}
 
-#: Screens read a program that somebody else has opened, and qtdragon sends a command then, which may take the place of that to run.
+#: Screens read a program that somebody else has opened, and qtdragon sends a command then, which may take the
+#: place of that to run.
 START = [["open", "PROGRAMS/part.ngc"], ["sleep", 2], ["start", "PROGRAMS/part.ngc"]]
 
 
@@ -41,7 +43,8 @@ class Screen:
 
     def watch(self, steps, programs, ini=None, **options):
         """Runs steps in front of the screen."""
-        changes = {("DISPLAY", "USER_COMMAND_FILE"): f"./{self.probe}", **self.panel, **(ini or {})}
+        changes: dict[tuple[str, str], str | None] = {("DISPLAY", "USER_COMMAND_FILE"): f"./{self.probe}", **self.panel,
+                                                      **(ini or {})}
         result = harness.run([*steps, ["ask", "notes", "notes"]], programs, display="screen_driver.py", files=self.files,
                            ini=changes, first=self.first, **options)
         result.errors = [error for error in result.errors if not error.startswith(self.own_errors)]
@@ -116,7 +119,7 @@ class Trail(unittest.TestCase):
         self.assertGreater(len(trail), 20)
         *gaps, greatest = sorted(nearest(joints, place).min() for place in trail)
         self.assertLess(gaps[-1], TRAIL)
-        # a servo thread without real-time rights may be interrupted while it writes X, Y and Z, and one of them be a period older
+        # a servo thread without real-time rights may be interrupted while it writes X, Y and Z: one of them is a period older
         self.assertLess(greatest, PERIOD)
         # where the machine rests the plot has its place
         points = numpy.array(trail)

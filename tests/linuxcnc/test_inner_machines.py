@@ -2,6 +2,7 @@
 
 import math
 import unittest
+from typing import ClassVar
 
 from inner_machine import Machine
 
@@ -139,7 +140,7 @@ class WithAFrame(InnerMachines):
 class SoftLimits(InnerMachines):
     """On the way of moves, in a frame: as without one, from the joints of before."""
 
-    FRAME = ["mdi", "o<rot> call [0] [0] [30]"]
+    FRAME: ClassVar = ["mdi", "o<rot> call [0] [0] [30]"]
 
     def errors(self, machine, *moves):
         steps = [self.FRAME, *(["mdi", move] for move in moves)]

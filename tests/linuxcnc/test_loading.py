@@ -85,7 +85,8 @@ class Loading(Refusals):
         with tempfile.TemporaryDirectory() as modules:
             harness.modules_with("asked_kins", modules)
             os.chmod(modules, 0o755)
-            output, code = halrun(MOTION.replace("framekins coordinates=XYZ", "asked_kins") + "getp asked_kins.asked\n", modules)
+            asked = MOTION.replace("framekins coordinates=XYZ", "asked_kins") + "getp asked_kins.asked\n"
+            output, code = halrun(asked, modules)
         self.assertEqual(code, 0, output)
         self.assertEqual([line for line in output.splitlines() if line.strip().isdigit()], ["1"], output)
 

@@ -72,7 +72,8 @@ def with_times(name, text):
         path = os.path.join(folder, f"{name}.ngc")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
-        subprocess.run([harness.TOOL, "plan", path, "--ini", INI, "--times", f"{path}.times"], check=True, stdout=subprocess.DEVNULL,
+        subprocess.run([harness.TOOL, "plan", path, "--ini", INI, "--times", f"{path}.times"], check=True,
+                       stdout=subprocess.DEVNULL,
                        stderr=subprocess.DEVNULL)
         with open(f"{path}.times", encoding="utf-8") as file:
             return {f"{name}.ngc": text, f"{name}.ngc.times": file.read()}
@@ -137,7 +138,8 @@ class TimeLeft(Operator):
             left = (end - n) * PERIOD - sum(seconds for start, _, seconds in longer if start >= n - begin)
             self.assertTrue(rows[n][0], f"{name}: unknown {left} s before the end")
             worst = max(worst, abs(rows[n][1] - left) / (SHARE * left + PERIODS * PERIOD))
-        print(f"{name:10} {(end - begin) * PERIOD:7.3f} s, known after {known - begin} periods; off by {worst:.2f} of what is allowed",
+        print(f"{name:10} {(end - begin) * PERIOD:7.3f} s, known after {known - begin} periods; "
+              f"off by {worst:.2f} of what is allowed",
               flush=True)
         # nothing is left behind the end
         self.assertEqual(rows[-1][:2], (0, 0.0))
@@ -163,7 +165,8 @@ def stretches_of(still):
 
 class Gone(Operator):
     def test_what_is_said_holds_for_a_second(self):
-        result = self.recorded([["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["expect", "blendtp.time-left.whole-program", "TRUE"],
+        result = self.recorded([["start", "PROGRAMS/part.ngc"], ["wait_moving"],
+                                ["expect", "blendtp.time-left.whole-program", "TRUE"],
                                 ["halcmd", "unloadusr", "program-time"],
                                 ["expect", "blendtp.time-left.whole-program", "FALSE"], ["getp", "left", "blendtp.time-left"],
                                 ["finish"]], with_times("part", program("F600", "G1 X30", "X60")))
@@ -174,7 +177,8 @@ class Gone(Operator):
 
 class Table(unittest.TestCase):
     #: a rest, a move, a move of less than a period, a dwell, the first line again
-    ROWS: ClassVar = [(0.0, 0, 0, None), (0.1, 7, 0, 10.0), (0.3, 7, 0, 6.0), (0.4, 7, 0, 1.0), (0.5, 9, 2, 5.0), (0.9, 9, 2, 0.0),
+    ROWS: ClassVar = [(0.0, 0, 0, None), (0.1, 7, 0, 10.0), (0.3, 7, 0, 6.0), (0.4, 7, 0, 1.0), (0.5, 9, 2, 5.0),
+                      (0.9, 9, 2, 0.0),
                       (1.0, 9, 3, None), (2.0, 7, 3, 8.0), (2.8, 7, 3, 0.0)]
 
     def setUp(self):
@@ -182,9 +186,12 @@ class Table(unittest.TestCase):
 
     def test_places_between_rows(self):
         for move, to_go, stands, times in (
-                (0, 10.0, True, (0.0, 0.1)), (0, 8.0, False, (0.2, 0.2)), (0, 6.0, True, (0.3, 0.3)), (0, 12.0, False, (0.1, 0.1)),
-                (0, 0.5, False, (0.45, 0.45)), (1, 0.2, False, (0.5, 0.5)), (2, 2.5, False, (0.7, 0.7)), (3, 0.0, True, (1.0, 2.0)),
-                (3, 8.0, True, (1.0, 2.0)), (3, 4.0, True, (2.4, 2.4)), (4, 0.0, True, (3.0, 3.0)), (90, 0.0, False, (3.0, 3.0))):
+                (0, 10.0, True, (0.0, 0.1)), (0, 8.0, False, (0.2, 0.2)), (0, 6.0, True, (0.3, 0.3)),
+                (0, 12.0, False, (0.1, 0.1)),
+                (0, 0.5, False, (0.45, 0.45)), (1, 0.2, False, (0.5, 0.5)), (2, 2.5, False, (0.7, 0.7)),
+                (3, 0.0, True, (1.0, 2.0)),
+                (3, 8.0, True, (1.0, 2.0)), (3, 4.0, True, (2.4, 2.4)), (4, 0.0, True, (3.0, 3.0)),
+                (90, 0.0, False, (3.0, 3.0))):
             with self.subTest(move=move, to_go=to_go, stands=stands):
                 for found, expected in zip(self.table.find(move, to_go, stands), times, strict=True):
                     self.assertAlmostEqual(found, expected)
@@ -204,7 +211,8 @@ class Table(unittest.TestCase):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(programs["part.ngc"])
             whole = programs["part.ngc.times"]
-            for text, word in ((whole, None), (whole[:-9], "damaged"), (whole.replace("0.0", "x.0"), "damaged"), ("", "another program")):
+            for text, word in ((whole, None), (whole[:-9], "damaged"), (whole.replace("0.0", "x.0"), "damaged"),
+                               ("", "another program")):
                 with open(times, "w", encoding="utf-8") as file:
                     file.write(text)
                 if word is None:
@@ -277,13 +285,15 @@ class Stale(Operator):
     def test_times_of_another_program_are_said_and_not_shown(self):
         programs = with_times("part", program("F1000", "G1 X30"))
         programs["part.ngc"] = program("F1000", "G1 X31")
-        result = self.recorded([["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["getp", "whole", "blendtp.time-left.whole-program"],
+        result = self.recorded([["start", "PROGRAMS/part.ngc"], ["wait_moving"],
+                                ["getp", "whole", "blendtp.time-left.whole-program"],
                                 ["getp", "left", "blendtp.time-left"], ["finish"]], programs)
         self.assertEqual(result.answers["whole"], "FALSE")
         # then it is that of what is queued
         self.assertGreater(float(result.answers["left"]), 1)
         self.assertIn("program-time: no time of the whole program is shown: ", result.log)
-        self.assertIn("was written for another program, or for an older state of this one: write it anew: framepath plan", result.log)
+        self.assertIn("was written for another program, or for an older state of this one: write it anew: framepath plan",
+                      result.log)
 
 
 class Panel(unittest.TestCase):
@@ -305,7 +315,8 @@ class Panel(unittest.TestCase):
                  ["start", "PROGRAMS/part.ngc"], ["wait_paused"], *read[0], ["resume"], ["wait_moving"], ["sleep", 0.4],
                  ["getp", "at feed", "pyvcp.limit.feed"], ["finish"], ["expect", "framekins.active", "FALSE"],
                  ["expect", "framekins.hold", "FALSE"], *read[1]]
-        result = harness.run(steps, {"part.ngc": self.PROGRAM}, display="screen_driver.py", files=("screen_driver.py",), sample=sample,
+        result = harness.run(steps, {"part.ngc": self.PROGRAM}, display="screen_driver.py", files=("screen_driver.py",),
+                             sample=sample,
                              joints=joints, axes=axes, record=False, timeout=180)
         self.assertIsNone(result.failure, result.log)
         self.assertEqual(result.answers["at feed"], "TRUE")

@@ -106,7 +106,8 @@ class AgainstLinuxCnc(unittest.TestCase):
 
 def at_once(hal):
     """The lathe with a spindle that has its commanded speed at once, as that of a plan has."""
-    ramped = re.compile(r"((loadrt (limit3|near)|addf spindle-(ramp|near)|net spindle-(at-speed|command|speed)) |setp spindle-).*\n")
+    ramped = re.compile(r"((loadrt (limit3|near)|addf spindle-(ramp|near)|net spindle-(at-speed|command|speed)) "
+                        r"|setp spindle-).*\n")
     direct = "net spindle-speed spindle.0.speed-out-rps => spindle-encoder.velocity-cmd spindle.0.speed-in\n"
     return ramped.sub("", hal) + direct
 
@@ -117,7 +118,8 @@ KNOWN = "G4 P.4"
 LATHE = program(
     "G7 G18 G64 P.02", "G43.1 X3 Z2", "G0 X40 Z5", "G96 D2500 S240 M3", KNOWN, "G95 F.08", "G0 X34 Z0", "G1 X-.8", "G0 Z2 X30",
     "G0 X26", "G1 Z-6 F.25", "X31", "G0 Z2", "S100", KNOWN, "G0 X14", "G1 X20 Z-1 F.12", "Z-4", "G2 X24 Z-6 I2", "G1 X30",
-    "G92 X36", KNOWN, "G1 Z-8", "G92.1", "G20", "S600", KNOWN, "G1 X1.5 F.01", "G21 G97 S800", KNOWN, "G1 Z-3 F.2", "G94 F600 X20", "M5",
+    "G92 X36", KNOWN, "G1 Z-8", "G92.1", "G20", "S600", KNOWN, "G1 X1.5 F.01", "G21 G97 S800", KNOWN, "G1 Z-3 F.2",
+    "G94 F600 X20", "M5",
     "G49")
 
 

@@ -12,7 +12,8 @@ class Refused(unittest.TestCase):
     def test_a_program_that_the_filter_refuses_at_the_start_is_told_of_once(self):
         # the popup of the filter waits for a key, and AXIS goes on with its start behind it
         steps = [["show", "axis"], ["dismiss"], ["sleep", 4]]
-        ini = {("DISPLAY", "OPEN_FILE"): "../../programs/part.mpf", ("FILTER", "mpf"): f"{harness.TOOL} filter --dialect sinumerik"}
+        ini = {("DISPLAY", "OPEN_FILE"): "../../programs/part.mpf",
+               ("FILTER", "mpf"): f"{harness.TOOL} filter --dialect sinumerik"}
         result = harness.run(steps, REFUSED, ini=ini, display="popup_driver.py", files=("screen_driver.py", "popup_driver.py"),
                              record=False, timeout=120)
         self.assertIsNone(result.failure, result.log)

@@ -1,4 +1,5 @@
-"""A preview that follows frames loads nearly as fast as one that does not: the screens hand the same canon to the interpreter."""
+"""A preview that follows frames loads nearly as fast as one that does not: the screens hand the same canon to the
+interpreter."""
 
 import unittest
 

@@ -1,6 +1,7 @@
 """framepath record in a real LinuxCNC: what it records, and that nothing of it stays in HAL."""
 
 import csv
+import itertools
 import json
 import os
 import shutil
@@ -157,7 +158,7 @@ class Record(Folder):
     def test_the_time_is_what_was_asked_for(self):
         times = [float(row["time"]) for row in rows(self.path("short.csv"))]
         self.assertEqual((times[0], times[-1], len(times)), (0.0, 0.5, 501))
-        for before, after in zip(times, times[1:], strict=False):
+        for before, after in itertools.pairwise(times):
             self.assertAlmostEqual(after - before, 0.001, delta=1e-9)
 
     def test_what_is_lost_is_said(self):

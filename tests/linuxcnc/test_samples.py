@@ -4,6 +4,7 @@ import math
 import os
 import unittest
 from itertools import pairwise
+from typing import ClassVar
 
 import harness
 from contract.row import MICROMETRE, peaks
@@ -34,7 +35,7 @@ class Sample(unittest.TestCase):
     sample = program = axes = ""
     joints = 3
     #: of each axis: velocity, acceleration, jerk
-    limits: dict[str, tuple[float, float, float]] = {}
+    limits: ClassVar[dict[str, tuple[float, float, float]]] = {}
 
     @classmethod
     def run_program(cls, **options):
@@ -66,7 +67,7 @@ class Sample(unittest.TestCase):
 
 class Lathe(Sample):
     sample, program, axes, joints = "framepath-lathe", "thread.ngc", "xz", 2
-    limits = {name: (100, 1000, 20000) for name in ("joint.0", "joint.1")}
+    limits: ClassVar = dict.fromkeys(("joint.0", "joint.1"), (100, 1000, 20000))
 
     def test_a_shaft_is_turned_and_its_thread_follows_the_spindle(self):
         result = self.run_program(hal=TURNS, integers={"turns": "turns-out.out"})
@@ -106,7 +107,7 @@ class Lathe(Sample):
 
 class Gantry(Sample):
     sample, program, axes, joints = "framepath-gantry", "sheet.ngc", "xyz", 4
-    limits = {"joint.0": (200, 800, 16000), "joint.1": (200, 800, 16000), "joint.2": (200, 800, 16000),
+    limits: ClassVar = {"joint.0": (200, 800, 16000), "joint.1": (200, 800, 16000), "joint.2": (200, 800, 16000),
               "joint.3": (100, 500, 10000)}
 
     result: harness.Result
@@ -148,7 +149,7 @@ class Gantry(Sample):
 
 class Inches(Sample):
     sample, program, axes = "framepath-inch", "plate.ngc", "xyz"
-    limits = {f"joint.{joint}": (4, 40, 800) for joint in range(3)}
+    limits: ClassVar = {f"joint.{joint}": (4, 40, 800) for joint in range(3)}
 
     def test_a_plate_in_inches(self):
         result = self.run_program()
