@@ -104,8 +104,8 @@ KEYS = {
 class Settings:
     """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
 
-    units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s; screen_patience: what the screen has
-    to see before the next change, s, 0 if it need not; z_joint: number of the joint of Z, -1 if there is none.
+    units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s; screen_aborts_mdi: whether the
+    screen aborts what others do in MDI right behind a program; z_joint: number of the joint of Z, -1 if there is none.
     """
 
     #: one of the keys, which are set by their names; a type checker learns of it here
@@ -134,7 +134,7 @@ class Settings:
                 raise SettingsError(f"{path}:{line}: section [{where}]: write [{SECTION}], in capitals")
         self.units_per_mm = _linear_units(ini)
         self.task_cycle = _task_cycle(ini)
-        self.screen_patience = _screen_patience(ini)
+        self.screen_aborts_mdi = _aborts_mdi(ini)
         self.z_joint = _z_joint(ini)
         _check_coordinates(ini)
         _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
@@ -194,20 +194,10 @@ def _task_cycle(ini):
         return 0.1  # LinuxCNC's own default
 
 
-def _screen_patience(ini):
-    """gmoccapy aborts and complains where it sees MDI before it has seen the end of a program: it has to look in between, once
-    in its cycle. Others take both at a time."""
+def _aborts_mdi(ini):
+    """gmoccapy aborts MDI and complains where it has not seen yet that the program has ended."""
     display, _ = ini.find("DISPLAY", "DISPLAY")
-    if "gmoccapy" not in (display or ""):
-        return 0.0
-    text, _ = ini.find("DISPLAY", "CYCLE_TIME")
-    try:
-        cycle = float(text)
-    except (TypeError, ValueError):
-        cycle = 100.0  # gmoccapy's own default, ms
-    # as gmoccapy has it: what is less than 1 is in seconds
-    seconds = cycle if cycle < 1.0 else cycle / 1000.0
-    return 2.5 * min(1.0, max(0.01, seconds))
+    return "gmoccapy" in (display or "")
 
 
 def _require(ini, key, wanted, why):

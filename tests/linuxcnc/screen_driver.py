@@ -24,6 +24,10 @@ PICTURE = "picture.png"
 QUESTION, ANSWER = "question.json", "answer.json"
 
 
+#: -ini and the file; the name of the screen that is driven may stand behind
+INI = sys.argv[1:3]
+
+
 class Screen(driver.Operator):
     """The steps of an operator, and those that want a screen."""
 
@@ -45,7 +49,7 @@ class Screen(driver.Operator):
             raise driver.Failure("Xvfb has not started")
         os.environ["DISPLAY"] = f":{number}"
         name, *arguments = command
-        self.processes.append(subprocess.Popen([name, *sys.argv[1:], *arguments]))
+        self.processes.append(subprocess.Popen([name, *INI, *arguments]))
 
     def wait_pin(self, name, timeout=60):
         """Waits until a pin is there: a screen makes its own when it is up."""

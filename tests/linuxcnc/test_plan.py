@@ -41,6 +41,9 @@ class AgainstLinuxCnc(unittest.TestCase):
     prompt = PROMPT
     #: mm, and cycles from the first motion to the last
     same, same_cycles = SAME, 1
+    #: Whether the program depends on when commands come that no recording has, those of a spindle: then one comes a cycle later
+    #: now and then, and the program is run again.
+    unrecorded = False
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -78,7 +81,8 @@ class AgainstLinuxCnc(unittest.TestCase):
 
     def test_times_and_positions(self):
         left, planned = list(self.programs), {}
-        for _ in range(ATTEMPTS):
+        for attempt in range(ATTEMPTS):
+            again = self.unrecorded and attempt + 1 < ATTEMPTS
             late = []
             for name, recording in record(left, self.programs, self.axes, **self.recorded_with()).items():
                 same, away = self.with_the_same_arrivals(name, recording)
@@ -88,7 +92,7 @@ class AgainstLinuxCnc(unittest.TestCase):
                 print(f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, planned {off:+d} cycles; with the same "
                       f"arrivals {same - recording.cycles:+d} cycles, positions within {away:.2g} mm; longest wait "
                       f"for a move {recording.longest_wait()} cycles", flush=True)
-                if not away < self.same and recording.longest_wait() >= self.steady:
+                if not away < self.same and (recording.longest_wait() >= self.steady or again):
                     late.append(name)
                     continue
                 with self.subTest("the same arrivals", program=name):
@@ -129,6 +133,7 @@ class ConstantSurfaceSpeed(AgainstLinuxCnc):
     ini = os.path.join(harness.SAMPLES, "configs", "framepath-lathe", "framepath-lathe.ini")
     #: A rapid goes on from where the turns of the spindle have taken the machine, which are counted from another angle.
     same = 1e-6
+    unrecorded = True
     machine: ClassVar[dict] = {"sample": "framepath-lathe", "joints": 2, "edit_hal": at_once}
 
 

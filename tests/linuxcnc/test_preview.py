@@ -119,7 +119,7 @@ class Commands(Compared):
 
     def test_planes_of_five_axis_programs(self):
         self.check("G10 L2 P1 X12 Y-7 Z3 R20", "G1 X5 Y5", "G68.2 X10 Y5 I30 J20 K-10", "G1 X4 Y5 Z6", "G2 X9 Y7 R6",
-                   "G68.2 P1 Q321 X3 Y1 Z2 I10 J-25 K40 R15", "G1 X4 Y5 Z6", "G53.1", "G1 X7", "G68.2 P2 Q0 X1 Y2 Z3 R10",
+                   "G68.2 P1 Q321 X3 Y1 Z2 I10 J-25 K40 R15", "G1 X4 Y5 Z6", "G1 X7", "G68.2 P2 Q0 X1 Y2 Z3 R10",
                    "G68.2 P2 Q1 X0 Y0 Z0", "G68.2 P2 Q2 X9 Y1 Z2", "G68.2 P2 Q3 X1 Y8 Z-3", "G1 X3 Y4 Z5",
                    "G68.2 P3 Q1 X1 Y2 Z3 I1 J1 K0", "G68.2 P3 Q2 I0 J0.01 K1", "G1 X8 Y3 Z1", "G69", "G1 X1 Y1 Z1")
 
