@@ -22,9 +22,8 @@ use framepath::abi::planner::run::{
     framepath_planner_run_cycle, framepath_planner_spindle_error_text,
 };
 use framepath::abi::planner::settings::{
-    framepath_planner_set_analog_output, framepath_planner_set_cycle_time,
-    framepath_planner_set_digital_output, framepath_planner_set_machine_map,
-    framepath_planner_set_spindle_sync,
+    framepath_planner_set_analog_output, framepath_planner_set_digital_output,
+    framepath_planner_set_machine_map, framepath_planner_set_spindle_sync,
 };
 use framepath::abi::planner::soft_limits::{
     FRAMEPATH_LEAVES_RANGE, FRAMEPATH_STAYS_IN_RANGE, framepath_planner_range_finding,
@@ -44,13 +43,7 @@ struct Machine {
 fn machine() -> Machine {
     let one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut shared = Shared::new();
-    shared.set_limits([[100.0; 9], [1000.0; 9]]);
-    let status = shared.status();
-    (status.feed_scale, status.rapid_scale, status.net_feed_scale) = (1.0, 1.0, 1.0);
-    // SAFETY: a handle and motmod's structure.
-    assert_eq!(0, unsafe {
-        framepath_planner_set_cycle_time(shared.handle, shared.tp, 1e-3)
-    });
+    shared.make_ready();
     assert_eq!(shared.tp().cycleTime, 1e-3);
     Machine { shared, _one: one }
 }

@@ -7,7 +7,6 @@ use abi_calls::motion::Shared;
 use abi_calls::moves::{pose_of, tag};
 use framepath::abi::planner::add::framepath_planner_add_line;
 use framepath::abi::planner::run::framepath_planner_run_cycle;
-use framepath::abi::planner::settings::framepath_planner_set_cycle_time;
 use framepath::abi::planner::survey::{
     FRAMEPATH_LIMIT_AXIS_JERK, FRAMEPATH_LIMIT_AXIS_VELOCITY, FRAMEPATH_LIMIT_FEED,
     FRAMEPATH_LIMIT_HOLD, FRAMEPATH_LIMIT_NOTHING, FRAMEPATH_LIMIT_OVERRIDE, FramepathSurvey,
@@ -50,13 +49,7 @@ fn cycles(shared: &Shared, count: usize) -> FramepathSurvey {
 #[test]
 fn a_move_from_its_start_to_its_end() {
     let mut shared = Shared::new();
-    shared.set_limits([[100.0; 9], [1000.0; 9]]);
-    let status = shared.status();
-    (status.feed_scale, status.rapid_scale, status.net_feed_scale) = (1.0, 1.0, 1.0);
-    // SAFETY: a handle and motmod's structure.
-    assert_eq!(0, unsafe {
-        framepath_planner_set_cycle_time(shared.handle, shared.tp, 1e-3)
-    });
+    shared.make_ready();
     let before = survey(&shared).moves_done;
     let along_y = [0.0, 50.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     let end = pose_of(&along_y);

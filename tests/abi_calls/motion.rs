@@ -9,6 +9,7 @@ use std::sync::OnceLock;
 use framepath::abi::linuxcnc::{
     EmcPose, KINEMATICS_TYPE, TP_STRUCT, emcmot_config_t, emcmot_status_t,
 };
+use framepath::abi::planner::settings::framepath_planner_set_cycle_time;
 use framepath::abi::planner::soft_limits::framepath_planner_kinematics;
 use framepath::abi::planner::{
     Handle, framepath_planner_create, framepath_planner_motion_data,
@@ -119,6 +120,17 @@ impl Shared {
         // SAFETY: `tp` lives as long as `shared`.
         shared.handle = unsafe { framepath_planner_create(tp, 2000) };
         shared
+    }
+
+    /// Axes of 100 units a second and 1000 units per second squared, overrides of 100 %, a servo period of 1 ms.
+    pub fn make_ready(&mut self) {
+        self.set_limits([[100.0; AXIS_COUNT], [1000.0; AXIS_COUNT]]);
+        let status = self.status();
+        (status.feed_scale, status.rapid_scale, status.net_feed_scale) = (1.0, 1.0, 1.0);
+        // SAFETY: a handle and motmod's structure.
+        assert_eq!(0, unsafe {
+            framepath_planner_set_cycle_time(self.handle, self.tp, 1e-3)
+        });
     }
 
     pub fn status(&mut self) -> &mut emcmot_status_t {

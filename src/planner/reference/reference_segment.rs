@@ -208,16 +208,22 @@ impl ReferenceSegments {
             let last = self
                 .slots
                 .at_mut(self.first.wrapping_add(self.count).wrapping_sub(1));
-            self.duration += duration - last.duration;
             last.duration = duration;
+            self.duration = self.sum();
         }
     }
 
     pub fn pop(&mut self) {
         if let Some(front) = self.front() {
-            self.duration -= front.duration;
+            let (before, popped) = (self.duration, front.duration);
             self.first = self.first.wrapping_add(1);
             self.count -= 1;
+            // Of what has no end nothing finite is left by subtraction.
+            self.duration = if popped.is_finite() {
+                before - popped
+            } else {
+                self.sum()
+            };
         }
     }
 
@@ -225,8 +231,12 @@ impl ReferenceSegments {
     pub fn truncate(&mut self, last: u64) {
         let kept = last.wrapping_sub(self.first).wrapping_add(1);
         self.count = self.count.min(kept);
+        self.duration = self.sum();
+    }
+
+    fn sum(&self) -> f64 {
         let all = (0..self.count).map(|number| self.slots.at(self.first.wrapping_add(number)));
-        self.duration = all.map(|segment| segment.duration).sum();
+        all.map(|segment| segment.duration).sum()
     }
 
     /// Number of the last segment; only asked for if there is one.
@@ -280,6 +290,15 @@ mod tests {
         assert_eq!(segments.duration(), 0.625);
         segments.truncate(segments.last() - 1);
         assert_eq!(segments.duration(), 0.375);
+        // What has no end is left as well.
+        segments.cut_last(f64::INFINITY);
+        assert_eq!(segments.duration(), f64::INFINITY);
+        segments.cut_last(0.5);
+        assert_eq!(segments.duration(), 0.75);
+        segments.cut_last(f64::INFINITY);
+        segments.pop();
+        segments.pop();
+        assert_eq!(segments.duration(), 0.0);
         segments.clear();
         segments.cut_last(1.0);
         assert_eq!(segments.duration(), 0.0);
