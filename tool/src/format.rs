@@ -31,7 +31,8 @@ pub fn in_column(value: f64, digits: usize) -> String {
     }
 }
 
-/// A number with so many decimals; what they show as 0 has no sign.
+/// A number with so many decimals; what they show as 0 has no sign. Of plan, which wants LinuxCNC's interpreter.
+#[cfg(any(test, feature = "linuxcnc"))]
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
