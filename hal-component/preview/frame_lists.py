@@ -7,7 +7,7 @@ from frame_text import BOTTOM, LEFT, fitting, upright
 
 
 def draw_triad(window, axes: Map, size: float):
-    """A triad. window: rs274.glcanon.GlCanonDraw. axes: a frame, its shift in inches, as previews are drawn. size: in inches."""
+    """A triad. window: rs274.glcanon.GlCanonDraw. axes: a frame, its shift in inches, as previews are drawn. size: inches."""
     letters = window.dlist(("axes", window.get_view()), gen=window.draw_axes)
     GL.glPushMatrix()
     # by columns

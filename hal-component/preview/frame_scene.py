@@ -9,7 +9,7 @@ from frame_text import BOTTOM, LEFT, fitting, upright
 
 
 def draw_triad(window, axes: Map, size: float):
-    """A triad. window: rs274.glcanon.GlCanonDraw. axes: a frame, its shift in inches, as previews are drawn. size: in inches."""
+    """A triad. window: rs274.glcanon.GlCanonDraw. axes: a frame, its shift in inches, as previews are drawn. size: inches."""
     with window.mv.push():
         window.mv.mult(numpy.array(upright(axes)))
         window.mv.scale(size, size, size)

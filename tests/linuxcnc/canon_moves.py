@@ -1,4 +1,4 @@
-"""The moves that LinuxCNC's canon for previews is told of: 2.9 keeps them in a list for each kind, 2.10 in a record of floats."""
+"""The moves that LinuxCNC's canon for previews is told of: 2.9 has a list for each kind, 2.10 a record of floats."""
 
 import functools
 
@@ -8,7 +8,7 @@ KINDS = ("traverse", "feed", "arcfeed")
 
 
 def keep_moves():
-    """Makes each canon keep its moves from now on, as `kept_moves`: [kind, line, start, end, tool] in the order of the program."""
+    """Makes each canon keep its moves from now on, as `kept_moves`: [kind, line, start, end, tool], in order."""
     if hasattr(GLCanon, "_stage_move"):
         stock_stage = GLCanon._stage_move
 

@@ -89,9 +89,10 @@ class OnTheScreen(unittest.TestCase):
     def setUpClass(cls):
         cls.result = cls.screen.watch(
             [["ask", "drawn", "open", "PROGRAMS/part.ngc"], ["wait_pin", "pyvcp.frame.guarded"], *START, ["wait_paused"],
-             *read_panel("in the frame"), ["ask", "relative", "display", 1], ["ask", "machine", "display", 0], ["note", "place"],
-             ["resume"], ["wait_moving"], ["sleep", 0.4], ["getp", "at feed", "pyvcp.limit.feed"], ["finish"],
-             ["expect", "framekins.hold", "FALSE"], ["expect", "pyvcp.frame.active", "FALSE"], *read_panel("behind it"),
+             *read_panel("in the frame"), ["ask", "relative", "display", 1], ["ask", "machine", "display", 0],
+             ["note", "place"], ["resume"], ["wait_moving"], ["sleep", 0.4], ["getp", "at feed", "pyvcp.limit.feed"],
+             ["finish"], ["expect", "framekins.hold", "FALSE"], ["expect", "pyvcp.frame.active", "FALSE"],
+             *read_panel("behind it"),
              ["sleep", 0.3], ["ask", "trail", "trail"], ["ask", "plotted", "plotted"]],
             program("T2 M6 G43", "G1 X1 Y1 Z1", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]",
                     "G1 X7 Y8 Z9", "G1 X0 Y0 Z0", "M0", "G1 X40", "G2 X40 Y20 R10", "G1 X0", "G4 P0.1",
