@@ -2,6 +2,7 @@
 (test_preview_screens.py)."""
 
 import unittest
+from typing import ClassVar
 
 import numpy
 
@@ -10,6 +11,9 @@ from test_preview import ARC, nearest, program
 
 #: how exactly the live plot is on the path of the joints, mm
 TRAIL = 1e-5
+
+#: .. while a table turns: LinuxCNC smooths the joints in between, mm
+TURNING = 1e-3
 
 #: the way of a servo period at the feed of these programs, mm
 PERIOD = 500 / 60 * 0.001
@@ -141,12 +145,19 @@ class Trail(unittest.TestCase):
     """The live plot, between its places too."""
 
     screen: Screen
+    #: the sample, and what it takes
+    machine: ClassVar[dict] = {}
+    #: of the program, behind its frames
+    more: tuple[str, ...] = ()
+    #: looked at behind that
+    looks: tuple[list, ...] = ()
 
     def test_the_live_plot_is_on_the_path_of_the_joints(self):
         result = self.screen.watch(
-            [*START, ["finish"], ["sleep", 0.3], ["ask", "trail", "trail"]],
+            [*START, ["wait_paused"], ["ask", "trail", "trail"], *self.looks, ["resume"], ["finish"]],
             program("G1 X10 Y5", "G4 P0.1", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]", "G1 X0 Y0 Z0",
-                    "G4 P0.1", "G1 X40", "G4 P0.1", "G2 X40 Y20 R10", "o<amirror> call [1] [0] [0]", "G1 X3 Y4 Z2", "G4 P0.1"))
+                    "G4 P0.1", "G1 X40", "G4 P0.1", "G2 X40 Y20 R10", "o<amirror> call [1] [0] [0]", "G1 X3 Y4 Z2", "G4 P0.1",
+                    "M0", *self.more), **self.machine)
         good(self, result)
         joints = numpy.array([result.commanded(joint) for joint in range(3)]).T
         trail = result.answers["trail"]
@@ -159,6 +170,37 @@ class Trail(unittest.TestCase):
         points = numpy.array(trail)
         for rest in ((10, 5, 0), (20, 30, 5)):
             self.assertLess(numpy.abs(points - rest).max(axis=1).min(), 2e-6, rest)
+        self.check_more(result)
+
+    def check_more(self, result):
+        """What `looks` have seen."""
+
+
+class TrailOnATable(Trail):
+    """The same on a machine with a tilting table; and the tool centre point, with the table turned."""
+
+    machine: ClassVar[dict] = {"sample": "framepath-xyzac", "joints": 5, "axes": "xyzac"}
+    more = ("o<frame_off> call", "T2 M6", "G43.4 H2", "G1 X10 Y5 Z25 F3000", "G4 P0.1", "A20 C30", "X30 Y10 Z26", "M0")
+    looks = (["resume"], ["wait_moving"], ["wait_paused"], ["ask", "centre", "trail"], ["ask", "relative", "display", 1],
+             ["ask", "machine", "display", 0], ["note", "place"])
+
+    def check_more(self, result):
+        points = numpy.array(result.answers["centre"])
+        # the tip stays where it is in the workpiece while the table turns
+        turns = numpy.nonzero(numpy.abs(points - (10, 5, 25)).max(axis=1) < TRAIL)[0][0]
+        path = numpy.array([(10.0, 5.0, 25.0), (30.0, 10.0, 26.0)])
+        for place in points[turns:]:
+            self.assertLess(nearest(path, place).min(), TURNING, place)
+        for found, place in zip(points[-1], path[-1], strict=True):
+            self.assertAlmostEqual(found, place, delta=TRAIL)
+        shown, _ = result.answers["relative"]
+        for value, place in zip(shown, path[-1], strict=True):
+            self.assertAlmostEqual(value, place, delta=SHOWN)
+        shown, _ = result.answers["machine"]
+        joints = result.answers["place"]["joints"]
+        self.assertGreater(abs(joints[0] - 30), 1)
+        for value, joint in zip(shown, joints[:3], strict=True):
+            self.assertAlmostEqual(value, joint, delta=SHOWN)
 
 
 def good(test, result):
