@@ -69,7 +69,7 @@ help:
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
 	@echo 'make tuning     what each constant that tunes the planner does to the times of programs: docs/tuning.md'
 	@echo 'make book       docs, DESIGN and CONTRIBUTING as a book (mdbook)'
-	@echo 'make screens    each sample in AXIS, one in gmoccapy and qtdragon, without a monitor: pictures in target/screens'
+	@echo 'make screens    each sample in AXIS, one with its panel in gmoccapy and qtdragon, without a monitor: pictures in target/screens'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -254,7 +254,7 @@ install: modules tool
 	    hal-component/subroutines/README.md $(SHARE)/subroutines
 	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
 	install -m 644 hal-component/preview/*.py $(SHARE)/preview
-	install -m 644 $(addprefix hal-component/panel/,*.xml *.hal time_table.py) $(SHARE)/panel
+	install -m 644 $(addprefix hal-component/panel/,*.xml *.ui *.hal time_table.py) $(SHARE)/panel
 	install -m 755 hal-component/panel/program_time.py $(SHARE)/panel
 	cp -R hal-component/configs $(SHARE)
 # A copy in the user's folder has to find them, too.

@@ -58,6 +58,8 @@ class FrameCanon(Canon):
     """What a canon class does about frames, in front of the class of a screen."""
 
     rules: FrameRules
+    #: LinuxCNC 2.10 can hand over moves in blocks: here they come one by one
+    use_move_batches = False
     #: the frame in force
     frame: Frame | None = None
     #: from the interpreter's coordinates behind its offsets to the tip as it is drawn; None without a frame
@@ -199,8 +201,7 @@ class FrameCanon(Canon):
         """The least and the greatest position of the machine's X Y Z in the program, inches: chords of arcs stay inside. None
         if it does not move."""
         ends = list(self.frame_hidden)
-        # without a move these are as far apart as can be, the wrong way round
-        if self.min_extents_notool[0] <= self.max_extents_notool[0]:
+        if self.frame_draws():
             ends += [self.min_extents_notool, self.max_extents_notool]
         if not ends:
             return None
@@ -211,6 +212,15 @@ class FrameCanon(Canon):
                 least[axis] = min(least[axis], low + tool[axis])
                 greatest[axis] = max(greatest[axis], high + tool[axis])
         return least, greatest
+
+    def frame_draws(self):
+        """The program draws something."""
+        record = getattr(self, "program_geometry", None)
+        if record is not None:
+            # 2.10's extents are 0 without a move
+            return not record.is_empty
+        # as far apart as can be, the wrong way round
+        return self.min_extents_notool[0] <= self.max_extents_notool[0]
 
     def tool_offset(self, xo, yo, zo, *others):
         axes = self.frame_axes()

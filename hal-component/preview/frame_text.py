@@ -1,8 +1,9 @@
-"""Text over a preview."""
+"""What is drawn over a preview, as far as it does not depend on how LinuxCNC draws."""
 
+import math
 import textwrap
 
-from OpenGL import GL
+from frame_map import Map
 
 #: points from the left and from the bottom: above, some screens lay something over it
 LEFT, BOTTOM = 15, 10
@@ -13,25 +14,7 @@ def fitting(window, text: str) -> list[str]:
     return textwrap.wrap(text, max(1, int((window.winfo_width() - LEFT) / window.get_font_info()[0])))
 
 
-def draw_text(window, text: str):
-    """Writes into the lower left corner, in as many lines as it takes. window: rs274.glcanon.GlCanonDraw."""
-    _, height, letters = window.get_font_info()
-    GL.glPushAttrib(GL.GL_ENABLE_BIT | GL.GL_CURRENT_BIT | GL.GL_TRANSFORM_BIT)
-    for ability in (GL.GL_DEPTH_TEST, GL.GL_LIGHTING, GL.GL_BLEND):
-        GL.glDisable(ability)
-    GL.glMatrixMode(GL.GL_PROJECTION)
-    GL.glPushMatrix()
-    GL.glLoadIdentity()
-    GL.glOrtho(0, window.winfo_width(), 0, window.winfo_height(), -1, 1)
-    GL.glMatrixMode(GL.GL_MODELVIEW)
-    GL.glPushMatrix()
-    GL.glLoadIdentity()
-    GL.glColor3f(*window.colors["overlay_foreground"])
-    for number, line in enumerate(reversed(fitting(window, text))):
-        GL.glRasterPos2i(LEFT, int(BOTTOM + number * height))
-        for letter in line:
-            GL.glCallList(letters + ord(letter))
-    GL.glPopMatrix()
-    GL.glMatrixMode(GL.GL_PROJECTION)
-    GL.glPopMatrix()
-    GL.glPopAttrib()
+def upright(axes: Map) -> Map:
+    """A frame as a matrix of four rows, its directions of length 1: a scale is no longer triad."""
+    lengths = [math.hypot(*(row[axis] for row in axes)) for axis in range(3)]
+    return [*([*(row[axis] / lengths[axis] for axis in range(3)), row[3]] for row in axes), [0.0, 0.0, 0.0, 1.0]]

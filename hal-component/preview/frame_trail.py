@@ -19,6 +19,9 @@ SAME = 1e-6
 #: a point between two others is left out where the path bends by less, as the square of the sine
 STRAIGHT = 1e-12
 
+#: a point as LinuxCNC 2.10 hands it from its own live plot to what draws it; the second place and shade are of foam
+LOGGED = numpy.dtype([("place", "<f4", 3), ("shade", "u1", 4), ("foam_place", "<f4", 3), ("foam_shade", "u1", 4)])
+
 
 def vertex(place, geometry: str):
     """Where nine axes are drawn: letters of [DISPLAY]GEOMETRY in the order in which screens apply them."""
@@ -51,7 +54,7 @@ class FrameTrail:
         self.colours = colours
         self.geometry = geometry
         self.lock = threading.Lock()
-        self.points = numpy.empty((MOST, 3))
+        self.places = numpy.empty((MOST, 3))
         self.shades = numpy.empty((MOST, 4), numpy.uint8)
         self.npts = 0
         self.running = False
@@ -93,37 +96,48 @@ class FrameTrail:
         shade = self.colours[motion_type if 0 <= motion_type < len(self.colours) else 0]
         with self.lock:
             count = self.npts
-            if count and numpy.abs(self.points[count - 1] - point).max() < SAME:
+            if count and numpy.abs(self.places[count - 1] - point).max() < SAME:
                 return
             same_shade = bool(count) and tuple(self.shades[count - 1]) == tuple(shade)
             if count > 1 and same_shade and self._goes_straight_on(count, point):
-                self.points[count - 1] = point
+                self.places[count - 1] = point
                 return
             if count and not same_shade:
                 # the stretch from there on has the colour of where it leads
-                self._append(self.points[count - 1], shade)
+                self._append(self.places[count - 1], shade)
             self._append(point, shade)
 
     def _append(self, point, shade):
         if self.npts == MOST:
             kept = MOST - MOST // 10
-            self.points[:kept] = self.points[-kept:].copy()
+            self.places[:kept] = self.places[-kept:].copy()
             self.shades[:kept] = self.shades[-kept:].copy()
             self.npts = kept
-        self.points[self.npts] = point
+        self.places[self.npts] = point
         self.shades[self.npts] = shade
         self.npts += 1
 
     def _goes_straight_on(self, count, point) -> bool:
-        before = self.points[count - 1] - self.points[count - 2]
-        now = point - self.points[count - 1]
+        before = self.places[count - 1] - self.places[count - 2]
+        now = point - self.places[count - 1]
         forward = before @ now
         return forward > 0 and forward * forward > (before @ before) * (now @ now) * (1 - STRAIGHT)
 
-    def call(self):
-        """Draws it, in machine units."""
+    def points(self):
+        """What LinuxCNC 2.10 draws: points in machine units, each a LOGGED, how many they are, and that it is no foam."""
+        points, shades = self._now()
+        logged = numpy.zeros(len(points), LOGGED)
+        logged["place"], logged["shade"] = points, shades
+        return logged.tobytes(), len(points), 0
+
+    def _now(self):
+        """Points and their shades as they are now."""
         with self.lock:
-            points, shades = self.points[:self.npts].copy(), self.shades[:self.npts].copy()
+            return self.places[:self.npts].copy(), self.shades[:self.npts].copy()
+
+    def call(self):
+        """Draws it, in machine units: LinuxCNC 2.9."""
+        points, shades = self._now()
         if not len(points):
             return
         GL.glEnableClientState(GL.GL_VERTEX_ARRAY)

@@ -3,6 +3,7 @@
 All of them draw by rs274.glcanon.GlCanonDraw.
 """
 
+import importlib
 import threading
 
 import linuxcnc
@@ -14,9 +15,8 @@ from frame_display import MachineStatus, axis_positions, describe, joints_of_axe
 from frame_limits import exceeded, joint_limits
 from frame_map import product
 from frame_screen import turns_tool
-from frame_text import draw_text, fitting
+from frame_text import fitting
 from frame_trail import FrameTrail
-from frame_triad import draw_triad
 
 MM_PER_INCH = 25.4
 
@@ -50,6 +50,8 @@ class FrameWindow:
         window.soft_limits = self.soft_limits
         self.stock_positions = window.posstrs
         window.posstrs = self.positions
+        # 2.9 and 2.10 draw by other means, which each of them alone has
+        self.drawing = importlib.import_module("frame_scene" if hasattr(window, "frame_context") else "frame_lists")
         self.stock_plot = getattr(window, "user_plot", None)
         window.user_plot = self.plot
 
@@ -115,15 +117,14 @@ class FrameWindow:
     def plot(self):
         """The triads of the frames, and which of them is in force where no position display says so."""
         window, canon = self.window, self.window.canon
-        letters = window.dlist(("axes", window.get_view()), gen=window.draw_axes)
         if canon and window.get_show_program():
             for axes in getattr(canon, "frames_seen", ()):
-                draw_triad(axes, PROGRAM_TRIAD, letters)
+                self.drawing.draw_triad(window, axes, PROGRAM_TRIAD)
         if self.state.active:
             axes = product(self.state.frame(), self.work())
-            draw_triad([[*row[:3], row[3] * self.inches()] for row in axes], ACTIVE_TRIAD, letters)
+            self.drawing.draw_triad(window, [[*row[:3], row[3] * self.inches()] for row in axes], ACTIVE_TRIAD)
             if self.shows_joints() or not window.enable_dro:
-                draw_text(window, self.line())
+                self.drawing.draw_text(window, self.line())
         if self.stock_plot:
             self.stock_plot()
 

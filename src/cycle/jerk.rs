@@ -29,6 +29,11 @@ pub const MEAN_TOLERANCE: f32 = 1.01;
 /// The same for an instant.
 pub const INSTANT_TOLERANCE: f32 = 1.05;
 
+/// What is promised of all of it, at any moment and whatever the operator does: the third difference of an axis's positions over its
+/// jerk limit, at most. Ten thousands of random programs are held to it (`tests/planner/programs.rs`), and so is what `framepath`
+/// says of a plan or a recording.
+pub const JERK_KEPT: f64 = 1.05;
+
 /// What a jump of the reference's own jerk by at most `range` takes from the mean jerk.
 #[inline(always)]
 pub fn allowance(range: f32, limit: f32) -> f32 {

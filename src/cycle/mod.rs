@@ -48,4 +48,5 @@ pub use cell::Cell;
 pub use demand::{Demand, ExecutorStep};
 pub use executor::{ConfigureError, Executor};
 pub use follow::Follow;
+pub use jerk::JERK_KEPT;
 pub use table::{CAPACITY, CloseError, PushError};

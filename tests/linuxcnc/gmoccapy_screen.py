@@ -16,7 +16,8 @@ def start(screen):
 
     probe = screen_probe.Probe(frames, lambda program: frames.window.fileloaded(None, program), show,
                                # until then gmoccapy takes back another mode that somebody else has switched to
-                               screen.widgets.rbt_auto.get_sensitive)
+                               screen.widgets.rbt_auto.get_sensitive,
+                               lambda: screen.widgets.ntb_preview.set_current_page(-1))
     stock_add = screen.notification.add_message
 
     def hear(text, *icon):

@@ -21,6 +21,8 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 SAMPLES = os.path.join(ROOT, "hal-component")
 MODULES = os.environ.get("FRAMEPATH_MODULES", os.path.join(ROOT, "target", "modules"))
 TOOL = os.environ.get("FRAMEPATH_TOOL", os.path.join(ROOT, "target", "release", "framepath"))
+#: LinuxCNC from 2.10 on hands [AXIS_L]MAX_JERK to the planner itself.
+HANDS_OVER_JERK = os.environ.get("LINUXCNC_VERSION", "2.9").startswith("2.10")
 #: The folders of LinuxCNC's headers, as build.rs and make have them.
 HEADERS = os.environ.get("LINUXCNC_INCLUDE", "/usr/include/linuxcnc").split(":")
 INCLUDES = [word for folder in HEADERS for word in ("-isystem", folder)]

@@ -3,7 +3,7 @@
 import ctypes
 import functools
 import os
-import shutil
+import re
 import subprocess
 import tempfile
 
@@ -26,6 +26,14 @@ def host():
     return found, folder
 
 
+def copy_for_any(path, copy):
+    """Copies a module, which then does not say which LinuxCNC it was built for: this process belongs to the installed one."""
+    with open(path, "rb") as file:
+        content = file.read()
+    with open(copy, "wb") as file:
+        file.write(re.sub(rb"(framepath built for LinuxCNC )([^\0]*)", lambda found: found[1] + bytes(len(found[2])), content))
+
+
 class Module:
     """A kinematics module, loaded with parameters as by loadrt. LoadError if it refuses them."""
 
@@ -39,7 +47,7 @@ class Module:
         self.host.host_forget()
         # a copy of its own has variables of its own
         copy = os.path.join(beside or tempfile.mkdtemp(dir=folder.name), os.path.basename(path))
-        shutil.copy(path, copy)
+        copy_for_any(path, copy)
         self.library = ctypes.CDLL(copy, mode=ctypes.RTLD_LOCAL)
         # the module keeps the addresses of the texts
         self.texts = {name: ctypes.create_string_buffer(value.encode()) for name, value in parameters.items()}

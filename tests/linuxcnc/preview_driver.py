@@ -2,7 +2,6 @@
 """The operator of driver.py, who looks at previews as well: LinuxCNC's own interpreter reads the program for a canon as AXIS
 has it, with the frames of hal-component/preview."""
 
-import functools
 import gc
 import os
 import shutil
@@ -15,6 +14,7 @@ from rs274.glcanon import GLCanon
 from rs274.interpret import StatMixin
 
 import driver
+from canon_moves import keep_moves
 
 sys.path.insert(0, os.path.abspath("../../preview"))
 
@@ -37,14 +37,6 @@ class Canon(GLCanon, StatMixin):
         StatMixin.__init__(self, status, 0)
         self.arcdivision = CHORDS
         self.parameter_file = parameter_file
-        #: [kind, what GLCanon keeps of a move] in the order of the program
-        self.moves = []
-        for kind in ("traverse", "feed", "arcfeed"):
-            setattr(self, f"{kind}_append", functools.partial(self.keep, kind))
-
-    def keep(self, kind, move):
-        getattr(self, kind).append(move)
-        self.moves.append([kind, move])
 
     def change_tool(self, idx):
         GLCanon.change_tool(self, idx)
@@ -107,8 +99,7 @@ class Viewer(driver.Operator):
         def scaled(place):
             return [value * unit for value in place[:3]] + list(place[3:])
 
-        moves = [[kind, line, scaled(start), scaled(end), scaled(rest[-1])]
-                 for kind, (line, start, end, *rest) in canon.moves]
+        moves = [[kind, line, scaled(start), scaled(end), scaled(tool)] for kind, line, start, end, tool in canon.kept_moves]
         self.answers[name] = {"moves": moves, "frames": [[[*row[:3], row[3] * unit] for row in axes]
                                                          for axes in getattr(canon, "frames_seen", ())]}
 
@@ -118,4 +109,5 @@ class Viewer(driver.Operator):
 
 
 if __name__ == "__main__":
+    keep_moves()
     sys.exit(driver.main(Viewer))

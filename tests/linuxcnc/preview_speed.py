@@ -17,7 +17,7 @@ def lines(frames):
 def measure(frames):
     """Seconds of the processor without the hook, and with it: the least of some times."""
     result = harness.run([["time_previews", "seconds", "PROGRAMS/part.ngc", TIMES]], {"part.ngc": lines(frames)},
-                         display="preview_driver.py", files=("preview_driver.py",), record=False)
+                         display="preview_driver.py", files=("preview_driver.py", "canon_moves.py"), record=False)
     if result.failure:
         raise RuntimeError(result.failure)
     stock, hook = (min(column) for column in zip(*result.answers["seconds"], strict=True))

@@ -16,7 +16,9 @@ def start(handler):
     frames = next(window for window in qtvcp_frames.install(handler) if window.window is handler.w.gcodegraphics)
 
     def show(relative):
-        displays = [handler.w[f"dro_axis_{letter}"] for letter in "xyz"]
+        # named by their axes in 2.9, by their joints in 2.10
+        displays = [getattr(handler.w, f"dro_axis_{letter}", None) or handler.w[f"dro_axis_{joint}"]
+                    for joint, letter in enumerate("xyz")]
         for display in displays:
             display.reference_type = RELATIVE if relative else ABSOLUTE
             display.update(None, *Status().get_position(), Status().stat.joint_actual_position)

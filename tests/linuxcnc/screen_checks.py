@@ -2,6 +2,7 @@
 (test_preview_screens.py)."""
 
 import unittest
+from typing import ClassVar
 
 import numpy
 
@@ -10,6 +11,9 @@ from test_preview import ARC, nearest, program
 
 #: how exactly the live plot is on the path of the joints, mm
 TRAIL = 1e-5
+
+#: .. while a table turns: LinuxCNC smooths the joints in between, mm
+TURNING = 1e-3
 
 #: the way of a servo period at the feed of these programs, mm
 PERIOD = 500 / 60 * 0.001
@@ -20,8 +24,34 @@ SHOWN = 6e-4
 #: how LinuxCNC begins what it says when a screen of qtvcp reads a program in AUTO
 QTVCP_READS = "can't do that (EMC_TASK_PLAN_SYNCH) in auto mode"
 
-#: keys of the samples that are for AXIS alone: to be removed under another screen
-WITHOUT_PANEL: dict[tuple[str, str], str | None] = {("DISPLAY", "PYVCP"): None, ("HAL", "POSTGUI_HALFILE"): None}
+#: pins of the panel, in the frame of the program of OnTheScreen and behind it
+PANEL = {"frame.active": ("TRUE", "FALSE"), "frame.guarded": ("TRUE", "TRUE"), "frame.hold": ("FALSE", "FALSE"),
+         "frame.x": ("20", "0"), "frame.y": ("30", "0"), "frame.z": ("5", "0"), "frame.operations": ("2", "0"),
+         "limit.feed": ("FALSE", "FALSE"), "limit.x": ("FALSE", "FALSE"), "queued.moves": ("0", "0"),
+         "left.minutes": ("0", "0"), "left.seconds": ("0", "0"), "left.whole-program": ("FALSE", "FALSE")}
+
+
+def read_panel(when, pins=tuple(PANEL)):
+    """Steps that keep what the panel gets: "PIN WHEN"."""
+    return [["getp", f"{pin} {when}", f"pyvcp.{pin}"] for pin in pins]
+
+
+def panel_shows(test, result, pins=tuple(PANEL)):
+    """The panel got what it is named for, in the frame, at the feed, and behind the program."""
+    test.assertEqual(result.answers["at feed"], "TRUE")
+    for pin in pins:
+        shown = tuple(result.answers[f"{pin} {when}"] for when in ("in the frame", "behind it"))
+        test.assertEqual(shown, PANEL.get(pin, ("FALSE", "FALSE")), pin)
+
+
+#: What docs/operator.md has screens other than AXIS write for the panel: gmoccapy gets it as a tab, qtdragon as a window.
+TAB = "gladevcp -x {XID} -c pyvcp -H ../../panel/panel.hal ../../panel/panel.ui"
+PANELS: dict[str, dict[tuple[str, str], str | None]] = {
+    "axis": {},
+    "gmoccapy": {("DISPLAY", "PYVCP"): None, ("HAL", "POSTGUI_HALFILE"): None, ("DISPLAY", "EMBED_TAB_NAME"): "Frames",
+                 ("DISPLAY", "EMBED_TAB_LOCATION"): "ntb_preview", ("DISPLAY", "EMBED_TAB_COMMAND"): TAB},
+    "qtvcp": {("DISPLAY", "PYVCP"): None, ("HAL", "POSTGUI_HALFILE"): "../../panel/panel_window.hal"}}
+
 
 #: Screens read a program that somebody else has opened, and qtdragon sends a command then, which may take the
 #: place of that to run.
@@ -37,11 +67,11 @@ class Screen:
         self.first = [["show", *command], ["wait_pin", "frame-preview.answer"], ["ask", "up", "notes"], ["on_for_good"],
                       ["home"], ["ask", "ready", "ready"]]
         self.probe = probe
-        self.panel = {} if command[0] == "axis" else WITHOUT_PANEL
+        self.panel = PANELS[command[0]]
         #: frame_guard knows the screen by its name
         self.display = {("DISPLAY", "DISPLAY"): f"./screen_driver.py {command[0]}"}
         self.own_errors = own_errors
-        self.files = ("screen_driver.py", "screen_probe.py", probe, *files)
+        self.files = ("screen_driver.py", "screen_probe.py", "canon_moves.py", probe, *files)
 
     def watch(self, steps, programs, ini=None, **options):
         """Runs steps in front of the screen."""
@@ -62,8 +92,11 @@ class OnTheScreen(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.result = cls.screen.watch(
-            [["ask", "drawn", "open", "PROGRAMS/part.ngc"], *START, ["wait_paused"],
-             ["ask", "relative", "display", 1], ["ask", "machine", "display", 0], ["note", "place"], ["resume"], ["finish"],
+            [["ask", "drawn", "open", "PROGRAMS/part.ngc"], ["wait_pin", "pyvcp.frame.guarded"], *START, ["wait_paused"],
+             *read_panel("in the frame"), ["ask", "relative", "display", 1], ["ask", "machine", "display", 0],
+             ["note", "place"], ["resume"], ["wait_moving"], ["sleep", 0.4], ["getp", "at feed", "pyvcp.limit.feed"],
+             ["finish"], ["expect", "framekins.hold", "FALSE"], ["expect", "pyvcp.frame.active", "FALSE"],
+             *read_panel("behind it"),
              ["sleep", 0.3], ["ask", "trail", "trail"], ["ask", "plotted", "plotted"]],
             program("T2 M6 G43", "G1 X1 Y1 Z1", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]",
                     "G1 X7 Y8 Z9", "G1 X0 Y0 Z0", "M0", "G1 X40", "G2 X40 Y20 R10", "G1 X0", "G4 P0.1",
@@ -78,6 +111,9 @@ class OnTheScreen(unittest.TestCase):
         self.assertGreater(len(self.result.answers["drawn"]), 20)
         for place in self.result.answers["drawn"]:
             self.assertLess(nearest(self.joints, place).min(), ARC, place)
+
+    def test_the_panel_gets_what_it_is_named_for(self):
+        panel_shows(self, self.result)
 
     def test_frames_and_live_plot_are_drawn(self):
         self.assertGreater(self.result.answers["plotted"], 2)
@@ -109,12 +145,19 @@ class Trail(unittest.TestCase):
     """The live plot, between its places too."""
 
     screen: Screen
+    #: the sample, and what it takes
+    machine: ClassVar[dict] = {}
+    #: of the program, behind its frames
+    more: tuple[str, ...] = ()
+    #: looked at behind that
+    looks: tuple[list, ...] = ()
 
     def test_the_live_plot_is_on_the_path_of_the_joints(self):
         result = self.screen.watch(
-            [*START, ["finish"], ["sleep", 0.3], ["ask", "trail", "trail"]],
+            [*START, ["wait_paused"], ["ask", "trail", "trail"], *self.looks, ["resume"], ["finish"]],
             program("G1 X10 Y5", "G4 P0.1", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]", "G1 X0 Y0 Z0",
-                    "G4 P0.1", "G1 X40", "G4 P0.1", "G2 X40 Y20 R10", "o<amirror> call [1] [0] [0]", "G1 X3 Y4 Z2", "G4 P0.1"))
+                    "G4 P0.1", "G1 X40", "G4 P0.1", "G2 X40 Y20 R10", "o<amirror> call [1] [0] [0]", "G1 X3 Y4 Z2", "G4 P0.1",
+                    "M0", *self.more), **self.machine)
         good(self, result)
         joints = numpy.array([result.commanded(joint) for joint in range(3)]).T
         trail = result.answers["trail"]
@@ -127,6 +170,37 @@ class Trail(unittest.TestCase):
         points = numpy.array(trail)
         for rest in ((10, 5, 0), (20, 30, 5)):
             self.assertLess(numpy.abs(points - rest).max(axis=1).min(), 2e-6, rest)
+        self.check_more(result)
+
+    def check_more(self, result):
+        """What `looks` have seen."""
+
+
+class TrailOnATable(Trail):
+    """The same on a machine with a tilting table; and the tool centre point, with the table turned."""
+
+    machine: ClassVar[dict] = {"sample": "framepath-xyzac", "joints": 5, "axes": "xyzac"}
+    more = ("o<frame_off> call", "T2 M6", "G43.4 H2", "G1 X10 Y5 Z25 F3000", "G4 P0.1", "A20 C30", "X30 Y10 Z26", "M0")
+    looks = (["resume"], ["wait_moving"], ["wait_paused"], ["ask", "centre", "trail"], ["ask", "relative", "display", 1],
+             ["ask", "machine", "display", 0], ["note", "place"])
+
+    def check_more(self, result):
+        points = numpy.array(result.answers["centre"])
+        # the tip stays where it is in the workpiece while the table turns
+        turns = numpy.nonzero(numpy.abs(points - (10, 5, 25)).max(axis=1) < TRAIL)[0][0]
+        path = numpy.array([(10.0, 5.0, 25.0), (30.0, 10.0, 26.0)])
+        for place in points[turns:]:
+            self.assertLess(nearest(path, place).min(), TURNING, place)
+        for found, place in zip(points[-1], path[-1], strict=True):
+            self.assertAlmostEqual(found, place, delta=TRAIL)
+        shown, _ = result.answers["relative"]
+        for value, place in zip(shown, path[-1], strict=True):
+            self.assertAlmostEqual(value, place, delta=SHOWN)
+        shown, _ = result.answers["machine"]
+        joints = result.answers["place"]["joints"]
+        self.assertGreater(abs(joints[0] - 30), 1)
+        for value, joint in zip(shown, joints[:3], strict=True):
+            self.assertAlmostEqual(value, joint, delta=SHOWN)
 
 
 def good(test, result):

@@ -5,6 +5,8 @@ import json
 import os
 import traceback
 
+from canon_moves import keep_moves
+
 #: ms between two looks for a question
 PERIOD = 20
 
@@ -14,20 +16,24 @@ QUESTION, ANSWER = "question.json", "answer.json"
 class Probe:
     """One method for each question."""
 
-    def __init__(self, window, read, show, may_run=lambda: True):
+    def __init__(self, window, read, show, may_run=lambda: True, panel=lambda: None):
         """window: frame_window.FrameWindow. read(program): opens a program. show(relative): X, Y and Z of the position
-        display, in mm. may_run(): the machine is homed, and the screen knows it."""
+        display, in mm. may_run(): the machine is homed, and the screen knows it. panel(): brings the panel to the front."""
         self.frames = window
         self.window = window.window
         self.read = read
         self.show = show
         self.may_run = may_run
+        #: answers None
+        self.panel = panel
+        keep_moves()
         #: what the operator was told, and what has gone wrong where screens say nothing
         self.told: list[str] = []
         #: how often frames and live plot have been drawn
         self.plots = 0
         self.watch(self.window, "user_plot")
-        self.watch(self.window.lp, "call")
+        # 2.10 asks for the points of the live plot and draws them itself
+        self.watch(self.window.lp, "points" if hasattr(self.window, "frame_context") else "call")
 
     def watch(self, of, name):
         """Screens swallow errors of what draws."""
@@ -35,8 +41,9 @@ class Probe:
 
         def draw():
             try:
-                stock()
+                drawn = stock()
                 self.plots += 1
+                return drawn
             except Exception:
                 self.told.append(traceback.format_exc())
                 raise
@@ -50,13 +57,12 @@ class Probe:
 
     def drawn(self):
         """The places of the preview in millimetres, where the axes are."""
-        canon = self.window.canon
-        return [[25.4 * (place + tool) for place, tool in zip(end[:3], rest[-1], strict=True)]
-                for moves in (canon.traverse, canon.feed, canon.arcfeed) for _, _, end, *rest in moves]
+        return [[25.4 * (place + part) for place, part in zip(end[:3], tool, strict=True)]
+                for _, _, _, end, tool in self.window.canon.kept_moves]
 
     def trail(self):
         """The points of the live plot."""
-        return self.window.lp.points[:self.window.lp.npts].tolist()
+        return self.window.lp.places[:self.window.lp.npts].tolist()
 
     def display(self, relative):
         """The numbers of the position display, and the line that names the frame."""

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Each sample in AXIS without a monitor, and one in gmoccapy and qtdragon, homed, a program with frames run: screens.py FOLDER,
-which gets the pictures."""
+"""Each sample in AXIS without a monitor, and one in gmoccapy and qtdragon, with their panels, homed, a program with frames run:
+screens.py FOLDER, which gets the pictures."""
 
 import base64
 import os
@@ -9,6 +9,7 @@ import sys
 import harness
 import screen_checks
 from test_preview import program
+from test_preview_screens import GMOCCAPY, QTDRAGON
 from test_samples import own_program
 
 SAMPLES = {"framepath-sim": (3, "xyz"), "framepath-fagor": (3, "xyz"), "framepath-mefi": (3, "xyz"),
@@ -22,10 +23,12 @@ PROGRAM = program(
     "G0 Z10", "o<trans> call [20] [30] [5]", "o<arot> call [15] [20] [30]", "G1 X0 Y0 Z0 F3000", "X40", "Y30", "G2 X40 Y60 R20",
     "G1 X0", "Y0", "o<atrans> call [60] [0] [0]", "o<ascale> call [0.5] [0.5] [0.5]", "G1 X0 Y0 Z0", "X40", "Y30", "M0", "X0")
 
-#: other screens than AXIS, on the sample of a mill: command, and the hook in the folder of previews
-SCREENS = {"gmoccapy": (["gmoccapy"], "frame_gmoccapy.py"), "qtdragon": (["qtvcp", "qtdragon"], "frame_qtvcp.py")}
+#: other screens than AXIS, on the sample of a mill
+SCREENS = {"gmoccapy": GMOCCAPY, "qtdragon": QTDRAGON}
 
-RUN = [["start", "PROGRAMS/part.ngc"], ["wait_paused"], ["sleep", 1], ["picture", "picture"], ["resume"], ["finish"]]
+#: how a picture is taken, and the end of the program
+PICTURE = [["wait_paused"], ["sleep", 1], ["picture", "picture"]]
+END = [["resume"], ["finish"]]
 
 
 def program_of(sample):
@@ -36,28 +39,30 @@ def program_of(sample):
     return {name: text.replace("\nM2\n", "\nM0\nM2\n") for name, text in own.items()}
 
 
-def keep(folder, name, steps, files, **options):
-    """Runs the steps, and writes the picture that they take."""
-    result = harness.run(steps, files, display="screen_driver.py", files=("screen_driver.py",), record=False, timeout=180,
-                         **options)
-    if result.failure or any(not error.startswith(screen_checks.QTVCP_READS) for error in result.errors):
+def keep(folder, name, result):
+    """Writes the pictures that a run has taken."""
+    if result.failure or result.errors:
         raise SystemExit(f"{name}: {result.failure} {result.errors}\n{result.log}")
-    path = os.path.join(folder, f"{name}.png")
-    with open(path, "wb") as file:
-        file.write(base64.b64decode(result.answers["picture"]))
-    print(path)
+    for kind, ending in (("picture", ""), ("panel", "-panel")):
+        if kind in result.answers:
+            path = os.path.join(folder, f"{name}{ending}.png")
+            with open(path, "wb") as file:
+                file.write(base64.b64decode(result.answers[kind]))
+            print(path)
 
 
 def main(folder):
     os.makedirs(folder, exist_ok=True)
     for sample, (joints, axes) in SAMPLES.items():
         # the program is on AXIS's command line, and AXIS reads it again as soon as it knows of frames
-        steps = [["show", "axis", "PROGRAMS/part.ngc"], ["wait_pin", "axisui.abort"], ["sleep", 15], *RUN]
-        keep(folder, sample, steps, program_of(sample), sample=sample, joints=joints, axes=axes)
-    for name, (command, hook) in SCREENS.items():
-        first = [["show", *command], ["wait_pin", "frame-preview.answer"], ["sleep", 10], ["on_for_good"], ["home"]]
-        keep(folder, name, [["sleep", 5], ["open", "PROGRAMS/part.ngc"], ["sleep", 5], *RUN], PROGRAM, first=first,
-             ini={("DISPLAY", "USER_COMMAND_FILE"): f"../../preview/{hook}", **screen_checks.WITHOUT_PANEL})
+        steps = [["show", "axis", "PROGRAMS/part.ngc"], ["wait_pin", "axisui.abort"], ["sleep", 15],
+                 ["start", "PROGRAMS/part.ngc"], *PICTURE, *END]
+        keep(folder, sample, harness.run(steps, program_of(sample), display="screen_driver.py", files=("screen_driver.py",),
+                                         record=False, timeout=180, sample=sample, joints=joints, axes=axes))
+    for name, screen in SCREENS.items():
+        steps = [["ask", "drawn", "open", "PROGRAMS/part.ngc"], *screen_checks.START, *PICTURE, ["ask", "shown", "panel"],
+                 ["sleep", 1], ["picture", "panel"], *END]
+        keep(folder, name, screen.watch(steps, PROGRAM, record=False, timeout=180))
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from itertools import groupby, pairwise
 from typing import ClassVar
 
 import harness
+import screen_checks
 
 sys.path.insert(0, os.path.join(harness.SAMPLES, "panel"))
 
@@ -297,38 +298,22 @@ class Stale(Operator):
 
 
 class Panel(unittest.TestCase):
-    """The panel of AXIS: each of its pins gets what it is named for."""
+    """The panel of AXIS for a table: each of its pins gets what it is named for. That of a mill: screen_checks.OnTheScreen."""
 
     PROGRAM = program("F2000", "o<trans> call [20] [30] [5]", "o<arot> call [0] [0] [30]", "G1 X5 Y0 Z0", "M0", "X30")
 
-    #: pins of the panel, in the frame and behind it
-    SHOWN: ClassVar = {"frame.active": ("TRUE", "FALSE"), "frame.guarded": ("TRUE", "TRUE"), "frame.hold": ("FALSE", "FALSE"),
-                       "frame.x": ("20", "0"), "frame.y": ("30", "0"), "frame.z": ("5", "0"), "frame.operations": ("2", "0"),
-                       "limit.feed": ("FALSE", "FALSE"), "limit.x": ("FALSE", "FALSE"), "queued.moves": ("0", "0"),
-                       "left.minutes": ("0", "0"), "left.seconds": ("0", "0"), "left.whole-program": ("FALSE", "FALSE")}
-
-    def check(self, sample, joints, axes, more):
-        pins = [*self.SHOWN, *more]
-        read = [[["getp", f"{pin} {when}", f"pyvcp.{pin}"] for pin in pins] for when in ("in the frame", "behind it")]
+    def test_of_a_mill_with_a_table(self):
+        pins = (*screen_checks.PANEL, "limit.a", "limit.c", "frame.centre-point")
         steps = [["show", "axis"], ["wait_pin", "axisui.abort"], ["wait_pin", "pyvcp.frame.guarded"],
                  ["expect", "pyvcp.frame.guarded", "TRUE", 60],
-                 ["start", "PROGRAMS/part.ngc"], ["wait_paused"], *read[0], ["resume"], ["wait_moving"], ["sleep", 0.4],
-                 ["getp", "at feed", "pyvcp.limit.feed"], ["finish"], ["expect", "framekins.active", "FALSE"],
-                 ["expect", "framekins.hold", "FALSE"], *read[1]]
+                 ["start", "PROGRAMS/part.ngc"], ["wait_paused"], *screen_checks.read_panel("in the frame", pins), ["resume"],
+                 ["wait_moving"], ["sleep", 0.4], ["getp", "at feed", "pyvcp.limit.feed"], ["finish"],
+                 ["expect", "framekins.active", "FALSE"], ["expect", "framekins.hold", "FALSE"],
+                 *screen_checks.read_panel("behind it", pins)]
         result = harness.run(steps, {"part.ngc": self.PROGRAM}, display="screen_driver.py", files=("screen_driver.py",),
-                             sample=sample,
-                             joints=joints, axes=axes, record=False, timeout=180)
+                             sample="framepath-xyzac", joints=5, axes="xyzac", record=False, timeout=180)
         self.assertIsNone(result.failure, result.log)
-        self.assertEqual(result.answers["at feed"], "TRUE")
-        for pin in pins:
-            shown = tuple(result.answers[f"{pin} {when}"] for when in ("in the frame", "behind it"))
-            self.assertEqual(shown, self.SHOWN.get(pin, ("FALSE", "FALSE")), pin)
-
-    def test_of_a_mill(self):
-        self.check("framepath-sim", 3, "xyz", ())
-
-    def test_of_a_mill_with_a_table(self):
-        self.check("framepath-xyzac", 5, "xyzac", ("limit.a", "limit.c", "frame.centre-point"))
+        screen_checks.panel_shows(self, result, pins)
 
 
 if __name__ == "__main__":

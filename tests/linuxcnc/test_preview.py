@@ -25,7 +25,7 @@ def program(*lines):
 
 
 def view(steps, programs, **options):
-    return harness.run(steps, programs, display="preview_driver.py", files=("preview_driver.py",), **options)
+    return harness.run(steps, programs, display="preview_driver.py", files=("preview_driver.py", "canon_moves.py"), **options)
 
 
 def nearest(path, place):

@@ -12,7 +12,7 @@ class OnTheScreen(screen_checks.OnTheScreen):
     screen = AXIS
 
 
-class Trail(screen_checks.Trail):
+class Trail(screen_checks.TrailOnATable):
     screen = AXIS
 
 

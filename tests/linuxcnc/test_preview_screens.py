@@ -12,13 +12,14 @@ QTDRAGON = screen_checks.Screen(["qtvcp", "qtdragon"], "probe_qtvcp.py", ["qtvcp
 class Gmoccapy(screen_checks.OnTheScreen):
     screen = GMOCCAPY
 
-class GmoccapyTrail(screen_checks.Trail):
+class GmoccapyTrail(screen_checks.TrailOnATable):
     screen = GMOCCAPY
 
 class Qtdragon(screen_checks.OnTheScreen):
     screen = QTDRAGON
 
 class QtdragonTrail(screen_checks.Trail):
+    # it knows no machine with A and C
     screen = QTDRAGON
 
 class Told(unittest.TestCase):

@@ -1,6 +1,10 @@
 //! Numbers as people read them.
 
 use crate::path::rates::Quantity;
+#[cfg(feature = "linuxcnc")]
+use indicatif::HumanDuration;
+#[cfg(feature = "linuxcnc")]
+use std::time::Duration;
 
 /// A number with so many significant digits, never in scientific notation.
 pub fn significant(value: f64, digits: usize) -> String {
@@ -38,6 +42,17 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     match text.strip_prefix('-') {
         Some(size) if size.bytes().all(|byte| matches!(byte, b'0' | b'.')) => size.to_owned(),
         _ => text,
+    }
+}
+
+/// How long the rest of some work will take by what is done of it, in words behind others; nothing as long as nothing is done, and in
+/// the last second, as which a loop in the last lines of a program would count.
+#[cfg(feature = "linuxcnc")]
+pub fn time_left(elapsed: Duration, done: u64, all: u64) -> String {
+    let seconds = elapsed.as_secs_f64() * all.saturating_sub(done) as f64 / done as f64;
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(left) if left.as_secs() > 0 => format!(", {:#} left", HumanDuration(left)),
+        _ => String::new(),
     }
 }
 
@@ -137,6 +152,15 @@ pub fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(feature = "linuxcnc")]
+    #[test]
+    fn what_is_left_is_told_when_it_is_known() {
+        let after = |done| time_left(Duration::from_secs(8), done, 100);
+        assert_eq!(after(25), ", 24s left");
+        assert_eq!(after(1), ", 13m left");
+        assert_eq!((after(0), after(100), after(99)), Default::default());
+    }
 
     #[test]
     fn numbers_are_readable() {

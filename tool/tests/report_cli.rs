@@ -166,13 +166,13 @@ fn the_page_needs_nothing_and_shows_the_place_of_a_line() {
 
 #[test]
 fn a_broken_limit_is_said_in_words() {
-    let bench = Bench::new(&constant_jerk_run(21000.0), INI);
+    let bench = Bench::new(&constant_jerk_run(22000.0), INI);
     let output = bench.report(&["--title", "Too hard"]);
     assert!(output.status.success(), "a report was made: {output:?}");
     let text = String::from_utf8(output.stdout).expect("text");
     assert!(text.contains("OVER LIMIT"), "{text}");
     assert!(
-        text.contains("joint.0: jerk is 1.05 times its limit (21000 of 20000 mm/s3) at"),
+        text.contains("joint.0: jerk is 1.1 times its limit (22000 of 20000 mm/s3) at"),
         "{text}"
     );
     assert!(text.ends_with("Result: FAIL, see above\n"), "{text}");
@@ -192,11 +192,11 @@ fn what_is_not_kept_is_an_exit_status() {
         checked(&constant_jerk_run(20000.0), &[]),
         (Some(0), String::new())
     );
-    let (status, said) = checked(&constant_jerk_run(21000.0), &[]);
+    let (status, said) = checked(&constant_jerk_run(22000.0), &[]);
     assert_eq!((status, said.lines().count()), (Some(1), 1));
-    let of_joint = "not kept: joint.0: jerk is 1.05 times its limit (21000 of 20000 mm/s3)";
+    let of_joint = "not kept: joint.0: jerk is 1.1 times its limit (22000 of 20000 mm/s3)";
     assert!(said.starts_with(of_joint), "{said}");
-    assert!(said.contains("; axis.x: jerk is 1.05 times"), "{said}");
+    assert!(said.contains("; axis.x: jerk is 1.1 times"), "{said}");
     // A gap is no pass either: nobody knows what happened there.
     let run = constant_jerk_run(20000.0);
     let rows = run.lines().filter(|line| !line.starts_with("0.190,"));
@@ -319,7 +319,7 @@ fn with_frame_change_and_gap(run: &str) -> String {
 
 #[test]
 fn fields_are_documented() {
-    let hard = constant_jerk_run(21000.0);
+    let hard = constant_jerk_run(22000.0);
     let bench = Bench::new(&hard, INI);
     let compared = |target: &str| {
         let program = format!("G1 F6000 {target}\nM2\n");
@@ -327,7 +327,7 @@ fn fields_are_documented() {
         let options = ["--dialect", "sinumerik", "--tolerance", "0.1", "part.mpf"];
         bench.json(&options)
     };
-    let (followed, departed) = (compared("X2.688"), compared("Y5"));
+    let (followed, departed) = (compared("X2.816"), compared("Y5"));
     assert_eq!(followed["path"]["result"], "followed", "{followed}");
     assert_eq!(departed["path"]["result"], "departed", "{departed}");
     let changed = with_frame_change_and_gap(&hard);

@@ -1,5 +1,6 @@
 //! What a run is asked to keep. That it ends, at the end point of the program, is always asked.
 
+use framepath::cycle::JERK_KEPT;
 use proptest::prelude::*;
 
 use crate::common::Extremes;
@@ -40,7 +41,7 @@ impl Asked {
     pub const LIMITS: Self = Self {
         velocity: Some(1.001),
         acceleration: Some(1.001),
-        jerk: Some(1.05),
+        jerk: Some(JERK_KEPT),
         feed: None,
         path: false,
         rests: RestsAsked::Any,

@@ -13,7 +13,8 @@ use crate::host::recording::{ABORTED, Ending, Recording};
 use crate::host::supervise::Outcome;
 use crate::layer::program::Program;
 use crate::machine::limits::Jerk;
-use crate::path::exceeded::EXCEEDED;
+use crate::path::exceeded::exceeds;
+use crate::path::rates::Quantity;
 use crate::path::segment::largest_difference;
 use serde::Serialize;
 
@@ -152,7 +153,7 @@ impl Figures {
         }
     }
 
-    /// A limit or a tolerance is exceeded by more than 1 %.
+    /// A limit or a tolerance is exceeded by more than counts.
     pub(crate) fn exceeds(&self) -> bool {
         !self.broken().is_empty()
     }
@@ -164,13 +165,14 @@ impl Figures {
         if motion.not_finite {
             broken.push("a position is not a number".to_owned());
         }
-        for (name, peak) in [
-            ("velocity", &motion.velocity),
-            ("acceleration", &motion.acceleration),
-            ("jerk", &motion.jerk),
+        for (quantity, peak) in [
+            (Quantity::Velocity, &motion.velocity),
+            (Quantity::Acceleration, &motion.acceleration),
+            (Quantity::Jerk, &motion.jerk),
         ] {
-            if peak.ratio > EXCEEDED {
-                let (ratio, time) = (significant(peak.ratio, 4), peak.time);
+            if exceeds(quantity, peak.ratio) {
+                let (name, time) = (quantity.name(), peak.time);
+                let ratio = significant(peak.ratio, 4);
                 broken.push(format!("{name} is {ratio} times its limit at {time:.3} s"));
             }
         }

@@ -1,6 +1,8 @@
 //! How far a comparison is, on a terminal.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::format::time_left;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt;
 
 /// Steps of the bar in a run: half of them for the run itself, half for its optimum.
 const STEPS: u64 = 1000;
@@ -13,9 +15,10 @@ impl Progress {
     pub(super) fn new(runs: usize) -> Self {
         let bar =
             ProgressBar::with_draw_target(Some(runs as u64 * STEPS), ProgressDrawTarget::stderr());
-        let template = "{msg}  {bar:30} {percent:>3} %  {elapsed}, {eta} left";
+        let template = "{msg}  {bar:30} {percent:>3} %  {elapsed}{left}";
         if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
+            // The bar's own estimate is 0 s until the first run is done.
+            bar.set_style(style.with_key("left", write_left));
         }
         bar.set_message("comparing");
         Progress(bar)
@@ -55,4 +58,10 @@ impl Progress {
     pub(super) fn finish(&self) {
         self.0.finish_and_clear();
     }
+}
+
+fn write_left(state: &ProgressState, out: &mut dyn fmt::Write) {
+    let left = time_left(state.elapsed(), state.pos(), state.len().unwrap_or(0));
+    // Nothing can be done about a terminal that takes none.
+    let _ = out.write_str(&left);
 }

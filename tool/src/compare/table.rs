@@ -4,7 +4,8 @@ use super::against_optimum::{Holds, LeastTime};
 use super::distance::Distance;
 use super::figures::{Figures, State};
 use crate::layer::program::Program;
-use crate::path::exceeded::EXCEEDED;
+use crate::path::exceeded::exceeds;
+use crate::path::rates::Quantity;
 use std::fmt::Write;
 
 const HEAD: [&str; 18] = [
@@ -98,7 +99,7 @@ fn row(figures: &Figures) -> [String; HEAD.len()] {
     }
     let motion = &figures.motion;
     let jerk_ratio = if motion.jerk.ratio > 0.0 {
-        ratio(motion.jerk.ratio)
+        ratio(Quantity::Jerk, motion.jerk.ratio)
     } else {
         format!("{:.0}A", motion.jerk_in_accelerations)
     };
@@ -111,8 +112,8 @@ fn row(figures: &Figures) -> [String; HEAD.len()] {
         figures.module.clone(),
         jerk,
         format!("{:.3}", motion.time),
-        ratio(motion.velocity.ratio),
-        ratio(motion.acceleration.ratio),
+        ratio(Quantity::Velocity, motion.velocity.ratio),
+        ratio(Quantity::Acceleration, motion.acceleration.ratio),
         jerk_ratio,
         format!("{:.4}", figures.deviation.largest),
         path_ratio(&figures.deviation),
@@ -142,8 +143,8 @@ fn optimum(optimum: Option<&LeastTime>) -> [String; OPTIMUM_HEAD.len()] {
     ]
 }
 
-fn ratio(value: f64) -> String {
-    let mark = if value > EXCEEDED { "!" } else { "" };
+fn ratio(quantity: Quantity, value: f64) -> String {
+    let mark = if exceeds(quantity, value) { "!" } else { "" };
     format!("{}{mark}", number(value))
 }
 

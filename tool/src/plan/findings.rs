@@ -1,15 +1,19 @@
 //! Which limits and tolerances a plan does not keep, in words.
 
-use super::figures::{AxisFigures, DistanceFigure};
+use super::figures::{AxisFigures, DistanceFigure, PeakFigure};
 use crate::format::{Over, length};
-use crate::path::exceeded::EXCEEDED;
+use crate::path::exceeded::exceeds;
 
 /// A sentence for each. `beyond` is the place farthest beyond its tolerance, `unit` that of lengths.
 pub fn conclude(axes: &[AxisFigures], beyond: Option<DistanceFigure>, unit: &str) -> Vec<String> {
     let mut findings = Vec::new();
     for axis in axes {
         let peaks = axis.peaks.iter();
-        for peak in peaks.filter(|peak| peak.share.is_some_and(|share| share > EXCEEDED)) {
+        let exceeded = |peak: &&PeakFigure| {
+            peak.share
+                .is_some_and(|share| exceeds(peak.quantity, share))
+        };
+        for peak in peaks.filter(exceeded) {
             let over = Over {
                 name: &axis.name,
                 quantity: peak.quantity,
@@ -35,7 +39,6 @@ pub fn conclude(axes: &[AxisFigures], beyond: Option<DistanceFigure>, unit: &str
 
 #[cfg(test)]
 mod tests {
-    use super::super::figures::PeakFigure;
     use super::*;
     use crate::path::rates::Quantity;
 
@@ -59,17 +62,17 @@ mod tests {
     }
 
     #[test]
-    fn what_is_exceeded_by_more_than_a_percent_is_told() {
-        assert!(conclude(&[axis(20_150.0)], None, "mm").is_empty());
+    fn what_exceeds_what_is_promised_is_told() {
+        assert!(conclude(&[axis(20_900.0)], None, "mm").is_empty());
         let beyond = DistanceFigure {
             distance: 0.15,
             tolerance: Some(0.1),
             line: 9,
         };
         assert_eq!(
-            conclude(&[axis(21_000.0)], Some(beyond), "mm"),
+            conclude(&[axis(21_200.0)], Some(beyond), "mm"),
             [
-                "axis.x: jerk is 1.05 times its limit (21000 of 20000 mm/s3) at 0.500 s, line 7",
+                "axis.x: jerk is 1.06 times its limit (21200 of 20000 mm/s3) at 0.500 s, line 7",
                 "The planned path is off the programmed path by 0.150 mm, the tolerance is 0.100 mm: at line 9",
             ]
         );

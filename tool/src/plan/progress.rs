@@ -1,6 +1,7 @@
 //! How far the work is: a bar with an estimate, on a terminal only.
 
-use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use crate::format::time_left;
+use indicatif::{ProgressBar, ProgressStyle};
 use std::time::{Duration, Instant};
 
 /// The bar comes when the work takes longer than this.
@@ -39,7 +40,7 @@ impl Progress {
         // Subroutines and loops go back.
         let before = self.bar.as_ref().map_or(0, ProgressBar::position);
         let line = u64::try_from(line).unwrap_or(0).min(self.lines).max(before);
-        let left = left(self.started.elapsed(), line, self.lines);
+        let left = time_left(self.started.elapsed(), line, self.lines);
         let message = format!("{time:.0} s of the machine's time{left}");
         match &self.bar {
             Some(bar) => {
@@ -69,28 +70,5 @@ impl Progress {
         if let Some(bar) = self.bar {
             bar.finish_and_clear();
         }
-    }
-}
-
-/// How long the lines that are left will take by those that are done; nothing as long as none is, and in the last second, as which
-/// a loop in the last lines would count.
-fn left(elapsed: Duration, line: u64, lines: u64) -> String {
-    let seconds = elapsed.as_secs_f64() * (lines - line) as f64 / line as f64;
-    match Duration::try_from_secs_f64(seconds) {
-        Ok(left) if left.as_secs() > 0 => format!(", {:#} left", HumanDuration(left)),
-        _ => String::new(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_left_is_told_when_it_is_known() {
-        let after = |line| left(Duration::from_secs(8), line, 100);
-        assert_eq!(after(25), ", 24s left");
-        assert_eq!(after(1), ", 13m left");
-        assert_eq!((after(0), after(100), after(99)), Default::default());
     }
 }

@@ -3,13 +3,14 @@
 use super::recording::Recording;
 use crate::machine::configuration::MemberLimits;
 use crate::path::rates::{Quantity, crosses};
+use framepath::cycle::JERK_KEPT;
 use serde::Serialize;
 
 /// How a peak compares with its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Judgement {
-    /// Not above the limit.
+    /// Not above the limit; jerk: not above it by more than blendtp promises.
     Within,
     /// Above the limit.
     Over,
@@ -19,16 +20,19 @@ pub enum Judgement {
     NotLimited,
 }
 
-/// A limit counts as kept up to this share above it: room for rounding in 64-bit numbers.
+/// A limit of velocity or acceleration counts as kept up to this share above it: room for rounding in 64-bit numbers.
 const LIMIT_ROUNDING: f64 = 1e-6;
 
 impl Judgement {
     /// Compares `peak`, known to `uncertainty`, with `limit`; same units.
-    pub fn of(peak: f64, uncertainty: f64, limit: Option<f64>) -> Judgement {
+    pub fn of(quantity: Quantity, peak: f64, uncertainty: f64, limit: Option<f64>) -> Judgement {
         let Some(limit) = limit else {
             return Judgement::NotLimited;
         };
-        let allowed = limit * (1.0 + LIMIT_ROUNDING);
+        let allowed = match quantity {
+            Quantity::Jerk => limit * JERK_KEPT,
+            Quantity::Velocity | Quantity::Acceleration => limit * (1.0 + LIMIT_ROUNDING),
+        };
         if peak - uncertainty > allowed {
             Judgement::Over
         } else if peak + uncertainty <= allowed {
@@ -97,7 +101,7 @@ pub fn find_peak(
         share: limit.map(|limit| peak / limit),
         time: recording.times[peak_row] - 0.5 * period * order.min(peak_row) as f64,
         line: recording.lines[peak_row.saturating_sub(order / 2)],
-        judgement: Judgement::of(peak, uncertainty, limit),
+        judgement: Judgement::of(quantity, peak, uncertainty, limit),
     }
 }
 
@@ -161,9 +165,11 @@ mod tests {
 
     #[test]
     fn a_broken_limit_is_over() {
-        let found = peaks(&constant_jerk_move(20400.0, 0.04), &[]);
+        let judged = |jerk| peaks(&constant_jerk_move(jerk, 0.04), &[])[2].judgement;
+        assert_eq!(judged(20900.0), Judgement::Within);
+        let found = peaks(&constant_jerk_move(21100.0, 0.04), &[]);
         assert_eq!(found[2].judgement, Judgement::Over);
-        assert!((found[2].peak - 20400.0).abs() < 0.1);
+        assert!((found[2].peak - 21100.0).abs() < 0.1);
         assert_eq!(found[1].judgement, Judgement::Within);
     }
 

@@ -414,6 +414,43 @@ mod tests {
     }
 
     #[test]
+    fn a_pass_is_told_from_the_one_before_when_the_radius_is_wider_than_the_way_out() {
+        // .4 mm beside the first line. Then passes with .3 mm out between them: the second, on which the third lies, is .1 mm off.
+        let mut contour = vec![
+            line(1, [-20.0, 0.0, 0.0], [0.0; 3]),
+            line(2, [0.0; 3], [20.0, 0.0, 0.0]),
+        ];
+        for (number, depth) in [(3, 0.0), (7, -0.1)] {
+            let places = [
+                [20.0, depth],
+                [20.0, 0.3],
+                [0.0, 0.3],
+                [0.0, -0.1],
+                [20.0, -0.1],
+            ];
+            for (number, ends) in (number..).zip(places.windows(2)) {
+                let [start, end] = [ends[0], ends[1]].map(|[x, y]| [x, y, 0.0]);
+                contour.push(line(number, start, end));
+            }
+        }
+        let points = executed(&contour, 0.05, |s, p| {
+            let beside = if s < 15.0 && s > 5.0 { 0.4 } else { 0.0 };
+            let wrong = s > 65.7 && s < 75.7;
+            [p[0], if wrong { 0.0 } else { p[1] }, beside]
+        });
+        let found = compared(&points, &contour);
+        assert!((found.executed.distance - 0.4).abs() < 1e-9);
+        let rows = |pass: u32, off: f32| {
+            let all = found.distances.iter().zip(&found.moves);
+            all.filter(|row| *row.1 == pass && (row.0 - off).abs() < 1e-6)
+                .count()
+        };
+        assert!((195..=201).contains(&rows(5, 0.1)), "{}", rows(5, 0.1));
+        assert_eq!(rows(1, 0.1) + rows(9, 0.1), 0);
+        assert!((395..=410).contains(&rows(1, 0.0)) && (395..=410).contains(&rows(9, 0.0)));
+    }
+
+    #[test]
     fn out_and_back_on_the_same_line_is_passed_in_order() {
         let contour = vec![
             line(1, [0.0; 3], [10.0, 0.0, 0.0]),

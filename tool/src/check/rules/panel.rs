@@ -1,12 +1,26 @@
-//! `[HAL]POSTGUI_HALFILE`: pins of a panel that only AXIS makes.
+//! The operator's panel: `[HAL]POSTGUI_HALFILE` links pins that only AXIS makes, `[DISPLAY]EMBED_TAB_COMMAND` puts it into a screen.
 
-use crate::check::finding::{Findings, advice};
+use crate::check::finding::{Findings, advice, replace};
+use crate::machine::ini::Entry;
 use crate::wiring::subject::Subject;
+use std::path::{Path, PathBuf};
 
 /// How the pins of a panel of pyvcp begin that a screen makes.
 const PINS: &str = "pyvcp.";
+/// The panel of gladevcp, and what links either.
+const PANEL: &str = "panel.ui";
+const NETS: &str = "panel.hal";
+/// The same as a window of its own.
+const WINDOW: &str = "panel_window.hal";
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
+    look_for_pins(subject, findings);
+    for entry in subject.ini.all("DISPLAY", "EMBED_TAB_COMMAND") {
+        look_at_tab(subject, entry, findings);
+    }
+}
+
+fn look_for_pins(subject: &Subject, findings: &mut Findings) {
     let display = subject.text("DISPLAY", "DISPLAY").unwrap_or("");
     let screen = display.split_whitespace().next().unwrap_or("");
     let has_panel = subject.text("DISPLAY", "PYVCP").is_some();
@@ -24,8 +38,82 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
                 "{} links pins of pyvcp, which only axis with [DISPLAY]PYVCP makes: {screen} ends where they are missing",
                 entry.value
             );
-            let help = "remove this line and [DISPLAY]PYVCP, or set DISPLAY = axis with PYVCP";
-            findings.warning(&entry.place, found, advice(help));
+            findings.warning(&entry.place, found, advice(instead(screen, subject)));
         }
     }
+}
+
+/// What to write for the panel in this screen.
+fn instead(screen: &str, subject: &Subject) -> String {
+    let folder = panel_folder(subject);
+    match screen {
+        "gmoccapy" => format!(
+            "remove this line and [DISPLAY]PYVCP; in gmoccapy [DISPLAY]EMBED_TAB_NAME = Frames, EMBED_TAB_LOCATION = ntb_preview \
+             and EMBED_TAB_COMMAND = {} show the panel",
+            tab(&folder)
+        ),
+        "qtvcp" => format!(
+            "remove [DISPLAY]PYVCP, and write POSTGUI_HALFILE = {} in place of this line, which shows the panel as a window",
+            folder.join(WINDOW).display()
+        ),
+        _ => "remove this line and [DISPLAY]PYVCP, or set DISPLAY = axis with PYVCP".to_owned(),
+    }
+}
+
+/// The folder of panels, beside that of the subroutines.
+fn panel_folder(subject: &Subject) -> PathBuf {
+    Path::new(&subject.own_folder()).with_file_name("panel")
+}
+
+/// The command that puts the panel of this folder into a screen.
+fn tab(folder: &Path) -> String {
+    let [nets, panel] = [NETS, PANEL].map(|file| folder.join(file));
+    format!(
+        "gladevcp -x {{XID}} -c pyvcp -H {} {}",
+        nets.display(),
+        panel.display()
+    )
+}
+
+/// A tab with our panel: gladevcp says where nobody sees it what it misses, and the tab stays empty or its lamps dark.
+fn look_at_tab(subject: &Subject, entry: &Entry, findings: &mut Findings) {
+    let words: Vec<&str> = entry.value.split_whitespace().collect();
+    let is_panel = |word: &&&str| {
+        Path::new(word)
+            .file_name()
+            .is_some_and(|name| name == PANEL)
+    };
+    let Some(panel) = words.iter().find(is_panel) else {
+        return;
+    };
+    let behind = |option: &str| {
+        let place = words.iter().position(|word| *word == option)?;
+        words.get(place + 1).copied()
+    };
+    let folder = Path::new(panel).parent().unwrap_or(Path::new(""));
+    let mut refuse = |found: String| findings.warning(&entry.place, found, replace(line(folder)));
+    if behind("-c") != Some("pyvcp") {
+        refuse(format!(
+            "{panel} without -c pyvcp: {NETS} finds no pins to link"
+        ));
+    }
+    match behind("-H") {
+        None => refuse(format!(
+            "{panel} without -H: nothing links the panel, its lamps stay dark"
+        )),
+        Some(nets) if !subject.path(nets).is_file() => {
+            refuse(format!(
+                "{nets} is not there: nothing links the panel, which does not come up"
+            ));
+        }
+        Some(_) => {}
+    }
+    if !subject.path(panel).is_file() {
+        let found = format!("{panel} is not there: the tab stays empty");
+        findings.warning(&entry.place, found, replace(line(&panel_folder(subject))));
+    }
+}
+
+fn line(folder: &Path) -> String {
+    format!("EMBED_TAB_COMMAND = {}", tab(folder))
 }
