@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Each sample in AXIS without a monitor, and one in gmoccapy and qtdragon, homed, a program with frames run: screens.py FOLDER,
-which gets the pictures."""
+"""Each sample in AXIS without a monitor, and one in gmoccapy and qtdragon, homed, a program with frames run, and two simulated
+machines of LinuxCNC in a frame: screens.py FOLDER [NAME ...], which gets the pictures."""
 
 import base64
 import os
 import sys
 
 import harness
+import sample_machines
+import sample_table
 import screen_checks
 from test_preview import program
 from test_samples import own_program
@@ -36,10 +38,14 @@ def program_of(sample):
     return {name: text.replace("\nM2\n", "\nM0\nM2\n") for name, text in own.items()}
 
 
-def keep(folder, name, steps, files, **options):
-    """Runs the steps, and writes the picture that they take."""
-    result = harness.run(steps, files, display="screen_driver.py", files=("screen_driver.py",), record=False, timeout=180,
-                         **options)
+#: samples of LinuxCNC whose machine is drawn; those of the tables want a font of X that Xvfb comes without
+DRAWN = ("5axis", "ldelta")
+
+ON_A_SCREEN = {"display": "screen_driver.py", "files": ("screen_driver.py",), "record": False, "timeout": 180}
+
+
+def keep(folder, name, result):
+    """Writes the picture that the steps have taken."""
     if result.failure or any(not error.startswith(screen_checks.QTVCP_READS) for error in result.errors):
         raise SystemExit(f"{name}: {result.failure} {result.errors}\n{result.log}")
     path = os.path.join(folder, f"{name}.png")
@@ -48,17 +54,35 @@ def keep(folder, name, steps, files, **options):
     print(path)
 
 
-def main(folder):
+def draw(name):
+    """The machine of a sample in a frame."""
+    machine = sample_table.machine(name)
+    steps = sample_machines.frame_steps(machine)
+    there = next(number for number, step in enumerate(steps) if step == ["note", "framed"])
+    steps = [["show_machine", machine.picture, sample_machines.PICTURE], *steps[:there], ["sleep", 8], ["picture", "picture"]]
+    return sample_machines.run(machine, steps, "blendtp", framed=True, **ON_A_SCREEN)
+
+
+def main(folder, names):
     os.makedirs(folder, exist_ok=True)
+    for name in DRAWN:
+        if not names or name in names:
+            keep(folder, name, draw(name))
     for sample, (joints, axes) in SAMPLES.items():
+        if names and sample not in names:
+            continue
         # the program is on AXIS's command line, and AXIS reads it again as soon as it knows of frames
         steps = [["show", "axis", "PROGRAMS/part.ngc"], ["wait_pin", "axisui.abort"], ["sleep", 15], *RUN]
-        keep(folder, sample, steps, program_of(sample), sample=sample, joints=joints, axes=axes)
+        keep(folder, sample, harness.run(steps, program_of(sample), sample=sample, joints=joints, axes=axes, **ON_A_SCREEN))
     for name, (command, hook) in SCREENS.items():
+        if names and name not in names:
+            continue
         first = [["show", *command], ["wait_pin", "frame-preview.answer"], ["sleep", 10], ["on_for_good"], ["home"]]
-        keep(folder, name, [["sleep", 5], ["open", "PROGRAMS/part.ngc"], ["sleep", 5], *RUN], PROGRAM, first=first,
-             ini={("DISPLAY", "USER_COMMAND_FILE"): f"../../preview/{hook}", **screen_checks.WITHOUT_PANEL})
+        steps = [["sleep", 5], ["open", "PROGRAMS/part.ngc"], ["sleep", 5], *RUN]
+        ini: dict[tuple[str, str], str | None] = {("DISPLAY", "USER_COMMAND_FILE"): f"../../preview/{hook}"}
+        ini.update(screen_checks.WITHOUT_PANEL)
+        keep(folder, name, harness.run(steps, PROGRAM, first=first, ini=ini, **ON_A_SCREEN))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1], sys.argv[2:])
