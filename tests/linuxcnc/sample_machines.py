@@ -246,7 +246,8 @@ def frame_steps(machine):
     """To the same place in a frame and without one."""
     shift = " ".join(f"[{value}]" for value in machine.shift)
     return [*(["mdi", line] for line in machine.before_frame), ["mdi", f"o<trans> call {shift}"],
-            ["mdi", "o<arot_rpl> call [90]"], ["mdi", f"G1 {words(machine.place)} F1200"], ["getp", "active", "framekins.active"], ["note", "framed"],
+            ["mdi", "o<arot_rpl> call [90]"], ["mdi", f"G1 {words(machine.place)} F1200"],
+            ["getp", "active", "framekins.active"], ["note", "framed"],
             ["mdi", "o<frame_off> call"], ["mdi", f"G1 {words(machine.place_without_frame())} F1200"], ["note", "plain"]]
 
 

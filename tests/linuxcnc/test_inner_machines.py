@@ -138,7 +138,8 @@ class WithAFrame(InnerMachines):
         for machine, lines, said in (
                 (SCARA, ["o<trans> call [1] [0] [0]", "o<tool_normal> call"],
                  "cannot find out how the kinematics behind framekins turn the tool"),
-                (TABLE, [*turned, "o<tool_normal> call"], "no rotary axis turns the tool with the type that the kinematics have"),
+                (TABLE, [*turned, "o<tool_normal> call"],
+                 "no rotary axis turns the tool with the type that the kinematics have"),
                 (TILTING, ["o<tool_normal> call"], "needs a frame behind inner="),
                 (TILTING, ["o<retract> call [50]"], "does not know how the kinematics behind framekins turn the tool")):
             kinematics = machine.kinematics.split()[0]
