@@ -56,6 +56,7 @@ help:
 	@echo 'make sanitize   only the tests with the address and undefined-behaviour sanitizers and valgrind'
 	@echo 'make contract   only promises of LinuxCNC with its own planner and with blendtp, soak, plan against LinuxCNC'
 	@echo 'make faults     what LinuxCNC does with both modules when something goes wrong, as the table of docs/faults.md'
+	@echo 'make machines   LinuxCNC'"'"'s sample machines (tables, heads, robots, deltas) with both modules, as the table of docs/machines.md'
 	@echo 'make suites LINUXCNC_SOURCE=/path/to/linuxcnc  LinuxCNC'"'"'s own suites with its own planner and with blendtp, as the table of'
 	@echo '                docs/suites.md: of the LinuxCNC that was built there, or of the installed one (SUITES="motion abort/g64": only these)'
 	@echo 'make short      thousands of random short programs through framepath plan: faults and limits that are exceeded'
@@ -148,6 +149,11 @@ faults: modules fault-modules tool
 	$(PYTHON) -B tests/linuxcnc/faults/fault_table.py
 	FRAMEPATH_FAULT_EVERY=1 $(PYTHON) -B tests/linuxcnc/test_faults_injected.py
 
+# LinuxCNC's own sample configurations by themselves, behind framekins and with blendtp: ten minutes.
+machines: modules
+	@./prerequisites test
+	$(PYTHON) -B tests/linuxcnc/machines.py
+
 # LinuxCNC's own suites, which its packages lack: a quarter of an hour.
 SUITES ?=
 
@@ -238,7 +244,8 @@ tuning: modules tool
 book:
 	mdbook build
 
-# Pictures of each sample in AXIS, and of one in gmoccapy and qtdragon, on an X server without a monitor: target/screens.
+# Pictures of each sample in AXIS, of one in gmoccapy and qtdragon, and of two simulated machines of LinuxCNC in a frame, on an
+# X server without a monitor: target/screens.
 screens: modules
 	@./prerequisites screen
 	$(PYTHON) -B tests/linuxcnc/screens.py $(TARGET)/screens
@@ -301,6 +308,6 @@ debian-12 debian-13:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults suites no-source short soak bench \
+.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
     fuzz fuzz-filter mutants compare figures tuning book screens header install uninstall deb deb-source \
     debian-12 debian-13 clean

@@ -53,6 +53,7 @@ static struct {
     hal_float_t *frame_tool_offset[3];
     hal_s32_t *slot, *operations, *refusal, *tilt_axis, *normal_refusal;
     hal_float_t *normal_tilt, *normal_rotary;
+    hal_s32_t *normal_tilt_axis, *normal_rotary_axis;
     hal_bit_t *enabled, *release_on_abort, *release, *releasing, *hold, *guarded;
     hal_s32_t *releases, *releases_seen;
     hal_u32_t *heartbeat, *version;
@@ -79,8 +80,8 @@ static void read_table_pins(struct framepath_frame_inputs *in)
         in->offset[i] = has_table ? *pins->offset[i] : 0.0;
     }
     for (int i = 0; i < 2; i++) {
-        in->tilt_range[i] = has_table ? *pins->tilt_range[i] : no_limits[i];
-        in->rotary_range[i] = has_table ? *pins->rotary_range[i] : no_limits[i];
+        in->tilt_range[i] = has_table || *inner ? *pins->tilt_range[i] : no_limits[i];
+        in->rotary_range[i] = has_table || *inner ? *pins->rotary_range[i] : no_limits[i];
     }
     in->table_tool_offset = has_table ? *pins->table_tool_offset : 0.0;
     in->conventional_directions = has_table && *pins->conventional_directions;
@@ -133,6 +134,8 @@ static void write_pins(const struct framepath_frame_outputs *out)
     *pins->normal_refusal = out->normal_refusal;
     *pins->normal_tilt = out->normal_tilt;
     *pins->normal_rotary = out->normal_rotary;
+    *pins->normal_tilt_axis = out->normal_tilt_axis;
+    *pins->normal_rotary_axis = out->normal_rotary_axis;
     *pins->releasing = out->releasing;
     *pins->releases = out->releases;
     *pins->hold = out->hold;
@@ -377,6 +380,8 @@ static int export_frame_pins(void)
     error |= hal_pin_s32_newf(HAL_OUT, &pins->normal_refusal, component, "framekins.normal-refusal");
     error |= hal_pin_float_newf(HAL_OUT, &pins->normal_tilt, component, "framekins.normal-tilt");
     error |= hal_pin_float_newf(HAL_OUT, &pins->normal_rotary, component, "framekins.normal-rotary");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->normal_tilt_axis, component, "framekins.normal-tilt-axis");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->normal_rotary_axis, component, "framekins.normal-rotary-axis");
     error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "framekins.version");
     error |= export_position_pins();
     error |= export_guard_pins();
@@ -389,18 +394,11 @@ static int export_frame_pins(void)
     return 0;
 }
 
-/* For machines with a tilting rotary table. */
-static int export_table_pins(void)
+/* What the axes that turn the tool can reach. */
+static int export_range_pins(void)
 {
     static const char *const range_names[2] = {"min", "max"};
     int error = 0;
-    for (int i = 0; i < 3; i++) {
-        error |= hal_pin_float_newf(HAL_IN, &pins->rotation_point[i], component, "framekins.%c-rot-point", "xyz"[i]);
-        error |= hal_pin_float_newf(HAL_IN, &pins->offset[i], component, "framekins.%c-offset", "xyz"[i]);
-    }
-    error |= hal_pin_float_newf(HAL_IN, &pins->table_tool_offset, component, "framekins.tool-offset");
-    error |= hal_pin_bit_newf(HAL_IN, &pins->conventional_directions, component, "framekins.conventional-directions");
-    error |= hal_pin_bit_newf(HAL_IN, &pins->tool_centre_point, component, "framekins.tool-centre-point");
     for (int i = 0; i < 2; i++) {
         error |= hal_pin_float_newf(HAL_IN, &pins->tilt_range[i], component, "framekins.tilt-%s", range_names[i]);
         error |= hal_pin_float_newf(HAL_IN, &pins->rotary_range[i], component, "framekins.rotary-%s", range_names[i]);
@@ -413,6 +411,20 @@ static int export_table_pins(void)
     return 0;
 }
 
+/* For machines with a tilting rotary table. */
+static int export_table_pins(void)
+{
+    int error = 0;
+    for (int i = 0; i < 3; i++) {
+        error |= hal_pin_float_newf(HAL_IN, &pins->rotation_point[i], component, "framekins.%c-rot-point", "xyz"[i]);
+        error |= hal_pin_float_newf(HAL_IN, &pins->offset[i], component, "framekins.%c-offset", "xyz"[i]);
+    }
+    error |= hal_pin_float_newf(HAL_IN, &pins->table_tool_offset, component, "framekins.tool-offset");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->conventional_directions, component, "framekins.conventional-directions");
+    error |= hal_pin_bit_newf(HAL_IN, &pins->tool_centre_point, component, "framekins.tool-centre-point");
+    return error ? error : export_range_pins();
+}
+
 /* For kinematics of another module. */
 static int export_inner_pins(void)
 {
@@ -420,7 +432,7 @@ static int export_inner_pins(void)
     error |= hal_pin_float_newf(HAL_IN, &pins->inner_type, component, "framekins.inner-type");
     error |= hal_pin_s32_newf(HAL_OUT, &pins->inner_type_active, component, "framekins.inner-type-active");
     error |= hal_pin_s32_newf(HAL_OUT, &pins->inner_refusal, component, "framekins.inner-refusal");
-    return error;
+    return error ? error : export_range_pins();
 }
 
 /* Chooses the kinematics of another module; 0, or what is wrong has been said. */

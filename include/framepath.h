@@ -218,7 +218,7 @@ struct framepath_frame_inputs {
    */
   double tilt_range[2];
   /*
-   Smallest and greatest angle of the rotary axis C.
+   Smallest and greatest angle of the rotary axis.
    */
   double rotary_range[2];
   /*
@@ -324,9 +324,17 @@ struct framepath_frame_outputs {
    */
   double normal_tilt;
   /*
-   Where the rotary axis C has to go for that.
+   Where the rotary axis has to go for that.
    */
   double normal_rotary;
+  /*
+   Which axis that tilting axis is: 1, 2, 3 for A, B, C; 0 if there is none.
+   */
+  int normal_tilt_axis;
+  /*
+   Which axis that rotary axis is.
+   */
+  int normal_rotary_axis;
   /*
    The frame has to go and cannot yet: 0 or 1.
    */

@@ -4,11 +4,12 @@ use libc::{c_double, c_int, c_longlong, c_uint};
 
 use nalgebra::Vector3;
 
+use super::normal_pins::NormalPins;
 use crate::axes::Axes;
 use crate::frame::{AffineMap, ToolLength};
 use crate::kinematics::control::{FrameControl, FrameInputs, FrameOutputs};
 use crate::kinematics::heartbeat::Guard;
-use crate::kinematics::{AngleRange, RotaryLimits, tool_normal};
+use crate::kinematics::{AngleRange, RotaryLimits};
 use crate::machine::{RotaryDirection, TableTiltingParameters};
 
 /// Alarm: the guard is late with a frame in force, and the machine is held.
@@ -43,7 +44,7 @@ pub struct framepath_frame_inputs {
     pub tool_centre_point: c_int,
     /// Smallest and greatest angle of the tilting axis.
     pub tilt_range: [c_double; 2],
-    /// Smallest and greatest angle of the rotary axis C.
+    /// Smallest and greatest angle of the rotary axis.
     pub rotary_range: [c_double; 2],
     /// A ready frame: three rows of a 3x4 map.
     pub map: [c_double; 12],
@@ -98,8 +99,12 @@ pub struct framepath_frame_outputs {
     pub normal_refusal: c_int,
     /// Where the tilting axis has to go for that.
     pub normal_tilt: c_double,
-    /// Where the rotary axis C has to go for that.
+    /// Where the rotary axis has to go for that.
     pub normal_rotary: c_double,
+    /// Which axis that tilting axis is: 1, 2, 3 for A, B, C; 0 if there is none.
+    pub normal_tilt_axis: c_int,
+    /// Which axis that rotary axis is.
+    pub normal_rotary_axis: c_int,
     /// The frame has to go and cannot yet: 0 or 1.
     pub releasing: c_int,
     /// How often a frame was removed without a command while a guard lived.
@@ -183,7 +188,7 @@ fn shown(value: f64) -> f64 {
     if value.is_finite() { value } else { 0.0 }
 }
 
-fn limits_of(pins: &framepath_frame_inputs) -> RotaryLimits {
+pub(super) fn limits_of(pins: &framepath_frame_inputs) -> RotaryLimits {
     let [tilt, rotary] =
         [pins.tilt_range, pins.rotary_range].map(|[min, max]| AngleRange { min, max });
     RotaryLimits { tilt, rotary }
@@ -195,22 +200,13 @@ pub(super) fn outputs_of(
     control: &FrameControl,
     pins: &framepath_frame_inputs,
     position: &Axes,
+    normal: &NormalPins,
 ) -> framepath_frame_outputs {
     let tool = Vector3::from(pins.tool_offset);
     let (frame, turned_tool) = control.active().map_or_else(
         || (AffineMap::identity(), tool),
         |frame| (*frame.tip_map(), frame.turned_tool(&tool)),
     );
-    let normal = tool_normal(
-        control.behind(),
-        control.active(),
-        position,
-        &limits_of(pins),
-    );
-    let (normal_tilt, normal_rotary) = match normal {
-        Ok(Some(angles)) => (angles.tilt, angles.rotary),
-        Ok(None) | Err(_) => (0.0, 0.0),
-    };
     framepath_frame_outputs {
         switchkins_type: outputs.switchkins_type.into(),
         acknowledged: outputs.acknowledged,
@@ -221,9 +217,11 @@ pub(super) fn outputs_of(
         parameters_pending: outputs.parameters_pending.into(),
         tool_offset: outputs.tool_offset,
         refusal: outputs.refusal.map_or(0, |refusal| refusal as c_int),
-        normal_refusal: normal.map_or_else(|error| error as c_int, |_| 0),
-        normal_tilt,
-        normal_rotary,
+        normal_refusal: normal.refusal,
+        normal_tilt: normal.tilt,
+        normal_rotary: normal.rotary,
+        normal_tilt_axis: normal.axes[0],
+        normal_rotary_axis: normal.axes[1],
         releasing: outputs.releasing.into(),
         releases: outputs.releases,
         hold: outputs.hold.into(),

@@ -4,6 +4,7 @@ use libc::{c_char, c_double, c_int, c_ulong};
 
 use super::frame_pins::framepath_frame_inputs;
 use super::inner::{Calls, InnerModule};
+use super::inner_normal::AskedNormal;
 use super::kinematics::{FRAMEPATH_UNKNOWN_TOOL_TYPES, Kinematics, module, parameter};
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
@@ -28,6 +29,7 @@ pub unsafe extern "C" fn framepath_kinematics_configure_inner(tool_types: *const
     let module = module();
     module.tool_length = ToolLength::Frame;
     module.inner = InnerModule::NONE;
+    module.normal = AskedNormal::NONE;
     module.control = Some(FrameControl::new(Behind::Inner(InnerType::first(types))));
     0
 }

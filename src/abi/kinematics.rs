@@ -11,6 +11,7 @@ use libc::{c_char, c_double, c_int};
 pub use super::frame_pins::{framepath_frame_inputs, framepath_frame_outputs};
 use super::frame_pins::{inputs_of, outputs_of};
 use super::inner::InnerModule;
+use super::inner_normal::AskedNormal;
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::{AXIS_COUNT, Axes};
@@ -46,6 +47,8 @@ pub(super) struct Kinematics {
     pub(super) inner: InnerModule,
     /// How many guesses of motion's are still positions of the frame before: that of the command and that of the feedback.
     pub(super) old_guesses: u8,
+    /// Where its rotary axes have to go for the tool to stand normal to the frame.
+    pub(super) normal: AskedNormal,
 }
 
 impl Kinematics {
@@ -73,6 +76,7 @@ static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
     joints: [0.0; JOINT_COUNT],
     inner: InnerModule::NONE,
     old_guesses: 0,
+    normal: AskedNormal::NONE,
 }));
 
 /// The machine of the module.
@@ -298,6 +302,7 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
         joints,
         inner,
         old_guesses,
+        ..
     } = module()
     else {
         return -1;
@@ -326,11 +331,19 @@ pub unsafe extern "C" fn framepath_kinematics_update(
     let (Some(pins), Some(out)) = (unsafe { (pins.as_ref(), out.as_mut()) }) else {
         return;
     };
-    let module = module();
-    let inputs = module.inputs(pins);
-    let Some(control) = module.control.as_mut() else {
+    let inputs = module().inputs(pins);
+    let Kinematics {
+        control: Some(control),
+        position,
+        joints,
+        inner,
+        normal,
+        ..
+    } = module()
+    else {
         return;
     };
     let outputs = control.update(&inputs);
-    *out = outputs_of(&outputs, control, pins, &Axes::from(module.position));
+    let normal = normal.update(control, pins, position, joints, inner, outputs.slot);
+    *out = outputs_of(&outputs, control, pins, &Axes::from(*position), &normal);
 }

@@ -4,9 +4,11 @@
 pub mod frame_pins;
 pub mod inner;
 pub mod inner_kinematics;
+mod inner_normal;
 pub mod kinematics;
 pub mod kinematics_words;
 pub mod linuxcnc;
+mod normal_pins;
 pub mod planner;
 pub mod pose;
 

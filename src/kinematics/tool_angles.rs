@@ -80,6 +80,20 @@ pub enum OrientationError {
     },
 }
 
+/// The length of a direction, where something can be made of it and of the angles of now.
+pub(super) fn checked_length(
+    direction: &Vector3<f64>,
+    current: RotaryAngles,
+) -> Result<f64, OrientationError> {
+    let norm = direction.norm();
+    let known = current.tilt.is_finite() && current.rotary.is_finite();
+    if norm > 0.0 && norm.is_finite() && known {
+        Ok(norm)
+    } else {
+        Err(OrientationError::NotFinite)
+    }
+}
+
 /// Both solutions, without whole turns, for a tool along `direction` in coordinates of the
 /// workpiece (tip towards spindle, any length above zero); C as it is now where it is free.
 ///
@@ -91,11 +105,7 @@ pub fn solutions(
     direction: &Vector3<f64>,
     current: RotaryAngles,
 ) -> Result<[RotaryAngles; 2], OrientationError> {
-    let norm = direction.norm();
-    let known = current.tilt.is_finite() && current.rotary.is_finite();
-    if !(norm > 0.0 && norm.is_finite() && known) {
-        return Err(OrientationError::NotFinite);
-    }
+    let norm = checked_length(direction, current)?;
     let sign = match machine.parameters().direction {
         RotaryDirection::Table => 1.0,
         RotaryDirection::Conventional => -1.0,
@@ -137,6 +147,22 @@ pub fn tool_angles(
     tilt_range: AngleRange,
     rotary_range: AngleRange,
 ) -> Result<RotaryAngles, OrientationError> {
+    nearest_solution(
+        |free| solutions(machine, direction, free),
+        current,
+        tilt_range,
+        rotary_range,
+    )
+}
+
+/// Of two solutions that `solutions` gives for the angles of now, with the rotary axis within its limits, the one of
+/// [`tool_angles`].
+pub(super) fn nearest_solution(
+    solutions: impl FnOnce(RotaryAngles) -> Result<[RotaryAngles; 2], OrientationError>,
+    current: RotaryAngles,
+    tilt_range: AngleRange,
+    rotary_range: AngleRange,
+) -> Result<RotaryAngles, OrientationError> {
     for range in [tilt_range, rotary_range] {
         if range.min.is_nan() || range.max.is_nan() {
             return Err(OrientationError::NotFinite);
@@ -150,7 +176,7 @@ pub fn tool_angles(
         tilt: current.tilt,
         rotary: rotary_range.bounded(current.rotary),
     };
-    let [first, second] = solutions(machine, direction, free)?;
+    let [first, second] = solutions(free)?;
     let reached = |solution: RotaryAngles| {
         Some(RotaryAngles {
             tilt: tilt_range.nearest(solution.tilt, current.tilt)?,

@@ -9,7 +9,7 @@ use crate::frame::ActiveFrame;
 use crate::machine::{Machine, TiltAxis};
 
 /// Sine of the angle up to which a machine without rotary axes stands normal to a frame.
-const NORMAL_TOLERANCE: f64 = 1e-9;
+pub(super) const NORMAL_TOLERANCE: f64 = 1e-9;
 
 /// Why the tool cannot be put normal to the frame. The numbers are those of the pin
 /// `framekins.normal-refusal`.
@@ -26,6 +26,19 @@ pub enum ToolNormalError {
     WrongLimits = 4,
     /// How the kinematics of another module turn the tool is not known.
     UnknownKinematics = 5,
+    /// The frame is tilted, and no axis turns the tool with the type that the kinematics of another module have now.
+    NothingTurnsTool = 6,
+    /// Without a frame the kinematics of another module are not asked how they turn the tool: nobody touches them then.
+    NoFrame = 7,
+}
+
+impl From<OrientationError> for ToolNormalError {
+    fn from(error: OrientationError) -> Self {
+        match error {
+            OrientationError::Unreachable { .. } => Self::Unreachable,
+            OrientationError::NotFinite | OrientationError::LimitsReversed => Self::WrongLimits,
+        }
+    }
 }
 
 /// What a rotary axis can reach, for both of them.
@@ -66,14 +79,7 @@ pub fn tool_normal(
         return Err(ToolNormalError::ToolCentrePointOff);
     }
     let now = angles(table.tilt_axis(), position);
-    let found = tool_angles(table, &direction, now, limits.tilt, limits.rotary).map_err(
-        |error| match error {
-            OrientationError::Unreachable { .. } => ToolNormalError::Unreachable,
-            OrientationError::NotFinite | OrientationError::LimitsReversed => {
-                ToolNormalError::WrongLimits
-            }
-        },
-    )?;
+    let found = tool_angles(table, &direction, now, limits.tilt, limits.rotary)?;
     // Mirrored rotary axes run the other way round in the program.
     let (a, b) = match table.tilt_axis() {
         TiltAxis::A => (found.tilt, 0.0),

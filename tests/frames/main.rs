@@ -4,6 +4,7 @@ mod common;
 mod control;
 mod guard;
 mod inner_kinematics;
+mod inner_tool;
 mod inner_types;
 mod machine_control;
 mod machine_kinematics;

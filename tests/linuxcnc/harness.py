@@ -36,7 +36,7 @@ RECORDED_SCALE = 1e6
 class Result:
     """What came out of a scenario."""
 
-    def __init__(self, outcome, rows, header, log):
+    def __init__(self, outcome, rows, header, log, status=None):
         #: None, or which step failed and why
         self.failure = outcome["failure"]
         #: error texts that LinuxCNC showed the operator, in order
@@ -50,6 +50,8 @@ class Result:
         self.header = header
         #: everything LinuxCNC printed
         self.log = log
+        #: of the command `linuxcnc`; None if it was stopped
+        self.status = status
 
     def forgive_end_of_steps(self):
         """LinuxCNC's interpreter says this at the end of a program that was stepped, with its own planner too; releases word
@@ -210,12 +212,13 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
         environment = dict(os.environ, KEEP=folder, FRAMEPATH_SCENARIO=scenario, FRAMEPATH_RESULT=outcome)
         os.chmod(folder, 0o755)
         log_path = os.path.join(folder, "log.txt")
+        status = None
         with open(log_path, "w", encoding="utf-8") as log_file:
             try:
-                subprocess.run([os.path.join(HERE, "isolated"), modules or MODULES, "sh", "-c",
-                                f'linuxcnc -r "$0"; sleep {linger}', ini_path],
+                status = subprocess.run([os.path.join(HERE, "isolated"), modules or MODULES, "sh", "-c",
+                                f'linuxcnc -r "$0"; status=$?; sleep {linger}; exit $status', ini_path],
                                env=environment, stdin=subprocess.DEVNULL, stdout=log_file,
-                               stderr=subprocess.STDOUT, timeout=timeout, check=False)
+                               stderr=subprocess.STDOUT, timeout=timeout, check=False).returncode
             except subprocess.TimeoutExpired:
                 log_file.write(f"\nstopped after {timeout} s\n")
         with open(log_path, encoding="utf-8", errors="replace") as file:
@@ -228,7 +231,7 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
         if "unloadrt failed" in log and not result["failure"]:
             result["failure"] = "the modules had come to an end before LinuxCNC did"
         rows = recorder.read(recording, text) if record else []
-        return Result(result, rows, recorder.header, log)
+        return Result(result, rows, recorder.header, log, status)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 

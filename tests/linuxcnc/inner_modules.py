@@ -8,7 +8,9 @@ import subprocess
 
 import harness
 
-STOCK = "/usr/lib/linuxcnc/modules"
+#: of a LinuxCNC that is run where it was built, else of the one that is installed
+BUILT = os.environ.get("LINUXCNC_IN_PLACE")
+STOCK = os.path.join(BUILT, "rtlib") if BUILT else "/usr/lib/linuxcnc/modules"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,7 +48,27 @@ MODULES = [
     Kinematics("xyzbc-trt-kins", 5, 3, (10, 20, 30, 5, -10)),
 ]
 
+#: those that come with LinuxCNC 2.10
+NEWER = [
+    Kinematics("matrixkins", 3, at_joints=(0, 0, 0)),
+    Kinematics("three21kins", 6, 3),
+    Kinematics("xyzacb_trsrn", 6, 3, (10, 20, 30, 5, -10, 15)),
+    Kinematics("xyzbca_trsrn", 6, 3, (10, 20, 30, 5, -10, 15)),
+]
+
 SKEW = Kinematics("skewkins", 3, 2, (0, 0, 0))
+
+
+def is_kinematics(path):
+    """Whether a module is asked for joints: motmod asks, the others answer."""
+    symbols = subprocess.run(["nm", "-D", "--defined-only", path], capture_output=True, text=True, check=True).stdout
+    return " T kinematicsInverse\n" in symbols
+
+
+def all_of_linuxcnc():
+    """The kinematics modules that this LinuxCNC has."""
+    names = {os.path.basename(path)[:-3] for path in glob.glob(os.path.join(STOCK, "*.so")) if is_kinematics(path)}
+    return [kinematics for kinematics in MODULES + NEWER if kinematics.name in names], names
 
 
 def with_skewkins(folder):

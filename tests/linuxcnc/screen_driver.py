@@ -35,8 +35,8 @@ class Screen(driver.Operator):
         super().__init__()
         self.processes = []
 
-    def show(self, *command):
-        """Starts a screen: its command, to which LinuxCNC's arguments are added."""
+    def monitor(self):
+        """Starts an X server, on which everything is shown that starts from now on."""
         display, write = os.pipe()
         # no -auth: nobody else is in these namespaces
         self.processes.append(subprocess.Popen(
@@ -48,8 +48,19 @@ class Screen(driver.Operator):
         if not number:
             raise driver.Failure("Xvfb has not started")
         os.environ["DISPLAY"] = f":{number}"
+
+    def show(self, *command):
+        """Starts a screen: its command, to which LinuxCNC's arguments are added."""
+        self.monitor()
         name, *arguments = command
         self.processes.append(subprocess.Popen([name, *INI, *arguments]))
+
+    def show_machine(self, command, hal_file):
+        """Starts the picture of a simulated machine, and links it."""
+        self.monitor()
+        self.processes.append(subprocess.Popen([command]))
+        self.wait_pin("vismach.plotclear")
+        self.halcmd("source", hal_file)
 
     def wait_pin(self, name, timeout=60):
         """Waits until a pin is there: a screen makes its own when it is up."""

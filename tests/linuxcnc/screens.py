@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Each sample in AXIS without a monitor, and one in gmoccapy and qtdragon, with their panels, homed, a program with frames run:
-screens.py FOLDER, which gets the pictures."""
+"""Each sample in AXIS without a monitor, one in gmoccapy and qtdragon with their panels, homed, a program with frames run,
+and two simulated machines of LinuxCNC in a frame: screens.py FOLDER [NAME ...], which gets the pictures."""
 
 import base64
 import os
 import sys
 
 import harness
+import sample_machines
+import sample_table
 import screen_checks
 from test_preview import program
 from test_preview_screens import GMOCCAPY, QTDRAGON
@@ -39,6 +41,12 @@ def program_of(sample):
     return {name: text.replace("\nM2\n", "\nM0\nM2\n") for name, text in own.items()}
 
 
+#: samples of LinuxCNC whose machine is drawn; those of the tables want a font of X that Xvfb comes without
+DRAWN = ("5axis", "ldelta")
+
+ON_A_SCREEN = {"display": "screen_driver.py", "files": ("screen_driver.py",), "record": False, "timeout": 180}
+
+
 def keep(folder, name, result):
     """Writes the pictures that a run has taken."""
     if result.failure or result.errors:
@@ -51,19 +59,34 @@ def keep(folder, name, result):
             print(path)
 
 
-def main(folder):
+def draw(name):
+    """The machine of a sample in a frame."""
+    machine = sample_table.machine(name)
+    steps = sample_machines.frame_steps(machine)
+    there = next(number for number, step in enumerate(steps) if step == ["note", "framed"])
+    steps = [["show_machine", machine.picture, sample_machines.PICTURE], *steps[:there], ["sleep", 8], ["picture", "picture"]]
+    return sample_machines.run(machine, steps, "blendtp", framed=True, **ON_A_SCREEN)
+
+
+def main(folder, names):
     os.makedirs(folder, exist_ok=True)
+    for name in DRAWN:
+        if not names or name in names:
+            keep(folder, name, draw(name))
     for sample, (joints, axes) in SAMPLES.items():
+        if names and sample not in names:
+            continue
         # the program is on AXIS's command line, and AXIS reads it again as soon as it knows of frames
         steps = [["show", "axis", "PROGRAMS/part.ngc"], ["wait_pin", "axisui.abort"], ["sleep", 15],
                  ["start", "PROGRAMS/part.ngc"], *PICTURE, *END]
-        keep(folder, sample, harness.run(steps, program_of(sample), display="screen_driver.py", files=("screen_driver.py",),
-                                         record=False, timeout=180, sample=sample, joints=joints, axes=axes))
+        keep(folder, sample, harness.run(steps, program_of(sample), sample=sample, joints=joints, axes=axes, **ON_A_SCREEN))
     for name, screen in SCREENS.items():
+        if names and name not in names:
+            continue
         steps = [["ask", "drawn", "open", "PROGRAMS/part.ngc"], *screen_checks.START, *PICTURE, ["ask", "shown", "panel"],
                  ["sleep", 1], ["picture", "panel"], *END]
         keep(folder, name, screen.watch(steps, PROGRAM, record=False, timeout=180))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1], sys.argv[2:])

@@ -30,7 +30,7 @@ M2
 """
 
 
-def configured(*options):
+def configured(*options, kinematics=None):
     """A folder with axis_mm-framepath.ini and what belongs to it."""
     folder = tempfile.mkdtemp(prefix="framepath-configure.")
     with open(os.path.join(STOCK, "axis_mm.ini"), encoding="utf-8") as file:
@@ -38,6 +38,8 @@ def configured(*options):
     for line in NEED_A_SCREEN:
         assert line in text, line
         text = text.replace(line, "")
+    if kinematics:
+        text = harness.edit_ini(text, {("KINS", "KINEMATICS"): kinematics})
     with open(os.path.join(folder, "axis_mm.ini"), "w", encoding="utf-8") as file:
         file.write(text)
     shutil.copy(os.path.join(STOCK, "sim_mm.tbl"), folder)
@@ -46,8 +48,8 @@ def configured(*options):
 
 
 class Configure(unittest.TestCase):
-    def run_configured(self, steps, programs, *options):
-        folder = configured(*options)
+    def run_configured(self, steps, programs, *options, kinematics=None):
+        folder = configured(*options, kinematics=kinematics)
         self.addCleanup(shutil.rmtree, folder)
         return harness.run(steps, programs, sample="axis_mm-framepath", configuration=folder, record=False)
 
@@ -67,6 +69,14 @@ class Configure(unittest.TestCase):
         self.assertIsNone(result.failure, result.log)
         self.assertEqual(result.errors, [])
         for joint, place in enumerate((30, 10)):
+            self.assertAlmostEqual(result.answers["end"]["joints"][joint], place, places=4)
+
+    def test_frames_before_kinematics_that_stay(self):
+        result = self.run_configured([["run", "PROGRAMS/part.ngc"], ["note", "end"]], {"part.ngc": FRAMES},
+                                     "--frames", "--subroutines", SUBROUTINES, kinematics="corexykins")
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual((result.errors, result.status), ([], 0))
+        for joint, place in enumerate((40, 20)):
             self.assertAlmostEqual(result.answers["end"]["joints"][joint], place, places=4)
 
 

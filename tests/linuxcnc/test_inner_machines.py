@@ -111,12 +111,41 @@ class WithAFrame(InnerMachines):
         # 10 to the right and 7 up on the workpiece, which has turned
         self.near([TABLE.joints(result)], [(-7, 10, 0, 0, 90)], 1e-6)
 
-    def test_what_needs_to_know_how_the_tool_turns_is_refused(self):
-        for line in ("o<tool_normal> call", "o<retract> call [50]"):
-            result = TILTING.run_program(line, "G1 X10", inner="inner=xyzac-trt-kins tool_types=0")
-            said = "\n".join(result.errors)
-            self.assertIn("does not know how the kinematics behind framekins turn the tool", said, result.log)
-            self.near([TILTING.joints(result)], [(0,) * 5], CLOSE)
+    def test_the_tool_is_put_normal_to_the_frame_on_a_table(self):
+        lines = ["G43.1 Z15", "o<frame_refresh> call", "G10 L2 P1 X10 Y5 Z2 C20", "G1 X20 Y10 Z3 C15",
+                 "o<trans> call [5] [-3] [8]", "o<arot> call [20] [-15] [40]", "o<tool_normal> call", "G1 X20 Y10 Z3"]
+        own = self.good(OWN.run_program(*lines))
+        inner = self.good(TILTING.run_program(*lines, inner="inner=xyzac-trt-kins tool_types=0"))
+        self.near([TILTING.joints(inner)], [OWN.joints(own)], CLOSE)
+        self.assertGreater(abs(OWN.joints(own)[3]), 20)
+
+    def test_the_tool_is_put_normal_to_the_frame_by_a_head(self):
+        lines = ["G1 X20 Y10 Z-5 B5 C3 W2", "o<trans> call [50] [40] [-30]", "o<arot> call [0] [30] [0]",
+                 "o<arot> call [20] [0] [0]", "o<tool_normal> call", "G1 X0 Y0 Z0", "G91 G1 Z10"]
+        result = self.good(BRIDGE.run_program(*lines, inner="inner=5axiskins tool_types=0"))
+        x, y, z, b, c, w = BRIDGE.joints(result)
+        # by hand: the turn by 30 about Y, then by 20 about the new X, puts Z there
+        slope, lean = math.radians(30), math.radians(20)
+        normal = (math.sin(slope) * math.cos(lean), -math.sin(lean), math.cos(slope) * math.cos(lean))
+        # of the two ways to point there the nearer one; the head leans against X at B > 0
+        self.near([(b, c)], [(-math.degrees(math.acos(normal[2])), math.degrees(math.atan2(normal[1], normal[0])))], 1e-6)
+        # the pivot is 250 + W above the tip, along the tool
+        pivot = [10 * along + start + 252 * along for start, along in zip((50, 40, -30), normal, strict=True)]
+        self.near([(x, y, z, w)], [(pivot[0], pivot[1], pivot[2] - 250, 2)], 1e-6)
+
+    def test_what_cannot_be_turned_is_refused(self):
+        turned = ["o<rot> call [0] [20] [0]"]
+        for machine, lines, said in (
+                (SCARA, ["o<trans> call [1] [0] [0]", "o<tool_normal> call"],
+                 "cannot find out how the kinematics behind framekins turn the tool"),
+                (TABLE, [*turned, "o<tool_normal> call"],
+                 "no rotary axis turns the tool with the type that the kinematics have"),
+                (TILTING, ["o<tool_normal> call"], "needs a frame behind inner="),
+                (TILTING, ["o<retract> call [50]"], "does not know how the kinematics behind framekins turn the tool")):
+            kinematics = machine.kinematics.split()[0]
+            result = machine.run_program(*lines, "G1 X10", inner=f"inner={kinematics} tool_types={machine is not TILTING:d}")
+            self.assertIn(said, "\n".join(result.errors), result.log)
+            self.near([machine.joints(result)], [machine.home], CLOSE)
 
     def test_a_type_that_is_not_there_holds_the_machine(self):
         # by hand motion is in teleop mode, where no type changes

@@ -27,6 +27,9 @@ o<say> endsub
 
 MODES = "G21 G61.1 G17 G90 G94 F3000"
 
+#: codes of LinuxCNC's pull request 4374 that are not there
+UNKNOWN = ("G68.3", "G53.2", "G53.3", "G53.4", "G53.5", "G53.7", "G43.5")
+
 #: all orders of axes in which no axis follows itself
 ORDERS = [q for q in itertools.product((1, 2, 3), repeat=3) if q[0] != q[1] and q[1] != q[2]]
 ANGLES = (25.0, -40.0, 70.0)
@@ -99,6 +102,19 @@ class Planes(unittest.TestCase):
             (["G68.2 I50 J50", "G68.2 X1 J90"], (0, 10, 0), (1, 0, 10)),
         ])
 
+    def test_a_plane_in_a_plane(self):
+        first, second = turned((3, 1, 3), ANGLES), (40.0, 15.0, -55.0)
+        plane = f"G68.2 {words('XYZ', ORIGIN)} {words('IJK', ANGLES)}"
+        there = numpy.array([3, 4, -6])
+        cases = []
+        for kind, rotation in ((0, turned), (1, fixed)):
+            for order in ((3, 1, 3), (1, 2, 3), (2, 3, 2)):
+                code = f"G68.4 P{kind} Q{''.join(map(str, order))} {words('XYZ', there)} {words('IJK', second)} R20"
+                cases.append(([plane, code], POINT, ORIGIN + first @ (there + rotation(order, second) @ about(3, 20) @ POINT)))
+        # without a plane it is one, Q is 313, and another one comes into it
+        cases.append((["G68.4 X1 J90", "G68.4 Z5"], (0, 10, 0), (1, -5, 10)))
+        self.check(cases)
+
     def test_a_plane_belongs_to_the_work_offset(self):
         offset = numpy.array([30, 20, 10])
         rotation = about(3, 35) @ turned((3, 1, 3), ANGLES)
@@ -151,7 +167,15 @@ class WrongUse(unittest.TestCase):
             (["G68.2 P3 Q1 X0 Y0 Z0 I0 J0 K0"], "has no length"),
             (["G68.2 P3 Q1 X0 Y0 Z0 I1 J0 K0", "G68.2 P3 Q2 I0.1 J0 K1"], "not at right angles: they are 5.711 degrees"),
             (["G69 X1"], "G69 takes no words"),
-            (["G53.1 P1"], "G53.1 takes no words"),
+            (["G53.1 P1"], "G53.1 and G53.6 take no words"),
+            (["G53.6 Q1"], "G53.1 and G53.6 take no words"),
+            (["G68.4"], "G68.4 needs X, Y, Z, I, J, K or R"),
+            (["G68.4 P1 I10"], "G68.4 P1 needs Q"),
+            (["G68.4 P2 Q1 X0 Y0 Z0"], "G68.4 takes angles only"),
+            (["G68.4 Q113 I10"], "Q113.000 is no order of three axes"),
+            (["G68.4 X1 D5"], "takes P, Q, X, Y, Z, I, J, K and R only"),
+            (["G68.2 P2 Q1 X0 Y0 Z0", "G68.4 J10"], "P2 Q2 is missing"),
+            *(([f"{code} X1"], "Unknown g code used") for code in UNKNOWN),
             (["G43.4 H1 X5"], "G43.4 takes H only"),
             (["G43.4 H1"], "tilting rotary tables of framekins"),
         ]
@@ -208,6 +232,15 @@ class FiveAxes(unittest.TestCase):
         tip = on_the_table(list(place), -20, -30)
         for got, wanted in zip(joints[:3], [tip[0], tip[1], tip[2] + 20], strict=True):
             self.assertAlmostEqual(got, wanted, places=6)
+
+    def test_g53_6_is_g53_1(self):
+        lines = ["T2 M6", "G43.4 H2", "G68.2 X10 Y5 I30 J20 K-10", "G0 X0 Y0 Z10"]
+        places = []
+        for code in ("G53.1", "G53.6"):
+            result = self.run_steps([RUN, ["note", "end"]], *lines, code, "G1 X3 Y4 Z5")
+            self.good(result)
+            places.append(result.answers["end"]["joints"][:5])
+        self.assertEqual(*places)
 
     def test_a_move_behind_g49_is_refused_by_name(self):
         for last in ("G49", "G43 H1"):

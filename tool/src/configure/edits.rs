@@ -9,6 +9,9 @@ use std::path::Path;
 
 /// Begins the HAL file.
 const HEAD: &str = "# What blendtp and framekins need of HAL, behind the other HAL files. Written by framepath configure.\n";
+/// Begins the HAL file that comes first.
+const FIRST_HEAD: &str =
+    "# framekins, before the kinematics and motmod. Written by framepath configure.\n";
 
 /// The text of the INI file as it is; what is no UTF-8 would be written as something else.
 pub fn original(file: &Path) -> Result<String, IniError> {
@@ -40,7 +43,19 @@ pub struct Edits<'a> {
     added: BTreeMap<usize, Vec<String>>,
     new_sections: Vec<(String, Vec<String>)>,
     hal: Vec<String>,
+    /// Of a HAL file that comes before all others.
+    first_hal: Vec<String>,
     refusals: Vec<Refusal>,
+}
+
+/// What is to be written.
+pub struct Written {
+    /// The INI file, but for the HAL files of ours.
+    pub ini: String,
+    /// The HAL file behind the others.
+    pub hal: String,
+    /// The one before the others.
+    pub first_hal: Option<String>,
 }
 
 impl<'a> Edits<'a> {
@@ -54,6 +69,7 @@ impl<'a> Edits<'a> {
             added: BTreeMap::new(),
             new_sections: Vec::new(),
             hal: Vec::new(),
+            first_hal: Vec::new(),
             refusals: Vec::new(),
         }
     }
@@ -70,6 +86,27 @@ impl<'a> Edits<'a> {
     /// A line of the HAL file.
     pub fn add_hal(&mut self, line: impl Into<String>) {
         self.hal.push(line.into());
+    }
+
+    /// A line of the HAL file that comes first.
+    pub fn first_hal(&mut self, line: impl Into<String>) {
+        self.first_hal.push(line.into());
+    }
+
+    /// Names that file in the INI file, if it is needed.
+    pub fn name_first_hal(&mut self, name: &str) {
+        let Some(entry) = self.ini.entry("HAL", "HALFILE") else {
+            return self.add_last("HAL", "HALFILE", name);
+        };
+        if !self.first_hal.is_empty() {
+            let line = format!("HALFILE = {name}\nHALFILE = {}", entry.value);
+            self.replace(entry, &line);
+        }
+    }
+
+    /// Another value for one of several keys of a name.
+    pub fn set_entry(&mut self, entry: &Entry, value: &str) {
+        self.replace(entry, &format!("{} = {value}", entry.key));
     }
 
     /// Sets a key, in place of its line if it is there.
@@ -150,11 +187,11 @@ impl<'a> Edits<'a> {
         self.added.entry(end).or_default().push(line);
     }
 
-    /// The new INI file and the new HAL file.
+    /// The new files.
     ///
     /// # Errors
     /// What is in the way.
-    pub fn finish(self) -> Result<(String, String), ConfigureError> {
+    pub fn finish(self) -> Result<Written, ConfigureError> {
         if !self.refusals.is_empty() {
             return Err(ConfigureError::Refused(self.refusals));
         }
@@ -176,6 +213,11 @@ impl<'a> Edits<'a> {
         for (section, lines) in self.new_sections {
             text.push_str(&format!("\n[{section}]\n{}\n", lines.join("\n")));
         }
-        Ok((text, format!("{HEAD}{}\n", self.hal.join("\n"))))
+        let is_needed = !self.first_hal.is_empty();
+        Ok(Written {
+            ini: text,
+            hal: format!("{HEAD}{}\n", self.hal.join("\n")),
+            first_hal: is_needed.then(|| format!("{FIRST_HEAD}{}\n", self.first_hal.join("\n"))),
+        })
     }
 }

@@ -3,8 +3,11 @@
 
 use super::ConfigureArguments;
 use super::edits::Edits;
+use super::inner;
 use crate::wiring::codes::{CODES, Remap};
-use crate::wiring::framekins::{ADD_FUNCTION, MOST_OUTPUTS, NETS, OUTPUTS, SAMPLE_OUTPUTS, Source};
+use crate::wiring::framekins::{
+    ADD_FUNCTION, MOST_OUTPUTS, MOTION_TYPE, NETS, OUTPUTS, SAMPLE_OUTPUTS, Source,
+};
 use crate::wiring::previews::screen;
 use crate::wiring::settings::{KEYS, SECTION};
 use crate::wiring::subject::{Subject, guard_line};
@@ -20,7 +23,11 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
         );
     }
     readable(subject, edits);
-    kinematics(subject, edits);
+    if subject.kinematics() == "trivkins" {
+        trivial_kinematics(subject, edits);
+    } else {
+        inner::write(subject, edits);
+    }
     let first = first_output(subject);
     let Some(first) = first else {
         let place = subject.place_of_module("motmod");
@@ -65,42 +72,18 @@ fn readable(subject: &Subject, edits: &mut Edits) {
     }
 }
 
-fn kinematics(subject: &Subject, edits: &mut Edits) {
+/// framekins takes their place.
+fn trivial_kinematics(subject: &Subject, edits: &mut Edits) {
     let place = subject.place_of("KINS", "KINEMATICS");
     let words = subject.text("KINS", "KINEMATICS").unwrap_or("");
     let known = |word: &str| word.starts_with("coordinates=") || word.starts_with("kinstype=");
     let other = words.split_whitespace().skip(1).find(|word| !known(word));
-    match (subject.kinematics(), other) {
-        ("trivkins", None) => {}
-        ("trivkins", Some(word)) => {
-            return edits.refuse(
-                &place,
-                format!("framekins does not know `{word}`"),
-                "coordinates=, a letter for each joint",
-            );
-        }
-        (module @ ("xyzac-trt-kins" | "xyzbc-trt-kins"), _) => {
-            let machine = module.trim_end_matches("-trt-kins");
-            let help = format!(
-                "framekins serves this machine as machine={machine}: begin with the sample framepath-xyzac, and take over the \
-                 dimensions from {module}; or {}",
-                by_hand(module)
-            );
-            return edits.refuse(
-                &place,
-                format!("the pins of {module} have other names"),
-                help,
-            );
-        }
-        (module, _) => {
-            return edits.refuse(
-                &place,
-                format!(
-                    "the kinematics are {module}, and --frames takes the place of trivkins only"
-                ),
-                by_hand(module),
-            );
-        }
+    if let Some(word) = other {
+        return edits.refuse(
+            &place,
+            format!("framekins does not know `{word}`"),
+            "coordinates=, a letter for each joint",
+        );
     }
     let letters: String = subject.joints.iter().collect();
     let count = subject.number("KINS", "JOINTS").unwrap_or(0.0);
@@ -141,14 +124,6 @@ fn kinematics(subject: &Subject, edits: &mut Edits) {
             help,
         );
     }
-}
-
-/// How frames come before kinematics that stay.
-fn by_hand(module: &str) -> String {
-    format!(
-        "write loadrt framekins inner={module} before everything else and the nets of man framekins by hand (framepath check \
-         says which), and do without --frames"
-    )
 }
 
 /// The first of nine analog outputs in a row that nothing is linked to.
@@ -200,6 +175,11 @@ fn motion(subject: &Subject, first: u32, edits: &mut Edits) {
 fn nets(subject: &Subject, first: u32, edits: &mut Edits) {
     for net in &NETS {
         let source = net.source_pin(first);
+        if net.pin == MOTION_TYPE && subject.kinematics() != "trivkins" {
+            // What chose a type there goes to framekins.
+            edits.add_hal(net.line(first));
+            continue;
+        }
         let is_motions = |pin: &str| pin.starts_with("motion.");
         match (subject.state.signal_of(net.pin), net.source) {
             (Some(signal), Source::Pin(own)) if is_motions(net.pin) => {

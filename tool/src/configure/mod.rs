@@ -6,6 +6,7 @@
 mod edits;
 mod error;
 mod frames;
+mod inner;
 mod planner;
 
 pub use error::{ConfigureError, Refusal};
@@ -42,8 +43,8 @@ pub struct ConfigureArguments {
     pub force: bool,
 }
 
-/// Writes `NAME-framepath.ini` and `NAME-framepath.hal` beside the INI file, and what they change to standard output
-/// as a unified diff.
+/// Writes `NAME-framepath.ini` and `NAME-framepath.hal` beside the INI file (and `NAME-framepath-first.hal`, where framekins comes
+/// before kinematics that stay), and what they change to standard output as a unified diff.
 ///
 /// # Errors
 /// What cannot be configured, with the line that is in its way; files that are there already or cannot be
@@ -53,29 +54,34 @@ pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
     let (ini, problems) = Ini::parse_all(&arguments.ini, &text);
     let script = read_script(&ini, &[]);
     let subject = Subject::new(ini, problems, script);
-    let [ini_file, hal_file] = ["ini", "hal"].map(|ending| beside(&arguments.ini, ending));
+    let [ini_file, hal_file, first_file] =
+        [".ini", ".hal", "-first.hal"].map(|ending| beside(&arguments.ini, ending));
     let mut edits = Edits::new(&subject.ini, &text);
     planner::write(&subject, arguments, &mut edits);
     if arguments.frames {
         frames::write(&subject, arguments, &mut edits);
     }
-    let name = hal_file.file_name().unwrap_or_default();
-    edits.add_last("HAL", "HALFILE", &name.to_string_lossy());
-    let (new_ini, new_hal) = edits.finish()?;
-    let there = [&ini_file, &hal_file]
-        .into_iter()
-        .find(|file| file.exists());
-    if let Some(file) = there.filter(|_| !arguments.force) {
-        return Err(ConfigureError::Exists(file.clone()));
+    edits.name_first_hal(&name_of(&first_file));
+    edits.add_last("HAL", "HALFILE", &name_of(&hal_file));
+    let written = edits.finish()?;
+    let mut files = vec![(&ini_file, &written.ini), (&hal_file, &written.hal)];
+    files.extend(written.first_hal.as_ref().map(|text| (&first_file, text)));
+    let there = files.iter().find(|(file, _)| file.exists());
+    if let Some((file, _)) = there.filter(|_| !arguments.force) {
+        return Err(ConfigureError::Exists(file.to_path_buf()));
     }
-    let files = [begun(&ini_file, &new_ini)?, begun(&hal_file, &new_hal)?];
-    for file in files {
+    let begun: Result<Vec<OutputFile>, ConfigureError> =
+        files.iter().map(|(file, text)| begun(file, text)).collect();
+    for file in begun? {
         let name = file.name().to_owned();
         let finished = file.finish();
         finished.map_err(|source| ConfigureError::Write { file: name, source })?;
     }
-    let difference = difference(&arguments.ini, &text, &ini_file, &new_ini)
-        + &difference(Path::new("/dev/null"), "", &hal_file, &new_hal);
+    let new = files.iter().skip(1);
+    let difference = difference(&arguments.ini, &text, &ini_file, &written.ini)
+        + &new
+            .map(|(file, text)| difference(Path::new("/dev/null"), "", file, text))
+            .collect::<String>();
     let mut output = io::stdout().lock();
     let written = output.write_all(difference.as_bytes());
     written
@@ -86,10 +92,17 @@ pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
         })
 }
 
-/// `NAME-framepath.ENDING` beside `NAME.ini`.
+fn name_of(file: &Path) -> String {
+    file.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// `NAME-framepathENDING` beside `NAME.ini`.
 fn beside(ini: &Path, ending: &str) -> PathBuf {
     let stem = ini.file_stem().unwrap_or_default().to_string_lossy();
-    ini.with_file_name(format!("{stem}-framepath.{ending}"))
+    ini.with_file_name(format!("{stem}-framepath{ending}"))
 }
 
 fn begun(file: &Path, text: &str) -> Result<OutputFile, ConfigureError> {

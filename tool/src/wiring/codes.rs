@@ -30,7 +30,7 @@ const fn code(code: &'static str, subroutine: &'static str) -> Code {
 }
 
 /// All of them.
-pub const CODES: [Code; 20] = [
+pub const CODES: [Code; 22] = [
     code("G77", "code_off"),
     code("G77.1", "code_trans"),
     code("G77.2", "code_rot"),
@@ -47,8 +47,10 @@ pub const CODES: [Code; 20] = [
     code("G78.6", "code_amirror"),
     code("G79", "code_machine_move"),
     code("G68.2", "code_plane"),
+    code("G68.4", "code_plane_on"),
     code("G69", "code_plane_off"),
     code("G53.1", "code_tool_normal"),
+    code("G53.6", "code_tool_normal"),
     code("G43.4", "code_tool_centre"),
     code("M6", "frame_tool_change"),
 ];

@@ -1,5 +1,10 @@
 //! framekins: its nets, its other pins, its place in the servo thread, and frame_guard.
 
+/// Where motion reads the type of the kinematics.
+pub const MOTION_TYPE: &str = "motion.switchkins-type";
+/// Where framekins does, before the kinematics of another module.
+pub const INNER_TYPE: &str = "framekins.inner-type";
+
 /// A frame takes this many analog outputs in a row, and motmod has at most so many.
 pub const OUTPUTS: u32 = 9;
 /// Of motmod.
@@ -143,7 +148,7 @@ pub const NETS: [Net; 18] = [
     net(
         "frame-switch",
         Pin("framekins.switchkins-type"),
-        "motion.switchkins-type",
+        MOTION_TYPE,
         "motion never switches to a frame",
     ),
     net(
@@ -218,7 +223,7 @@ pub fn table_pins(tilt: char, joints: &[char]) -> Vec<TablePin> {
 }
 
 /// Pins that only a machine with a tilting table has.
-const TABLE_ONLY: [&str; 13] = [
+const TABLE_ONLY: [&str; 9] = [
     "x-rot-point",
     "y-rot-point",
     "z-rot-point",
@@ -228,17 +233,16 @@ const TABLE_ONLY: [&str; 13] = [
     "tool-offset",
     "conventional-directions",
     "tool-centre-point",
-    "tilt-min",
-    "tilt-max",
-    "rotary-min",
-    "rotary-max",
 ];
+
+/// Pins that a machine has whose axes turn the tool: with a tilting table, and before the kinematics of another module.
+const RANGES: [&str; 4] = ["tilt-min", "tilt-max", "rotary-min", "rotary-max"];
 
 /// Pins that are there before the kinematics of another module only.
 const INNER_ONLY: [&str; 3] = ["inner-type", "inner-type-active", "inner-refusal"];
 
 /// All others that are not in [`NETS`].
-const OTHERS: [&str; 48] = [
+const OTHERS: [&str; 50] = [
     "map.xx",
     "map.xy",
     "map.xz",
@@ -272,6 +276,8 @@ const OTHERS: [&str; 48] = [
     "normal-refusal",
     "normal-tilt",
     "normal-rotary",
+    "normal-tilt-axis",
+    "normal-rotary-axis",
     "version",
     "release-on-abort",
     "release",
@@ -295,6 +301,12 @@ pub fn needs_table(pin: &str) -> bool {
         .is_some_and(|name| TABLE_ONLY.contains(&name))
 }
 
+/// Whether framekins has this pin with a tilting table or before the kinematics of another module.
+pub fn needs_turning_axes(pin: &str) -> bool {
+    pin.strip_prefix("framekins.")
+        .is_some_and(|name| RANGES.contains(&name))
+}
+
 /// Three rows of the map of a frame.
 const MAP: [&str; 12] = [
     "xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z",
@@ -312,6 +324,7 @@ pub fn has_pin(pin: &str) -> bool {
     let others = |name: &str| {
         OTHERS.contains(&name)
             || TABLE_ONLY.contains(&name)
+            || RANGES.contains(&name)
             || INNER_ONLY.contains(&name)
             || name.starts_with("guard.work-offset.")
             || name.starts_with("guard.frame-tool-offset.")

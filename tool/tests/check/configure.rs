@@ -118,6 +118,86 @@ fn signals_and_outputs_that_are_taken_are_kept() {
     }
 }
 
+/// The sample of a linear delta, with kinematics and HAL commands changed: the folder, and what configure says.
+fn delta(kinematics: &str, commands: &str) -> (tempfile::TempDir, Output) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ini = fs::read_to_string(Path::new(STOCK).join("ldelta.ini")).expect("a text");
+    let changed = ini
+        .replacen("KINEMATICS = lineardeltakins", kinematics, 1)
+        .replacen("HALUI = halui", commands, 1);
+    fs::write(folder.path().join("axis_mm.ini"), changed).expect("written");
+    fs::copy(
+        Path::new(STOCK).join("sim.tbl"),
+        folder.path().join("sim.tbl"),
+    )
+    .expect("copied");
+    let arguments = [
+        "configure",
+        "axis_mm.ini",
+        "--frames",
+        "--subroutines",
+        &subroutines(),
+    ];
+    let output = framepath(folder.path(), &arguments);
+    (folder, output)
+}
+
+#[test]
+fn framekins_comes_before_kinematics_that_stay() {
+    let (folder, output) = delta("KINEMATICS = lineardeltakins", "HALUI = halui");
+    let written = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    // of the sample itself its velocities are said
+    let found = findings(folder.path()).to_string();
+    assert!(
+        !found.contains("kins") && !found.contains(".hal"),
+        "{found}"
+    );
+    for lines in [
+        "+HALFILE = axis_mm-framepath-first.hal\n HALFILE = sim_ldelta.hal\n",
+        "+loadrt framekins inner=lineardeltakins\n",
+        "+net frame-switch framekins.switchkins-type => motion.switchkins-type\n",
+        "+ANALOG_OUTPUT = 0\n",
+    ] {
+        assert!(written.contains(lines), "{lines} in {written}");
+    }
+    assert!(!written.contains("KINEMATICS ="), "{written}");
+    let first = fs::read_to_string(folder.path().join("axis_mm-framepath-first.hal"));
+    assert!(first.expect("a text").ends_with("inner=lineardeltakins\n"));
+}
+
+#[test]
+fn what_chooses_a_type_of_the_kinematics_goes_to_framekins() {
+    let table = "KINEMATICS = xyzac-trt-kins sparm=identityfirst";
+    let tool = "HALCMD = net tool motion.tooloffset.z => xyzac-trt-kins.tool-offset";
+    let select = "net select motion.analog-out-03 => motion.switchkins-type";
+    let (folder, output) = delta(table, &format!("{tool}\nHALCMD = {select}"));
+    let written = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for lines in [
+        "+loadrt framekins inner=xyzac-trt-kins tool_types=1\n",
+        "+HALCMD = net select motion.analog-out-03 => framekins.inner-type\n",
+        "+net frame-command motion.analog-out-04 => framekins.command\n",
+        "+net tool => framekins.tool-offset.z\n",
+    ] {
+        assert!(written.contains(lines), "{lines} in {written}");
+    }
+    let found = findings(folder.path()).to_string();
+    assert!(!found.contains("framekins"), "{found}");
+    // in a HAL file of the user's, which stays as it is
+    fs::write(folder.path().join("own.hal"), format!("{select}\n")).expect("written");
+    let ini = fs::read_to_string(folder.path().join("axis_mm.ini")).expect("a text");
+    let ini = ini.replacen(&format!("HALCMD = {select}"), "HALFILE = own.hal", 1);
+    fs::write(folder.path().join("axis_mm.ini"), ini).expect("written");
+    let output = framepath(
+        folder.path(),
+        &["configure", "axis_mm.ini", "--frames", "--force"],
+    );
+    let written = text(&output.stdout);
+    let lines = "+unlinkp motion.switchkins-type\n+net select => framekins.inner-type\n";
+    assert!(written.contains(lines), "{written}{}", text(&output.stderr));
+}
+
 #[test]
 fn other_screens_get_files_of_their_own_and_a_file_of_the_users_stays() {
     for (screen, line) in [
@@ -193,15 +273,15 @@ fn files_that_are_there_are_replaced_by_force_only() {
 const REFUSED: [(&str, &str, &[&str], &str); 9] = [
     (
         "KINEMATICS = trivkins",
-        "KINEMATICS = rotatekins",
+        "KINEMATICS =",
         &["--frames"],
-        "axis_mm.ini:135:1: error: the kinematics are rotatekins, and --frames takes the place of trivkins only",
+        "axis_mm.ini:135:1: error: [KINS]KINEMATICS names no module",
     ),
     (
         "KINEMATICS = trivkins",
-        "KINEMATICS = xyzac-trt-kins",
+        "KINEMATICS = trivkins colour=red",
         &["--frames"],
-        "axis_mm.ini:135:1: error: the pins of xyzac-trt-kins have other names",
+        "axis_mm.ini:135:1: error: framekins does not know `colour=red`",
     ),
     (
         "HALFILE = core_sim.hal",

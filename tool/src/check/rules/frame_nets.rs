@@ -3,7 +3,7 @@
 use crate::check::finding::{Findings, Remedy, add, advice, if_missing, replace};
 use crate::wiring::framekins::{
     MOST_OUTPUTS, NETS, Net, OUTPUTS, SAMPLE_OUTPUTS, Source, USUAL_OUTPUTS, has_pin, needs_inner,
-    needs_table,
+    needs_table, needs_turning_axes,
 };
 use crate::wiring::subject::Subject;
 
@@ -42,6 +42,13 @@ fn unknown_pins(subject: &Subject, findings: &mut Findings) {
                     word.text
                 );
                 let remedy = "write machine=xyzac or machine=xyzbc behind framekins under [KINS]KINEMATICS, or remove the line";
+                findings.error(&word.place, found, advice(remedy));
+            } else if needs_turning_axes(&word.text) && !has_table && subject.inner().is_none() {
+                let found = format!(
+                    "{} is there with a tilting table or inner= only, and halcmd refuses the line",
+                    word.text
+                );
+                let remedy = "remove the line, or name the machine: machine=xyzac or machine=xyzbc behind framekins under [KINS]KINEMATICS, or loadrt framekins inner= before all others";
                 findings.error(&word.place, found, advice(remedy));
             } else if needs_inner(&word.text) && subject.inner().is_none() {
                 let found = format!(

@@ -3,14 +3,9 @@
 
 use crate::check::finding::{Findings, add, advice, if_missing, replace};
 use crate::hal::Module;
-use crate::wiring::framekins::OUTPUTS;
+use crate::wiring::framekins::{INNER_TYPE as TYPE, MOTION_TYPE as MOTION, OUTPUTS};
 use crate::wiring::subject::Subject;
 use framepath::kinematics::inner::tool_types;
-
-/// Where framekins reads the type.
-const TYPE: &str = "framekins.inner-type";
-/// Where motion does.
-const MOTION: &str = "motion.switchkins-type";
 
 pub fn look(subject: &Subject, module: &Module, inner: &str, findings: &mut Findings) {
     parameters(module, inner, findings);

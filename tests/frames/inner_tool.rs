@@ -1,0 +1,234 @@
+//! How kinematics of another module turn the tool: tables, heads, one of each, and those of which it cannot be known.
+
+use framepath::axes::Axes;
+use framepath::kinematics::inner::InnerKinematics;
+use framepath::kinematics::inner_tool::{Unknown, rotary_chain};
+use framepath::kinematics::{
+    AngleRange, OrientationError, RotaryAngles, RotaryChain, RotaryLimits, ToolNormalError,
+    inner_normal, tool_angles,
+};
+use framepath::machine::{Machine, TableTiltingParameters};
+use nalgebra::{Rotation3, Unit, Vector3};
+use proptest::prelude::*;
+
+/// Joints for a tip and the angles A B C, by a formula.
+struct Formula<F>(F);
+
+impl<F: FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6]> InnerKinematics for Formula<F> {
+    fn inverse(&mut self, axes: &Axes, joints: &mut [f64; 16]) -> i32 {
+        let [x, y, z, a, b, c, ..]: [f64; 9] = (*axes).into();
+        joints[..6].copy_from_slice(&(self.0)(Vector3::new(x, y, z), [a, b, c]));
+        0
+    }
+
+    fn forward(&mut self, _: &[f64; 16], _: &mut Axes) -> i32 {
+        0
+    }
+}
+
+fn about(line: Vector3<f64>, degrees: f64) -> Rotation3<f64> {
+    Rotation3::from_axis_angle(&Unit::new_normalize(line), degrees.to_radians())
+}
+
+fn joints(place: Vector3<f64>, [a, b, c]: [f64; 3]) -> [f64; 6] {
+    [place.x, place.y, place.z, a, b, c]
+}
+
+/// A head that turns about Z by C and, carried by it, about this line by B, so far above the tip.
+fn head(line: Vector3<f64>, reach: f64) -> impl FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6] {
+    move |tip, angles| {
+        let tool = about(Vector3::z(), angles[2]) * about(line, angles[1]) * Vector3::z();
+        joints(tip + reach * (tool - Vector3::z()), angles)
+    }
+}
+
+/// A table turns about Z by C, a head about -Y by B.
+fn mixed(tip: Vector3<f64>, angles: [f64; 3]) -> [f64; 6] {
+    let tool = about(-Vector3::y(), angles[1]) * Vector3::z();
+    let centre = Vector3::new(3.0, -2.0, 0.0);
+    let turned = about(Vector3::z(), angles[2]) * (tip - centre) + centre;
+    joints(turned + 80.0 * (tool - Vector3::z()), angles)
+}
+
+fn ask(inner: &mut impl InnerKinematics) -> Result<Option<RotaryChain>, Unknown> {
+    let here = Axes::from([12.0, -5.0, 30.0, 7.0, -11.0, 23.0, 0.0, 0.0, 0.0]);
+    rotary_chain(inner, &here, &[0.0; 16])
+}
+
+fn found(formula: impl FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6]) -> RotaryChain {
+    ask(&mut Formula(formula))
+        .expect("known")
+        .expect("something turns")
+}
+
+fn letters(chain: &RotaryChain) -> (usize, Option<usize>) {
+    (chain.tilt.letter, chain.rotary.map(|axis| axis.letter))
+}
+
+const UNLIMITED: RotaryLimits = RotaryLimits {
+    tilt: AngleRange::UNLIMITED,
+    rotary: AngleRange::UNLIMITED,
+};
+
+#[test]
+fn a_head_points_where_its_angles_say() {
+    let chain = found(head(Vector3::y(), 250.0));
+    assert_eq!(letters(&chain), (1, Some(2)));
+    let (tilt, rotary) = (30.0_f64, 90.0);
+    let tool = chain.direction(RotaryAngles { tilt, rotary });
+    // by hand: B leans the tool to X, C turns that to Y
+    let expected = Vector3::new(0.0, 0.5, 0.75_f64.sqrt());
+    assert!((tool - expected).norm() < 1e-12, "{tool}");
+}
+
+#[test]
+fn a_head_beside_a_table() {
+    let chain = found(mixed);
+    assert_eq!(letters(&chain), (1, Some(2)));
+    let tool = chain.direction(RotaryAngles {
+        tilt: 30.0,
+        rotary: 90.0,
+    });
+    // the workpiece has turned the other way round
+    let expected = Vector3::new(0.0, 0.5, 0.75_f64.sqrt());
+    assert!((tool - expected).norm() < 1e-12, "{tool}");
+}
+
+#[test]
+fn a_head_with_a_slanting_axis_reaches_half_of_the_directions() {
+    let chain = found(head(Vector3::new(0.0, 1.0, 1.0), 100.0));
+    let level = RotaryAngles {
+        tilt: 0.0,
+        rotary: 0.0,
+    };
+    let [first, second] = chain.solutions(&Vector3::x(), level).expect("reached");
+    for angles in [first, second] {
+        assert!((chain.direction(angles) - Vector3::x()).norm() < 1e-9);
+    }
+    let below = chain.solutions(&Vector3::new(1.0, 0.0, -0.01), level);
+    assert!(matches!(below, Err(OrientationError::Unreachable { .. })));
+}
+
+#[test]
+fn one_axis_alone_reaches_its_circle() {
+    let chain = found(|tip, angles| joints(about(Vector3::x(), angles[0]) * tip, angles));
+    assert_eq!(letters(&chain), (0, None));
+    let level = RotaryAngles {
+        tilt: 0.0,
+        rotary: 0.0,
+    };
+    let direction = Vector3::new(0.0, 1.0, 3.0_f64.sqrt());
+    let [first, second] = chain.solutions(&direction, level).expect("reached");
+    assert_eq!(first, second);
+    assert!((first.tilt - 30.0).abs() < 1e-9);
+    let beside = chain.solutions(&Vector3::new(0.1, 1.0, 1.0), level);
+    assert!(matches!(beside, Err(OrientationError::Unreachable { .. })));
+}
+
+#[test]
+fn two_tilting_axes_are_put_in_order() {
+    // B carries A
+    let table = |tip: Vector3<f64>, [a, b, c]: [f64; 3]| {
+        joints(
+            about(Vector3::y(), b) * about(Vector3::x(), a) * tip,
+            [a, b, c],
+        )
+    };
+    let chain = found(table);
+    let tool = chain.direction(RotaryAngles {
+        tilt: 20.0,
+        rotary: 50.0,
+    });
+    let (tilt, rotary) = match letters(&chain) {
+        (1, Some(0)) => (20.0, 50.0),
+        other => panic!("{other:?}"),
+    };
+    let turn = about(Vector3::y(), tilt) * about(Vector3::x(), rotary);
+    assert!((turn * tool - Vector3::z()).norm() < 1e-12);
+}
+
+#[test]
+fn axes_that_turn_nothing_are_told_from_those_that_are_not_understood() {
+    assert_eq!(ask(&mut Formula(joints)), Ok(None));
+    // two arms
+    let arms = |tip: Vector3<f64>, angles: [f64; 3]| {
+        let (reach, bearing) = (tip.x.hypot(tip.y), tip.y.atan2(tip.x).to_degrees());
+        joints(Vector3::new(reach, bearing, tip.z), angles)
+    };
+    assert_eq!(ask(&mut Formula(arms)), Err(Unknown));
+    // a head whose axes do not meet
+    let bent = |tip: Vector3<f64>, angles: [f64; 3]| {
+        let arm = about(Vector3::z(), angles[2]);
+        let tool = arm * about(Vector3::y(), angles[1]) * Vector3::z();
+        joints(
+            tip + 100.0 * tool + arm * Vector3::new(15.0, 0.0, 0.0),
+            angles,
+        )
+    };
+    assert_eq!(ask(&mut Formula(bent)), Err(Unknown));
+    let fails = |_, _| [f64::NAN; 6];
+    assert_eq!(ask(&mut Formula(fails)), Err(Unknown));
+}
+
+#[test]
+fn without_an_axis_that_turns_only_what_is_upright_is_normal() {
+    let mut motion = crate::common::Motion::new("identity", "XYZ");
+    let position = Axes::zeros();
+    let normal = |motion: &crate::common::Motion| {
+        inner_normal(None, motion.control.active(), &position, &UNLIMITED)
+    };
+    assert_eq!(normal(&motion), Ok(None));
+    assert_eq!(motion.send(2, [10.0, 0.0, 0.0]), None);
+    assert_eq!(normal(&motion), Err(ToolNormalError::NothingTurnsTool));
+}
+
+proptest! {
+    /// Of our own table, asked as if it were another module's, come the angles that are known for it.
+    #[test]
+    fn a_table_has_the_angles_of_our_own(
+        polar in 0.001_f64..1.5, bearing in -3.1_f64..3.1, tilt in -60.0_f64..60.0, rotary in -300.0_f64..300.0,
+        is_a in any::<bool>(), conventional in any::<bool>(),
+    ) {
+        let (name, letters) = if is_a { ("xyzac", "XYZAC") } else { ("xyzbc", "XYZBC") };
+        let mut machine = Machine::configured(name.as_bytes(), letters.as_bytes()).expect("a machine");
+        let parameters = TableTiltingParameters {
+            rotation_point: Vector3::new(10.0, -20.0, 30.0),
+            offset: Vector3::new(if is_a { 0.0 } else { 5.0 }, if is_a { 20.0 } else { 0.0 }, 7.0),
+            tool_offset: 50.0,
+            direction: if conventional {
+                framepath::machine::RotaryDirection::Conventional
+            } else {
+                framepath::machine::RotaryDirection::Table
+            },
+            tool_centre_point: true,
+        };
+        machine.set_parameters(&parameters).expect("dimensions");
+        let mut inner = Table(machine);
+        let chain = ask(&mut inner).expect("known").expect("something turns");
+        let direction = Vector3::new(polar.sin() * bearing.cos(), polar.sin() * bearing.sin(), polar.cos());
+        let current = RotaryAngles { tilt, rotary };
+        let Machine::TableTilting(table) = &machine else { unreachable!() };
+        let limits = AngleRange::UNLIMITED;
+        let known = tool_angles(table, &direction, current, limits, limits).expect("reached");
+        let [first, second] = chain.solutions(&direction, current).expect("reached");
+        let near = |angles: &RotaryAngles| {
+            let turns = (angles.rotary - known.rotary) / 360.0;
+            (angles.tilt - known.tilt).abs() < 1e-7 && (turns - turns.round()).abs() < 1e-9
+        };
+        prop_assert!(near(&first) || near(&second), "{first:?} {second:?} {known:?}");
+    }
+}
+
+struct Table(Machine);
+
+impl InnerKinematics for Table {
+    fn inverse(&mut self, axes: &Axes, joints: &mut [f64; 16]) -> i32 {
+        self.0.inverse(axes, joints);
+        0
+    }
+
+    fn forward(&mut self, joints: &[f64; 16], axes: &mut Axes) -> i32 {
+        *axes = self.0.forward(joints);
+        0
+    }
+}
