@@ -37,8 +37,13 @@ class AxisFrames(FrameWindow):
             self.axis["root_window"].after(UP, self.read_again)
             return
         # what a filter has refused was said once, and there is nothing to read
-        if self.axis["loaded_file"] and self.window.canon:
-            self.axis["reload_file"](False)
+        if self.window.canon:
+            if self.axis["loaded_file"]:
+                self.axis["reload_file"](False)
+            else:
+                # 2.10 does not know by name what it has opened by itself; LinuxCNC has it as it was translated
+                self.window.stat.poll()
+                self.axis["open_file_guts"](self.window.stat.file, True, False)
             self.centre()
         self.is_up = True
 

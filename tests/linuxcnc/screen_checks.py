@@ -87,13 +87,15 @@ class OnTheScreen(unittest.TestCase):
     """One program with shifts, turns and a scale, watched from its opening to its end."""
 
     screen: Screen
+    #: looked at before the program is opened
+    before: tuple[list, ...] = ()
     result: harness.Result
 
     @classmethod
     def setUpClass(cls):
         cls.result = cls.screen.watch(
-            [["ask", "drawn", "open", "PROGRAMS/part.ngc"], ["wait_pin", "pyvcp.frame.guarded"], *START, ["wait_paused"],
-             *read_panel("in the frame"), ["ask", "relative", "display", 1], ["ask", "machine", "display", 0],
+            [*cls.before, ["ask", "drawn", "open", "PROGRAMS/part.ngc"], ["wait_pin", "pyvcp.frame.guarded"], *START,
+             ["wait_paused"], *read_panel("in the frame"), ["ask", "relative", "display", 1], ["ask", "machine", "display", 0],
              ["note", "place"], ["resume"], ["wait_moving"], ["sleep", 0.4], ["getp", "at feed", "pyvcp.limit.feed"],
              ["finish"], ["expect", "framekins.hold", "FALSE"], ["expect", "pyvcp.frame.active", "FALSE"],
              *read_panel("behind it"),

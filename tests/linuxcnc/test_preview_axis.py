@@ -3,13 +3,21 @@
 import unittest
 
 import screen_checks
-from test_preview import program
+from test_preview import ARC, program
 
-AXIS = screen_checks.Screen(["axis"], "probe_axis.py")
+#: with a program that AXIS opens by itself, where a test has one
+AXIS = screen_checks.Screen(["axis", "PROGRAMS/part.ngc"], "probe_axis.py")
 
 
 class OnTheScreen(screen_checks.OnTheScreen):
     screen = AXIS
+    before = (["ask", "drawn at start", "drawn"],)
+
+    def test_what_axis_opens_by_itself_has_its_frames(self):
+        places = self.result.answers["drawn at start"]
+        self.assertEqual(len(places), len(self.result.answers["drawn"]))
+        for place, other in zip(places, self.result.answers["drawn"], strict=True):
+            self.assertLess(max(abs(one - two) for one, two in zip(place, other, strict=True)), ARC)
 
 
 class Trail(screen_checks.TrailOnATable):
