@@ -5,6 +5,7 @@ pub mod frame_pins;
 pub mod inner;
 pub mod inner_kinematics;
 pub mod kinematics;
+pub mod kinematics_jet;
 pub mod kinematics_words;
 pub mod linuxcnc;
 pub mod planner;
