@@ -62,6 +62,10 @@ static void say_joint_refusal(int code, struct framepath_joint_limits const *lim
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: what %s says of joint %d is off by %.1g, so that its limits cannot be kept; %s\n",
                         kinematics, joint, limits->value, otherwise);
         break;
+    case FRAMEPATH_JOINTS_SINGULAR:
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the machine stands at a singular place of %s, which it cannot leave within the limits "
+                        "of its joints: jog a joint away from there, or set all blendtp.joint.* to 0\n", kinematics);
+        break;
     default:
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s does not say where the joints are, so that their limits cannot be kept; %s\n",
                         kinematics, otherwise);

@@ -111,6 +111,11 @@
 #define FRAMEPATH_JOINTS_TRIVIAL 8
 
 /*
+ The machine stands at a singular place, which joints with limits cannot leave smoothly.
+ */
+#define FRAMEPATH_JOINTS_SINGULAR 9
+
+/*
  How many joints can have limits: 0 to 8.
  */
 #define FRAMEPATH_LIMITED_JOINTS 9

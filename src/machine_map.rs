@@ -13,6 +13,9 @@ use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
 /// [`JointMap::shares`]. What is not a number where the machine has no joints for the position.
 pub type JointJet = fn(&Axes, &[Axes; 3], &[Axes; 3]) -> [Axes; 3];
 
+/// What a joint reaches in so many seconds stands for a velocity that has no limit, in [`JointMap::shares`].
+const TIME_TO_SPEED: f64 = 0.2;
+
 /// The joints behind kinematics that bend. Joint n has the place of axis n in [`Axes`] and [`AxisLimits`].
 #[derive(Clone, Copy, Debug)]
 pub struct JointMap {
@@ -26,10 +29,16 @@ impl JointMap {
     /// Joints with these limits, infinite for those that there are not. A jet takes so many nanoseconds.
     pub fn new(jet: JointJet, limits: &AxisLimits, nanoseconds: f64) -> Self {
         let share = |limit: &Axes| limit.map(|limit| 1.0 / limit);
+        let reached = limits.acceleration * TIME_TO_SPEED;
+        let velocity =
+            limits.velocity.zip_map(
+                &reached,
+                |limit, reached| if limit.is_finite() { limit } else { reached },
+            );
         Self {
             jet,
             limits: *limits,
-            shares: [&limits.velocity, &limits.acceleration, &limits.jerk].map(share),
+            shares: [&velocity, &limits.acceleration, &limits.jerk].map(share),
             nanoseconds,
         }
     }
@@ -45,7 +54,8 @@ impl JointMap {
         &self.limits
     }
 
-    /// What a unit of velocity, acceleration and jerk of each joint is of its limit: 0 where it has none.
+    /// What a unit of velocity, acceleration and jerk of each joint is of its limit; 0 where acceleration and jerk have none,
+    /// and of some velocity where that has none: the scale by which a jet is exact enough.
     pub fn shares(&self) -> &[Axes; 3] {
         &self.shares
     }

@@ -22,17 +22,20 @@ use crate::cube_root::cube_root;
 pub const STEP: f64 = 0.03;
 
 /// How often the step is halved at most.
-const HALVINGS: usize = 6;
+const HALVINGS: usize = 10;
 
 /// What the formulas of two orders may differ by, over the limits, at the speed that the derivatives themselves allow. The
 /// error of the better one is a small part of that.
 const AGREEMENT: f64 = 2e-3;
 
-/// The places of joints for one step.
-struct Estimate {
-    jet: [Axes; 3],
-    /// What the formulas of two orders differ by, over the limits; infinite where that is not a number.
-    disagreement: f64,
+/// How joints move, and how sure that is.
+#[derive(Clone, Copy, Debug)]
+pub struct Estimate {
+    /// Three derivatives of the joints, each shape (9).
+    pub jet: [Axes; 3],
+    /// What the formulas of two orders differ by, over the limits; infinite where that is not a number. At a singular place
+    /// no step makes it small.
+    pub disagreement: f64,
 }
 
 /// Three derivatives of what `inverse` makes of a position, see the head of this file. `shares`: what a unit of velocity,
@@ -44,9 +47,23 @@ pub fn numerical_jet(
     derivatives: &[Axes; 3],
     shares: &[Axes; 3],
 ) -> [Axes; 3] {
+    numerical_estimate(inverse, position, derivatives, shares).jet
+}
+
+/// The same with how sure it is.
+#[inline]
+pub fn numerical_estimate(
+    inverse: impl Fn(&Axes) -> Axes,
+    position: &Axes,
+    derivatives: &[Axes; 3],
+    shares: &[Axes; 3],
+) -> Estimate {
     let mut step = first_step(derivatives);
     if !step.is_finite() {
-        return [Axes::zeros(); 3];
+        return Estimate {
+            jet: [Axes::zeros(); 3],
+            disagreement: 0.0,
+        };
     }
     let here = inverse(position);
     let mut best = Estimate::of(&inverse, position, derivatives, &here, step, shares);
@@ -60,7 +77,7 @@ pub fn numerical_jet(
             best = finer;
         }
     }
-    best.jet
+    best
 }
 
 /// The parameter in which none of the derivatives moves an axis further than [`STEP`]; infinite if they are 0.

@@ -14,7 +14,7 @@ const ALIKE: f64 = 1e-4;
 
 /// Three derivatives by time of which none takes an axis beyond 100, 1000 and 20000.
 fn any_derivatives() -> impl Strategy<Value = [Axes; 3]> {
-    let of = |most: f64| prop::array::uniform9(-most..most).prop_map(|values| Axes::from(values));
+    let of = |most: f64| prop::array::uniform9(-most..most).prop_map(Axes::from);
     (of(100.0), of(1000.0), of(20_000.0)).prop_map(|(first, second, third)| [first, second, third])
 }
 

@@ -1,5 +1,6 @@
 //! Joints behind kinematics that bend keep limits of their own.
 
+use crate::common::lathe::{Lathe, SPINDLE, fast, spread};
 use crate::common::{Extremes, Machine, PERIOD, equal_limits, feed_move, with_room};
 use crate::joint_models::{
     EXACT_TABLE, NUMERICAL_ROBOT, NUMERICAL_TABLE, REACH, joint_limits, joints_of, robot, table,
@@ -154,7 +155,7 @@ fn towards_straight(beside: f64, radially: bool) -> (usize, Extremes) {
 
 #[test]
 fn of_a_robot_that_comes_near_to_straight_arms() {
-    for beside in [10.0, 1.0, 0.1, 0.01] {
+    for beside in [10.0, 1.0, 0.1, 0.01, 1e-3] {
         for radially in [true, false] {
             let (periods, extremes) = towards_straight(beside, radially);
             println!("{beside} {radially}: {periods} {extremes:?}");
@@ -199,6 +200,60 @@ fn of_arcs() {
         machine.run(100_000);
         of_joints(&mut machine, 5, table)
     });
+    keeps_limits(&extremes).expect("within limits");
+}
+
+/// Back along the way, and forth again.
+#[test]
+fn of_the_way_back() {
+    let extremes = with_room(|| {
+        let mut machine = machine_at(&Axes::zeros(), Some(joints_of(EXACT_TABLE, 5)));
+        let way = [
+            [30.0, 20.0, 5.0, -60.0, 80.0],
+            [60.0, -40.0, 0.0, 20.0, -70.0],
+            [0.0; 5],
+        ];
+        for end in way.map(five) {
+            machine.line(end, &feed_move(100.0)).expect("a line");
+        }
+        for _ in 0..2500 {
+            machine.cycle();
+        }
+        for backwards in [true, false] {
+            while machine.planner.run_backwards(backwards).is_err() {
+                machine.scaled_cycle(0.0);
+            }
+            for _ in 0..1500 {
+                machine.cycle();
+            }
+        }
+        machine.run(100_000);
+        of_joints(&mut machine, 5, table)
+    });
+    keeps_limits(&extremes).expect("within limits");
+}
+
+/// With the table as it is the joints of a thread run straight: as close to the spindle as without limits of joints.
+#[test]
+fn of_threads() {
+    let (phases, extremes) = with_room(|| {
+        let start = five([10.0, 0.0, 0.0, 0.0, 30.0]);
+        let mut machine = machine_at(&start, Some(joints_of(EXACT_TABLE, 5)));
+        machine.planner.set_termination(TerminationCondition::Stop);
+        let mut lathe = Lathe::new(&mut machine, 8.0);
+        lathe
+            .machine
+            .planner
+            .set_spindle_synchronisation(SPINDLE as i32, 1.5, false);
+        lathe
+            .machine
+            .line(five([10.0, 0.0, -30.0, 0.0, 30.0]), &fast())
+            .expect("a thread");
+        lathe.run(100_000);
+        let phases = lathe.phases(-5.0, -25.0, -1.5);
+        (phases, of_joints(&mut machine, 5, table))
+    });
+    assert!(spread(&phases) < 1e-3, "{}", spread(&phases));
     keeps_limits(&extremes).expect("within limits");
 }
 

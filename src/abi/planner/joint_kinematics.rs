@@ -11,7 +11,7 @@ use super::kinematics_module::KinematicsModule;
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::machine::JOINT_COUNT;
 use crate::machine_map::JointJet;
-use crate::numerical_jet::numerical_jet;
+use crate::numerical_jet::{Estimate, numerical_estimate};
 use crate::planner::range::{JointSolver, Joints};
 
 /// How the joints of a position move, in closed form: nine numbers of the position, three times nine derivatives of it, and
@@ -38,6 +38,9 @@ const BESIDE: f64 = 1e-4;
 
 /// How far such places are from the next ones: at a singular place they would tell nothing.
 const ELSEWHERE: f64 = 0.37;
+
+/// From this disagreement on nothing is known of how joints move, see [`Estimate`].
+const UNSURE: f64 = 0.1;
 
 /// What asking the kinematics is like.
 #[derive(Clone, Copy, Debug)]
@@ -107,12 +110,7 @@ fn exact_jet(position: &Axes, derivatives: &[Axes; 3], _: &[Axes; 3]) -> [Axes; 
 }
 
 fn jet_by_numbers(position: &Axes, derivatives: &[Axes; 3], shares: &[Axes; 3]) -> [Axes; 3] {
-    let kinematics = asked();
-    let joints = |position: &Axes| match kinematics.joints(position, &kinematics.near) {
-        Some(joints) => first_of(&joints),
-        None => Axes::repeat(f64::NAN),
-    };
-    numerical_jet(joints, position, derivatives, shares)
+    asked().by_numbers(position, derivatives, shares).jet
 }
 
 /// The joints that have a place among axes.
@@ -173,6 +171,25 @@ impl JointKinematics {
             )
         };
         (result == 0).then(|| joints.map(Axes::from))
+    }
+
+    fn by_numbers(&self, position: &Axes, derivatives: &[Axes; 3], shares: &[Axes; 3]) -> Estimate {
+        let joints = |position: &Axes| match self.joints(position, &self.near) {
+            Some(joints) => first_of(&joints),
+            None => Axes::repeat(f64::NAN),
+        };
+        numerical_estimate(joints, position, derivatives, shares)
+    }
+
+    /// Whether joints move without end at `position` for a small way along an axis X Y Z. `shares` as of a
+    /// [`JointMap`](crate::machine_map::JointMap).
+    pub(super) fn is_singular(&self, position: &Axes, shares: &[Axes; 3]) -> bool {
+        let still = Axes::zeros();
+        let along = [Axes::x(), Axes::y(), Axes::z()];
+        along.iter().any(|way| {
+            let found = self.by_numbers(position, &[*way, still, still], shares);
+            found.disagreement > UNSURE
+        })
     }
 
     /// What asking them is like where the machine stands, with `count` joints. `None` if there are no joints for that

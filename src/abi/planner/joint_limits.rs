@@ -29,6 +29,9 @@ pub const FRAMEPATH_JOINTS_ROUGH: c_int = 7;
 /// The joints are the axes, whose limits hold.
 pub const FRAMEPATH_JOINTS_TRIVIAL: c_int = 8;
 
+/// The machine stands at a singular place, which joints with limits cannot leave smoothly.
+pub const FRAMEPATH_JOINTS_SINGULAR: c_int = 9;
+
 /// How many joints can have limits: 0 to 8.
 pub const FRAMEPATH_LIMITED_JOINTS: usize = 9;
 const _: () = assert!(FRAMEPATH_LIMITED_JOINTS == AXIS_COUNT);
@@ -123,8 +126,14 @@ impl FramepathJointLimits {
     }
 }
 
-/// Whether limits can be kept by kinematics that are like that.
-fn check(measured: &Measured, limits: &AxisLimits, count: usize) -> Result<(), Refused> {
+/// Whether limits can be kept by kinematics that are like that. `fastest`: the greatest velocity of an axis, for joints whose
+/// own has no limit.
+fn check(
+    measured: &Measured,
+    limits: &AxisLimits,
+    count: usize,
+    fastest: f64,
+) -> Result<(), Refused> {
     let microseconds = measured.call * 1e-3;
     if microseconds > FRAMEPATH_MOST_MICROSECONDS {
         return Err(Refused::of(FRAMEPATH_JOINTS_SLOW, 0, microseconds));
@@ -135,7 +144,12 @@ fn check(measured: &Measured, limits: &AxisLimits, count: usize) -> Result<(), R
         .enumerate()
         .take(count.min(AXIS_COUNT))
     {
-        let steps = limits.velocity[joint] / STEP;
+        let velocity = limits.velocity[joint];
+        let steps = if velocity.is_finite() {
+            velocity
+        } else {
+            fastest
+        } / STEP;
         let acceleration = IN_ACCELERATION * noise * steps * steps / limits.acceleration[joint];
         let jerk = IN_JERK * noise * steps * steps * steps / limits.jerk[joint];
         if acceleration > NOISE_SHARE || jerk > NOISE_SHARE {
@@ -183,9 +197,13 @@ impl Handle {
                 .measure(&now.position, &commanded_joints(status), count)
                 .ok_or_else(unknown)?,
         };
-        check(&measured, &limits, count)?;
+        check(&measured, &limits, count, self.limits().velocity.max())?;
         let jet = joint_kinematics::jet(measured.exact);
         let joints = JointMap::new(jet, &limits, measured.jet);
+        let singular = || kinematics.is_singular(&now.position, joints.shares());
+        if now.done && !measured.exact && singular() {
+            return Err(Refused::of(FRAMEPATH_JOINTS_SINGULAR, 0, 0.0));
+        }
         self.joints_limited |= self.planner.set_joints(Some(joints));
         Ok(())
     }
