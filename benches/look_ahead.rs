@@ -7,7 +7,8 @@ mod look_ahead_routes;
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use framepath::axes::{AxisLimits, MachineMap};
+use framepath::axes::AxisLimits;
+use framepath::machine_map::MachineMap;
 use framepath::speed::look_ahead::{LookAhead, PlanProgress};
 use look_ahead_routes::run::{PERIOD, limits, planner};
 use look_ahead_routes::{Polyline, contour, zigzag};

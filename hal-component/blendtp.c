@@ -67,6 +67,7 @@ static int (*linear_map)(double map[9]);
 #include "linuxcnc_differences.h"
 #include "operator_pins.h"
 #include "pin_limits.h"
+#include "joint_pins.h"
 
 /* With a greatest velocity of 0 in the INI a program would wait for ever without a word. */
 static int has_velocity(void)
@@ -87,7 +88,7 @@ static int prepare(void)
     say_forgotten_jerk_limits();
     if (linear_map)
         framepath_planner_set_machine_map(planner, linear_map(map), map);
-    return has_velocity() || take_jerk_limits() || take_tolerances() ? -1 : 0;
+    return has_velocity() || take_jerk_limits() || take_joint_limits() || take_tolerances() ? -1 : 0;
 }
 
 /* Says why a move was refused; zero-length moves are no error. */
@@ -168,6 +169,7 @@ int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
     /* motmod is loaded after the kinematics, so they can be looked up now; here, not in the servo thread. */
     *(void **)&linear_map = dlsym(RTLD_DEFAULT, "framekinsLinearMap");
     find_kinematics();
+    find_joint_jet();
     return 0;
 }
 
@@ -447,6 +449,8 @@ int rtapi_app_main(void)
         error = 1;
     for (int i = 0; i < AXES && !error; i++)
         error |= hal_pin_float_newf(HAL_IN, &pins->max_jerk[i], component, "blendtp.axis.%c.max-jerk", letters[i]);
+    if (!error)
+        error |= make_joint_pins();
     if (!error)
         error |= hal_pin_float_newf(HAL_IN, &pins->millimetre, component, "blendtp.millimetre");
     if (!error)

@@ -215,12 +215,6 @@ static void update(void *argument, long period)
     write_guard_pins(&in, &out);
 }
 
-/* For blendtp: the linear part of the frame, and whether one is in force. */
-int framekinsLinearMap(double map[9]);
-
-/* For blendtp: the name of the kinematics behind the frame; NULL if they are ours. */
-const char *framekinsInner(void);
-
 int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags,
                       KINEMATICS_INVERSE_FLAGS *iflags)
 {
@@ -284,24 +278,13 @@ int kinematicsSwitch(int type)
     return framepath_kinematics_switch(type, &in);
 }
 
-/* For the planner, which looks it up by name: three rows of three, and whether a frame is in force; see framepath.h. */
-int framekinsLinearMap(double map[9])
-{
-    return framepath_kinematics_linear_map(map);
-}
-
-const char *framekinsInner(void)
-{
-    return *inner ? inner : NULL;
-}
+#include "for_planner.h"
 
 EXPORT_SYMBOL(kinematicsForward);
 EXPORT_SYMBOL(kinematicsInverse);
 EXPORT_SYMBOL(kinematicsType);
 EXPORT_SYMBOL(kinematicsSwitchable);
 EXPORT_SYMBOL(kinematicsSwitch);
-EXPORT_SYMBOL(framekinsLinearMap);
-EXPORT_SYMBOL(framekinsInner);
 
 /* What passes between framekins, motion and frame_guard so that a frame does not outlive its program. */
 static int export_guard_pins(void)

@@ -16,6 +16,7 @@ static const char *const limit_names[] = {
 static struct {
     hal_s32_t *kind;
     hal_s32_t *axis;
+    hal_s32_t *joint;
     hal_bit_t *kinds[LIMITS];
     hal_bit_t *axes[AXES];
     hal_u32_t *moves_queued;
@@ -40,7 +41,8 @@ static struct {
 static int make_limit_pins(void)
 {
     int error = hal_pin_s32_newf(HAL_OUT, &operator_pins->kind, component, "blendtp.limit.kind")
-                || hal_pin_s32_newf(HAL_OUT, &operator_pins->axis, component, "blendtp.limit.axis");
+                || hal_pin_s32_newf(HAL_OUT, &operator_pins->axis, component, "blendtp.limit.axis")
+                || hal_pin_s32_newf(HAL_OUT, &operator_pins->joint, component, "blendtp.limit.joint");
     for (unsigned i = 0; i < LIMITS && !error; i++)
         error = hal_pin_bit_newf(HAL_OUT, &operator_pins->kinds[i], component, "blendtp.limit.%s", limit_names[i]);
     for (int i = 0; i < AXES && !error; i++)
@@ -77,6 +79,7 @@ static int make_operator_pins(void)
     if (!operator_pins || make_limit_pins() || make_move_pins() || make_time_pins())
         return 1;
     *operator_pins->axis = -1;
+    *operator_pins->joint = -1;
     *operator_pins->kinds[FRAMEPATH_LIMIT_NOTHING] = 1;
     return 0;
 }
@@ -85,6 +88,7 @@ static void show_limit(struct framepath_survey const *survey)
 {
     *operator_pins->kind = survey->limit;
     *operator_pins->axis = survey->axis;
+    *operator_pins->joint = survey->joint;
     for (int i = 0; i < (int)LIMITS; i++)
         *operator_pins->kinds[i] = i == survey->limit;
     for (int i = 0; i < AXES; i++)

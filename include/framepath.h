@@ -66,6 +66,66 @@
 #define FRAMEPATH_QUEUE_CAPACITY 2000
 
 /*
+ The limits are taken, or there are none.
+ */
+#define FRAMEPATH_JOINTS_TAKEN 0
+
+/*
+ The velocity of `joint` makes no sense.
+ */
+#define FRAMEPATH_JOINT_VELOCITY 1
+
+/*
+ Its acceleration makes no sense.
+ */
+#define FRAMEPATH_JOINT_ACCELERATION 2
+
+/*
+ Its jerk makes no sense: `value` is the smallest that would.
+ */
+#define FRAMEPATH_JOINT_JERK 3
+
+/*
+ There are more joints, `joint`, than can have limits.
+ */
+#define FRAMEPATH_JOINTS_TOO_MANY 4
+
+/*
+ The kinematics cannot be asked, or have no joints for where the machine is.
+ */
+#define FRAMEPATH_JOINTS_UNKNOWN 5
+
+/*
+ They take too long: `value` microseconds for the joints of a place.
+ */
+#define FRAMEPATH_JOINTS_SLOW 6
+
+/*
+ Their answers for `joint` are off by `value`.
+ */
+#define FRAMEPATH_JOINTS_ROUGH 7
+
+/*
+ The joints are the axes, whose limits hold.
+ */
+#define FRAMEPATH_JOINTS_TRIVIAL 8
+
+/*
+ The machine stands at a singular place, which joints with limits cannot leave smoothly.
+ */
+#define FRAMEPATH_JOINTS_SINGULAR 9
+
+/*
+ How many joints can have limits: 0 to 8.
+ */
+#define FRAMEPATH_LIMITED_JOINTS 9
+
+/*
+ Microseconds that the kinematics may take for the joints of a place. Some 50 places are asked for in a servo period.
+ */
+#define FRAMEPATH_MOST_MICROSECONDS 2.0
+
+/*
  What [`framepath_planner_set_blending`] answers where the length of a millimetre makes no sense.
  */
 #define FRAMEPATH_BAD_MILLIMETRE 1
@@ -141,17 +201,17 @@
 #define FRAMEPATH_LIMIT_PATH_VELOCITY 6
 
 /*
- The velocity of an axis.
+ The velocity of an axis, or of a joint where joints have limits.
  */
 #define FRAMEPATH_LIMIT_AXIS_VELOCITY 7
 
 /*
- The acceleration of an axis.
+ The acceleration of one.
  */
 #define FRAMEPATH_LIMIT_AXIS_ACCELERATION 8
 
 /*
- The jerk of an axis.
+ The jerk of one.
  */
 #define FRAMEPATH_LIMIT_AXIS_JERK 9
 
@@ -378,6 +438,36 @@ struct framepath_frame_outputs {
 };
 
 /*
+ What the pins say, and what was found wrong with it.
+ */
+struct framepath_joint_limits {
+  /*
+   Of joints 0 to 8, units per second; all of these 0: no limits of joints.
+   */
+  double velocity[9];
+  /*
+   Units per second squared.
+   */
+  double acceleration[9];
+  /*
+   Units per second cubed, 0: not limited.
+   */
+  double jerk[9];
+  /*
+   The joint that an answer is about.
+   */
+  int joint;
+  /*
+   What was measured, or would make sense.
+   */
+  double value;
+  /*
+   A bit for each joint whose jerk is more than can be used: it counts as not limited.
+   */
+  unsigned int unlimited;
+};
+
+/*
  What an operator sees, after a servo period.
  */
 struct framepath_survey {
@@ -389,6 +479,10 @@ struct framepath_survey {
    The axis whose limit it is, 0 to 8 (X Y Z A B C U V W of the machine), or -1.
    */
   int axis;
+  /*
+   The joint whose limit it is, from 0, or -1.
+   */
+  int joint;
   /*
    Moves that are queued, the running one included.
    */
@@ -535,6 +629,17 @@ int framepath_kinematics_switch(int slot,
 void framepath_kinematics_update(const struct framepath_frame_inputs *pins, struct framepath_frame_outputs *out);
 
 /*
+ Three derivatives of the joints 0 to 8 for a position and its derivatives by the same parameter: nine numbers, three times
+ nine, and room for three times nine. 0, or -1 where the kinematics behind the frame are another module's.
+
+ # Safety
+ The arguments point to as many numbers.
+ */
+int framepath_kinematics_jet(const double *position,
+                             const double *derivatives,
+                             double *joints);
+
+/*
  What the operator is told of an alarm.
  */
 const char *framepath_kinematics_alarm_text(int alarm);
@@ -632,6 +737,22 @@ int framepath_planner_add_rigid_tap(struct framepath_planner *handle,
  `handle` from `framepath_planner_create`.
  */
 const char *framepath_planner_error_text(const struct framepath_planner *handle);
+
+/*
+ Sets the limits of joints, from the next rest on: that of velocity, acceleration and jerk of each joint holds for all
+ motion that is planned, and the limits of acceleration and jerk of the axes do not. Returns one of the codes above. With anything but
+ the first and the last nothing changes, and no move may be added.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `pins` points to one of these.
+ */
+int framepath_planner_set_joint_limits(struct framepath_planner *handle,
+                                       struct framepath_joint_limits *pins);
+
+/*
+ Who says in closed form how joints move: `framekinsJet`, or null where there is none.
+ */
+void framepath_planner_joint_jet(int (*exact)(const double*, const double*, double*));
 
 /*
  What went wrong inside the planner, null if nothing did. The motion was stopped for it; an abort ends that.

@@ -19,6 +19,7 @@ const EMC_MOTION_TYPE_FEED: i32 = 2;
 const NONE: FramepathSurvey = FramepathSurvey {
     limit: FRAMEPATH_LIMIT_NOTHING,
     axis: -1,
+    joint: -1,
     moves_queued: 0,
     moves_ahead: 0,
     moves_done: 0,

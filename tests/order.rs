@@ -11,13 +11,15 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, ItemMod, ItemUse, UseTree, Visibility};
 
 /// No folder imports one that comes behind it. What both modules use; framekins; blendtp; the edge to C.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 15] = [
     "axes",
     "cube_root",
     "ring", // both
     "frame",
     "machine",
     "kinematics", // framekins
+    "numerical_jet",
+    "machine_map",
     "lanes",
     "moves",
     "path",

@@ -6,6 +6,7 @@ pub mod inner;
 pub mod inner_kinematics;
 mod inner_normal;
 pub mod kinematics;
+pub mod kinematics_jet;
 pub mod kinematics_words;
 pub mod linuxcnc;
 mod normal_pins;

@@ -125,6 +125,15 @@ impl ActiveFrame {
         )
     }
 
+    /// A derivative of the machine position for one of the commanded world position.
+    #[inline]
+    pub fn derivative_to_machine(&self, world: &Axes) -> Axes {
+        let [x, y, z, passing @ ..]: [f64; 9] = (*world).into();
+        let tip = self.to_machine.linear() * Vector3::new(x, y, z);
+        let [sign, shift] = [&self.sign, &self.shift];
+        joined(&tip, passing, |value, sign, _| value * sign, sign, shift)
+    }
+
     /// World position of a machine position: the inverse of [`Self::to_machine`], exact to 1e-9
     /// machine units on the machine for positions up to 1e3 (and in world coordinates for scales
     /// from 0.1 to 10, which do not magnify it).

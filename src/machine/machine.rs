@@ -35,6 +35,16 @@ impl Machine {
         }
     }
 
+    /// Three derivatives of the joints' axes, shape (9), for a position of the axes and its derivatives by the same
+    /// parameter: what [`Self::inverse`] does to them, exactly.
+    #[inline]
+    pub fn derivatives(&self, position: &Axes, derivatives: &[Axes; 3]) -> [Axes; 3] {
+        match self {
+            Self::Identity(_) => *derivatives,
+            Self::TableTilting(machine) => machine.derivatives(position, derivatives),
+        }
+    }
+
     /// Which joint is which axis.
     pub fn coordinates(&self) -> &Coordinates {
         match self {

@@ -6,9 +6,11 @@
 pub mod configuration;
 pub mod coordinates;
 pub mod identity;
+mod jet;
 mod joints;
 #[allow(clippy::module_inception, reason = "the type that the folder is about")]
 mod machine;
+mod table_jet;
 pub mod table_tilting;
 
 pub use configuration::ConfigurationError;

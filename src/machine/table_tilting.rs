@@ -161,7 +161,7 @@ impl TableTilting {
 
     /// d: from the rotation point to the tilting axis, lengthened by the tool.
     #[inline]
-    fn pivot(&self) -> Vector3<f64> {
+    pub(super) fn pivot(&self) -> Vector3<f64> {
         self.parameters.offset + Vector3::new(0.0, 0.0, self.parameters.tool_offset)
     }
 

@@ -1,14 +1,15 @@
-//! What the axes of the machine may do, and how those of the program lie to them.
+//! What the axes of the machine, and its joints, may do, and how the axes of the program lie to them.
 
 use nalgebra::{ArrayStorage, Matrix3};
 
 use super::jerk_limit::JerkLimit;
 use super::move_jerk;
 use super::request::LEAST_LIMITS;
-use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
+use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
+use crate::machine_map::{JointMap, MachineMap};
 use crate::moves::Move;
 use crate::moves::shape::Shape;
-use crate::speed::PathLimits;
+use crate::speed::{DerivativeBounds, PathLimits};
 
 const UNLIMITED: Axes = Axes::from_array_storage(ArrayStorage([[f64::INFINITY; AXIS_COUNT]]));
 
@@ -17,6 +18,9 @@ const UNLIMITED_AXES: AxisLimits = AxisLimits {
     acceleration: UNLIMITED,
     jerk: UNLIMITED,
 };
+
+/// Parts of a move between whose ends its joints are looked at, where it follows a spindle.
+const PLACES: u32 = 4;
 
 /// The axes of the machine.
 #[derive(Clone, Copy, Debug)]
@@ -29,8 +33,10 @@ pub(super) struct MachineAxes {
     move_jerk: f64,
     /// Which axes have had usable limits the last time.
     limited: [bool; AXIS_COUNT],
-    /// How the axes of the program lie to them.
+    /// How the axes of the program lie to them, and to the joints with what these may do in the motion that runs.
     map: MachineMap,
+    /// What the joints are able to do now, if they have limits: in force from the next rest on.
+    next_joints: Option<JointMap>,
 }
 
 impl MachineAxes {
@@ -41,11 +47,17 @@ impl MachineAxes {
         move_jerk: f64::INFINITY,
         limited: [false; AXIS_COUNT],
         map: MachineMap::IDENTITY,
+        next_joints: None,
     };
 
     /// What the axes may do in the motion that runs.
     pub fn limits(&self) -> &AxisLimits {
         &self.limits
+    }
+
+    /// What the joints may do in the motion that runs, or the axes where the joints have no limits.
+    pub fn limits_behind(&self) -> &AxisLimits {
+        self.map.limits(&self.limits)
     }
 
     /// How the axes of the program lie to those of the machine.
@@ -78,21 +90,54 @@ impl MachineAxes {
         }
     }
 
-    /// Whether the axes are able to do something else than when the motion began.
-    pub fn limits_changed(&self) -> bool {
-        self.wanted() != self.limits
+    /// Sets what the joints are able to do now, `None` for no limits of joints. `false`, and nothing changes, if one of them
+    /// is next to zero, negative or not a number.
+    pub fn set_next_joints(&mut self, joints: Option<JointMap>) -> bool {
+        let usable = |joints: &JointMap| {
+            let limits = joints.limits();
+            [&limits.velocity, &limits.acceleration, &limits.jerk]
+                .iter()
+                .zip(LEAST_LIMITS)
+                .all(|(limits, least)| limits.iter().all(|limit| *limit >= least))
+        };
+        let accepted = joints.as_ref().is_none_or(usable);
+        if accepted {
+            self.next_joints = joints;
+        }
+        accepted
     }
 
-    /// At rest: what the axes are able to do now is what they may do.
+    /// Whether axes or joints are able to do something else than when the motion began.
+    pub fn limits_changed(&self) -> bool {
+        let same = match (&self.wanted_joints(), self.map.joints()) {
+            (Some(wanted), Some(joints)) => wanted.is(joints),
+            (None, None) => true,
+            _ => false,
+        };
+        !same || self.wanted() != self.limits
+    }
+
+    /// At rest: what axes and joints are able to do now is what they may do.
     pub fn take_limits(&mut self) {
         self.limits = self.wanted();
+        self.map = self.map.with_joints(self.wanted_joints());
     }
 
     /// What the axes may do from the next rest on.
     fn wanted(&self) -> AxisLimits {
+        self.as_moves_ask(&self.next_limits)
+    }
+
+    /// What the joints may do from the next rest on.
+    fn wanted_joints(&self) -> Option<JointMap> {
+        let joints = self.next_joints.as_ref()?;
+        Some(joints.with_limits(&self.as_moves_ask(joints.limits())))
+    }
+
+    fn as_moves_ask(&self, limits: &AxisLimits) -> AxisLimits {
         AxisLimits {
-            jerk: self.next_limits.jerk.map(|jerk| jerk.min(self.move_jerk)),
-            ..self.next_limits
+            jerk: limits.jerk.map(|jerk| jerk.min(self.move_jerk)),
+            ..*limits
         }
     }
 
@@ -123,7 +168,7 @@ impl MachineAxes {
     pub fn set_map(&mut self, linear: &Matrix3<f64>) -> bool {
         let map = MachineMap::new(linear);
         if let Some(map) = map {
-            self.map = map;
+            self.map = map.with_joints(self.map.joints().copied());
         }
         map.is_some()
     }
@@ -136,8 +181,19 @@ impl MachineAxes {
         found.map(|(axis, _)| axis)
     }
 
-    /// What the axes allow along the path of a move.
+    /// What axes and joints allow along the path of a move.
     pub fn path_limits(&self, queued: &Move) -> PathLimits {
-        PathLimits::of(&queued.shape, &self.map, &self.limits, queued.max_velocity)
+        let shape = &queued.shape;
+        let by_axes = PathLimits::of(shape, &self.map, &self.limits, queued.max_velocity);
+        let Some(joints) = self.map.joints() else {
+            return by_axes;
+        };
+        let mut bounds = DerivativeBounds::none();
+        for place in 0..=PLACES {
+            let point = shape.point(shape.length() * f64::from(place) / f64::from(PLACES));
+            let derivatives = [&point.first, &point.second, &point.third];
+            bounds.include(&self.map.derivatives(&point.position, derivatives));
+        }
+        bounds.path_limits_of_line(joints.limits(), by_axes.velocity)
     }
 }

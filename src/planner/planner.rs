@@ -18,6 +18,7 @@ use super::survey::SurveyState;
 use super::velocity_slider::VelocitySlider;
 use crate::axes::{Axes, AxisLimits};
 use crate::cycle::Executor;
+use crate::machine_map::JointMap;
 use crate::moves::shape::{Arc9, Circle, Line9, Shape, ShapeError};
 use crate::moves::{
     Move, MoveQueue, QueueFull, StateTag, SynchronisationMode, TerminationCondition,
@@ -83,7 +84,7 @@ impl Planner {
     /// positive and finite or a move runs.
     pub fn set_cycle_time(&mut self, seconds: f64) -> bool {
         let standing = !self.motion.is_running();
-        let limits = self.axes.limits();
+        let limits = self.axes.limits_behind();
         let accepted = standing && self.executor.configure(limits, seconds).is_ok();
         if accepted {
             self.period = seconds;
@@ -109,19 +110,30 @@ impl Planner {
         }
     }
 
-    /// At rest: what the axes are able to do now is what they may do.
+    /// Sets what the joints are able to do and how they follow the program, `None` for no limits of joints: from the next
+    /// rest on, as [`Self::set_limits`]. The axes keep their velocities; acceleration and jerk are those of the joints
+    /// then. `false`, and nothing changes, if a limit is next to zero, negative or not a number.
+    pub fn set_joints(&mut self, joints: Option<JointMap>) -> bool {
+        let accepted = self.axes.set_next_joints(joints);
+        if !self.reference.is_active() {
+            self.take_limits();
+        }
+        accepted
+    }
+
+    /// At rest: what axes and joints are able to do now is what they may do.
     pub(super) fn take_limits(&mut self) {
         if !self.axes.limits_changed() {
             return;
         }
         self.axes.take_limits();
-        if self.period > 0.0 && self.executor.set_limits(self.axes.limits()).is_err() {
+        if self.period > 0.0 && self.executor.set_limits(self.axes.limits_behind()).is_err() {
             self.fail(Fault::LimitsRefused);
         }
     }
 
     /// Sets how X Y Z of the program lie to those of the machine, shape (3, 3): the limits hold for
-    /// the machine. `false`, and nothing changes, if it is not one of [`MachineMap`](crate::axes::MachineMap), or while anything
+    /// the machine. `false`, and nothing changes, if it is not one of [`MachineMap`](crate::machine_map::MachineMap), or while anything
     /// is queued: a frame changes only at standstill.
     pub fn set_machine_map(&mut self, linear: &Matrix3<f64>) -> bool {
         self.status.done && self.axes.set_map(linear)

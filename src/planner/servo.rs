@@ -76,8 +76,8 @@ impl Planner {
                 return;
             };
             let position = self.status.position;
-            self.reference
-                .restart(first, inputs.stepping, &position, &settings);
+            let kind = (inputs.stepping, self.axes.map().joints().is_some());
+            self.reference.restart(first, kind, &position, &settings);
         }
     }
 

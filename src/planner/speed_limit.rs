@@ -3,6 +3,7 @@
 use nalgebra::ArrayStorage;
 
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
+use crate::machine_map::MachineMap;
 
 /// From this share of what is asked for on the machine is as fast as that.
 const AS_ASKED: f64 = 0.995;
@@ -53,6 +54,13 @@ pub enum SpeedLimit {
         /// Of what.
         quantity: Quantity,
     },
+    /// The same of a joint, where joints have limits.
+    Joint {
+        /// Number of the joint.
+        joint: usize,
+        /// Of what.
+        quantity: Quantity,
+    },
     /// On the way between two limits: those of all axes are used up by less than half.
     Between,
 }
@@ -70,7 +78,8 @@ pub(super) struct Asked {
     pub slider: f64,
 }
 
-/// How the axes of the machine move: differences of the positions of servo periods.
+/// How the axes of the machine move, or those of the program where joints have limits: differences of the positions of
+/// servo periods.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AxisMotion {
     position: Axes,
@@ -113,22 +122,32 @@ impl AxisMotion {
         self.velocity == ZEROS
     }
 
-    /// The share of the limit that is used up most, and which one it is.
-    fn nearest(&self, limits: &AxisLimits) -> (f64, SpeedLimit) {
+    /// The share of the limit that is used up most, and which one it is: of the axes, or of the joints behind `map` if
+    /// these have limits. Positions are then those of the program.
+    fn nearest(&self, axes: &AxisLimits, map: &MachineMap) -> (f64, SpeedLimit) {
         let mut found = (0.0, SpeedLimit::Between);
-        for (quantity, values, limits) in [
-            (Quantity::Velocity, &self.velocity, &limits.velocity),
-            (
-                Quantity::Acceleration,
-                &self.acceleration,
-                &limits.acceleration,
-            ),
-            (Quantity::Jerk, &self.jerk, &limits.jerk),
-        ] {
+        let by_time = [&self.velocity, &self.acceleration, &self.jerk];
+        let limits = map.limits(axes);
+        let values = match map.joints() {
+            Some(_) => map.derivatives(&self.position, by_time),
+            None => by_time.map(|values| *values),
+        };
+        for (values, (quantity, limits)) in values.iter().zip([
+            (Quantity::Velocity, &limits.velocity),
+            (Quantity::Acceleration, &limits.acceleration),
+            (Quantity::Jerk, &limits.jerk),
+        ]) {
             for axis in 0..AXIS_COUNT {
                 let share = values[axis].abs() / limits[axis];
                 if share > found.0 {
-                    found = (share, SpeedLimit::Axis { axis, quantity });
+                    let limit = match map.joints() {
+                        Some(_) => SpeedLimit::Joint {
+                            joint: axis,
+                            quantity,
+                        },
+                        None => SpeedLimit::Axis { axis, quantity },
+                    };
+                    found = (share, limit);
                 }
             }
         }
@@ -136,8 +155,14 @@ impl AxisMotion {
     }
 
     /// What limits a machine that moves at `speed` along its path.
-    pub fn limit(&self, speed: f64, asked: &Asked, limits: &AxisLimits) -> SpeedLimit {
-        let (share, nearest) = self.nearest(limits);
+    pub fn limit(
+        &self,
+        speed: f64,
+        asked: &Asked,
+        limits: &AxisLimits,
+        map: &MachineMap,
+    ) -> SpeedLimit {
+        let (share, nearest) = self.nearest(limits, map);
         let wanted = asked.feed * asked.scale;
         let greatest = asked.greatest.min(asked.slider);
         if speed >= AS_ASKED * wanted.min(greatest) {
@@ -179,7 +204,8 @@ mod tests {
         for y in places {
             motion.pass(&at(y), 1e-3);
         }
-        motion.limit((places[3] - places[2]) * 1e3, asked, &LIMITS)
+        let speed = (places[3] - places[2]) * 1e3;
+        motion.limit(speed, asked, &LIMITS, &MachineMap::IDENTITY)
     }
 
     const F50: Asked = Asked {

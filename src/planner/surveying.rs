@@ -50,7 +50,11 @@ impl Planner {
     }
 
     fn speed_limit(&mut self, inputs: &CycleInputs) -> SpeedLimit {
-        let position = self.axes.map().apply(&self.status.position);
+        let map = self.axes.map();
+        let position = match map.joints() {
+            Some(_) => self.status.position,
+            None => map.apply(&self.status.position),
+        };
         let Some(running) = self.queue.front() else {
             self.axis_motion.begin(&position);
             return SpeedLimit::Nothing;
@@ -68,7 +72,8 @@ impl Planner {
         }
         let asked = self.asked(inputs, running);
         let speed = self.status.current_velocity;
-        self.axis_motion.limit(speed, &asked, self.axes.limits())
+        let (limits, map) = (self.axes.limits(), self.axes.map());
+        self.axis_motion.limit(speed, &asked, limits, map)
     }
 
     /// How fast the running move may be.

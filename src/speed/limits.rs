@@ -8,8 +8,9 @@
 
 use super::path_limits::PathLimits;
 use super::profile::JerkLimitedProfile;
-use crate::axes::{Axes, AxisLimits, MachineMap};
+use crate::axes::{Axes, AxisLimits};
 use crate::cube_root::cube_root;
+use crate::machine_map::MachineMap;
 use crate::moves::shape::{ArcExtent, Shape};
 
 impl PathLimits {

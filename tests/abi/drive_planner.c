@@ -276,6 +276,20 @@ static void refuse_impossible_pins(void)
     refuse_by_name("default-tolerance", INFINITY, .02);
 }
 
+/* Where the joints are the axes their limits are not looked at, which is said once. */
+static void tell_of_trivial_joints(void)
+{
+    EmcPose end = {{0, 0, 1}, 0, 0, 0, 0, 0, 0};
+    framepath_host_forget_errors();
+    framepath_host_set("joint.0.max-velocity", 5);
+    for (int i = 0; i < 2; i++)
+        REQUIRE(tpAddLine(tp, end, EMC_MOTION_TYPE_FEED, 10, 10, PLAIN_LIMITS(100), 0, 0, -1, tag()) >= 0);
+    REQUIRE(framepath_host_errors() == 1);
+    REQUIRE(strstr(framepath_host_first_error(), "are the axes"));
+    framepath_host_set("joint.0.max-velocity", 0);
+    REQUIRE(tpClear(tp) == 0);
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 3)
@@ -292,6 +306,7 @@ int main(int argc, char **argv)
     REQUIRE(tpSetCycleTime(tp, .001) == 0);
     first_move();
     refuse_impossible_pins();
+    tell_of_trivial_joints();
     long period = 0;
     for (; period < strtol(argv[2], NULL, 10); period++) {
         while (!pick(3))

@@ -5,6 +5,9 @@ use std::ptr::{null, null_mut};
 
 use framepath::abi::linuxcnc::{FS_ENABLED, TP_STRUCT, cmd_code_t};
 use framepath::abi::planner::add::{framepath_planner_add_rigid_tap, framepath_planner_error_text};
+use framepath::abi::planner::joint_limits::{
+    FRAMEPATH_JOINTS_UNKNOWN, framepath_planner_set_joint_limits,
+};
 use framepath::abi::planner::run::{
     framepath_planner_abort, framepath_planner_clear, framepath_planner_fault_text,
     framepath_planner_pause, framepath_planner_position, framepath_planner_queue_full,
@@ -347,6 +350,10 @@ impl Calls {
                 0
             );
             framepath_planner_set_machine_map(here, 1, null());
+            assert_eq!(
+                framepath_planner_set_joint_limits(here, null_mut()),
+                FRAMEPATH_JOINTS_UNKNOWN
+            );
             assert_eq!(framepath_planner_set_position(here, tp, null()), -1);
             assert_eq!(framepath_planner_set_cycle_time(here, tp, 1e-3), -1);
             let (line, joint) = (null_mut(), null_mut());

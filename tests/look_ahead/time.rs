@@ -4,7 +4,7 @@ use crate::routes::run::{
     PERIOD, check_continuity, duration, limits, live, offline, peaks, planner,
 };
 use crate::routes::{circle, line, zigzag};
-use framepath::axes::MachineMap;
+use framepath::machine_map::MachineMap;
 use framepath::speed::look_ahead::{LookAhead, PlanProgress, Route};
 use framepath::speed::{JerkLimitedProfile, PathLimits};
 use nalgebra::Matrix3;

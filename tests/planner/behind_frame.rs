@@ -1,7 +1,8 @@
 //! Behind a programmed frame the limits hold for the axes of the machine.
 
 use crate::common::{Machine, at, equal_limits, feed_move, with_machine, with_room};
-use framepath::axes::{Axes, MachineMap};
+use framepath::axes::Axes;
+use framepath::machine_map::MachineMap;
 use framepath::moves::shape::Circle;
 use framepath::planner::{AddError, Added};
 use nalgebra::{Matrix3, Rotation3, Vector3};

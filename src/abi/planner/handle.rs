@@ -36,6 +36,8 @@ pub struct Handle {
     pub(super) acceleration_limit: AxisLimit,
     pub(super) kinematics: KinematicsModule,
     pub(super) jerk: Axes,
+    /// Whether joints have limits of their own, now or from the next rest on.
+    pub(super) joints_limited: bool,
     /// Whether a programmed frame is in force.
     pub(super) framed: bool,
     /// Whether limits can be kept behind that frame.
@@ -66,6 +68,7 @@ static MEMORY: PlannerMemory = PlannerMemory(UnsafeCell::new(Handle {
     acceleration_limit: None,
     kinematics: KinematicsModule::NONE,
     jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[f64::INFINITY; AXIS_COUNT]])),
+    joints_limited: false,
     framed: false,
     usable_map: true,
     acknowledgement: Acknowledgement::NONE,

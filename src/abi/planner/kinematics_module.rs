@@ -55,9 +55,23 @@ impl KinematicsModule {
         }
     }
 
+    /// Whether the joints are the axes.
+    pub(super) fn is_trivial(&self) -> bool {
+        self.kind == KINEMATICS_TYPE::KINEMATICS_IDENTITY
+    }
+
     /// Whether there is a module to ask.
     pub(super) fn is_known(&self) -> bool {
         self.inverse.is_some()
+    }
+
+    /// The flags of the arm that the machine has with these joints, 0 where the kinematics have one only.
+    pub(super) fn arm(&self, position: &Axes, joints: &Joints) -> c_ulong {
+        if self.chooses_arm {
+            self.flags(position, joints, 0)
+        } else {
+            0
+        }
     }
 
     /// The flags of the arm that the machine has with these joints, `before` where the forward kinematics leave them.
@@ -71,7 +85,7 @@ impl KinematicsModule {
     }
 
     /// The joints for a position with this arm, from those of before.
-    fn joints(&self, position: &Axes, near: &Joints, flags: c_ulong) -> Option<Joints> {
+    pub(super) fn joints(&self, position: &Axes, near: &Joints, flags: c_ulong) -> Option<Joints> {
         let inverse = self.inverse?;
         let (pose, mut joints, mut forward_flags) = (pose_of(position), *near, 0);
         // SAFETY: the kinematics module's own function, with as many joints as it may write.
@@ -99,12 +113,7 @@ impl JointSolver for KinematicsModule {
     }
 
     fn solve(&mut self, position: &Axes, near: &Joints) -> Option<Joints> {
-        let flags = if self.chooses_arm {
-            self.flags(position, near, 0)
-        } else {
-            0
-        };
-        self.joints(position, near, flags)
+        self.joints(position, near, self.arm(position, near))
     }
 
     fn precision(&self) -> f64 {
@@ -126,6 +135,6 @@ impl JointSolver for KinematicsModule {
     }
 
     fn keeps_lines(&self) -> bool {
-        self.kind == KINEMATICS_TYPE::KINEMATICS_IDENTITY
+        self.is_trivial()
     }
 }

@@ -7,6 +7,8 @@
 mod acknowledgement;
 pub mod add;
 mod handle;
+mod joint_kinematics;
+pub mod joint_limits;
 mod kinematics_module;
 mod path_motion;
 pub mod run;

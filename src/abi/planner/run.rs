@@ -229,6 +229,7 @@ pub unsafe extern "C" fn framepath_planner_run_cycle(
     };
     let limits = handle.limits();
     handle.planner.set_limits(&limits);
+    handle.follow_joints();
     handle.check_range();
     handle.planner.cycle(&inputs);
     handle.planner.survey(&inputs);

@@ -8,7 +8,8 @@ use nalgebra::Matrix3;
 use super::handle::{Handle, command, with};
 use crate::abi::linuxcnc::{EmcPose, TP_STRUCT, tc_direction_t, tp_err_t};
 use crate::abi::pose::axes_of;
-use crate::axes::{AXIS_COUNT, Axes, MachineMap};
+use crate::axes::{AXIS_COUNT, Axes};
+use crate::machine_map::MachineMap;
 use crate::moves::TerminationCondition;
 use crate::planner::{Blending, BlendingError, DirectionError, JerkLimit};
 

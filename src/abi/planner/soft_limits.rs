@@ -3,10 +3,11 @@
 use libc::{c_double, c_int, c_uint, c_ulong};
 
 use super::handle::{Handle, module};
+use super::joint_kinematics;
 use super::kinematics_module::KinematicsModule;
 use crate::abi::linuxcnc::{EmcPose, emcmot_config_t, emcmot_status_t};
 use crate::machine::JOINT_COUNT;
-use crate::planner::range::{Finding, JointRange};
+use crate::planner::range::{Finding, JointRange, Joints};
 
 /// The soft limits as motmod has them now.
 fn range_of(status: &emcmot_status_t, config: &emcmot_config_t) -> JointRange {
@@ -20,6 +21,15 @@ fn range_of(status: &emcmot_status_t, config: &emcmot_config_t) -> JointRange {
         *greatest = joint.max_pos_limit;
     }
     range
+}
+
+/// Where motmod commands the joints to be.
+pub(super) fn commanded_joints(status: &emcmot_status_t) -> Joints {
+    let mut machine = [0.0; JOINT_COUNT];
+    for (joint, status) in machine.iter_mut().zip(&status.joint_status) {
+        *joint = status.pos_cmd;
+    }
+    machine
 }
 
 impl Handle {
@@ -36,10 +46,7 @@ impl Handle {
             return;
         };
         let range = range_of(status, config);
-        let mut machine = [0.0; JOINT_COUNT];
-        for (joint, status) in machine.iter_mut().zip(&status.joint_status) {
-            *joint = status.pos_cmd;
-        }
+        let machine = commanded_joints(status);
         self.kinematics.count = range.count;
         self.finding = self
             .planner
@@ -61,6 +68,7 @@ pub extern "C" fn framepath_planner_kinematics(
 ) {
     let handle = module();
     handle.kinematics = KinematicsModule::new(inverse, forward, kinematics_type);
+    joint_kinematics::ask(KinematicsModule::new(inverse, forward, kinematics_type));
     handle.planner.wait_for_range_check(inverse.is_some());
 }
 

@@ -19,16 +19,16 @@ pub const FRAMEPATH_LIMIT_FEED: c_int = 4;
 pub const FRAMEPATH_LIMIT_OVERRIDE: c_int = 5;
 /// The greatest velocity along the path.
 pub const FRAMEPATH_LIMIT_PATH_VELOCITY: c_int = 6;
-/// The velocity of an axis.
+/// The velocity of an axis, or of a joint where joints have limits.
 pub const FRAMEPATH_LIMIT_AXIS_VELOCITY: c_int = 7;
-/// The acceleration of an axis.
+/// The acceleration of one.
 pub const FRAMEPATH_LIMIT_AXIS_ACCELERATION: c_int = 8;
-/// The jerk of an axis.
+/// The jerk of one.
 pub const FRAMEPATH_LIMIT_AXIS_JERK: c_int = 9;
 /// On the way between two limits.
 pub const FRAMEPATH_LIMIT_BETWEEN: c_int = 10;
 
-/// What stands for no axis.
+/// What stands for no axis and no joint.
 const NO_AXIS: c_int = -1;
 
 /// What an operator sees, after a servo period.
@@ -39,6 +39,8 @@ pub struct FramepathSurvey {
     pub limit: c_int,
     /// The axis whose limit it is, 0 to 8 (X Y Z A B C U V W of the machine), or -1.
     pub axis: c_int,
+    /// The joint whose limit it is, from 0, or -1.
+    pub joint: c_int,
     /// Moves that are queued, the running one included.
     pub moves_queued: c_int,
     /// Those of them that are planned.
@@ -62,7 +64,13 @@ fn count(moves: usize) -> c_int {
     c_int::try_from(moves).unwrap_or(c_int::MAX)
 }
 
-fn number_of(limit: SpeedLimit) -> (c_int, c_int) {
+/// The number of a limit, and the axis and the joint whose it is.
+fn number_of(limit: SpeedLimit) -> [c_int; 3] {
+    let of_quantity = |quantity| match quantity {
+        Quantity::Velocity => FRAMEPATH_LIMIT_AXIS_VELOCITY,
+        Quantity::Acceleration => FRAMEPATH_LIMIT_AXIS_ACCELERATION,
+        Quantity::Jerk => FRAMEPATH_LIMIT_AXIS_JERK,
+    };
     let number = match limit {
         SpeedLimit::Nothing => FRAMEPATH_LIMIT_NOTHING,
         SpeedLimit::Rest => FRAMEPATH_LIMIT_REST,
@@ -73,15 +81,13 @@ fn number_of(limit: SpeedLimit) -> (c_int, c_int) {
         SpeedLimit::PathVelocity => FRAMEPATH_LIMIT_PATH_VELOCITY,
         SpeedLimit::Between => FRAMEPATH_LIMIT_BETWEEN,
         SpeedLimit::Axis { axis, quantity } => {
-            let number = match quantity {
-                Quantity::Velocity => FRAMEPATH_LIMIT_AXIS_VELOCITY,
-                Quantity::Acceleration => FRAMEPATH_LIMIT_AXIS_ACCELERATION,
-                Quantity::Jerk => FRAMEPATH_LIMIT_AXIS_JERK,
-            };
-            return (number, count(axis));
+            return [of_quantity(quantity), count(axis), NO_AXIS];
+        }
+        SpeedLimit::Joint { joint, quantity } => {
+            return [of_quantity(quantity), NO_AXIS, count(joint)];
         }
     };
-    (number, NO_AXIS)
+    [number, NO_AXIS, NO_AXIS]
 }
 
 /// What an operator sees after the last servo period. Returns 0, or -1 without a planner.
@@ -99,10 +105,11 @@ pub unsafe extern "C" fn framepath_planner_survey(
     };
     let survey = handle.planner.surveyed();
     let status = handle.planner.status();
-    let (limit, axis) = number_of(survey.limit);
+    let [limit, axis, joint] = number_of(survey.limit);
     *out = FramepathSurvey {
         limit,
         axis,
+        joint,
         moves_queued: count(status.queue_depth),
         moves_ahead: count(survey.moves_ahead),
         moves_done: handle.planner.moves_done() as u32,

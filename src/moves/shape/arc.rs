@@ -7,7 +7,8 @@ use nalgebra::{SVector, Vector3};
 use super::error::{GREATEST_LENGTH, ShapeError, check_coordinates};
 use super::measure::LEAST_DISTANCE;
 use super::point::PathPoint;
-use crate::axes::{Axes, MachineMap};
+use crate::axes::Axes;
+use crate::machine_map::MachineMap;
 
 /// An arc whose end direction is nearer to its start direction than this, in radians, is a full
 /// circle, as in LinuxCNC.

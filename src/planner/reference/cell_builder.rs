@@ -1,8 +1,9 @@
 //! One servo period of the reference, put together from stretches of segments.
 
 use super::reference_segment::{ReferenceSegment, SegmentMotion};
-use crate::axes::{Axes, MachineMap};
+use crate::axes::Axes;
 use crate::cycle::Cell;
+use crate::machine_map::MachineMap;
 use crate::moves::MoveQueue;
 use crate::moves::shape::PathPoint;
 use crate::path::BlendedPath;
@@ -55,7 +56,7 @@ impl CellBuilder {
         self.cell.take()
     }
 
-    /// Adds the time from `from` to `to` of a segment, as the axes of the machine see it.
+    /// Adds the time from `from` to `to` of a segment, as the axes of the machine, or its joints, see it.
     pub fn add(&mut self, segment: &ReferenceSegment, ground: &Ground, from: f64, to: f64) {
         let mut start = from;
         for _ in 0..MOST_PHASES {
@@ -128,6 +129,7 @@ fn widen(
 
 /// Derivatives of a reference by its time.
 struct MotionDerivatives {
+    position: Axes,
     velocity: Axes,
     acceleration: Axes,
     jerk: Axes,
@@ -141,13 +143,14 @@ impl MotionDerivatives {
     fn at(segment: &ReferenceSegment, path: &BlendedPath, t: f64, within: f64, back: f64) -> Self {
         let along = segment.state(t, within);
         let PathPoint {
+            position,
             first,
             second,
             third,
-            ..
         } = segment.point(path, along.distance - back);
         let (v, a, j) = (along.velocity, along.acceleration, along.jerk);
         Self {
+            position,
             velocity: first * v,
             acceleration: first * a + second * (v * v),
             jerk: first * j + second * (3.0 * v * a) + third * (v * v * v),
@@ -156,12 +159,14 @@ impl MotionDerivatives {
         }
     }
 
-    /// The same for the axes of the machine.
+    /// The same for what the limits hold for: the axes of the machine, or its joints.
     fn behind(self, map: &MachineMap) -> Self {
+        let by_time = [&self.velocity, &self.acceleration, &self.jerk];
+        let [velocity, acceleration, jerk] = map.derivatives(&self.position, by_time);
         Self {
-            velocity: map.apply(&self.velocity),
-            acceleration: map.apply(&self.acceleration),
-            jerk: map.apply(&self.jerk),
+            velocity,
+            acceleration,
+            jerk,
             ..self
         }
     }

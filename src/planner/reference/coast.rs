@@ -85,6 +85,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use crate::axes::{Axes, AxisLimits};
+    use crate::machine_map::{JointJet, JointMap};
     use crate::moves::shape::Circle;
     use crate::moves::{MotionType, StateTag, TerminationCondition};
     use crate::planner::reference::Reference;
@@ -130,16 +131,27 @@ mod tests {
             .expect("a line");
     }
 
-    /// Lets something go wrong in the given servo period of a line, an arc and a line. How far from the
-    /// circle and its tangents the machine comes to rest.
-    fn stop_for(fault: Fault, spoil: Spoil, jerk: f64, period: usize) -> f64 {
+    /// A joint that bends with Y: X + Y^2 / 200.
+    const BENT: JointJet = |q, [d, a, j], _| {
+        let mut joints = [*d, *a, *j];
+        joints[0][0] += q[1] * d[1] / 100.0;
+        joints[1][0] += (d[1] * d[1] + q[1] * a[1]) / 100.0;
+        joints[2][0] += (3.0 * d[1] * a[1] + q[1] * j[1]) / 100.0;
+        joints
+    };
+
+    /// Lets something go wrong in the given servo period of a line, an arc and a line, with limits of the axes or of
+    /// [`BENT`] joints. How far from the circle and its tangents the machine comes to rest.
+    fn stop_for(fault: Fault, spoil: Spoil, jerk: f64, period: usize, bent: bool) -> f64 {
         let mut planner = Planner::new();
         assert!(planner.set_cycle_time(PERIOD));
-        planner.set_limits(&AxisLimits {
+        let limits = AxisLimits {
             velocity: Axes::repeat(100.0),
             acceleration: Axes::repeat(1000.0),
             jerk: Axes::repeat(jerk),
-        });
+        };
+        planner.set_limits(&limits);
+        assert!(planner.set_joints(bent.then(|| JointMap::new(BENT, &limits, 0.0))));
         planner.set_termination(TerminationCondition::Continuous { tolerance: 0.05 });
         queue(&mut planner);
         let mut positions = vec![Axes::zeros(); 4];
@@ -157,7 +169,11 @@ mod tests {
         assert_eq!(planner.status().fault, Some(fault));
         let rest = planner.status().position;
         positions.extend([rest; 4]);
-        keep_the_limits(&positions, jerk);
+        for position in positions.iter_mut().filter(|_| bent) {
+            position[0] += position[1] * position[1] / 200.0;
+        }
+        // That of F, or of the joints.
+        keep_the_limits(&positions, if bent { 100.0 } else { 80.0 }, jerk);
         let [x, y] = [rest[0] - 20.0, rest[1] - 10.0];
         if x <= 0.0 {
             (y.abs() - 10.0).abs()
@@ -166,28 +182,28 @@ mod tests {
         }
     }
 
-    /// The velocity is that of F, the acceleration the limit, the jerk at most a tenth more than the limit.
-    fn keep_the_limits(positions: &[Axes], jerk: f64) {
+    /// The velocity is at most `greatest`, the acceleration the limit, the jerk at most a tenth more than the limit.
+    fn keep_the_limits(positions: &[Axes], greatest: f64, jerk: f64) {
         for window in positions.windows(4) {
             let velocity = (window[3] - window[2]).amax() / PERIOD;
             let acceleration = (window[3] - window[2] * 2.0 + window[1]).amax() / PERIOD.powi(2);
             let third = window[3] - window[2] * 3.0 + window[1] * 3.0 - window[0];
             let third = third.amax() / PERIOD.powi(3);
             assert!(
-                velocity <= 80.1 && acceleration <= 1001.0,
+                velocity <= 1.001 * greatest && acceleration <= 1001.0,
                 "{velocity} {acceleration}"
             );
             assert!(third <= 1.1 * jerk, "{third}");
         }
     }
 
-    fn brakes_on_its_path(fault: Fault, spoil: Spoil) {
+    fn brakes_on_its_path(fault: Fault, spoil: Spoil, bent: bool) {
         for jerk in [2e4, 1e5, f64::INFINITY] {
             std::thread::Builder::new()
                 .stack_size(64 << 20)
                 .spawn(move || {
                     for period in (20..620).step_by(20) {
-                        let away = stop_for(fault, spoil, jerk, period);
+                        let away = stop_for(fault, spoil, jerk, period, bent);
                         assert!(away < 0.05, "{away} at {period}, jerk {jerk}");
                     }
                 })
@@ -199,13 +215,19 @@ mod tests {
 
     #[test]
     fn a_machine_that_is_starved_brakes_on_its_path() {
-        brakes_on_its_path(Fault::Starved, DRY);
+        brakes_on_its_path(Fault::Starved, DRY, false);
     }
 
     /// It goes on from the last period that was good.
     #[test]
     fn a_machine_whose_next_period_is_refused_brakes_on_its_path() {
-        brakes_on_its_path(Fault::CellRefused, REFUSED);
+        brakes_on_its_path(Fault::CellRefused, REFUSED, false);
+    }
+
+    #[test]
+    fn joints_that_bend_are_braked_within_their_limits() {
+        brakes_on_its_path(Fault::Starved, DRY, true);
+        brakes_on_its_path(Fault::CellRefused, REFUSED, true);
     }
 
     #[test]
@@ -213,7 +235,7 @@ mod tests {
         std::thread::Builder::new()
             .stack_size(64 << 20)
             .spawn(|| {
-                let away = stop_for(Fault::CellRefused, REFUSED, 2e4, 0);
+                let away = stop_for(Fault::CellRefused, REFUSED, 2e4, 0, false);
                 // At the start of the line to the circle.
                 assert_eq!(away, 0.0);
             })

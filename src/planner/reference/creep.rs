@@ -6,18 +6,11 @@
 
 use super::outlook::Outlook;
 use super::reference_segment::ProfiledMotion;
-use crate::axes::Axes;
 use crate::speed::look_ahead::Route;
-use crate::speed::{JerkLimitedProfile, PathLimits};
+use crate::speed::{DerivativeBounds, JerkLimitedProfile, PathLimits};
 
 /// Places of a stretch that are looked at.
 const PLACES: u32 = 48;
-
-/// What derivatives of the path may be greater by between these places.
-const UNSEEN: f64 = 1.5;
-
-/// The share of a limit that each of the terms takes that add up to it, three for the jerk.
-const TERM_SHARE: f64 = 0.3;
 
 /// How many vertices on each side are looked at for the end of a stretch.
 const NEIGHBOURS: usize = 16;
@@ -70,35 +63,19 @@ fn stretch_end<R: Route>(route: &R, start: f64) -> f64 {
 /// What is possible all along a stretch, all of it at the same time.
 fn path_limits<R: Route>(route: &R, start: f64, end: f64, outlook: &Outlook) -> PathLimits {
     let mut velocity = f64::INFINITY;
-    let [mut first, mut second, mut third] = [Axes::zeros(); 3];
+    let (mut axes, mut behind) = (DerivativeBounds::none(), DerivativeBounds::none());
     for place in 0..=PLACES {
         let s = start + (end - start) * f64::from(place) / f64::from(PLACES);
         let point = route.point(s);
         velocity = velocity.min(route.speed_cap(s, &point.first).programmed);
-        let seen = |most: &Axes, derivative: &Axes| most.sup(&outlook.map.apply(derivative).abs());
-        first = seen(&first, &point.first);
-        second = seen(&second, &point.second);
-        third = seen(&third, &point.third);
+        let derivatives = [&point.first, &point.second, &point.third];
+        behind.include(&outlook.map.derivatives(&point.position, derivatives));
+        if outlook.map.joints().is_some() {
+            axes.include(&derivatives.map(|of| outlook.map.apply(of)));
+        }
     }
-    let (second, third) = (second * UNSEEN, third * UNSEEN);
-    let axes = outlook.axis_limits();
-    let least = |limit: &Axes, by: &Axes| {
-        let quotients = limit.iter().zip(by.iter()).filter(|(_, by)| **by != 0.0);
-        quotients.fold(f64::INFINITY, |least, (limit, by)| {
-            least.min(limit / by.abs())
-        })
-    };
-    velocity = velocity
-        .min(least(&axes.velocity, &(first * UNSEEN)))
-        .min((TERM_SHARE * least(&axes.acceleration, &second)).sqrt())
-        .min((TERM_SHARE * least(&axes.jerk, &third)).cbrt());
-    let coupling = Axes::from_fn(|axis, _| 3.0 * second[axis] * velocity);
-    PathLimits {
-        velocity,
-        acceleration: (TERM_SHARE * least(&axes.acceleration, &first))
-            .min(TERM_SHARE * least(&axes.jerk, &coupling)),
-        jerk: TERM_SHARE * least(&axes.jerk, &first),
-    }
+    let velocity = velocity.min(axes.velocity(&outlook.limits.velocity));
+    behind.path_limits(&outlook.limits_behind(), velocity)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::outlook::Outlook;
 use super::reference::Reference;
 use super::reference_segment::{ReferenceSegment, SegmentMotion};
 use crate::axes::AXIS_COUNT;
+use crate::moves::shape::PathPoint;
 
 /// The share of the jerk that an acceleration is released with: the rest is left for braking.
 const RELEASE_SHARE: f64 = 0.5;
@@ -44,10 +45,16 @@ impl Reference {
             return false;
         };
         let start = last.state(self.frontier, self.frontier);
-        let first = outlook
+        let PathPoint {
+            position,
+            first,
+            second,
+            third,
+        } = last.point(&self.path, start.distance);
+        let [first, ..] = outlook
             .map
-            .apply(&last.point(&self.path, start.distance).first);
-        let jerk = outlook.axis_limits().jerk;
+            .derivatives(&position, [&first, &second, &third]);
+        let jerk = outlook.limits_behind().jerk;
         // Seconds for a unit of acceleration with all of the jerk; braking ends at rest, and no later.
         let seconds = (0..AXIS_COUNT)
             .map(|axis| first[axis].abs() / jerk[axis])

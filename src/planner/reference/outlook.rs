@@ -1,6 +1,7 @@
 //! What a reference has to know while it is extended.
 
-use crate::axes::{AxisLimits, MachineMap};
+use crate::axes::AxisLimits;
+use crate::machine_map::MachineMap;
 use crate::moves::{Move, MoveQueue};
 
 /// Where the operator's slider stands near 0 moves are planned for this share of their feed; the
@@ -14,7 +15,7 @@ pub struct Outlook<'a> {
     pub queue: &'a MoveQueue,
     /// What the axes of the machine may do.
     pub limits: &'a AxisLimits,
-    /// How the axes of the program lie to those of the machine.
+    /// How the axes of the program lie to those of the machine, and to its joints where these have limits.
     pub map: &'a MachineMap,
     /// What holds in this servo period.
     pub now: Conditions,
@@ -42,11 +43,13 @@ pub struct Conditions {
 }
 
 impl Outlook<'_> {
-    /// What the axes are able to do now, where jerk that a period cannot use up is none.
-    pub(super) fn axis_limits(&self) -> AxisLimits {
+    /// What the axes, or the joints where these have limits, are able to do now, where jerk that a period cannot use up is
+    /// none.
+    pub(super) fn limits_behind(&self) -> AxisLimits {
+        let limits = self.map.limits(self.limits);
         AxisLimits {
-            jerk: self.limits.jerk_of_use(self.now.period),
-            ..*self.limits
+            jerk: limits.jerk_of_use(self.now.period),
+            ..*limits
         }
     }
 

@@ -62,6 +62,8 @@ pub struct Reference {
     pub(super) serves_next: bool,
     /// Whether the machine goes back along the path.
     pub(super) backwards: bool,
+    /// Whether joints have limits, which bend where the path does not.
+    pub(super) bends: bool,
     /// Whether there is a path at all.
     pub(super) active: bool,
     /// Whether what was handed out ends at rest, at [`Self::rest`].
@@ -96,6 +98,7 @@ impl Reference {
             swapped: false,
             serves_next: false,
             backwards: false,
+            bends: false,
             active: false,
             resting: true,
             rest: 0.0,
@@ -119,8 +122,16 @@ impl Reference {
     }
 
     /// Begins anew: at rest at `position`, shape (9), the start of the move with the serial number
-    /// `first`. `single`: comes to rest at the end of this move.
-    pub fn restart(&mut self, first: u64, single: bool, position: &Axes, settings: &BlendSettings) {
+    /// `first`. `single`: comes to rest at the end of this move. `bends`: joints have limits, see [`MachineMap`].
+    ///
+    /// [`MachineMap`]: crate::machine_map::MachineMap
+    pub fn restart(
+        &mut self,
+        first: u64,
+        (single, bends): (bool, bool),
+        position: &Axes,
+        settings: &BlendSettings,
+    ) {
         self.path.restart(settings, position);
         self.feeder.restart(first, single);
         for run in &mut self.runs {
@@ -128,6 +139,7 @@ impl Reference {
         }
         self.serves_next = false;
         self.backwards = false;
+        self.bends = bends;
         self.active = true;
         self.rested(0.0);
     }

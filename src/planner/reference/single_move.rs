@@ -11,12 +11,13 @@ const NOTICEABLE_RAISE: f64 = 1.001;
 impl Reference {
     /// Whether a move that stands alone between two rests starts at `s`.
     pub(super) fn stands_alone(&self, s: f64) -> bool {
-        !self.backwards && self.path.move_between_rests(s).is_some()
+        !self.backwards && !self.bends && self.path.move_between_rests(s).is_some()
     }
 
-    /// Plans a move that stands alone between two rests. `false` if that is not what comes next.
+    /// Plans a move that stands alone between two rests. `false` if that is not what comes next, or its joints have limits:
+    /// where they bend, the look-ahead plans it as any other run.
     pub(super) fn next_move(&mut self, outlook: &Outlook) -> bool {
-        if self.backwards {
+        if self.backwards || self.bends {
             return false;
         }
         let Some((shape, leg)) = self.path.move_between_rests(self.rest) else {
@@ -26,7 +27,7 @@ impl Reference {
             return false;
         };
         let cap = outlook.velocity_cap(queued);
-        let limits = PathLimits::of(&shape, outlook.map, &outlook.axis_limits(), cap);
+        let limits = PathLimits::of(&shape, outlook.map, &outlook.limits_behind(), cap);
         let profile = JerkLimitedProfile::rest_to_rest(shape.length(), &limits);
         // A profile without duration would be a jump. Positive limits never lead to one.
         if !(profile.duration() > 0.0 && profile.duration().is_finite()) {
@@ -83,7 +84,7 @@ impl Reference {
         motion.cap = cap;
         let state = motion.profile.state(frontier, frontier);
         let start = motion.start + motion.rate * state.distance;
-        let limits = PathLimits::of(&shape, outlook.map, &outlook.axis_limits(), cap);
+        let limits = PathLimits::of(&shape, outlook.map, &outlook.limits_behind(), cap);
         let left = (motion.end - start) / motion.rate;
         if let Some(profile) = JerkLimitedProfile::raised(left, state.velocity, &limits) {
             let motion = ProfiledMotion {

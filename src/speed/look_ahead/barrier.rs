@@ -287,7 +287,8 @@ impl Local {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::axes::{Axes, AxisLimits, MachineMap};
+    use crate::axes::{Axes, AxisLimits};
+    use crate::machine_map::MachineMap;
     use crate::moves::shape::PathPoint;
     use crate::speed::look_ahead::{MOST_BREAKPOINTS, Route, RouteVertex, SpeedCap};
 

@@ -251,7 +251,8 @@ mod tests {
     use super::super::interval_samples::Departure;
     use super::super::sample::{Cap, Sample};
     use super::*;
-    use crate::axes::{Axes, AxisLimits, MachineMap};
+    use crate::axes::{Axes, AxisLimits};
+    use crate::machine_map::MachineMap;
 
     fn any_axes(size: f64) -> impl Strategy<Value = Axes> {
         let amount = move || prop_oneof![0.01 * size..size, -size..-0.01 * size];

@@ -1,5 +1,6 @@
 //! What a candidate works with.
 
+use super::cost;
 use super::route::Route;
 use super::rows::AxisRows;
 use super::spline::Spline;
@@ -19,8 +20,13 @@ pub(super) struct PlanContext<'a, R: Route> {
 }
 
 impl<R: Route> PlanContext<'_, R> {
+    /// What an evaluation of the path before `end` costs.
+    pub fn evaluation(&self, end: f64) -> u32 {
+        cost::evaluation(self.kernels_before(end), self.rows.nanoseconds())
+    }
+
     /// How many kernels overlap before `end`, in the mean.
-    pub fn kernels_before(&self, end: f64) -> f64 {
+    fn kernels_before(&self, end: f64) -> f64 {
         let (mut place, mut reaches) = (end, 0.0);
         for _ in 0..VERTICES_COUNTED {
             let Some(vertex) = self.route.vertex_before(place) else {

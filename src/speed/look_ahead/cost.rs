@@ -2,12 +2,18 @@
 //!
 //! They need not be exact: a slice ends when its units are spent, give or take one step.
 
-/// An evaluation of the path and the rows there, where so many kernels overlap in the mean.
-pub(super) fn evaluation(kernels: f64) -> u32 {
-    4 + (0.16 * kernels.clamp(0.0, MOST_KERNELS)) as u32
+/// An evaluation of the path and the rows there, where so many kernels overlap in the mean
+/// and where it takes so many nanoseconds to find what the limits hold for.
+pub(super) fn evaluation(kernels: f64, nanoseconds: f64) -> u32 {
+    let behind = UNITS_A_NANOSECOND * nanoseconds.clamp(0.0, MOST_NANOSECONDS);
+    4 + (0.16 * kernels.clamp(0.0, MOST_KERNELS)) as u32 + behind as u32
 }
 /// More never overlap.
 const MOST_KERNELS: f64 = 64.0;
+/// Of what was measured where it runs.
+const UNITS_A_NANOSECOND: f64 = 1.0 / 25.0;
+/// What takes longer is refused.
+const MOST_NANOSECONDS: f64 = 1e5;
 /// Choosing where a candidate begins and ends.
 pub(super) const BEGIN_CANDIDATE: u32 = 60;
 /// Choosing a window of the refinement.

@@ -7,11 +7,11 @@ use super::context::PlanContext;
 use super::feature::GROWTH;
 use super::features::Features;
 use super::interval_samples::IntervalSamples;
+use super::place::Place;
 use super::rest_arc::RestArc;
 use super::route::{Route, before};
 use super::sample::Sample;
 use super::spline::{CAPACITY, SampleBanks, Spline, SplineInterval};
-use crate::moves::shape::PathPoint;
 
 /// Seconds between nodes where nothing happens.
 const FREE_TIME: f64 = 8e-3;
@@ -25,6 +25,9 @@ const GREATEST_ANGLE: f64 = 1.0;
 
 /// The share of J that the third derivative of the path may leave its linear interpolation by.
 const THIRD_DERIVATIVE_ERROR: f64 = 0.04;
+
+/// The share of its length that an interval without a vertex keeps where only the joints bend.
+const LEAST_BEND_SHARE: f64 = 0.3;
 
 /// What the grid has come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +52,7 @@ pub(super) struct Grid {
     end: f64,
     end_spacing: f64,
     /// The path where the next interval starts.
-    point: PathPoint,
+    place: Place,
 }
 
 impl Grid {
@@ -59,7 +62,7 @@ impl Grid {
             k: 0,
             end: 0.0,
             end_spacing: 0.0,
-            point: PathPoint::ZERO,
+            place: Place::ZERO,
         }
     }
 
@@ -75,7 +78,7 @@ impl Grid {
         self.end = candidate.end - length;
         self.end_spacing = GROWTH * length;
         let start = candidate.at(cut).start;
-        self.point = context.route.point(start);
+        self.place = context.rows.place(&context.route.point(start));
         let back = context.route.greatest_reach() * 1.01 + 1e-9 * start.abs();
         self.features.restart(start - back, context.raise_squared);
     }
@@ -155,8 +158,8 @@ impl Grid {
         let samples_here = samples.place_mut(candidate, k);
         samples_here.middle = middle.sample;
         samples_here.end = right.sample;
-        let points = [&self.point, &middle.point, &right.point];
-        samples_here.look_between(rows, route, s, length, points);
+        let places = [&self.place, &middle.place, &right.place];
+        samples_here.look_between(rows, route, s, length, places);
         // Those that lie too near to another node to have one of their own.
         for place in self.features.cap_changes(s, end) {
             let cap = rows.sample(route, place, 0.0).cap;
@@ -167,7 +170,7 @@ impl Grid {
         } else {
             right
         };
-        self.point = right.point;
+        self.place = right.place;
         let right = right.sample;
         *candidate.at_mut(k + 1) = SplineInterval {
             start: end,
@@ -257,6 +260,11 @@ impl Grid {
             let features = &self.features;
             let most = features.greatest_speed_squared(center, acceleration, cap);
             speed = 1.2 * most.sqrt();
+        } else if context.rows.bends() {
+            // The joints may bend where no vertex is.
+            finest = LEAST_BEND_SHARE * length;
+            let cap = left.cap.raised(context.raise_squared);
+            speed = context.rows.curve_speed(left).min(cap.sqrt());
         }
         let cubed = speed * speed * speed;
         let mut middle = Seen::at(context, s + 0.5 * length, length);
@@ -287,16 +295,16 @@ impl Grid {
 
 /// A place of the path and the rows there.
 struct Seen {
-    point: PathPoint,
+    place: Place,
     sample: Sample,
 }
 
 impl Seen {
     fn at<R: Route>(context: &PlanContext<R>, s: f64, length: f64) -> Self {
         let PlanContext { route, rows, .. } = *context;
-        let point = route.point(s);
-        let sample = rows.sample_of(route, s, &point, length);
-        Self { point, sample }
+        let place = rows.place(&route.point(s));
+        let sample = rows.sample_of(route, s, &place, length);
+        Self { place, sample }
     }
 }
 

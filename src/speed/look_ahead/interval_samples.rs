@@ -10,6 +10,7 @@
 //! |q' a + q'' b| + d2 b <= A     |q' u + 3 q'' a + q''' b| sqrt(b) + d3 b^1.5 <= J
 //! ```
 
+use super::place::{Place, middle};
 use super::route::{MOST_BREAKPOINTS, Route, before};
 use super::rows::AxisRows;
 use super::sample::{Cap, Sample};
@@ -92,22 +93,20 @@ impl IntervalSamples {
         }
     }
 
-    /// Looks between the three places of the interval of this length from `s` on, where the path has
-    /// these `points`.
+    /// Looks between the three `places` of the interval of this length from `s` on.
     pub fn look_between<R: Route>(
         &mut self,
         rows: &AxisRows,
         route: &R,
         s: f64,
         length: f64,
-        points: [&PathPoint; 3],
+        places: [&Place; 3],
     ) {
         self.departure = self.departure_of(rows, route, s, length);
-        let [start, middle, end] = points;
-        self.quarters = [(start, middle, 0.25), (middle, end, 0.75)].map(|(from, to, share)| {
-            // The middle of the cubic with these slopes (Hermite).
-            let change = (from.second - to.second) * (length / 16.0);
-            let first = (from.first + to.first) * 0.5 + change;
+        let [start, half, end] = places;
+        self.quarters = [(start, half, 0.25), (half, end, 0.75)].map(|(start, end, share)| {
+            let (from, to) = (&start.point, &end.point);
+            let first = middle([&from.first, &to.first], [&from.second, &to.second], length);
             // Where one bends |q'| up and the other down, their mean would hide both.
             let third = if first.dot(&from.third) < first.dot(&to.third) {
                 from.third
@@ -120,7 +119,8 @@ impl IntervalSamples {
                 third,
                 ..*from
             };
-            rows.cap(route, s + share * length, &point, 0.25 * length)
+            let place = rows.place_between(&point, [start, end], length);
+            rows.cap(route, s + share * length, &place, 0.25 * length)
         });
     }
 

@@ -16,7 +16,8 @@ use super::route::Route;
 use super::rows::AxisRows;
 use super::spline::{CAPACITY, SampleBanks, Spline};
 use super::work::Work;
-use crate::axes::{AxisLimits, MachineMap};
+use crate::axes::AxisLimits;
+use crate::machine_map::MachineMap;
 
 /// Intervals ahead of the machine beyond which the plan is not extended: room is left for one
 /// extension.

@@ -33,6 +33,7 @@ mod interval_samples;
 #[allow(clippy::module_inception, reason = "the type that the folder is about")]
 mod look_ahead;
 mod newton;
+mod place;
 mod plan_time;
 mod planned_segment;
 mod refinement_pace;

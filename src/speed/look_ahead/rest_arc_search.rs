@@ -117,7 +117,7 @@ impl RestArcSearch {
         let RestArc { length, .. } = self.arc;
         let square = self.arc.velocity() * self.arc.velocity();
         let cap = |s: f64| {
-            let cap = rows.cap(route, s, &route.point(s), 0.0);
+            let cap = rows.cap(route, s, &rows.place(&route.point(s)), 0.0);
             cap.raised(self.raise_squared)
         };
         let mut s = self.place;

@@ -5,14 +5,18 @@
 //! ```text
 //! |q'| sqrt(b) <= V     |q' a + q'' b| <= A     |q' u + 3 q'' a + q''' b| sqrt(b) <= J
 //! ```
+//!
+//! Where joints have limits of their own, q is the path of the joints, and the axes keep their velocities besides.
 
 use nalgebra::ArrayStorage;
 
+use super::place::Place;
 use super::route::{Route, SpeedCap};
 use super::sample::{Cap, Curving, MovingAxes, Sample};
-use crate::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
+use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
 use crate::cube_root::cube_root;
 use crate::lanes::{Lanes, ZEROS, rounded};
+use crate::machine_map::MachineMap;
 use crate::moves::shape::PathPoint;
 
 const ZERO: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
@@ -36,11 +40,13 @@ const GREATEST_SPEED_SQUARED: f64 = 1e16;
 /// the planner limits it all the same, since a trajectory is sampled once a period.
 const JERK_SHARE: f64 = 0.3;
 
-/// What the axes of the machine are able to do, prepared for [`Sample`].
+/// What the axes of the machine, or its joints, are able to do, prepared for [`Sample`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AxisRows {
     map: MachineMap,
     velocity: Axes,
+    /// The velocities of the axes, where those above are of joints.
+    axis_velocity: Option<Axes>,
     /// 1 / J; 0 where nothing limits the axis.
     inverse_jerk: Axes,
     /// J / A; 0 where the acceleration is unlimited.
@@ -54,6 +60,7 @@ impl AxisRows {
     pub const NONE: Self = Self {
         map: MachineMap::IDENTITY,
         velocity: UNLIMITED,
+        axis_velocity: None,
         inverse_jerk: ZERO,
         jerk_time: ZERO,
         jerk_time_lanes: ZEROS,
@@ -63,7 +70,8 @@ impl AxisRows {
     /// acceleration reaches the greatest velocity, and no jerk takes more than `JERK_SHARE` of the
     /// acceleration in one period. With more of it the arcs at rest would shrink to nothing, and
     /// positions once a period would not show it.
-    pub fn new(limits: &AxisLimits, map: &MachineMap, period: f64) -> Self {
+    pub fn new(axes: &AxisLimits, map: &MachineMap, period: f64) -> Self {
+        let limits = map.limits(axes);
         let mut inverse_jerk = Axes::zeros();
         let mut jerk_time = Axes::zeros();
         for axis in 0..AXIS_COUNT {
@@ -83,30 +91,54 @@ impl AxisRows {
         Self {
             map: *map,
             velocity: limits.velocity,
+            axis_velocity: map.joints().map(|_| axes.velocity),
             inverse_jerk,
             jerk_time,
             jerk_time_lanes: rounded(&jerk_time),
         }
     }
 
+    /// The place of the path that has this `point`.
+    #[inline]
+    pub fn place(&self, point: &PathPoint) -> Place {
+        Place::of(point, &self.map)
+    }
+
+    /// The place where the path has this `point`, between two others.
+    pub fn place_between(&self, point: &PathPoint, ends: [&Place; 2], length: f64) -> Place {
+        if self.bends() {
+            Place::between(point, ends, length)
+        } else {
+            self.place(point)
+        }
+    }
+
+    /// Whether what the limits hold for bends where the path does not.
+    pub fn bends(&self) -> bool {
+        self.axis_velocity.is_some()
+    }
+
+    /// How long it takes to find what the limits hold for at a place, nanoseconds.
+    pub fn nanoseconds(&self) -> f64 {
+        self.map.nanoseconds()
+    }
+
     /// The rows at `s`, in an interval of the given `length`: together with those a quarter of it
     /// away its caps hold in between too. 0 where a place stands for itself.
     pub fn sample<R: Route>(&self, route: &R, s: f64, length: f64) -> Sample {
-        self.sample_of(route, s, &route.point(s), length)
+        self.sample_of(route, s, &self.place(&route.point(s)), length)
     }
 
-    /// The same where the path is known to have this `point`.
-    pub fn sample_of<R: Route>(&self, route: &R, s: f64, point: &PathPoint, length: f64) -> Sample {
-        let cap = self.cap(route, s, point, 0.25 * length);
-        let first = self.map.apply(&point.first);
-        let second = self.map.apply(&point.second);
+    /// The same where the path is known to have this `place`.
+    pub fn sample_of<R: Route>(&self, route: &R, s: f64, place: &Place, length: f64) -> Sample {
+        let cap = self.cap(route, s, place, 0.25 * length);
+        let [first, second, third] = &place.behind;
         let mut axes = MovingAxes::NONE;
         for axis in 0..AXIS_COUNT {
             if first[axis] != 0.0 || second[axis] != 0.0 {
                 axes.add(axis);
             }
         }
-        let third = self.map.apply(&point.third);
         let first = first.component_mul(&self.inverse_jerk);
         let second = second.component_mul(&self.inverse_jerk) * 3.0;
         let third = third.component_mul(&self.inverse_jerk);
@@ -120,25 +152,20 @@ impl AxisRows {
         }
     }
 
-    /// The cap at `s`, where the path has this `point`: a v^2 that changes evenly to the cap that is
+    /// The cap at `s`, where the path has this `place`: a v^2 that changes evenly to the cap that is
     /// `beside` away exceeds no velocity in between.
-    pub fn cap<R: Route>(&self, route: &R, s: f64, point: &PathPoint, beside: f64) -> Cap {
+    pub fn cap<R: Route>(&self, route: &R, s: f64, place: &Place, beside: f64) -> Cap {
+        let point = &place.point;
         let along = point.first * raised_norm(point, beside);
         let SpeedCap {
             programmed,
             greatest,
         } = route.speed_cap(s, &along);
-        let [first, second, third] =
-            [&point.first, &point.second, &point.third].map(|of| self.map.apply(of));
-        let mut most = (greatest * greatest).min(GREATEST_SPEED_SQUARED);
-        for axis in 0..AXIS_COUNT {
-            // By what q' may exceed both places in between, and 1 / q'^2 the chord between them.
-            let slope = first[axis].abs() + third[axis].abs() * (0.125 * beside * beside);
-            let change = second[axis] * beside;
-            let square = slope * slope + CHORD * change * change;
-            if square > 0.0 {
-                most = most.min(self.velocity[axis] * self.velocity[axis] / square);
-            }
+        let most = (greatest * greatest).min(GREATEST_SPEED_SQUARED);
+        let mut most = most.min(greatest_square(&place.behind, &self.velocity, beside));
+        if let Some(velocity) = &self.axis_velocity {
+            let axes = [&point.first, &point.second, &point.third].map(|of| self.map.apply(of));
+            most = most.min(greatest_square(&axes, velocity, beside));
         }
         Cap {
             programmed: programmed * programmed * CAP_SHARE,
@@ -155,11 +182,10 @@ impl AxisRows {
 
     /// How the path curves at `s`.
     pub fn curving<R: Route>(&self, route: &R, s: f64) -> Curving {
-        let point = route.point(s);
-        let row = |derivative: &Axes| self.map.apply(derivative).component_mul(&self.inverse_jerk);
+        let [_, second, third] = self.place(&route.point(s)).behind;
         Curving {
-            second: row(&point.second) * 3.0,
-            third: row(&point.third),
+            second: second.component_mul(&self.inverse_jerk) * 3.0,
+            third: third.component_mul(&self.inverse_jerk),
         }
     }
 
@@ -183,6 +209,22 @@ impl AxisRows {
         }
         most
     }
+}
+
+/// The v^2 with which none of these derivatives exceeds its velocity, see [`AxisRows::cap`].
+#[inline]
+fn greatest_square([first, second, third]: &[Axes; 3], velocity: &Axes, beside: f64) -> f64 {
+    let mut most = f64::INFINITY;
+    for axis in 0..AXIS_COUNT {
+        // By what q' may exceed both places in between, and 1 / q'^2 the chord between them.
+        let slope = first[axis].abs() + third[axis].abs() * (0.125 * beside * beside);
+        let change = second[axis] * beside;
+        let square = slope * slope + CHORD * change * change;
+        if square > 0.0 {
+            most = most.min(velocity[axis] * velocity[axis] / square);
+        }
+    }
+    most
 }
 
 /// What |q'| is to be multiplied by for the cap of the speed along the path, see [`AxisRows::cap`].

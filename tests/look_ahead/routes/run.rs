@@ -1,6 +1,7 @@
 //! Runs a look-ahead to its end and watches what the axes do.
 
-use framepath::axes::{AXIS_COUNT, Axes, AxisLimits, MachineMap};
+use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
+use framepath::machine_map::MachineMap;
 use framepath::speed::look_ahead::{LookAhead, PlanProgress, PlannedSegment, Route};
 
 /// Servo period, seconds.

@@ -122,7 +122,7 @@ impl CandidatePlan {
     pub fn begin_first<R: Route>(&mut self, context: &PlanContext<R>, start: f64, end: f64) {
         self.spline.start = start;
         self.spline.end = end;
-        self.evaluation = cost::evaluation(context.kernels_before(end));
+        self.evaluation = context.evaluation(end);
         self.first = true;
         self.most = MOST_INTERVALS;
         self.grid.forget();
@@ -153,7 +153,7 @@ impl CandidatePlan {
         }
         self.spline.copy_from(plan, base - 2);
         self.spline.end = end;
-        self.evaluation = cost::evaluation(context.kernels_before(end));
+        self.evaluation = context.evaluation(end);
         self.first = false;
         self.most = most;
         self.attempt = 0;

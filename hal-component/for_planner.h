@@ -1,0 +1,30 @@
+/* What framekins tells the planner, which looks these up by name; see framepath.h. Part of framekins.c.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+
+int framekinsLinearMap(double map[9]);
+int framekinsJet(const double *position, const double *derivatives, double *joints);
+const char *framekinsInner(void);
+
+/* The linear part of the frame, three rows of three, and whether one is in force. */
+int framekinsLinearMap(double map[9])
+{
+    return framepath_kinematics_linear_map(map);
+}
+
+/* How the joints of a machine of ours move behind the frame. */
+int framekinsJet(const double *position, const double *derivatives, double *joints)
+{
+    return framepath_kinematics_jet(position, derivatives, joints);
+}
+
+/* The name of the kinematics behind the frame; NULL if they are ours. */
+const char *framekinsInner(void)
+{
+    return *inner ? inner : NULL;
+}
+
+EXPORT_SYMBOL(framekinsLinearMap);
+EXPORT_SYMBOL(framekinsJet);
+EXPORT_SYMBOL(framekinsInner);

@@ -1,0 +1,50 @@
+//! How the joints of a machine of ours move, for blendtp: the frame in force and what is behind it in one.
+
+use libc::{c_double, c_int};
+
+use super::kinematics::module;
+use crate::axes::{AXIS_COUNT, Axes};
+use crate::machine::JOINT_COUNT;
+
+/// Three derivatives of the joints 0 to 8 for a position and its derivatives by the same parameter: nine numbers, three times
+/// nine, and room for three times nine. 0, or -1 where the kinematics behind the frame are another module's.
+///
+/// # Safety
+/// The arguments point to as many numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_kinematics_jet(
+    position: *const c_double,
+    derivatives: *const c_double,
+    joints: *mut c_double,
+) -> c_int {
+    // SAFETY: see above.
+    let (Some(position), Some(derivatives), Some(out)) = (unsafe {
+        (
+            position.cast::<[f64; AXIS_COUNT]>().as_ref(),
+            derivatives.cast::<[[f64; AXIS_COUNT]; 3]>().as_ref(),
+            joints.cast::<[[f64; AXIS_COUNT]; 3]>().as_mut(),
+        )
+    }) else {
+        return -1;
+    };
+    let Some(control) = module().control.as_ref() else {
+        return -1;
+    };
+    let Some(machine) = control.behind().machine() else {
+        return -1;
+    };
+    let (mut position, mut derivatives) = (Axes::from(*position), derivatives.map(Axes::from));
+    if let Some(frame) = control.active() {
+        position = frame.to_machine(&position);
+        derivatives = derivatives.map(|derivative| frame.derivative_to_machine(&derivative));
+    }
+    let moved = machine.derivatives(&position, &derivatives);
+    for (out, axes) in out.iter_mut().zip(&moved) {
+        let mut joints = [0.0; JOINT_COUNT];
+        machine.coordinates().distribute(axes, &mut joints);
+        for (out, joint) in out.iter_mut().zip(joints) {
+            *out = joint;
+        }
+    }
+    0
+}

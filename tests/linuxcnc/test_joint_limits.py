@@ -1,0 +1,96 @@
+"""Limits of joints in LinuxCNC itself: a tilting table of LinuxCNC's and one of ours, and what cannot be kept."""
+
+import unittest
+
+import harness
+from inner_machine import Machine
+from test_inner_machines import OWN, TILTING
+
+#: what joints may do here: half of what the axes may
+VELOCITY, ACCELERATION, JERK = 100, 1000, 20000
+
+#: the table turns with the tip on the workpiece: its joints have far to go
+TURNS = """\
+G21 G17 G90 G94 G64 P0.05 F12000
+G1 X30 Y20 Z5 A-60 C120
+G1 X60 Y-40 Z0 A20 C-60
+G1 X-40 Y-40 Z5 A10 C-80
+G1 X0 Y0 Z0 A0 C0
+"""
+
+#: lines of the second program begin here
+SECOND = 100
+
+
+def set_limits(joints, velocity=VELOCITY, acceleration=ACCELERATION, jerk=JERK):
+    """Steps that set the limits of so many joints."""
+    values = {"max-velocity": velocity, "max-acceleration": acceleration, "max-jerk": jerk}
+    return [["setp", f"blendtp.joint.{joint}.{name}", value] for joint in range(joints) for name, value in values.items()]
+
+
+def peaks(positions):
+    """Greatest velocity and acceleration, and the greatest mean of the jerk over four periods: what is recorded has
+    six decimals."""
+    rate = 1000.0
+    velocity = max(abs(b - a) for a, b in zip(positions, positions[1:], strict=False)) * rate
+    triples = zip(positions, positions[1:], positions[2:], strict=False)
+    acceleration = max(abs(a - 2 * b + c) for a, b, c in triples) * rate**2
+    wide = zip(positions, positions[4:], positions[8:], positions[12:], strict=False)
+    jerk = max(abs(d - 3 * c + 3 * b - a) for a, b, c, d in wide) * (rate / 4) ** 3
+    return velocity / VELOCITY, acceleration / ACCELERATION, jerk / JERK
+
+
+class Table(unittest.TestCase):
+    def run_twice(self, machine, first):
+        """The program as the axes let it run, and then as the joints do: for each the peaks over the limits of joints."""
+        programs = {"free.ngc": first + TURNS + "M2\n", "limited.ngc": "\n" * SECOND + first + TURNS + "M2\n"}
+        steps = [["run", "PROGRAMS/free.ngc"], *set_limits(5), ["run", "PROGRAMS/limited.ngc"],
+                 ["getp", "joint", "blendtp.limit.joint"]]
+        result = machine.run(steps, programs)
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [], result.log)
+        begins = next(n for n, line in enumerate(result.column("line")) if line > SECOND)
+        found = [[peaks(positions) for positions in (result.commanded(joint)[:begins], result.commanded(joint)[begins:])]
+                 for joint in range(5)]
+        free, limited = ([max(of[kind] for of in by_joint) for kind in range(3)]
+                         for by_joint in zip(*found, strict=True))
+        return free, limited
+
+    def check(self, free, limited):
+        print(f"over the limits of joints, velocity, acceleration, jerk: {free} without, {limited} with")
+        self.assertGreater(free[0], 1.2)
+        self.assertGreater(free[1], 1.2)
+        self.assertLessEqual(limited[0], 1.002)
+        self.assertLessEqual(limited[1], 1.01)
+        self.assertLessEqual(limited[2], 1.03)
+        # not by being slow
+        self.assertGreater(limited[0], 0.95)
+        self.assertGreater(limited[1], 0.9)
+
+    def test_the_table_of_linuxcnc(self):
+        self.check(*self.run_twice(TILTING, ""))
+
+    def test_the_table_of_ours_behind_a_frame(self):
+        self.check(*self.run_twice(OWN, "o<rot_rpl> call [30]\n"))
+
+
+class Refusals(unittest.TestCase):
+    def refused(self, machine, limits, *words):
+        result = machine.run([*limits, ["mdi", "G1 X0.1 F100"]], record=False)
+        said = [line for line in result.log.splitlines() if "blendtp" in line and words[0] in line]
+        self.assertTrue(said, result.log)
+        for word in words:
+            self.assertIn(word, said[0])
+        self.assertTrue(result.errors, result.log)
+
+    def test_a_joint_without_a_limit_of_its_own(self):
+        self.refused(TILTING, set_limits(4), "blendtp.joint.4.max-velocity is 0", "must be positive for each joint",
+                     "[JOINT_4]MAX_VELOCITY")
+
+    def test_kinematics_that_take_too_long(self):
+        robot = Machine("genserkins", (10, -40, -20, 20, 50, 30), "XYZABC")
+        self.refused(robot, set_limits(6), "genserkins takes", "us at most", "set all blendtp.joint.* to 0")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,133 @@
+//! How joints move: exact and numerical derivatives say the same.
+
+use crate::joint_models::{EXACT_TABLE, NUMERICAL_ROBOT, NUMERICAL_TABLE, REACH, joints_of, robot};
+use framepath::axes::Axes;
+use framepath::frame::{ActiveFrame, LinearAxis, Operation, OperationList, ToolLength, WorkOffset};
+use framepath::machine::{JOINT_COUNT, Machine, RotaryDirection, TableTiltingParameters};
+use framepath::machine_map::JointJet;
+use framepath::numerical_jet::numerical_jet;
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+/// What the two may differ by, over the limits.
+const ALIKE: f64 = 1e-4;
+
+/// Three derivatives by time of which none takes an axis beyond 100, 1000 and 20000.
+fn any_derivatives() -> impl Strategy<Value = [Axes; 3]> {
+    let of = |most: f64| prop::array::uniform9(-most..most).prop_map(Axes::from);
+    (of(100.0), of(1000.0), of(20_000.0)).prop_map(|(first, second, third)| [first, second, third])
+}
+
+fn any_position() -> impl Strategy<Value = Axes> {
+    prop::array::uniform9(-150.0..150.0f64).prop_map(Axes::from)
+}
+
+/// The greatest difference over the limits of the joints.
+fn difference(one: &[Axes; 3], other: &[Axes; 3], shares: &[Axes; 3]) -> f64 {
+    let pairs = one.iter().zip(other).zip(shares);
+    pairs.fold(0.0, |most, ((one, other), share)| {
+        most.max((one - other).component_mul(share).amax())
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_numbers_are_those_of_the_formulas(
+        (position, derivatives) in (any_position(), any_derivatives()),
+        (tilts_b, conventional) in any::<(bool, bool)>(),
+        (point, offset, tool) in (prop::array::uniform3(-80.0..80.0f64), prop::array::uniform3(-40.0..40.0f64), 0.0..150.0f64),
+        slowness in 0.0..6.0f64,
+    ) {
+        let (name, letters): (&[u8], &[u8]) = if tilts_b { (b"xyzbc", b"XYZBC") } else { (b"xyzac", b"XYZAC") };
+        let mut machine = Machine::configured(name, letters).expect("a machine");
+        let parameters = TableTiltingParameters {
+            rotation_point: Vector3::from(point),
+            offset: Vector3::from(offset),
+            tool_offset: tool,
+            direction: if conventional { RotaryDirection::Conventional } else { RotaryDirection::Table },
+            tool_centre_point: true,
+        };
+        machine.set_parameters(&parameters).expect("dimensions");
+        // By the path instead of by time a unit is another one.
+        let unit = (-slowness).exp();
+        let derivatives = [derivatives[0] * unit, derivatives[1] * (unit * unit), derivatives[2] * unit.powi(3)];
+        let shares = *joints_of(EXACT_TABLE, 5).shares();
+        let joints = |axes: &Axes| {
+            let mut joints = [0.0; JOINT_COUNT];
+            machine.inverse(axes, &mut joints);
+            Axes::from_fn(|joint, _| joints[joint])
+        };
+        let exact = machine.derivatives(&position, &derivatives).map(|axes| {
+            let mut joints = [0.0; JOINT_COUNT];
+            machine.coordinates().distribute(&axes, &mut joints);
+            Axes::from_fn(|joint, _| joints[joint])
+        });
+        let numerical = numerical_jet(joints, &position, &derivatives, &shares);
+        let differs = difference(&exact, &numerical, &shares);
+        prop_assert!(differs < ALIKE, "{differs} {exact:?} {numerical:?}");
+    }
+
+    #[test]
+    fn a_frame_turns_derivatives_as_it_turns_ways(
+        position in any_position(),
+        way in any_position(),
+        (angle, scale, mirrored) in (-180.0..180.0f64, 0.3..3.0f64, any::<[bool; 6]>()),
+    ) {
+        let mut list = OperationList::new();
+        for operation in [
+            Operation::translate(Vector3::new(3.0, -7.0, 11.0)),
+            Operation::rotate(LinearAxis::X, angle),
+            Operation::scale(Vector3::new(scale, 1.0, 1.0)),
+        ] {
+            list.append(&operation.expect("an operation")).expect("room");
+        }
+        let frame = list.fold().expect("a frame");
+        let tool = Axes::z() * 20.0;
+        let frame = ActiveFrame::new(&frame, mirrored, &WorkOffset::none(), &tool, ToolLength::Frame).expect("a frame");
+        let moved = frame.to_machine(&(position + way)) - frame.to_machine(&position);
+        prop_assert!((frame.derivative_to_machine(&way) - moved).amax() < 1e-9);
+    }
+}
+
+/// Both arms at this angle to each other, degrees, moving radially at 10 mm/s.
+fn elbow_speed(jet: JointJet, elbow: f64) -> (f64, f64) {
+    let upright = Axes::x() * (REACH * (elbow / 2.0).to_radians().cos());
+    let along = [Axes::x() * 10.0, Axes::zeros(), Axes::zeros()];
+    let joints = joints_of(jet, 4);
+    let [first, ..] = jet(&upright, &along, joints.shares());
+    let h = 1e-7 * elbow;
+    let beside = robot(&(upright + Axes::x() * h)) - robot(&(upright - Axes::x() * h));
+    (first[1], beside[1] / (2.0 * h) * 10.0)
+}
+
+#[test]
+fn near_a_singular_place_the_step_becomes_smaller() {
+    for elbow in [60.0, 20.0, 6.0, 2.0, 1.2] {
+        let (jet, difference) = elbow_speed(NUMERICAL_ROBOT, elbow);
+        assert!(
+            (jet / difference - 1.0).abs() < 1e-3,
+            "{elbow}: {jet} {difference}"
+        );
+    }
+}
+
+#[test]
+fn what_stands_still_has_joints_that_stand_still() {
+    let shares = *joints_of(EXACT_TABLE, 5).shares();
+    let nothing = [Axes::zeros(); 3];
+    assert_eq!(
+        NUMERICAL_TABLE(&Axes::repeat(7.0), &nothing, &shares),
+        nothing
+    );
+}
+
+#[test]
+fn where_there_are_no_joints_nothing_is_said() {
+    let nowhere = |_: &Axes| Axes::repeat(f64::NAN);
+    let along = [Axes::x(), Axes::zeros(), Axes::zeros()];
+    let shares = *joints_of(EXACT_TABLE, 5).shares();
+    let [first, ..] = numerical_jet(nowhere, &Axes::zeros(), &along, &shares);
+    assert!(first[0].is_nan());
+}
