@@ -24,6 +24,11 @@ BITS = (("in_position", "motion.in-position"), ("output0", "motion.digital-out-0
         ("reverse", "motion.tp-reverse"))
 
 JERK_LIMITS = "".join(f"setp blendtp.axis.{axis}.max-jerk {JERK:.0f}\n" for axis in "xyzab")
+#: What framekins without a frame needs.
+FRAMEKINS = """
+addf framekins servo-thread
+net frame-switch framekins.switchkins-type => motion.switchkins-type
+"""
 #: Sessions after which rows that are still left count as not run.
 MOST_SESSIONS = 8
 #: How often a row is operated at most that fails while the computer is busy with something else, with each planner:
@@ -77,8 +82,13 @@ class Outcome:
         self.works, self.text, self.figure = works, text, figure
 
 
-def run(planner, names=None, verbose=False):
-    """{name of the row: Outcome} with this [TRAJ]TPMOD; `names` picks rows."""
+def behind_framekins(hal):
+    """The HAL file of the machine with framekins before its kinematics, which stay."""
+    return f"loadrt framekins inner=trivkins\n{hal}{FRAMEKINS}"
+
+
+def run(planner, names=None, verbose=False, framekins=False):
+    """{name of the row: Outcome} with this [TRAJ]TPMOD; `names` picks rows. framekins: before the kinematics of the machine."""
     rows = {row.name(): row for row in all_rows() if not names or row.name() in names}
     left, outcomes, attempts = list(rows), {}, dict.fromkeys(rows, 0)
     files = ["contract/" + name for name in sorted(os.listdir(HERE))
@@ -88,7 +98,8 @@ def run(planner, names=None, verbose=False):
             break
         result = harness.run([["rows", left]], sample="machine", configuration=os.path.join(HERE, "machine"),
                              ini={("TRAJ", "TPMOD"): planner}, hal=JERK_LIMITS if planner == "blendtp" else "",
-                             recorder=Recorder(), files=files, display="operate.py", timeout=60 + 30 * len(left))
+                             recorder=Recorder(), files=files, edit_hal=behind_framekins if framekins else None,
+                             display="operate.py", timeout=60 + 30 * len(left))
         if verbose:
             print(result.log)
         if result.failure:

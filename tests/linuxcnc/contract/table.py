@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The outcome table: every promise, with LinuxCNC's own planner and with blendtp.
 
-table.py [--verbose] [--markdown] [ROW ...]"""
+table.py [--verbose] [--markdown] [--framekins] [ROW ...]. With --framekins both run behind framekins, without a frame."""
 
 import concurrent.futures
 import os
@@ -20,12 +20,12 @@ AT_A_TIME = 3
 BETTER = 0.8
 
 
-def outcomes(names=None, verbose=False):
+def outcomes(names=None, verbose=False, framekins=False):
     """{planner: {row: Outcome}} for both planners, in some LinuxCNCs side by side, which mostly wait."""
     names = names or [row.name() for row in all_rows()]
     found: dict = {STOCK: {}, OURS: {}}
     with concurrent.futures.ThreadPoolExecutor(2 * AT_A_TIME) as pool:
-        running = [(planner, pool.submit(session.run, planner, names[part::AT_A_TIME], verbose))
+        running = [(planner, pool.submit(session.run, planner, names[part::AT_A_TIME], verbose, framekins))
                    for planner in found for part in range(AT_A_TIME) if names[part::AT_A_TIME]]
         for planner, future in running:
             found[planner].update(future.result())
@@ -78,12 +78,12 @@ def markdown(found):
 
 
 def main():
-    options = {"--verbose", "--markdown"}
+    options = {"--verbose", "--markdown", "--framekins"}
     names = [argument for argument in sys.argv[1:] if argument not in options]
     unknown = set(names) - {row.name() for row in all_rows()}
     if unknown:
         sys.exit(f"no such row: {', '.join(sorted(unknown))}")
-    found = outcomes(names, "--verbose" in sys.argv)
+    found = outcomes(names, "--verbose" in sys.argv, "--framekins" in sys.argv)
     print("\n".join(markdown(found) if "--markdown" in sys.argv else lines(found, names)))
 
 

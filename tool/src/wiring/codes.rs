@@ -92,7 +92,11 @@ impl Remap {
     }
 }
 
-/// The code that calls this subroutine of ours.
-pub fn code_of(subroutine: &str) -> Option<Code> {
-    CODES.into_iter().find(|code| code.subroutine == subroutine)
+/// The code that calls this subroutine of ours: the one that is written, where several do.
+pub fn code_of(subroutine: &str, written: &str) -> Option<Code> {
+    let mut calling = CODES
+        .into_iter()
+        .filter(|code| code.subroutine == subroutine);
+    let same = calling.clone().find(|code| code.code == written);
+    same.or_else(|| calling.next())
 }

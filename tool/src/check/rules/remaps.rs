@@ -27,7 +27,8 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
 }
 
 fn ours(subject: &Subject, entry: &Entry, remap: &Remap, findings: &mut Findings) {
-    let Some(code) = remap.subroutine.as_deref().and_then(code_of) else {
+    let subroutine = remap.subroutine.as_deref().unwrap_or("");
+    let Some(code) = code_of(subroutine, &remap.code) else {
         return;
     };
     let wanted = Remap::parse(&code.value());
