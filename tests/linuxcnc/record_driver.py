@@ -28,8 +28,19 @@ def wiring():
         "components": sorted(words[2] for words in shown("comp") if not words[2].startswith("halcmd")),
         "pins": sorted([words[4], *words[5:]] for words in shown("pin")),
         "signals": sorted([words[2], *words[3:]] for words in shown("sig")),
-        "threads": [[words[2], *words[5:]] for words in shown("thread")],
+        "threads": threads(),
     }
+
+
+def threads():
+    """Each thread with its functions, which have lines of their own in LinuxCNC 2.10."""
+    found: list[list[str]] = []
+    for words in shown("thread"):
+        if len(words) > 1:
+            found.append([words[2], *words[5:]])
+        else:
+            found[-1] += words
+    return found
 
 
 def used_memory():

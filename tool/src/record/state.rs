@@ -71,7 +71,7 @@ impl State {
                 .collect(),
             pins: rows(pins).filter_map(|words| pin(&words)).collect(),
             signals: rows(signals).filter_map(|words| signal(&words)).collect(),
-            threads: rows(threads).filter_map(|words| thread(&words)).collect(),
+            threads: all_threads(threads),
         }
     }
 
@@ -133,6 +133,19 @@ fn signal(words: &[&str]) -> Option<Signal> {
     })
 }
 
+/// Threads, each with its functions behind it: in its line, or in lines of their own (LinuxCNC 2.10).
+fn all_threads(text: &str) -> Vec<Thread> {
+    let mut threads: Vec<Thread> = Vec::new();
+    for words in rows(text) {
+        if let Some(found) = thread(&words) {
+            threads.push(found);
+        } else if let ([function], Some(last)) = (words.as_slice(), threads.last_mut()) {
+            last.functions.push((*function).to_owned());
+        }
+    }
+    threads
+}
+
 /// `1000000 YES servo-thread 5000 9000 motion-command-handler motion-controller`.
 fn thread(words: &[&str]) -> Option<Thread> {
     let [period, _, name, _, _, functions @ ..] = words else {
@@ -162,6 +175,24 @@ pub mod tests {
             "float 0.5 joint-0 <== joint.0.pos-cmd ==> joint.0.motor-pos-fb\n\n",
             "1000000 YES servo-thread 5000 9000 motion-command-handler motion-controller\n\n",
         )
+    }
+
+    #[test]
+    fn functions_have_lines_of_their_own_in_2_10() {
+        let shown = "1000000 YES servo-thread 0 0\n motion-command-handler\n motion-controller\n2000000 NO slow 0 0\n pid.0\n\n";
+        let state = State::parse("", "", "", shown);
+        let functions = state
+            .threads
+            .iter()
+            .map(|thread| thread.functions.join(" "));
+        assert_eq!(
+            functions.collect::<Vec<_>>(),
+            ["motion-command-handler motion-controller", "pid.0"]
+        );
+        assert_eq!(
+            state.thread_of("pid.0").map(|thread| thread.period),
+            Some(0.002)
+        );
     }
 
     #[test]
