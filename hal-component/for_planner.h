@@ -5,6 +5,7 @@
 
 int framekinsLinearMap(double map[9]);
 int framekinsJet(const double *position, const double *derivatives, double *joints);
+int framekinsAxisOfJoint(int joint);
 const char *framekinsInner(void);
 
 /* The linear part of the frame, three rows of three, and whether one is in force. */
@@ -19,6 +20,12 @@ int framekinsJet(const double *position, const double *derivatives, double *join
     return framepath_kinematics_jet(position, derivatives, joints);
 }
 
+/* The axis of such a machine that a joint moves. */
+int framekinsAxisOfJoint(int joint)
+{
+    return framepath_kinematics_axis_of_joint(joint);
+}
+
 /* The name of the kinematics behind the frame; NULL if they are ours. */
 const char *framekinsInner(void)
 {
@@ -27,4 +34,5 @@ const char *framekinsInner(void)
 
 EXPORT_SYMBOL(framekinsLinearMap);
 EXPORT_SYMBOL(framekinsJet);
+EXPORT_SYMBOL(framekinsAxisOfJoint);
 EXPORT_SYMBOL(framekinsInner);

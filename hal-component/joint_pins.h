@@ -28,6 +28,7 @@ static void find_joint_jet(void)
     int (*jet)(const double *, const double *, double *);
     *(void **)&jet = dlsym(RTLD_DEFAULT, "framekinsJet");
     framepath_planner_joint_jet(jet);
+    *(void **)&axis_of_joint = dlsym(RTLD_DEFAULT, "framekinsAxisOfJoint");
 }
 
 /* Says why the limits of joints cannot be kept, and what to do. */

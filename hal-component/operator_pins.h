@@ -84,15 +84,19 @@ static int make_operator_pins(void)
     return 0;
 }
 
+/* framekins says which axis of a machine of ours a joint moves; NULL without it. */
+static int (*axis_of_joint)(int joint);
+
 static void show_limit(struct framepath_survey const *survey)
 {
+    int axis = survey->joint >= 0 && axis_of_joint ? axis_of_joint(survey->joint) : survey->axis;
     *operator_pins->kind = survey->limit;
-    *operator_pins->axis = survey->axis;
+    *operator_pins->axis = axis;
     *operator_pins->joint = survey->joint;
     for (int i = 0; i < (int)LIMITS; i++)
         *operator_pins->kinds[i] = i == survey->limit;
     for (int i = 0; i < AXES; i++)
-        *operator_pins->axes[i] = i == survey->axis;
+        *operator_pins->axes[i] = i == axis;
 }
 
 /* How long it takes: of the whole program where program_time.py knows, else of what is queued. */

@@ -640,6 +640,12 @@ int framepath_kinematics_jet(const double *position,
                              double *joints);
 
 /*
+ The axis of a machine of ours that a joint moves, 0 to 8, as its lamp on a panel says; -1 if there is none, or where the
+ kinematics are another module's.
+ */
+int framepath_kinematics_axis_of_joint(int joint);
+
+/*
  What the operator is told of an alarm.
  */
 const char *framepath_kinematics_alarm_text(int alarm);

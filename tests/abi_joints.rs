@@ -14,7 +14,9 @@ use framepath::abi::kinematics::{
     framepath_frame_inputs, framepath_kinematics_configure, framepath_kinematics_inverse,
     framepath_kinematics_switch,
 };
-use framepath::abi::kinematics_jet::framepath_kinematics_jet;
+use framepath::abi::kinematics_jet::{
+    framepath_kinematics_axis_of_joint, framepath_kinematics_jet,
+};
 use framepath::abi::linuxcnc::{EmcPose, KINEMATICS_TYPE};
 use framepath::abi::planner::add::framepath_planner_add_line;
 use framepath::abi::planner::joint_limits::{
@@ -368,6 +370,8 @@ fn our_table_says_how_its_joints_move() {
             "{joint} {second} {moved:?}"
         );
     }
+    let axes = [-1, 0, 3, 4, 5, 99].map(|joint| framepath_kinematics_axis_of_joint(joint));
+    assert_eq!(axes, [-1, 0, 3, 5, -1, -1]);
     // SAFETY: null pointers are permitted.
     let nothing =
         unsafe { framepath_kinematics_jet(std::ptr::null(), std::ptr::null(), null_mut()) };

@@ -48,3 +48,18 @@ pub unsafe extern "C" fn framepath_kinematics_jet(
     }
     0
 }
+
+/// The axis of a machine of ours that a joint moves, 0 to 8, as its lamp on a panel says; -1 if there is none, or where the
+/// kinematics are another module's.
+#[unsafe(no_mangle)]
+pub extern "C" fn framepath_kinematics_axis_of_joint(joint: c_int) -> c_int {
+    let machine = module()
+        .control
+        .as_ref()
+        .and_then(|control| control.behind().machine());
+    let axis = machine.and_then(|machine| {
+        let joint = usize::try_from(joint).ok()?;
+        machine.coordinates().axis_of_joint(joint)
+    });
+    axis.map_or(-1, |axis| axis as c_int)
+}
