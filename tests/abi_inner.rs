@@ -172,7 +172,7 @@ fn what_passes_between_motion_and_the_other_module() {
     assert_eq!(unsafe { framepath_kinematics_switch(17, &pins) }, 0);
     assert_eq!(joints_of(&world, near, 0).1[0], 206.0);
 
-    // How the tool turns is asked in a frame only, when the machine stands, and once for a place.
+    // How the tool turns is asked in a frame only, when the machine stands, and once for a frame.
     assert_eq!(shown.normal_refusal, 7);
     let mut asked = |pins: &framepath_frame_inputs| {
         // SAFETY: structures of the interface.
@@ -180,13 +180,15 @@ fn what_passes_between_motion_and_the_other_module() {
         let axes = (shown.normal_tilt_axis, shown.normal_rotary_axis);
         (shown.normal_refusal, axes, shown.normal_tilt.round())
     };
-    pins.in_position = 0;
-    assert_eq!(asked(&pins), (7, (0, 0), 0.0));
-    pins.in_position = 1;
-    // twice as far is not straight
-    assert_eq!(asked(&pins), (5, (0, 0), 0.0));
     framepath_kinematics_inner_functions(Some(table), Some(forward), Some(switch));
+    pins.in_position = 0;
     assert_eq!(asked(&pins), (5, (0, 0), 0.0));
-    joints_of(&zeroed_pose(), near, 0);
+    pins.in_position = 1;
     assert_eq!(asked(&pins), (0, (1, 3), 0.0));
+    // twice as far is not straight
+    framepath_kinematics_inner_functions(Some(inverse), Some(forward), Some(switch));
+    assert_eq!(asked(&pins), (0, (1, 3), 0.0));
+    // SAFETY: a structure of the interface.
+    assert_eq!(unsafe { framepath_kinematics_switch(33, &pins) }, 0);
+    assert_eq!(asked(&pins), (5, (0, 0), 0.0));
 }
