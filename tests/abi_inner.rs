@@ -55,6 +55,25 @@ unsafe extern "C" fn forward(
     }
 }
 
+/// A table that A tilts and C turns.
+unsafe extern "C" fn table(
+    world: *const EmcPose,
+    joints: *mut c_double,
+    _: *const c_ulong,
+    _: *mut c_ulong,
+) -> c_int {
+    // SAFETY: called with a pose and 16 numbers.
+    unsafe {
+        let (a, c) = ((*world).a.to_radians(), (*world).c.to_radians());
+        let (x, y, z) = ((*world).tran.x, (*world).tran.y, (*world).tran.z);
+        let (turned_x, turned_y) = (c.cos() * x - c.sin() * y, c.sin() * x + c.cos() * y);
+        *joints = turned_x;
+        *joints.add(1) = a.cos() * turned_y - a.sin() * z;
+        *joints.add(2) = a.sin() * turned_y + a.cos() * z;
+    }
+    0
+}
+
 /// Types 0 and 1.
 unsafe extern "C" fn switch(kind: c_int) -> c_int {
     if kind < 2 { 0 } else { -1 }
@@ -152,4 +171,24 @@ fn what_passes_between_motion_and_the_other_module() {
     // SAFETY: a structure of the interface.
     assert_eq!(unsafe { framepath_kinematics_switch(17, &pins) }, 0);
     assert_eq!(joints_of(&world, near, 0).1[0], 206.0);
+
+    // How the tool turns is asked in a frame only, when the machine stands, and once for a frame.
+    assert_eq!(shown.normal_refusal, 7);
+    let mut asked = |pins: &framepath_frame_inputs| {
+        // SAFETY: structures of the interface.
+        unsafe { framepath_kinematics_update(pins, &mut shown) };
+        let axes = (shown.normal_tilt_axis, shown.normal_rotary_axis);
+        (shown.normal_refusal, axes, shown.normal_tilt.round())
+    };
+    framepath_kinematics_inner_functions(Some(table), Some(forward), Some(switch));
+    pins.in_position = 0;
+    assert_eq!(asked(&pins), (5, (0, 0), 0.0));
+    pins.in_position = 1;
+    assert_eq!(asked(&pins), (0, (1, 3), 0.0));
+    // twice as far is not straight
+    framepath_kinematics_inner_functions(Some(inverse), Some(forward), Some(switch));
+    assert_eq!(asked(&pins), (0, (1, 3), 0.0));
+    // SAFETY: a structure of the interface.
+    assert_eq!(unsafe { framepath_kinematics_switch(33, &pins) }, 0);
+    assert_eq!(asked(&pins), (5, (0, 0), 0.0));
 }

@@ -6,22 +6,23 @@ use super::frame_pins::{framepath_frame_inputs, limits_of};
 use super::inner::{Calls, InnerModule};
 use super::normal_pins::NormalPins;
 use crate::axes::{AXIS_COUNT, Axes};
-use crate::kinematics::ToolNormalError;
 use crate::kinematics::control::FrameControl;
-use crate::kinematics::inner_tool::rotary_chain;
+use crate::kinematics::inner_tool::{Unknown, rotary_chain};
+use crate::kinematics::{RotaryChain, ToolNormalError};
 use crate::machine::JOINT_COUNT;
 
-/// What was answered last, and to which question: another module is asked dozens of times, which is done once, when the machine
-/// has come to rest in a frame. Without one nobody touches it: some remember where they were asked last.
+/// How the tool is turned with a frame and a type of the kinematics: another module is asked dozens of times, which is done
+/// once, when the machine stands in a new frame. Without one nobody touches it: some remember where they were asked last.
 pub(super) struct AskedNormal {
-    question: Option<([f64; AXIS_COUNT], c_int, [[f64; 2]; 2])>,
-    answer: NormalPins,
+    /// motion's number for the frame and the type.
+    question: Option<c_int>,
+    chain: Result<Option<RotaryChain>, Unknown>,
 }
 
 impl AskedNormal {
     pub(super) const NONE: Self = Self {
         question: None,
-        answer: NormalPins::refused(ToolNormalError::NoFrame),
+        chain: Err(Unknown),
     };
 
     /// In each period.
@@ -35,15 +36,15 @@ impl AskedNormal {
         slot: c_int,
     ) -> NormalPins {
         let axes = Axes::from(*position);
+        let limits = limits_of(pins);
         if let Some(machine) = control.behind().machine() {
-            return NormalPins::of_machine(machine, control, &limits_of(pins), &axes);
+            return NormalPins::of_machine(machine, control, &limits, &axes);
         }
         if control.active().is_none() {
             *self = Self::NONE;
-            return self.answer;
+            return NormalPins::refused(ToolNormalError::NoFrame);
         }
-        let number = control.behind().number(slot);
-        let question = Some((*position, number, [pins.tilt_range, pins.rotary_range]));
+        let question = Some(control.behind().number(slot));
         let stands = pins.in_position != 0 && pins.enabled != 0;
         if stands && axes.iter().all(|value| value.is_finite()) && question != self.question {
             self.question = question;
@@ -52,11 +53,11 @@ impl AskedNormal {
                 forward_flags: 0,
                 inverse_flags: 0,
             };
-            self.answer = match rotary_chain(&mut calls, &axes, joints) {
-                Ok(chain) => NormalPins::of_chain(chain.as_ref(), control, &limits_of(pins), &axes),
-                Err(_) => NormalPins::refused(ToolNormalError::UnknownKinematics),
-            };
+            self.chain = rotary_chain(&mut calls, &axes, joints);
         }
-        self.answer
+        match &self.chain {
+            Ok(chain) => NormalPins::of_chain(chain.as_ref(), control, &limits, &axes),
+            Err(Unknown) => NormalPins::refused(ToolNormalError::UnknownKinematics),
+        }
     }
 }

@@ -21,7 +21,7 @@ const JOINTS: usize = 16;
 
 /// The greatest numbers of reasons that are documented.
 const LAST_REFUSAL: c_int = 64;
-const LAST_NORMAL_REFUSAL: c_int = 4;
+const LAST_NORMAL_REFUSAL: c_int = 7;
 
 /// What a joint may move by when kinematics are switched, over its position: rounding behind scales of up to a
 /// thousand, forth and back.

@@ -18,6 +18,9 @@ setp xyzac-trt-kins.z-rot-point -50
 """
 #: as LinuxCNC's sample has it: type 0 are the joints, type 1 is the tool centre point
 TABLE = Machine("xyzac-trt-kins sparm=identityfirst", (0,) * 5, "XYZAC", TABLE_HAL, switches=True)
+#: B carries A, which carries the workpiece
+DOUBLE = Machine("xyzab_tdr_kins", (0,) * 5, "XYZAB", "setp xyzab_tdr_kins.x-offset -20\nsetp xyzab_tdr_kins.z-offset -10\n",
+                 switches=True)
 TILTING = Machine("xyzac-trt-kins", (0,) * 5, "XYZAC", TABLE_HAL)
 OWN = Machine("framekins coordinates=XYZAC machine=xyzac", (0,) * 5, "XYZAC",
               TABLE_HAL.replace("xyzac-trt-kins", "framekins") + "setp framekins.tool-centre-point 1\n")
@@ -132,6 +135,17 @@ class WithAFrame(InnerMachines):
         # the pivot is 250 + W above the tip, along the tool
         pivot = [10 * along + start + 252 * along for start, along in zip((50, 40, -30), normal, strict=True)]
         self.near([(x, y, z, w)], [(pivot[0], pivot[1], pivot[2] - 250, 2)], 1e-6)
+
+    def test_the_tool_is_put_normal_to_the_frame_on_a_double_table(self):
+        lines = ["M428", "G1 X5 Y4 A3 B2", "o<trans> call [5] [6] [7]", "o<arot> call [20] [0] [0]",
+                 "o<arot> call [0] [30] [0]", "G1 X1 Y2 Z3", "o<tool_normal> call", "G4 P.02", "M66 E0 L0",
+                 "(DEBUG, AT #<_hal[joint.0.pos-cmd]> #<_hal[joint.1.pos-cmd]>)", "G91 G1 Z10"]
+        result = self.good(DOUBLE.run_program(*lines, inner="inner=xyzab_tdr_kins tool_types=1"))
+        before = next(text.split()[1:] for _, text in result.messages if text.startswith("AT "))
+        x, y, _, a, b = DOUBLE.joints(result)
+        # what moves along the tool moves the joint Z alone; the frame is undone turn by turn
+        self.near([(x, y)], [tuple(map(float, before))], 1e-4)
+        self.near([(abs(a), abs(b))], [(20, 30)], 1e-6)
 
     def test_what_cannot_be_turned_is_refused(self):
         turned = ["o<rot> call [0] [20] [0]"]
