@@ -224,8 +224,8 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
             raise RuntimeError(f"LinuxCNC did not run the scenario:\n{log}")
         with open(outcome, encoding="utf-8") as file:
             result = json.load(file)
-        # where the process of the modules has ended by itself, LinuxCNC finds none to unload
-        if "unloadrt failed" in log and not result["failure"]:
+        # where the process of the modules has ended by itself, LinuxCNC finds none to unload: in the words of 2.9 and of 2.10
+        if ("unloadrt failed" in log or "motmod: not loaded" in log) and not result["failure"]:
             result["failure"] = "the modules had come to an end before LinuxCNC did"
         rows = recorder.read(recording, text) if record else []
         return Result(result, rows, recorder.header, log)
