@@ -21,6 +21,9 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 SAMPLES = os.path.join(ROOT, "hal-component")
 MODULES = os.environ.get("FRAMEPATH_MODULES", os.path.join(ROOT, "target", "modules"))
 TOOL = os.environ.get("FRAMEPATH_TOOL", os.path.join(ROOT, "target", "release", "framepath"))
+#: LinuxCNC's own modules: installed, or built to be run in place.
+LINUXCNC_MODULES = (os.path.join(os.environ["LINUXCNC_IN_PLACE"], "rtlib") if os.environ.get("LINUXCNC_IN_PLACE")
+                    else "/usr/lib/linuxcnc/modules")
 #: LinuxCNC from 2.10 on hands [AXIS_L]MAX_JERK to the planner itself.
 HANDS_OVER_JERK = os.environ.get("LINUXCNC_VERSION", "2.9").startswith("2.10")
 #: The folders of LinuxCNC's headers, as build.rs and make have them.
