@@ -265,7 +265,7 @@ install: modules tool
 	install -m 755 hal-component/panel/program_time.py $(SHARE)/panel
 	cp -R hal-component/configs $(SHARE)
 # A copy in the user's folder has to find them, too.
-	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal $(SHARE)/panel/*.xml $(SHARE)/panel/*.hal
+	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|g' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal $(SHARE)/panel/*.xml $(SHARE)/panel/*.hal
 	install -d $(EXAMPLES)
 	ln -sfn $(PREFIX)/share/framepath/configs $(EXAMPLES)/framepath
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9

@@ -14,6 +14,18 @@ FIRST = ("test_dialect_examples", "test_spindle", "test_preview", "test_preview_
          "test_look_ahead")
 
 
+#: What is about the LinuxCNC that is installed, and its modules: left out where the others run in another one.
+OF_THE_INSTALLED = ("test_packages.py", "test_right_module.py")
+IN_PLACE = os.environ.get("LINUXCNC_IN_PLACE")
+
+collect_ignore = list(OF_THE_INSTALLED) if IN_PLACE else []
+
+
+def pytest_report_header():
+    """What is said before the tests."""
+    return f"in the LinuxCNC of {IN_PLACE}, without {', '.join(OF_THE_INSTALLED)}" if IN_PLACE else ""
+
+
 def is_set_up_once(item):
     """Whether the tests of the class share what they set up."""
     return any("setUpClass" in vars(kind) for kind in item.cls.__mro__ if kind is not unittest.TestCase)

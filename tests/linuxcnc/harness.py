@@ -21,6 +21,9 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 SAMPLES = os.path.join(ROOT, "hal-component")
 MODULES = os.environ.get("FRAMEPATH_MODULES", os.path.join(ROOT, "target", "modules"))
 TOOL = os.environ.get("FRAMEPATH_TOOL", os.path.join(ROOT, "target", "release", "framepath"))
+#: LinuxCNC's own modules: installed, or built to be run in place.
+LINUXCNC_MODULES = (os.path.join(os.environ["LINUXCNC_IN_PLACE"], "rtlib") if os.environ.get("LINUXCNC_IN_PLACE")
+                    else "/usr/lib/linuxcnc/modules")
 #: LinuxCNC from 2.10 on hands [AXIS_L]MAX_JERK to the planner itself.
 HANDS_OVER_JERK = os.environ.get("LINUXCNC_VERSION", "2.9").startswith("2.10")
 #: The folders of LinuxCNC's headers, as build.rs and make have them.
@@ -227,8 +230,8 @@ def run(steps, programs=None, ini=None, hal="", sample="framepath-sim", joints=3
             raise RuntimeError(f"LinuxCNC did not run the scenario:\n{log}")
         with open(outcome, encoding="utf-8") as file:
             result = json.load(file)
-        # where the process of the modules has ended by itself, LinuxCNC finds none to unload
-        if "unloadrt failed" in log and not result["failure"]:
+        # where the process of the modules has ended by itself, LinuxCNC finds none to unload: in the words of 2.9 and of 2.10
+        if ("unloadrt failed" in log or "motmod: not loaded" in log) and not result["failure"]:
             result["failure"] = "the modules had come to an end before LinuxCNC did"
         rows = recorder.read(recording, text) if record else []
         return Result(result, rows, recorder.header, log, status)

@@ -18,7 +18,7 @@ from ten_programs import ATTEMPTS, NCFILES, PROGRAMS, PROMPT, record
 SAMPLE = "framepath-sim"
 INI = os.path.join(harness.SAMPLES, "configs", SAMPLE, f"{SAMPLE}.ini")
 PLANNER = "tpmod"
-MODULE = f"/usr/lib/linuxcnc/modules/{PLANNER}.so"
+MODULE = os.path.join(harness.LINUXCNC_MODULES, f"{PLANNER}.so")
 PERIOD = 1e-3
 #: share of the time by which compare and LinuxCNC may differ
 ALLOWED = 0.005

@@ -51,7 +51,9 @@ class Install(unittest.TestCase):
             self.assertEqual(os.readlink(os.path.join(folder, "usr/share/linuxcnc/aux_examples/framepath")),
                              "/usr/share/framepath/configs")
             named = set()
-            for path in glob.glob(os.path.join(configs, "*", "*.ini")) + glob.glob(os.path.join(configs, "*", "*.hal")):
+            panel = os.path.join(folder, "usr/share/framepath/panel/*.hal")
+            for path in [*glob.glob(os.path.join(configs, "*", "*.ini")), *glob.glob(os.path.join(configs, "*", "*.hal")),
+                         *glob.glob(panel)]:
                 with open(path, encoding="utf-8") as file:
                     text = file.read()
                 self.assertNotIn("../", text, path)

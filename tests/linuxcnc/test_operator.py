@@ -306,7 +306,7 @@ class Panel(unittest.TestCase):
         pins = (*screen_checks.PANEL, "limit.a", "limit.c", "frame.centre-point")
         steps = [["show", "axis"], ["wait_pin", "axisui.abort"], ["wait_pin", "pyvcp.frame.guarded"],
                  ["expect", "pyvcp.frame.guarded", "TRUE", 60],
-                 ["start", "PROGRAMS/part.ngc"], ["wait_paused"], *screen_checks.read_panel("in the frame", pins), ["resume"],
+                 *screen_checks.START, ["wait_paused"], *screen_checks.read_panel("in the frame", pins), ["resume"],
                  ["wait_moving"], ["sleep", 0.4], ["getp", "at feed", "pyvcp.limit.feed"], ["finish"],
                  ["expect", "framekins.active", "FALSE"], ["expect", "framekins.hold", "FALSE"],
                  *screen_checks.read_panel("behind it", pins)]
