@@ -28,6 +28,9 @@ const HALVINGS: usize = 10;
 /// error of the better one is a small part of that.
 const AGREEMENT: f64 = 2e-3;
 
+/// What rounding of an answer becomes in a third derivative, over the answer, for a step of 1.
+const ROUNDING: f64 = 1e-15;
+
 /// How joints move, and how sure that is.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
@@ -36,6 +39,8 @@ pub struct Estimate {
     /// What the formulas of two orders differ by, over the limits; infinite where that is not a number. At a singular place
     /// no step makes it small.
     pub disagreement: f64,
+    /// What the joints take of their limits, at the speed that the parameter has.
+    taken: f64,
 }
 
 /// Three derivatives of what `inverse` makes of a position, see the head of this file. `shares`: what a unit of velocity,
@@ -63,6 +68,7 @@ pub fn numerical_estimate(
         return Estimate {
             jet: [Axes::zeros(); 3],
             disagreement: 0.0,
+            taken: 0.0,
         };
     }
     let here = inverse(position);
@@ -72,6 +78,11 @@ pub fn numerical_estimate(
             break;
         }
         step *= 0.5;
+        // In a smaller step rounding alone would be more than that.
+        let rounding = ROUNDING * here.amax() * shares[2].amax();
+        if rounding > AGREEMENT * (step * best.taken).powi(3) {
+            break;
+        }
         let finer = Estimate::of(&inverse, position, derivatives, &here, step, shares);
         if finer.disagreement < best.disagreement {
             best = finer;
@@ -117,28 +128,25 @@ impl Estimate {
             (e1 - here * 2.0) * rate_squared,
             (o2 - o1 * 2.0) * (rate_squared * rate / 2.0),
         ];
+        let share = |of: &Axes, by: &Axes| of.component_mul(by).amax();
+        let [velocity, acceleration, jerk] = shares;
+        let taken = share(&jet[0], velocity)
+            .max(share(&jet[1], acceleration).sqrt())
+            .max(cube_root(share(&jet[2], jerk)));
+        let second = share(&(jet[1] - coarse[0]), acceleration) / (taken * taken);
+        let third = share(&(jet[2] - coarse[1]), jerk) / (taken * taken * taken);
+        let sum: f64 = jet.iter().map(Axes::sum).sum();
+        let disagreement = if taken == 0.0 {
+            0.0
+        } else if sum.is_finite() && second.is_finite() && third.is_finite() {
+            second.max(third)
+        } else {
+            f64::INFINITY
+        };
         Self {
-            disagreement: disagreement(&jet, &coarse, shares),
             jet,
+            disagreement,
+            taken,
         }
-    }
-}
-
-/// By how much second and third derivatives differ, over the limits, where the parameter passes as fast as these let it.
-fn disagreement(jet: &[Axes; 3], coarse: &[Axes; 2], shares: &[Axes; 3]) -> f64 {
-    let share = |of: &Axes, by: &Axes| of.component_mul(by).amax();
-    let [velocity, acceleration, jerk] = shares;
-    let taken = share(&jet[0], velocity)
-        .max(share(&jet[1], acceleration).sqrt())
-        .max(cube_root(share(&jet[2], jerk)));
-    let second = share(&(jet[1] - coarse[0]), acceleration) / (taken * taken);
-    let third = share(&(jet[2] - coarse[1]), jerk) / (taken * taken * taken);
-    let sum: f64 = jet.iter().map(Axes::sum).sum();
-    if taken == 0.0 {
-        0.0
-    } else if sum.is_finite() && second.is_finite() && third.is_finite() {
-        second.max(third)
-    } else {
-        f64::INFINITY
     }
 }

@@ -114,6 +114,20 @@ fn near_a_singular_place_the_step_becomes_smaller() {
 }
 
 #[test]
+fn where_rounding_is_in_the_way_no_smaller_step_is_tried() {
+    let calls = std::cell::Cell::new(0);
+    let far = |axes: &Axes| {
+        calls.set(calls.get() + 1);
+        axes.add_scalar(1e7) * 1.1
+    };
+    let shares = *joints_of(EXACT_TABLE, 5).shares();
+    let along = [Axes::x(), Axes::zeros(), Axes::zeros()];
+    let [first, ..] = numerical_jet(far, &Axes::repeat(1.0 / 3.0), &along, &shares);
+    assert!((first[0] - 1.1).abs() < 1e-6, "{}", first[0]);
+    assert_eq!(calls.get(), 7);
+}
+
+#[test]
 fn what_stands_still_has_joints_that_stand_still() {
     let shares = *joints_of(EXACT_TABLE, 5).shares();
     let nothing = [Axes::zeros(); 3];

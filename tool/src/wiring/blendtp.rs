@@ -39,12 +39,60 @@ pub fn axis_of_pin(pin: &str) -> Option<char> {
     }
 }
 
+/// How many joints can have limits.
+pub const LIMITED_JOINTS: usize = 9;
+
+/// A limit that a joint has.
+pub struct JointLimit {
+    /// The end of the pin's name.
+    name: &'static str,
+    /// The key under `[JOINT_n]`.
+    key: &'static str,
+    /// What happens without it.
+    pub without: &'static str,
+}
+
+/// What a joint has limits of.
+pub const JOINT_LIMITS: [JointLimit; 3] = [
+    JointLimit {
+        name: "max-velocity",
+        key: "MAX_VELOCITY",
+        without: "blendtp refuses every move",
+    },
+    JointLimit {
+        name: "max-acceleration",
+        key: "MAX_ACCELERATION",
+        without: "blendtp refuses every move",
+    },
+    JointLimit {
+        name: "max-jerk",
+        key: "MAX_JERK",
+        without: "the jerk of the joint is not limited",
+    },
+];
+
+impl JointLimit {
+    /// The pin of a joint.
+    pub fn pin(&self, joint: usize) -> String {
+        format!("blendtp.joint.{joint}.{}", self.name)
+    }
+
+    /// The line that takes the limit of the INI file to the pin.
+    pub fn line(&self, joint: usize) -> String {
+        format!("setp {} [JOINT_{joint}]{}", self.pin(joint), self.key)
+    }
+}
+
+fn is_joint_limit(pin: &str) -> bool {
+    (0..LIMITED_JOINTS).any(|joint| JOINT_LIMITS.iter().any(|limit| limit.pin(joint) == pin))
+}
+
 /// Whether blendtp has this pin.
 pub fn has_pin(pin: &str) -> bool {
     let Some(name) = pin.strip_prefix("blendtp.") else {
         return false;
     };
-    axis_of_pin(pin).is_some() || OTHERS.contains(&name) || is_limit(name)
+    axis_of_pin(pin).is_some() || is_joint_limit(pin) || OTHERS.contains(&name) || is_limit(name)
 }
 
 /// The pins that are there once.
@@ -72,8 +120,9 @@ const OTHERS: [&str; 20] = [
 ];
 
 /// What `blendtp.limit` has a bit for, besides the axes.
-const LIMITS: [&str; 12] = [
+const LIMITS: [&str; 13] = [
     "axis",
+    "joint",
     "nothing",
     "rest",
     "hold",

@@ -7,6 +7,7 @@ mod frame_nets;
 mod frame_settings;
 mod guard;
 mod inner_kinematics;
+mod joint_limits;
 mod kinematics;
 mod limits;
 mod modules;
@@ -41,6 +42,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
     kinematics::look(subject, &mut findings);
     if subject.has_planner() {
         planner::look(subject, &mut findings);
+        joint_limits::look(subject, &mut findings);
     }
     if subject.has_planner() || subject.has_frames() {
         threads::look(subject, &mut findings);
