@@ -11,6 +11,7 @@ mod history;
 mod holds;
 mod invariance;
 mod limits_changed;
+mod monotone;
 mod move_jerk;
 mod moves;
 mod operator;
