@@ -58,10 +58,8 @@ pub(super) fn widen(
     vertex.searched = searched;
     let alone = if vertex.free_limit > 0.0 {
         vertex.width_alone()
-    } else if vertex.biweight_width <= vertex.half_leg {
-        vertex.biweight_width
     } else {
-        0.0
+        vertex.biweight_width.min(vertex.half_leg)
     };
     let overlaps = vertex.scanned > vertex.half_leg * 1.01 && vertex.scanned >= WORTHWHILE * alone;
     vertex.base.kernel = if overlaps {

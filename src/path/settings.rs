@@ -118,6 +118,16 @@ impl BlendSettings {
         self.millimetre * width.clamp(LEAST_DESIGN_WIDTH, GREATEST_DESIGN_WIDTH)
     }
 
+    /// The speed at which a curve can be run that turns the direction by `turn`, shape (9), of this `size`, over
+    /// `length`: within acceleration and jerk of all axes; machine units per second. Infinite without limits.
+    pub(super) fn curve_speed(&self, turn: &Axes, size: f64, length: f64) -> f64 {
+        let turned = turn.abs();
+        let bend = turned.component_mul(&self.per_acceleration).max() / length;
+        let twist = turned.component_mul(&self.per_jerk).max() * size / (length * length);
+        // Nothing divided by a 0 of no limit is no limit either.
+        bend.sqrt().recip().min(cube_root(twist).recip())
+    }
+
     /// What a width is never raised above for the sake of speed where kernels overlap, machine
     /// units.
     pub(super) fn greatest_design_width(&self) -> f64 {
@@ -291,6 +301,19 @@ mod tests {
             BlendSettings::DEFAULT.corner_mix(&tangent_jump, 2.0, true),
             0.0
         );
+    }
+
+    #[test]
+    fn a_curve_is_run_as_fast_as_acceleration_and_jerk_allow() {
+        let radius = 2.0;
+        let mut turn = Axes::zeros();
+        turn[0] = 0.1;
+        let by_acceleration = settings(f64::INFINITY).curve_speed(&turn, 0.1, 0.1 * radius);
+        assert!((by_acceleration - (1000.0 * radius).sqrt()).abs() < 1e-9);
+        let by_jerk = settings(10_000.0).curve_speed(&turn, 0.1, 0.1 * radius);
+        assert!((by_jerk.powi(3) - 10_000.0 * radius * radius).abs() < 1e-6);
+        let unlimited = BlendSettings::DEFAULT.curve_speed(&turn, 0.1, 0.1 * radius);
+        assert_eq!(unlimited, f64::INFINITY);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! There are always two assignments of widths. The *stored* one is in force: it keeps the
 //! tolerance everywhere, and leaves the programmed path alone at the end of what is known. The
 //! *trial* one takes the path as far as it has grown since, at the widths that would be best. It
-//! is checked leg by leg; vertices that reach a place of violation are narrowed and their legs
+//! is checked leg by leg; the vertices that are to blame for a violation are narrowed and their legs
 //! checked again. When all is within the tolerance it takes the place of the stored one, at once.
 //! When that fails, or takes too much work, the stored one stays and the new vertices are
 //! hardened (see there).
@@ -17,7 +17,7 @@ use super::metric::Metric;
 use super::settings::BlendSettings;
 use super::vertex::Widths;
 use super::window::Window;
-use super::{base_width, deviation::DeviationVerdict};
+use super::{base_width, blame, deviation::DeviationVerdict};
 
 /// Path that has to come, in design widths, before widths are chosen anew.
 const CHUNK: f64 = 0.125;
@@ -38,7 +38,7 @@ const TRIAL_SHARE: f64 = 0.98;
 const NARROWING: f64 = 0.85;
 
 /// Checks of the whole window before a trial is given up.
-const ROUNDS: u32 = 16;
+const ROUNDS: u32 = 24;
 
 /// A violation so near to the end of what is known, in design widths, may be due to it.
 const NEAR_END: f64 = 2.0;
@@ -48,7 +48,7 @@ const NEAR_END: f64 = 2.0;
 const AMPLE: f64 = 1.001;
 
 /// Kernel terms that a trial may take in its checks, and half as many in its base widths.
-const GREATEST_TRIAL: usize = 20_000;
+const GREATEST_TRIAL: usize = 60_000;
 
 /// The most kernel terms by which a call of
 /// [`BlendedPath::step`](super::BlendedPath::step) exceeds its budget.
@@ -322,33 +322,20 @@ impl WidthOptimizer {
         }
         let DeviationVerdict { violation, cost } =
             deviation::check(chain, leg, TRIAL_SHARE, self.window.next, metric);
-        self.spent += cost;
-        match violation {
-            None => chain.leg_mut(leg).unchecked = false,
+        let marking = match violation {
+            None => {
+                chain.leg_mut(leg).unchecked = false;
+                0
+            }
             Some(s) => {
                 self.violated = true;
-                self.mark(chain, leg, s);
+                let last = chain.leg(self.window.next.wrapping_sub(1));
+                let near_end = self.window.is_near_end(s, NEAR_END * last.design_width);
+                blame::mark(chain, leg, s, near_end, &self.window, metric)
             }
-        }
-        cost
-    }
-
-    /// Marks the open vertices that reach a place on a leg.
-    fn mark(&self, chain: &mut Chain, leg: u64, s: f64) {
-        let last = chain.leg(self.window.next.wrapping_sub(1));
-        let near_end = self.window.is_near_end(s, NEAR_END * last.design_width);
-        let from = leg
-            .saturating_sub(NEIGHBOURS - 1)
-            .max(self.window.open)
-            .max(chain.first());
-        let to = leg.saturating_add(1 + NEIGHBOURS).min(self.window.next);
-        for number in from..to {
-            let vertex = chain.vertex_mut(number);
-            if (vertex.s - s).abs() < vertex.counted.reach() {
-                vertex.marked = true;
-                vertex.marked_temporarily |= near_end;
-            }
-        }
+        };
+        self.spent += cost + marking;
+        cost + marking
     }
 
     fn narrow(&mut self, chain: &mut Chain, number: u64) -> usize {

@@ -14,6 +14,7 @@ mod joint_jets;
 mod joint_limits;
 mod joint_models;
 mod limits_changed;
+mod monotone;
 mod move_jerk;
 mod moves;
 mod operator;

@@ -1,0 +1,81 @@
+//! How wide kernels have to be on a curve made of short lines: its turning limits the speed, whatever the
+//! program asks for.
+//!
+//! Wider ones gain nothing there, and cost: what does not fit is narrowed step by step, and where that takes
+//! too long the vertices are hardened. Without this such curves took up to twice as long at a greater feed.
+
+use super::chain::{Chain, NEIGHBOURS};
+use super::leg::Leg;
+use super::metric::Metric;
+use super::settings::BlendSettings;
+use crate::moves::shape::Shape;
+
+/// Of the speed that a curve allows, what kernels are wide enough for: its turning is not known exactly, and
+/// where it ends the machine is faster.
+const RESERVE: f64 = 2.5;
+
+/// On a curve the turns of the direction add up to at least this share of their sizes: more of them lead back
+/// where coordinates are rounded.
+const EVEN: f64 = 0.7;
+
+/// And none is more than this share of them all: a corner is no curve.
+const GREATEST_SHARE: f64 = 0.6;
+
+/// Radians of a curve that are looked at, at most.
+const GREATEST_TURN: f64 = 1.0;
+
+/// The design width for the speed at which the curve can be run that ends with `leg`, which is about to come
+/// at the end of the chain and has its start, machine units; `None` where it ends no curve.
+///
+/// Looks back over as much as it is wide, no farther than kernels reach.
+pub(super) fn design_width(
+    chain: &Chain,
+    leg: &Leg,
+    settings: &BlendSettings,
+    metric: &Metric,
+) -> Option<f64> {
+    if !is_line(leg) {
+        return None;
+    }
+    let direction = leg.point(leg.start).first;
+    let middle = leg.start + 0.5 * leg.length;
+    let (mut later, mut sum, mut greatest) = (direction, 0.0, 0.0f64);
+    let mut found: Option<f64> = None;
+    for number in (chain.first()..chain.next())
+        .rev()
+        .take(NEIGHBOURS as usize)
+    {
+        let before = chain.leg(number);
+        if !is_line(before) {
+            break;
+        }
+        let earlier = before.point(before.start).first;
+        let turn = metric.norm(&(later - earlier));
+        sum += turn;
+        greatest = greatest.max(turn);
+        later = earlier;
+        let whole = direction - earlier;
+        let size = metric.norm(&whole);
+        let length = middle - before.start - 0.5 * before.length;
+        // A single turn says nothing.
+        if number + 1 < chain.next() {
+            if size < EVEN * sum || greatest > GREATEST_SHARE * size {
+                return None;
+            }
+            let speed = RESERVE * settings.curve_speed(&whole, size, length);
+            let width = settings.design_width(speed);
+            found = Some(width);
+            if length > leg.design_width.min(width) && number + 2 < chain.next() {
+                break;
+            }
+        }
+        if size > GREATEST_TURN || chain.vertex(number).wall {
+            break;
+        }
+    }
+    found
+}
+
+fn is_line(leg: &Leg) -> bool {
+    matches!(leg.shape, Shape::Line(_))
+}

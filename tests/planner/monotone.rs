@@ -1,0 +1,243 @@
+//! More jerk, acceleration, feed or tolerance costs no time: circles, spirals and trochoids made of chords, single
+//! corners, squares, drawn at random.
+//!
+//! `FRAMEPATH_CASES=20000 cargo test --release --test planner monotone -- --nocapture` lists what does.
+
+use framepath::axes::{Axes, AxisLimits};
+use framepath::moves::TerminationCondition;
+use framepath::planner::MoveRequest;
+use proptest::prelude::*;
+use proptest::sample::select;
+use proptest::strategy::ValueTree;
+
+use crate::common::seeded_runner::seeded_runner;
+use crate::common::{Machine, at, feed_move, with_room};
+
+/// What more costs at most without being listed: widths are chosen in steps.
+const ROUNDING: f64 = 1.01;
+
+/// Servo periods that it may cost besides: those of its beginning and end are whole ones.
+const PERIODS: f64 = 2.0;
+
+/// What more costs at most ..
+const GREATEST: f64 = 1.06;
+
+/// .. and how many of the pairs are listed, at most. None would be better.
+const LISTED: f64 = 0.04;
+
+/// Velocity of each axis, mm/s.
+const VELOCITY: f64 = 100.0;
+
+/// Path of a curve, mm: more of it shows nothing new.
+const LONGEST: f64 = 100.0;
+
+/// What is programmed, mm.
+#[derive(Clone, Copy, Debug)]
+enum Figure {
+    /// Three turns, unless that is too long.
+    Circle { radius: f64, chord: f64 },
+    /// From a radius of .5 mm outward by 1 mm a turn.
+    Spiral { chord: f64 },
+    /// Loops with a radius of 2 mm, .4 mm apart.
+    Trochoid { chord: f64 },
+    /// Two legs of 10 mm, the first along X.
+    Corner { degrees: f64 },
+    /// Two turns.
+    Square { leg: f64 },
+}
+
+impl Figure {
+    /// The ends of its moves, from the origin on.
+    fn ends(self) -> Vec<Axes> {
+        let turns = |angle: f64| angle / core::f64::consts::TAU;
+        match self {
+            Self::Circle { radius, chord } => {
+                let whole = 3.0 * core::f64::consts::TAU * radius;
+                chords(chord, whole.min(LONGEST), |angle| {
+                    at(radius * angle.sin(), -radius * angle.cos())
+                })
+            }
+            Self::Spiral { chord } => chords(chord, LONGEST, |angle| {
+                let radius = 0.5 + turns(angle);
+                at(radius * angle.cos(), radius * angle.sin())
+            }),
+            Self::Trochoid { chord } => chords(chord, LONGEST, |angle| {
+                at(2.0 * angle.sin() + 0.4 * turns(angle), -2.0 * angle.cos())
+            }),
+            Self::Corner { degrees } => {
+                let angle = degrees.to_radians();
+                let corner = at(10.0, 0.0);
+                vec![corner, corner + at(angle.cos(), angle.sin()) * 10.0]
+            }
+            Self::Square { leg } => {
+                let turn = [at(leg, 0.0), at(leg, leg), at(0.0, leg), at(0.0, 0.0)];
+                turn.into_iter().chain(turn).collect()
+            }
+        }
+    }
+}
+
+/// The ends of chords of this length of a curve over an angle, until they are `longest` in sum; where it begins
+/// is the origin.
+fn chords(chord: f64, longest: f64, curve: impl Fn(f64) -> Axes) -> Vec<Axes> {
+    const FINE: f64 = 1e-3;
+    let start = curve(0.0);
+    let (mut angle, mut last) = (0.0, start);
+    let mut ends = Vec::new();
+    for _ in 0..(longest / chord) as usize {
+        // Newton's method for the angle at which the chord is that long.
+        let mut step = FINE;
+        for _ in 0..30 {
+            let length = |step: f64| (curve(angle + step) - last).norm();
+            let slope = (length(step + FINE) - length(step)) / FINE;
+            step += (chord - length(step)) / slope;
+        }
+        angle += step;
+        last = curve(angle);
+        ends.push(last - start);
+    }
+    ends
+}
+
+/// What a figure is run with: mm, s.
+#[derive(Clone, Copy, Debug)]
+struct Setting {
+    jerk: f64,
+    acceleration: f64,
+    feed: f64,
+    tolerance: f64,
+}
+
+/// What there is more of.
+#[derive(Clone, Copy, Debug)]
+enum Quantity {
+    Jerk,
+    Acceleration,
+    Feed,
+    Tolerance,
+}
+
+impl Quantity {
+    fn of(self, setting: &mut Setting) -> &mut f64 {
+        match self {
+            Self::Jerk => &mut setting.jerk,
+            Self::Acceleration => &mut setting.acceleration,
+            Self::Feed => &mut setting.feed,
+            Self::Tolerance => &mut setting.tolerance,
+        }
+    }
+}
+
+/// A figure, what it is run with, and twice how much of a quantity, less and more.
+type Pair = (Figure, Setting, Quantity, [f64; 2]);
+
+fn any_figure() -> impl Strategy<Value = Figure> {
+    let chord = || select(vec![0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0]);
+    let short = || select(vec![0.05, 0.1, 0.2, 0.4, 0.7, 1.0]);
+    prop_oneof![
+        3 => (select(vec![3.0, 10.0, 30.0]), chord())
+            .prop_map(|(radius, chord)| Figure::Circle { radius, chord }),
+        1 => short().prop_map(|chord| Figure::Spiral { chord }),
+        1 => short().prop_map(|chord| Figure::Trochoid { chord }),
+        3 => (10.0..178.0).prop_map(|degrees| Figure::Corner { degrees }),
+        1 => select(vec![1.0, 2.0, 5.0, 20.0]).prop_map(|leg| Figure::Square { leg }),
+    ]
+}
+
+/// mm/s3, mm/s2, mm/s, mm.
+const VALUES: [(Quantity, &[f64]); 4] = [
+    (Quantity::Jerk, &[2e4, 5e4, 1e5, f64::INFINITY]),
+    (Quantity::Acceleration, &[500.0, 1000.0, 2000.0]),
+    (Quantity::Feed, &[10.0, 20.0, 40.0, 70.0, 100.0, 150.0]),
+    (Quantity::Tolerance, &[0.005, 0.01, 0.02, 0.05, 0.1, 0.2]),
+];
+
+fn any_pair() -> impl Strategy<Value = Pair> {
+    let [jerk, acceleration, feed, tolerance] = VALUES.map(|(_, values)| select(values.to_vec()));
+    let setting =
+        (jerk, acceleration, feed, tolerance).prop_map(|(jerk, acceleration, feed, tolerance)| {
+            Setting {
+                jerk,
+                acceleration,
+                feed,
+                tolerance,
+            }
+        });
+    let quantity = select(VALUES.to_vec()).prop_flat_map(|(quantity, values)| {
+        (1..values.len()).prop_flat_map(move |more| {
+            (0..more).prop_map(move |less| (quantity, [values[less], values[more]]))
+        })
+    });
+    (any_figure(), setting, quantity)
+        .prop_map(|(figure, setting, (quantity, values))| (figure, setting, quantity, values))
+}
+
+/// Servo periods with motion that a figure takes. Each move may be as fast as the axes.
+fn periods(figure: Figure, setting: &Setting) -> usize {
+    let mut machine = Machine::new(AxisLimits {
+        velocity: Axes::repeat(VELOCITY),
+        acceleration: Axes::repeat(setting.acceleration),
+        jerk: Axes::repeat(setting.jerk),
+    });
+    machine
+        .planner
+        .set_termination(TerminationCondition::Continuous {
+            tolerance: setting.tolerance,
+        });
+    let mut start = Axes::zeros();
+    let mut ends = figure.ends().into_iter();
+    loop {
+        let next = ends.next();
+        if let Some(end) = next {
+            let request = MoveRequest {
+                max_velocity: VELOCITY / (end - start).normalize().amax(),
+                ..feed_move(setting.feed)
+            };
+            machine.line(end, &request).expect("a line");
+            start = end;
+        }
+        if machine.cycle().done && next.is_none() {
+            return machine.extremes().periods;
+        }
+    }
+}
+
+/// What more costs, and how it is said; `None` if nothing worth to be listed.
+fn inversion((figure, setting, quantity, values): &Pair) -> Option<(f64, String)> {
+    let [less, more] = values.map(|value| {
+        let mut setting = *setting;
+        *quantity.of(&mut setting) = value;
+        with_room(|| periods(*figure, &setting)) as f64
+    });
+    let ratio = (more - PERIODS) / less;
+    (ratio > ROUNDING).then(|| {
+        let text = format!(
+            "{ratio:.3} {quantity:?} {values:?}: {less} to {more} periods, {figure:?} {setting:?}"
+        );
+        (ratio, text)
+    })
+}
+
+#[test]
+fn more_of_anything_costs_no_time() {
+    let cases =
+        std::env::var("FRAMEPATH_CASES").map_or(150, |cases| cases.parse().expect("a number"));
+    let mut runner = seeded_runner(ProptestConfig::default());
+    let mut inversions: Vec<_> = (0..cases)
+        .filter_map(|_| {
+            let pair = any_pair().new_tree(&mut runner).expect("filters nothing");
+            inversion(&pair.current())
+        })
+        .collect();
+    inversions.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+    for (_, text) in &inversions {
+        println!("{text}");
+    }
+    println!("{} of {cases} pairs", inversions.len());
+    let greatest = inversions.first().map_or(0.0, |(ratio, _)| *ratio);
+    assert!(greatest <= GREATEST, "{inversions:#?}");
+    assert!(
+        inversions.len() as f64 <= LISTED * f64::from(cases),
+        "{inversions:#?}"
+    );
+}
