@@ -1,7 +1,7 @@
 /* framekins: a kinematics module of LinuxCNC with programmable frames in front of the machine's own kinematics, which are
  * the library's or those of another module.
  *
- * This file owns the HAL pins and the parameters of loadrt and forwards to the library (include/framepath.h).
+ * This file owns the HAL pins and forwards to the library (include/framepath.h).
  * The pins are explained in framekins.9.
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
@@ -14,6 +14,7 @@
 
 #include "framepath.h"
 #include "first_loaded.h"
+#include "frame_parameters.h"
 #include "impossible_pins.h"
 #include "inner_kinematics.h"
 #include "linuxcnc_version.h"
@@ -22,21 +23,6 @@
 MODULE_AUTHOR("the framepath authors");
 MODULE_DESCRIPTION("Kinematics with programmable frames: translate, rotate, scale, mirror");
 MODULE_LICENSE("GPL");
-
-static char *coordinates = "";
-RTAPI_MP_STRING(coordinates, "Axis letters, one for each joint: coordinates=XYZ");
-
-static char *machine = "";
-RTAPI_MP_STRING(machine, "identity (also without it), xyzac or xyzbc");
-
-static char *tool_length = "";
-RTAPI_MP_STRING(tool_length, "frame (also without it): the tool's length turns with a frame; machine: it stays along the machine's axes");
-
-static char *inner = "";
-RTAPI_MP_STRING(inner, "In place of coordinates and machine: the kinematics module that is loaded behind this one");
-
-static char *tool_types = "";
-RTAPI_MP_STRING(tool_types, "Types of the inner kinematics that turn the tool's length themselves: tool_types=0,2");
 
 /* The dimensions of a machine with a tilting rotary table have the names of LinuxCNC's xyzac-trt-kins. */
 static struct {
@@ -418,48 +404,6 @@ static int export_inner_pins(void)
     return error ? error : export_range_pins();
 }
 
-/* Chooses the kinematics of another module; 0, or what is wrong has been said. */
-static int configure_inner(void)
-{
-    const char *beside = *coordinates ? "coordinates" : *machine ? "machine" : *tool_length ? "tool_length" : NULL;
-    int error;
-    if (beside) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: inner=%s and %s= exclude each other, since the joints are those of %s: %s\n",
-                        inner, beside, inner, *coordinates || *machine
-                            ? "give coordinates= to that module, and to framekins inner= alone"
-                            : "write TOOL_LENGTH under [FRAMEPATH] in the INI, or tool_types= for types with a tool-offset pin");
-        return -22; /* EINVAL */
-    }
-    if (check_inner_file(inner, &pins))
-        return -22; /* EINVAL */
-    error = framepath_kinematics_configure_inner(tool_types);
-    if (error)
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_types=%s: %s\n", tool_types, framepath_kinematics_configure_text(error));
-    return error ? -22 : 0; /* EINVAL */
-}
-
-/* Chooses the machine; 0, or what is wrong has been said. */
-static int configure(void)
-{
-    int letter = 0;
-    int error = framepath_kinematics_configure(coordinates, machine, tool_length, &letter);
-    const char *words = framepath_kinematics_configure_text(error);
-    if (!error)
-        return 0;
-    if (error == FRAMEPATH_UNKNOWN_MACHINE)
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: machine=%s: %s\n", machine, words);
-    else if (error == FRAMEPATH_UNKNOWN_TOOL_LENGTH)
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_length=%s: %s\n", tool_length, words);
-    else if (!letter)
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: coordinates=%s: %s; write one letter of XYZABCUVW for each joint, as in: "
-                        "loadrt framekins coordinates=XYZ\n", coordinates, words);
-    else
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: coordinates=%s: %s (letter %d); write one letter of XYZABCUVW for each joint, "
-                        "as in: loadrt framekins coordinates=XYZ\n",
-                        coordinates, words, letter);
-    return -22; /* EINVAL */
-}
-
 int rtapi_app_main(void)
 {
     int error;
@@ -469,7 +413,7 @@ int rtapi_app_main(void)
                                   "kinematics; or load framekins before it, with inner=";
     if (check_version("framekins") || check_first("framekins", "kinematicsForward", &pins, remedy))
         return -22; /* EINVAL */
-    error = *inner ? configure_inner() : configure();
+    error = *inner ? configure_inner(&pins) : configure_machine();
     if (error)
         return error;
     has_table = framepath_kinematics_tilt_axis() != 0;

@@ -108,3 +108,68 @@ fn constants_that_tune_have_the_values_of_their_page() {
     }
     assert!(count > 10, "{count} constants");
 }
+
+/// The numbers that a file of the core names outside of its tests.
+fn named_numbers(text: &str) -> Vec<String> {
+    const NUMBERS: [&str; 7] = ["f64", "f32", "usize", "u32", "u64", "[f", "RangeInclusive"];
+    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+    let declared = code.lines().filter_map(|line| {
+        let declaration = line.trim_start().trim_start_matches("pub");
+        let (_, declaration) = declaration.split_once("const ")?;
+        let (name, kind) = declaration.split_once(": ")?;
+        let is_name = name
+            .chars()
+            .all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_');
+        let is_number = NUMBERS.iter().any(|number| kind.starts_with(number));
+        let indented = line.len() - line.trim_start().len();
+        (is_name && is_number && indented <= 4).then(|| name.to_owned())
+    });
+    declared.collect()
+}
+
+#[test]
+fn every_named_number_of_the_planner_has_its_kind() {
+    let page = std::fs::read_to_string(root().join("docs/tuning.md")).expect("docs/tuning.md");
+    let mut listed = Vec::new();
+    for line in page
+        .lines()
+        .filter(|line| line.starts_with("| ") && line.contains(".rs | "))
+    {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        for name in cells[2..].join(" ").split_whitespace() {
+            listed.push(format!("{} {}", cells[1], name.trim_matches('`')));
+        }
+    }
+    let mut all = Vec::new();
+    for folder in ["path", "speed", "planner", "cycle"] {
+        let mut files_there = Vec::new();
+        files(&root().join("src").join(folder), &mut files_there);
+        for file in files_there {
+            let text = std::fs::read_to_string(root().join(&file)).expect("a text");
+            let inside = file.trim_start_matches("src/");
+            all.extend(
+                named_numbers(&text)
+                    .iter()
+                    .map(|name| format!("{inside} {name}")),
+            );
+        }
+    }
+    listed.sort();
+    all.sort();
+    let only_in = |some: &[String], others: &[String]| -> Vec<String> {
+        let missing = some
+            .iter()
+            .filter(|name| others.binary_search(name).is_err());
+        missing.cloned().collect()
+    };
+    assert!(
+        all.len() > 200,
+        "{} numbers: are they found at all?",
+        all.len()
+    );
+    let [new, gone] = [only_in(&all, &listed), only_in(&listed, &all)];
+    assert!(
+        new.is_empty() && gone.is_empty(),
+        "docs/tuning.md, the table of all of them: {new:#?} have no place there, {gone:#?} are no more"
+    );
+}

@@ -5,7 +5,9 @@ use libc::{c_char, c_double, c_int, c_ulong};
 use super::frame_pins::framepath_frame_inputs;
 use super::inner::{Calls, InnerModule};
 use super::inner_normal::AskedNormal;
-use super::kinematics::{FRAMEPATH_UNKNOWN_TOOL_TYPES, Kinematics, module, parameter};
+use super::kinematics::{
+    FRAMEPATH_UNKNOWN_TOOL_TYPES, Kinematics, joints_of, joints_of_mut, module, parameter,
+};
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::Axes;
@@ -123,7 +125,7 @@ pub unsafe extern "C" fn framepath_kinematics_inner_forward(
     // SAFETY: see above.
     let (Some(joints), Some(world), Some(read), Some(written)) = (unsafe {
         (
-            joints.cast::<[f64; JOINT_COUNT]>().as_ref(),
+            joints_of(joints),
             world.as_mut(),
             forward_flags.as_ref(),
             inverse_flags.as_mut(),
@@ -158,14 +160,14 @@ pub unsafe extern "C" fn framepath_kinematics_inner_inverse(
     forward_flags: *mut c_ulong,
 ) -> c_int {
     // SAFETY: see above.
-    let (Some(world), Some(joints)) =
-        (unsafe { (world.as_ref(), joints.cast::<[f64; JOINT_COUNT]>().as_mut()) })
-    else {
-        return -1;
-    };
-    // SAFETY: see above.
-    let (Some(read), Some(written)) = (unsafe { (inverse_flags.as_ref(), forward_flags.as_mut()) })
-    else {
+    let (Some(world), Some(joints), Some(read), Some(written)) = (unsafe {
+        (
+            world.as_ref(),
+            joints_of_mut(joints),
+            inverse_flags.as_ref(),
+            forward_flags.as_mut(),
+        )
+    }) else {
         return -1;
     };
     let answer = ask(*written, *read, |frame, calls, _| {

@@ -81,8 +81,46 @@ static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
 
 /// The machine of the module.
 pub(super) fn module() -> &'static mut Kinematics {
-    // SAFETY: one thread at a time, and no function here or in inner_kinematics.rs hands the reference on or calls another one with it.
+    // SAFETY: one thread at a time, and nothing here or in inner_kinematics.rs asks for it while it holds a part of it.
     unsafe { &mut *MEMORY.0.get() }
+}
+
+/// Joint positions that LinuxCNC hands over.
+///
+/// # Safety
+/// `joints` has 16 numbers, or is null.
+pub(super) unsafe fn joints_of<'a>(joints: *const c_double) -> Option<&'a [f64; JOINT_COUNT]> {
+    // SAFETY: see above.
+    unsafe { joints.cast::<[f64; JOINT_COUNT]>().as_ref() }
+}
+
+/// The same to be written to.
+///
+/// # Safety
+/// `joints` has room for 16 numbers that nobody else looks at, or is null.
+pub(super) unsafe fn joints_of_mut<'a>(
+    joints: *mut c_double,
+) -> Option<&'a mut [f64; JOINT_COUNT]> {
+    // SAFETY: see above.
+    unsafe { joints.cast::<[f64; JOINT_COUNT]>().as_mut() }
+}
+
+/// A machine of ours behind the frame, and the place where its axes are kept.
+fn our_machine() -> Option<(
+    &'static FrameControl,
+    &'static Machine,
+    &'static mut [f64; AXIS_COUNT],
+)> {
+    let Kinematics {
+        control: Some(control),
+        position,
+        ..
+    } = module()
+    else {
+        return None;
+    };
+    let control = &*control;
+    Some((control, control.behind().machine()?, position))
 }
 
 /// The bytes of a parameter of loadrt.
@@ -192,20 +230,9 @@ pub unsafe extern "C" fn framepath_kinematics_forward(
     world: *mut EmcPose,
 ) -> c_int {
     // SAFETY: see above.
-    let (Some(joints), Some(world)) =
-        (unsafe { (joints.cast::<[f64; JOINT_COUNT]>().as_ref(), world.as_mut()) })
+    let (Some(joints), Some(world), Some((control, machine, position))) =
+        (unsafe { (joints_of(joints), world.as_mut(), our_machine()) })
     else {
-        return -1;
-    };
-    let Kinematics {
-        control: Some(control),
-        position,
-        ..
-    } = module()
-    else {
-        return -1;
-    };
-    let Some(machine) = control.behind().machine() else {
         return -1;
     };
     let axes = machine.forward(joints);
@@ -229,20 +256,9 @@ pub unsafe extern "C" fn framepath_kinematics_inverse(
     joints: *mut c_double,
 ) -> c_int {
     // SAFETY: see above.
-    let (Some(world), Some(joints)) =
-        (unsafe { (world.as_ref(), joints.cast::<[f64; JOINT_COUNT]>().as_mut()) })
+    let (Some(world), Some(joints), Some((control, machine, position))) =
+        (unsafe { (world.as_ref(), joints_of_mut(joints), our_machine()) })
     else {
-        return -1;
-    };
-    let Kinematics {
-        control: Some(control),
-        position,
-        ..
-    } = module()
-    else {
-        return -1;
-    };
-    let Some(machine) = control.behind().machine() else {
         return -1;
     };
     let axes = axes_of(world);

@@ -250,8 +250,8 @@ impl BlendedPath {
         point
     }
 
-    /// The places behind `from` and before `to` where the third derivative or its slope may jump, as many
-    /// as there is room for; answers how many.
+    /// The places behind `from` and before `to` where the third derivative or its slope may jump, both sides of a jump of the
+    /// third derivative itself, as many as there is room for; answers how many. In no order.
     pub fn breakpoints(&self, from: f64, to: f64, places: &mut [f64]) -> usize {
         if self.chain.is_empty() {
             return 0;

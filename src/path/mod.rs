@@ -30,7 +30,8 @@
 //! The order of the parts: a move becomes a `leg`, short lines after the `line_merger` has joined
 //! them; legs meet in a `vertex` and lie in a `chain`; the `optimizer` gives the vertices of a
 //! `window` their widths, beginning with the `base_width`, on a `curve` for what it allows; the
-//! `deviation` is checked, what is to `blame` is narrowed, and `hardening` stands behind it all. [`BlendedPath`] is what the rest of the planner sees.
+//! `deviation` is checked, what is to `blame` is narrowed, and `hardening` stands behind it all.
+//! [`BlendedPath`] is what the rest of the planner sees.
 
 mod base_width;
 mod blame;

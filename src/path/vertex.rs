@@ -417,7 +417,7 @@ impl Vertex {
         self.stored_factor
     }
 
-    /// Where the third derivative of the path or its slope may jump.
+    /// Where the third derivative of the path or its slope may jump: both sides of a jump.
     pub fn breakpoints(&self) -> impl Iterator<Item = f64> {
         let Widths {
             kernel, easement, ..
@@ -427,6 +427,7 @@ impl Vertex {
         let places = [
             (self.s - kernel, kernel > 0.0),
             (self.s - easement, easement > 0.0),
+            (self.s.next_down(), curving),
             (self.s, curving),
             (self.s + easement, easement > 0.0),
             (self.s + kernel, kernel > 0.0),

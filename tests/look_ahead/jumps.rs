@@ -84,7 +84,8 @@ impl Route for Cubics {
         1.2
     }
     fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
-        let inside = Self::vertices().filter(|place| from < *place && *place < to);
+        let sides = Self::vertices().flat_map(|place| [place.next_down(), place]);
+        let inside = sides.filter(|place| from < *place && *place < to);
         places
             .iter_mut()
             .zip(inside)

@@ -26,6 +26,7 @@ macro_rules! regressions {
 
 regressions! {
     a_corner_that_begins_within_another_keeps_the_jerk
+    a_crowd_of_nanometre_corners_keeps_the_jerk
     a_first_move_of_nanometres_starves_nobody
     a_first_phase_within_a_corner_keeps_the_jerk
     a_hold_in_the_last_period_leads_to_the_end
@@ -43,6 +44,7 @@ regressions! {
     a_soft_machine_leaves_a_helix_at_its_limits
     a_wide_corner_of_two_arcs_keeps_the_acceleration
     a_wide_peaked_corner_keeps_the_jerk
+    an_arc_among_corners_of_nanometres_keeps_the_jerk
     an_arc_at_rest_finer_than_the_path_distance_is_given_up
     an_arc_that_is_paused_as_it_is_raised_goes_on
     any_limit_of_jerk_gives_a_plan

@@ -6,8 +6,9 @@
 //! `|q' u + 3 q'' a + q''' b| <= J / sqrt(b)`; the right side is convex in b, which would make the
 //! barrier's second derivatives indefinite, so that one term of them is left out.
 
+use super::departure::Departure;
 use super::interval::Parabola;
-use super::interval_samples::{Departure, IntervalSamples};
+use super::interval_samples::IntervalSamples;
 use super::rows::{AxisRows, THIRD};
 use super::sample::Sample;
 use crate::lanes::{QUAD_LANES, QUADS, Quad, quad};

@@ -248,7 +248,7 @@ impl PathBounds {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::interval_samples::Departure;
+    use super::super::departure::Departure;
     use super::super::sample::{Cap, Sample};
     use super::*;
     use crate::axes::{Axes, AxisLimits};

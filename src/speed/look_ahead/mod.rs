@@ -19,6 +19,7 @@ mod bounds;
 mod candidate_plan;
 mod context;
 mod cost;
+mod departure;
 mod extensions;
 mod feature;
 mod features;

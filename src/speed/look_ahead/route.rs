@@ -4,7 +4,7 @@ use crate::axes::Axes;
 use crate::moves::shape::PathPoint;
 
 /// Room for places where the third derivative of the path may jump in an interval.
-pub const MOST_BREAKPOINTS: usize = 16;
+pub const MOST_BREAKPOINTS: usize = 20;
 
 /// How fast the program lets a place of the path be run, as ds/dt. Positive, may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +71,7 @@ pub trait Route {
     }
 
     /// The places behind `from` and before `to` where the third derivative of the path or its slope
-    /// may jump, as many as there is room for; answers how many.
+    /// may jump, both sides of a jump of the third derivative itself, as many as there is room for; answers how many. In no
+    /// order.
     fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize;
 }

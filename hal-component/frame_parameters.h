@@ -1,0 +1,70 @@
+/* The parameters of loadrt framekins, and the kinematics that they choose.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#ifndef FRAMEPATH_FRAME_PARAMETERS_H
+#define FRAMEPATH_FRAME_PARAMETERS_H
+
+#include "rtapi.h"
+#include "rtapi_app.h"
+#include "framepath.h"
+#include "inner_kinematics.h"
+
+static char *coordinates = "";
+RTAPI_MP_STRING(coordinates, "Axis letters, one for each joint: coordinates=XYZ");
+
+static char *machine = "";
+RTAPI_MP_STRING(machine, "identity (also without it), xyzac or xyzbc");
+
+static char *tool_length = "";
+RTAPI_MP_STRING(tool_length, "frame (also without it): the tool's length turns with a frame; machine: it stays along the machine's axes");
+
+static char *inner = "";
+RTAPI_MP_STRING(inner, "In place of coordinates and machine: the kinematics module that is loaded behind this one");
+
+static char *tool_types = "";
+RTAPI_MP_STRING(tool_types, "Types of the inner kinematics that turn the tool's length themselves: tool_types=0,2");
+
+/* Chooses the kinematics of another module, which lies beside the one that `here` is in; 0, or what is wrong has been said. */
+static int configure_inner(const void *here)
+{
+    const char *beside = *coordinates ? "coordinates" : *machine ? "machine" : *tool_length ? "tool_length" : NULL;
+    int error;
+    if (beside) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: inner=%s and %s= exclude each other, since the joints are those of %s: %s\n",
+                        inner, beside, inner, *coordinates || *machine
+                            ? "give coordinates= to that module, and to framekins inner= alone"
+                            : "write TOOL_LENGTH under [FRAMEPATH] in the INI, or tool_types= for types with a tool-offset pin");
+        return -22; /* EINVAL */
+    }
+    if (check_inner_file(inner, here))
+        return -22; /* EINVAL */
+    error = framepath_kinematics_configure_inner(tool_types);
+    if (error)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_types=%s: %s\n", tool_types, framepath_kinematics_configure_text(error));
+    return error ? -22 : 0; /* EINVAL */
+}
+
+/* Chooses a machine of ours; the same. */
+static int configure_machine(void)
+{
+    int letter = 0;
+    int error = framepath_kinematics_configure(coordinates, machine, tool_length, &letter);
+    const char *words = framepath_kinematics_configure_text(error);
+    if (!error)
+        return 0;
+    if (error == FRAMEPATH_UNKNOWN_MACHINE)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: machine=%s: %s\n", machine, words);
+    else if (error == FRAMEPATH_UNKNOWN_TOOL_LENGTH)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_length=%s: %s\n", tool_length, words);
+    else if (!letter)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: coordinates=%s: %s; write one letter of XYZABCUVW for each joint, as in: "
+                        "loadrt framekins coordinates=XYZ\n", coordinates, words);
+    else
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: coordinates=%s: %s (letter %d); write one letter of XYZABCUVW for each joint, "
+                        "as in: loadrt framekins coordinates=XYZ\n",
+                        coordinates, words, letter);
+    return -22; /* EINVAL */
+}
+
+#endif

@@ -1,0 +1,234 @@
+//! By how much derivatives of the path leave the parabolas through the three places of an interval.
+//!
+//! Between its three places a derivative of the path is taken for the parabola through them. Where the
+//! rounding of a corner begins or ends it leaves that parabola. How far is seen at the places where the
+//! third derivative or its slope jumps, since it is smooth in between, and in the middles between those, where
+//! a change shows that is 0 at both; so much of the limits is set aside in all rows, as much as the speed asks for:
+//!
+//! ```text
+//! |q' a + q'' b| + d2 b <= A     |q' u + 3 q'' a + q''' b| sqrt(b) + d3 b^1.5 <= J
+//! ```
+
+use super::interval_samples::IntervalSamples;
+use super::route::{MOST_BREAKPOINTS, Route};
+use super::rows::AxisRows;
+
+/// Of the second difference of three places, how far what is smooth may leave the parabola through them.
+const SMOOTH_SHARE: f64 = 0.125;
+
+/// The greatest value of the cubic that vanishes at start, middle and end, over its integral up to the middle as
+/// a share of the length.
+const CUBIC: f64 = 3.0792;
+
+/// The greatest departures of all axes in an interval.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Departure {
+    /// Of q'', over A.
+    pub second: f32,
+    /// Of q''', over J.
+    pub third: f32,
+}
+
+impl Departure {
+    pub const NONE: Self = Self {
+        second: 0.0,
+        third: 0.0,
+    };
+}
+
+/// An interval between its places.
+pub(super) struct Between<'a, R: Route> {
+    pub rows: &'a AxisRows,
+    pub route: &'a R,
+    /// Where it starts.
+    pub start: f64,
+    /// Its length in s.
+    pub length: f64,
+}
+
+impl<R: Route> Between<'_, R> {
+    /// By how much the path departs from what these samples say.
+    pub fn departure_from(&self, samples: &IntervalSamples) -> Departure {
+        let mut breakpoints = [0.0; MOST_BREAKPOINTS];
+        let end = self.start + self.length;
+        let count = self.route.breakpoints(self.start, end, &mut breakpoints);
+        let places = &mut breakpoints[..count.min(MOST_BREAKPOINTS)];
+        sort(places);
+        let mut most = self.smooth(samples);
+        let mut look = |place: f64| {
+            let [second, third] = self.departure_at(samples, place);
+            most = [most[0].max(second), most[1].max(third)];
+        };
+        let mut last = self.start;
+        for &place in &*places {
+            if let Some(middle) = middle(last, place) {
+                look(middle);
+            }
+            look(place);
+            last = place;
+        }
+        if let Some(middle) = middle(last, end).filter(|_| last > self.start) {
+            look(middle);
+        }
+        let [second, third] = most.map(|share| share as f32);
+        Departure { second, third }
+    }
+
+    /// How far q'' and q''' leave their parabolas where they are smooth, over A and J. If q''' is a cubic, that changes q''
+    /// up to the middle by something else than the parabola does.
+    fn smooth(&self, samples: &IntervalSamples) -> [f64; 2] {
+        let [start, middle, end] = samples.places();
+        let second = start.second + end.second - middle.second * 2.0;
+        let third = start.third + end.third - middle.third * 2.0;
+        let by_parabola =
+            (start.third * 5.0 + middle.third * 8.0 - end.third) * (self.length / 24.0);
+        let change = (middle.second - start.second) / 3.0;
+        let cubic = CUBIC * (change - by_parabola).amax() / self.length;
+        let to_acceleration = *self.rows.jerk_time() / 3.0;
+        [
+            second.component_mul(&to_acceleration).amax() * SMOOTH_SHARE,
+            (third.amax() * SMOOTH_SHARE).max(cubic),
+        ]
+    }
+
+    /// How far q'' and q''' are off their parabolas at a place, over A and J.
+    fn departure_at(&self, samples: &IntervalSamples, place: f64) -> [f64; 2] {
+        let x = (place - self.start) / self.length;
+        let weights = [
+            (1.0 - x) * (1.0 - 2.0 * x),
+            4.0 * x * (1.0 - x),
+            x * (2.0 * x - 1.0),
+        ];
+        let there = self.rows.curving(self.route, place);
+        let (mut second, mut third) = (there.second, there.third);
+        for (sample, weight) in samples.places().into_iter().zip(weights) {
+            second -= sample.second * weight;
+            third -= sample.third * weight;
+        }
+        let to_acceleration = *self.rows.jerk_time() / 3.0;
+        [second.component_mul(&to_acceleration).amax(), third.amax()]
+    }
+}
+
+/// What lies between two places, if anything does: both sides of a jump are neighbours.
+fn middle(from: f64, to: f64) -> Option<f64> {
+    let middle = 0.5 * (from + to);
+    (from < middle && middle < to).then_some(middle)
+}
+
+/// They are few, and nearly in order.
+fn sort(places: &mut [f64]) {
+    for end in 1..places.len() {
+        let mut k = end;
+        while k > 0 && places[k - 1] > places[k] {
+            places.swap(k - 1, k);
+            k -= 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axes::{Axes, AxisLimits};
+    use crate::machine_map::MachineMap;
+    use crate::moves::shape::PathPoint;
+    use crate::speed::look_ahead::{RouteVertex, SpeedCap};
+
+    /// q''' of X is a tooth of height 1 between these places, and 0 elsewhere.
+    struct Tooth {
+        from: f64,
+        to: f64,
+    }
+
+    impl Route for Tooth {
+        fn point(&self, s: f64) -> PathPoint {
+            let half = 0.5 * (self.to - self.from);
+            let x = ((s - self.from) / half).clamp(0.0, 2.0);
+            let height = x.min(2.0 - x);
+            let area = if x < 1.0 {
+                0.5 * x * x
+            } else {
+                1.0 - 0.5 * height * height
+            };
+            let along_x = |x| Axes::from([x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            PathPoint {
+                position: Axes::zeros(),
+                first: Axes::zeros(),
+                second: along_x(half * area),
+                third: along_x(height),
+            }
+        }
+        fn known_end(&self) -> f64 {
+            10.0
+        }
+        fn is_complete(&self) -> bool {
+            true
+        }
+        fn speed_cap(&self, _: f64, _: &Axes) -> SpeedCap {
+            SpeedCap {
+                programmed: 50.0,
+                greatest: 60.0,
+            }
+        }
+        fn vertex_after(&self, _: f64) -> Option<RouteVertex> {
+            None
+        }
+        fn vertex_before(&self, _: f64) -> Option<RouteVertex> {
+            None
+        }
+        fn greatest_reach(&self) -> f64 {
+            0.0
+        }
+        fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
+            let all = [self.to, self.from].into_iter();
+            let inside = all.filter(|place| from < *place && *place < to);
+            places
+                .iter_mut()
+                .zip(inside)
+                .map(|(free, place)| *free = place)
+                .count()
+        }
+    }
+
+    const JERK: f64 = 20_000.0;
+
+    /// The departure of q''' in the interval from 0 to 1.
+    fn departure(route: &Tooth) -> f64 {
+        let limits = AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(JERK),
+        };
+        let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
+        let [start, middle, end] = [0.0, 0.5, 1.0].map(|s| rows.sample(route, s, 0.0));
+        let samples = IntervalSamples {
+            start,
+            middle,
+            end,
+            ..IntervalSamples::NONE
+        };
+        let between = Between {
+            rows: &rows,
+            route,
+            start: 0.0,
+            length: 1.0,
+        };
+        f64::from(between.departure_from(&samples).third) * JERK
+    }
+
+    #[test]
+    fn a_change_that_is_0_at_both_breakpoints_and_all_samples_is_seen_between_them() {
+        for (from, to) in [(0.1, 0.4), (0.6, 0.62), (0.7, 1.0), (0.2, 0.2001)] {
+            let third = departure(&Tooth { from, to });
+            assert!((third - 1.0).abs() < 1e-3, "{from} {third}");
+        }
+    }
+
+    #[test]
+    fn what_begins_in_an_interval_departs_most_there() {
+        // The parabola through 0, 1 and 0 is .64 where the tooth begins and ends.
+        let third = departure(&Tooth { from: 0.2, to: 0.8 });
+        assert!((third - 0.64).abs() < 1e-6, "{third}");
+    }
+}
