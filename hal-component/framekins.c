@@ -14,6 +14,7 @@
 
 #include "framepath.h"
 #include "first_loaded.h"
+#include "frame_messages.h"
 #include "frame_parameters.h"
 #include "impossible_pins.h"
 #include "inner_kinematics.h"
@@ -157,27 +158,6 @@ static void write_guard_pins(const struct framepath_frame_inputs *in, const stru
         *pins->guard.tool_offset[i] = out->tool_offset[i];
     }
     *pins->guard.work_rotation = in->work_rotation;
-}
-
-/* Tells the operator of a guard that is missed, and of each stage once. */
-static void tell_alarm(int alarm)
-{
-    static int told;
-    if (alarm > told)
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: %s\n", framepath_kinematics_alarm_text(alarm));
-    told = alarm;
-}
-
-/* Whether this is not the thread in which motion asks for positions; said once. Then nothing is taken and nothing shown. */
-static int is_misplaced(void)
-{
-    static int told;
-    if (!on_another_thread())
-        return 0;
-    if (!told)
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: it is in another thread than motion-controller, no frame is taken: write addf "
-                        "framekins servo-thread behind addf motion-controller servo-thread in the HAL file\n");
-    return told = 1;
 }
 
 /* In the servo thread, behind motion-controller: takes commands, asks motion for a switch, shows the state. */

@@ -18,9 +18,9 @@ LinuxCNC's own sample configurations, headless, with `loadrt framekins inner=` b
 
 which fails where a row does not hold. Each sample runs a program four times: with LinuxCNC's planner and with blendtp, each by
 itself and behind framekins. Behind framekins without a frame every joint is in each period where it is without (exact stop
-mode), and the program takes as long (G64 P0.05, whose seconds stand here). Then a frame is shifted and turned by 90 degrees (with the tool
-centre point on where the sample has one): a place in it, and the same place without it, have the same joints; the column says
-how far apart they were. LinuxCNC ends with exit status 0, and all modules are unloaded.
+mode), and the program takes as long (G64 P0.05, whose seconds stand here). Then a frame is shifted and turned by 90 degrees
+(with the tool centre point on where the sample has one): a place in it, and the same place without it, have the same joints;
+the column says how far apart they were. LinuxCNC ends with exit status 0, and all modules are unloaded.
 
 | sample | kinematics | seconds, LinuxCNC's planner | seconds, blendtp | periods compared | off in the frame |
 |---|---|---|---|---|---|"""

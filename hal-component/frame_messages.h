@@ -1,0 +1,34 @@
+/* What framekins tells the operator once.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#ifndef FRAMEPATH_FRAME_MESSAGES_H
+#define FRAMEPATH_FRAME_MESSAGES_H
+
+#include "rtapi.h"
+
+#include "framepath.h"
+#include "servo_thread.h"
+
+/* Tells the operator of a guard that is missed, and of each stage once. */
+static void tell_alarm(int alarm)
+{
+    static int told;
+    if (alarm > told)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: %s\n", framepath_kinematics_alarm_text(alarm));
+    told = alarm;
+}
+
+/* Whether this is not the thread in which motion asks for positions; said once. Then nothing is taken and nothing shown. */
+static int is_misplaced(void)
+{
+    static int told;
+    if (!on_another_thread())
+        return 0;
+    if (!told)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: it is in another thread than motion-controller, no frame is taken: write addf "
+                        "framekins servo-thread behind addf motion-controller servo-thread in the HAL file\n");
+    return told = 1;
+}
+
+#endif
