@@ -103,7 +103,7 @@ fn run_lines(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn of_a_table_with_any_moves_and_operator(
@@ -257,13 +257,11 @@ fn of_threads() {
     keeps_limits(&extremes).expect("within limits");
 }
 
-/// Positions of the axes while long turns run with these joints, set before or behind a frame.
-fn turns(joints: Option<JointMap>, framed: bool) -> Vec<Axes> {
+/// Positions of the axes while long turns run with these joints, on a machine to which something is done before.
+fn turns(joints: Option<JointMap>, prepare: impl FnOnce(&mut Machine) + Send) -> Vec<Axes> {
     with_room(|| {
         let mut machine = machine_at(&Axes::zeros(), joints);
-        if framed {
-            assert!(machine.planner.set_machine_map(&Matrix3::identity()));
-        }
+        prepare(&mut machine);
         let way = [
             [0.0; 5],
             [30.0, 20.0, 5.0, -60.0, 180.0],
@@ -277,24 +275,19 @@ fn turns(joints: Option<JointMap>, framed: bool) -> Vec<Axes> {
 #[test]
 fn a_frame_does_not_take_them_away() {
     let joints = || Some(joints_of(EXACT_TABLE, 5));
-    assert_eq!(turns(joints(), false), turns(joints(), true));
+    let framed = turns(joints(), |machine| {
+        assert!(machine.planner.set_machine_map(&Matrix3::identity()));
+    });
+    assert_eq!(turns(joints(), |_| {}), framed);
 }
 
 #[test]
 fn joints_without_limits_change_nothing() {
-    let without = turns(None, false);
-    let with = turns(Some(joints_of(EXACT_TABLE, 5)), false);
-    assert_ne!(without, with);
-    let again = with_room(|| {
-        let mut machine = machine_at(&Axes::zeros(), Some(joints_of(EXACT_TABLE, 5)));
+    let without = turns(None, |_| {});
+    let joints = || Some(joints_of(EXACT_TABLE, 5));
+    assert_ne!(without, turns(joints(), |_| {}));
+    let again = turns(joints(), |machine| {
         assert!(machine.planner.set_joints(None));
-        let way = [
-            [0.0; 5],
-            [30.0, 20.0, 5.0, -60.0, 180.0],
-            [60.0, -40.0, 0.0, 20.0, -170.0],
-        ];
-        run_lines(&mut machine, &way.map(five), &feed_move(100.0), &[]);
-        machine.positions
     });
     assert_eq!(without, again);
 }
