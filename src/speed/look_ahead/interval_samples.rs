@@ -77,7 +77,7 @@ impl IntervalSamples {
             start: s,
             length,
         };
-        self.departure = between.departure_from(self);
+        self.departure = between.departure_from(self.places());
         let [start, middle, end] = points;
         self.quarters = [(start, middle, 0.25), (middle, end, 0.75)].map(|(from, to, share)| {
             // The middle of the cubic with these slopes (Hermite).
