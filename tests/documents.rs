@@ -114,15 +114,15 @@ fn named_numbers(text: &str) -> Vec<String> {
     const NUMBERS: [&str; 7] = ["f64", "f32", "usize", "u32", "u64", "[f", "RangeInclusive"];
     let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
     let declared = code.lines().filter_map(|line| {
-        let declaration = line.trim_start().trim_start_matches("pub");
-        let (_, declaration) = declaration.split_once("const ")?;
+        let (visible, declaration) = line.trim_start().split_once("const ")?;
         let (name, kind) = declaration.split_once(": ")?;
         let is_name = name
             .chars()
             .all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_');
         let is_number = NUMBERS.iter().any(|number| kind.starts_with(number));
         let indented = line.len() - line.trim_start().len();
-        (is_name && is_number && indented <= 4).then(|| name.to_owned())
+        let is_item = indented <= 4 && !visible.contains('<');
+        (is_item && is_name && is_number).then(|| name.to_owned())
     });
     declared.collect()
 }

@@ -9,9 +9,9 @@
 //! |q' a + q'' b| + d2 b <= A     |q' u + 3 q'' a + q''' b| sqrt(b) + d3 b^1.5 <= J
 //! ```
 
-use super::interval_samples::IntervalSamples;
 use super::route::{MOST_BREAKPOINTS, Route};
 use super::rows::AxisRows;
+use super::sample::Sample;
 
 /// Of the second difference of three places, how far what is smooth may leave the parabola through them.
 const SMOOTH_SHARE: f64 = 0.125;
@@ -47,8 +47,8 @@ pub(super) struct Between<'a, R: Route> {
 }
 
 impl<R: Route> Between<'_, R> {
-    /// By how much the path departs from what these samples say.
-    pub fn departure_from(&self, samples: &IntervalSamples) -> Departure {
+    /// By how much the path departs from what these samples of its start, middle and end say.
+    pub fn departure_from(&self, samples: [&Sample; 3]) -> Departure {
         let mut breakpoints = [0.0; MOST_BREAKPOINTS];
         let end = self.start + self.length;
         let count = self.route.breakpoints(self.start, end, &mut breakpoints);
@@ -76,8 +76,8 @@ impl<R: Route> Between<'_, R> {
 
     /// How far q'' and q''' leave their parabolas where they are smooth, over A and J. If q''' is a cubic, that changes q''
     /// up to the middle by something else than the parabola does.
-    fn smooth(&self, samples: &IntervalSamples) -> [f64; 2] {
-        let [start, middle, end] = samples.places();
+    fn smooth(&self, samples: [&Sample; 3]) -> [f64; 2] {
+        let [start, middle, end] = samples;
         let second = start.second + end.second - middle.second * 2.0;
         let third = start.third + end.third - middle.third * 2.0;
         let by_parabola =
@@ -92,7 +92,7 @@ impl<R: Route> Between<'_, R> {
     }
 
     /// How far q'' and q''' are off their parabolas at a place, over A and J.
-    fn departure_at(&self, samples: &IntervalSamples, place: f64) -> [f64; 2] {
+    fn departure_at(&self, samples: [&Sample; 3], place: f64) -> [f64; 2] {
         let x = (place - self.start) / self.length;
         let weights = [
             (1.0 - x) * (1.0 - 2.0 * x),
@@ -101,7 +101,7 @@ impl<R: Route> Between<'_, R> {
         ];
         let there = self.rows.curving(self.route, place);
         let (mut second, mut third) = (there.second, there.third);
-        for (sample, weight) in samples.places().into_iter().zip(weights) {
+        for (sample, weight) in samples.into_iter().zip(weights) {
             second -= sample.second * weight;
             third -= sample.third * weight;
         }
@@ -202,19 +202,13 @@ mod tests {
         };
         let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
         let [start, middle, end] = [0.0, 0.5, 1.0].map(|s| rows.sample(route, s, 0.0));
-        let samples = IntervalSamples {
-            start,
-            middle,
-            end,
-            ..IntervalSamples::NONE
-        };
         let between = Between {
             rows: &rows,
             route,
             start: 0.0,
             length: 1.0,
         };
-        f64::from(between.departure_from(&samples).third) * JERK
+        f64::from(between.departure_from([&start, &middle, &end]).third) * JERK
     }
 
     #[test]

@@ -77,7 +77,7 @@ impl IntervalSamples {
             start: s,
             length,
         };
-        self.departure = between.departure_from(self);
+        self.departure = between.departure_from(self.places());
         let [start, half, end] = places;
         self.quarters = [(start, half, 0.25), (half, end, 0.75)].map(|(start, end, share)| {
             let (from, to) = (&start.point, &end.point);
