@@ -79,3 +79,61 @@ pub(super) fn design_width(
 fn is_line(leg: &Leg) -> bool {
     matches!(leg.shape, Shape::Line(_))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::hardening::tests::lines;
+    use super::*;
+    use crate::axes::{Axes, AxisLimits};
+
+    /// The design width of the last of 60 legs of .02 mm with these directions, radians, at 50 mm/s, and with which
+    /// settings.
+    fn last_width(angle: fn(usize) -> f64) -> (f64, BlendSettings) {
+        const LENGTH: f64 = 0.02;
+        let limits = AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(20_000.0),
+        };
+        let settings = BlendSettings::new(1.0, 0.1, 0.02, &limits).expect("sound");
+        let width = std::thread::Builder::new()
+            .stack_size(16 << 20)
+            .spawn(move || {
+                let mut chain = Chain::new();
+                let legs: Vec<_> = (0..60)
+                    .map(angle)
+                    .map(|angle| ([LENGTH * angle.cos(), LENGTH * angle.sin(), 0.0], 0.05))
+                    .collect();
+                lines(&legs, &settings, &mut chain);
+                chain.last().expect("a leg").design_width
+            })
+            .expect("a thread")
+            .join()
+            .expect("the test itself");
+        (width, settings)
+    }
+
+    #[test]
+    fn a_curve_of_chords_wants_what_its_turning_allows() {
+        // A circle with a radius of .2 mm: jerk allows 9.28 mm/s.
+        let (width, settings) = last_width(|leg| 0.1 * leg as f64);
+        let expected = settings.design_width(RESERVE * (20_000.0 * 0.04f64).cbrt());
+        assert!(
+            (0.95..1.2).contains(&(width / expected)),
+            "{width} {expected}"
+        );
+    }
+
+    #[test]
+    fn a_corner_or_rounded_coordinates_are_no_curve() {
+        let corner = |leg: usize| if leg < 55 { 0.0 } else { 1.5 };
+        let rounded = |leg: usize| if leg % 2 == 0 { 0.05 } else { -0.05 };
+        for angle in [corner, rounded] {
+            let (width, settings) = last_width(angle);
+            assert!(
+                (width / settings.design_width(50.0) - 1.0).abs() < 1e-12,
+                "{width}"
+            );
+        }
+    }
+}

@@ -76,7 +76,7 @@ pub(super) fn harden(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use proptest::prelude::*;
 
     use super::super::jump::JumpSum;
@@ -88,7 +88,11 @@ mod tests {
     use crate::moves::shape::{Line9, Shape};
 
     /// Lines in XYZ, each given by its displacement and tolerance.
-    fn lines(displacements: &[([f64; 3], f64)], settings: &BlendSettings, chain: &mut Chain) {
+    pub(in crate::path) fn lines(
+        displacements: &[([f64; 3], f64)],
+        settings: &BlendSettings,
+        chain: &mut Chain,
+    ) {
         let metric = Metric::new(settings.rotary_weight());
         let mut at = Axes::zeros();
         for (displacement, tolerance) in displacements {
