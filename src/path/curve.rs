@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn a_corner_or_rounded_coordinates_are_no_curve() {
         let corner = |leg: usize| if leg < 55 { 0.0 } else { 1.5 };
-        let rounded = |leg: usize| if leg % 2 == 0 { 0.05 } else { -0.05 };
+        let rounded = |leg: usize| if leg.is_multiple_of(2) { 0.05 } else { -0.05 };
         for angle in [corner, rounded] {
             let (width, settings) = last_width(angle);
             assert!(
