@@ -60,7 +60,7 @@ help:
 	@echo 'make suites LINUXCNC_SOURCE=/path/to/linuxcnc  LinuxCNC'"'"'s own suites with its own planner and with blendtp, as the table of'
 	@echo '                docs/suites.md: of the LinuxCNC that was built there, or of the installed one (SUITES="motion abort/g64": only these)'
 	@echo 'make short      thousands of random short programs through framepath plan: faults and limits that are exceeded'
-	@echo 'make soak       long runs: 10,000 random programs with random operators, then two hours in a real LinuxCNC'
+	@echo 'make soak       long runs: 10,000 random programs with random operators, where more of anything costs time, two hours in a real LinuxCNC'
 	@echo 'make fuzz       any calls of the C interface of both modules, ten minutes each (FUZZ_SECONDS); make fuzz-filter: of the filter'
 	@echo 'make mutants    faults drawn at random, put into the core: how many the Rust tests catch (MUTANTS=120, SEED=); an hour'
 	@echo 'make deny       licences, known faults and sources of the crates that are used (cargo-deny)'
@@ -172,6 +172,7 @@ short: tool
 soak: modules
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner programs:: -- --skip short_programs:: --nocapture
 	FRAMEPATH_CASES=1000000 $(CARGO) test --locked --release --test planner short_programs:: -- --nocapture
+	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner monotone:: -- --nocapture
 	$(PYTHON) -B tests/linuxcnc/soak.py --seconds 7200
 
 bench: prerequisites

@@ -3,6 +3,7 @@
 use nalgebra::ArrayStorage;
 
 use super::chain::Chain;
+use super::curve;
 use super::error::BlendError;
 use super::jump::PointSum;
 use super::leg::{Leg, ProgrammedMove};
@@ -118,7 +119,7 @@ impl BlendedPath {
         if !self.merger.merge(programmed, &leg, settings, metric) {
             self.release_waiting();
             if !self.merger.hold(programmed, &leg) {
-                self.chain.push(leg, &self.settings, &self.metric);
+                self.push(leg);
             }
         }
         self.goal = programmed.shape.end();
@@ -166,9 +167,14 @@ impl BlendedPath {
         }
     }
 
+    fn push(&mut self, leg: Leg) {
+        let leg = curve::with_its_width(leg, &self.chain, &self.settings, &self.metric);
+        self.chain.push(leg, &self.settings, &self.metric);
+    }
+
     fn release_waiting(&mut self) {
         if let Some(leg) = self.merger.take() {
-            self.chain.push(leg, &self.settings, &self.metric);
+            self.push(leg);
         }
     }
 

@@ -2,7 +2,6 @@
 
 use core::cell::Cell;
 
-use super::curve;
 use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
@@ -120,9 +119,6 @@ impl Chain {
         }
         let mut leg = leg;
         leg.start = self.end();
-        if let Some(width) = curve::design_width(self, &leg, settings, metric) {
-            leg.design_width = leg.design_width.min(width);
-        }
         let vertex = match self.last() {
             // The path begins here, at rest.
             None => Vertex::first(leg.start),

@@ -24,11 +24,28 @@ const GREATEST_SHARE: f64 = 0.6;
 /// Radians of a curve that are looked at, at most.
 const GREATEST_TURN: f64 = 1.0;
 
-/// The design width for the speed at which the curve can be run that ends with `leg`, which is about to come
-/// at the end of the chain and has its start, machine units; `None` where it ends no curve.
+/// A leg that is about to come at the end of the chain, with the design width for the speed at which the curve can
+/// be run that it ends, if it ends one and that is less.
+pub(super) fn with_its_width(
+    leg: Leg,
+    chain: &Chain,
+    settings: &BlendSettings,
+    metric: &Metric,
+) -> Leg {
+    let mut leg = Leg {
+        start: chain.end(),
+        ..leg
+    };
+    if let Some(width) = design_width(chain, &leg, settings, metric) {
+        leg.design_width = leg.design_width.min(width);
+    }
+    leg
+}
+
+/// The design width for the curve that ends with `leg`, machine units; `None` where it ends none.
 ///
 /// Looks back over as much as it is wide, no farther than kernels reach.
-pub(super) fn design_width(
+fn design_width(
     chain: &Chain,
     leg: &Leg,
     settings: &BlendSettings,
@@ -97,15 +114,18 @@ mod tests {
         };
         let settings = BlendSettings::new(1.0, 0.1, 0.02, &limits).expect("sound");
         let width = std::thread::Builder::new()
-            .stack_size(16 << 20)
+            .stack_size(64 << 20)
             .spawn(move || {
-                let mut chain = Chain::new();
+                let [mut before, mut whole] = [Chain::new(), Chain::new()];
                 let legs: Vec<_> = (0..60)
                     .map(angle)
                     .map(|angle| ([LENGTH * angle.cos(), LENGTH * angle.sin(), 0.0], 0.05))
                     .collect();
-                lines(&legs, &settings, &mut chain);
-                chain.last().expect("a leg").design_width
+                lines(&legs[..59], &settings, &mut before);
+                lines(&legs, &settings, &mut whole);
+                let last = *whole.last().expect("a leg");
+                let metric = Metric::new(settings.rotary_weight());
+                with_its_width(last, &before, &settings, &metric).design_width
             })
             .expect("a thread")
             .join()
@@ -127,7 +147,7 @@ mod tests {
     #[test]
     fn a_corner_or_rounded_coordinates_are_no_curve() {
         let corner = |leg: usize| if leg < 55 { 0.0 } else { 1.5 };
-        let rounded = |leg: usize| if leg % 2 == 0 { 0.05 } else { -0.05 };
+        let rounded = |leg: usize| if leg.is_multiple_of(2) { 0.05 } else { -0.05 };
         for angle in [corner, rounded] {
             let (width, settings) = last_width(angle);
             assert!(
