@@ -1,8 +1,8 @@
 """Limits of joints in LinuxCNC itself: a tilting table of LinuxCNC's and one of ours, and what cannot be kept."""
 
+import itertools
 import unittest
 
-import harness
 from inner_machine import Machine
 from test_inner_machines import OWN, TILTING
 
@@ -32,7 +32,7 @@ def peaks(positions):
     """Greatest velocity and acceleration, and the greatest mean of the jerk over four periods: what is recorded has
     six decimals."""
     rate = 1000.0
-    velocity = max(abs(b - a) for a, b in zip(positions, positions[1:], strict=False)) * rate
+    velocity = max(abs(b - a) for a, b in itertools.pairwise(positions)) * rate
     triples = zip(positions, positions[1:], positions[2:], strict=False)
     acceleration = max(abs(a - 2 * b + c) for a, b, c in triples) * rate**2
     wide = zip(positions, positions[4:], positions[8:], positions[12:], strict=False)

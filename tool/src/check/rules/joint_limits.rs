@@ -34,7 +34,7 @@ fn has(subject: &Subject, pin: &str) -> bool {
 }
 
 /// The first line that sets a limit of a joint.
-fn first_setting<'a>(subject: &'a Subject, joints: usize) -> Option<&'a Setting> {
+fn first_setting(subject: &Subject, joints: usize) -> Option<&Setting> {
     let of_joint = |joint| {
         let pin = move |limit: &JointLimit| limit.pin(joint);
         let mut pins = JOINT_LIMITS.iter().map(pin);
