@@ -40,7 +40,7 @@ pub fn feed_move(feed: f64) -> MoveRequest {
 pub fn with_room<R: Send>(test: impl FnOnce() -> R + Send) -> R {
     std::thread::scope(|scope| {
         let handle = std::thread::Builder::new()
-            .stack_size(64 << 20)
+            .stack_size(256 << 20)
             .spawn_scoped(scope, test)
             .expect("a thread");
         handle
