@@ -68,13 +68,15 @@ class Screen:
                       ["home"], ["ask", "ready", "ready"]]
         self.probe = probe
         self.panel = PANELS[command[0]]
+        #: frame_guard knows the screen by its name
+        self.display = {("DISPLAY", "DISPLAY"): f"./screen_driver.py {command[0]}"}
         self.own_errors = own_errors
         self.files = ("screen_driver.py", "screen_probe.py", "canon_moves.py", probe, *files)
 
     def watch(self, steps, programs, ini=None, **options):
         """Runs steps in front of the screen."""
         changes: dict[tuple[str, str], str | None] = {("DISPLAY", "USER_COMMAND_FILE"): f"./{self.probe}", **self.panel,
-                                                      **(ini or {})}
+                                                      **self.display, **(ini or {})}
         result = harness.run([*steps, ["ask", "notes", "notes"]], programs, display="screen_driver.py", files=self.files,
                            ini=changes, first=self.first, **options)
         result.errors = [error for error in result.errors if not error.startswith(self.own_errors)]
