@@ -335,16 +335,16 @@ class Guard:
             self.wait(lambda: self.look().idle, 1.0)
         now = self.look()
         if now.on and now.auto:
-            # In AUTO LinuxCNC accepts nothing but a start; in another mode no program can start meanwhile. Not in MDI, which
-            # gmoccapy aborts where it has not seen yet that the program has ended.
-            if not self.mode(linuxcnc.MODE_MANUAL):
+            # in AUTO LinuxCNC accepts nothing but a start; in another mode no program can start meanwhile
+            between = linuxcnc.MODE_MANUAL if self.settings.screen_aborts_mdi else linuxcnc.MODE_MDI
+            if not self.mode(between):
                 # a program was started since that look, and LinuxCNC refuses the change: the next step stops it
                 self.complain("the frame is gone, and LinuxCNC does not leave AUTO so that its position can be read "
-                              "anew: the machine is held until then; choose MANUAL mode, then AUTO again")
+                              "anew: the machine is held until then; choose MDI mode, then AUTO again")
                 return
             self.put_offsets_back()
             # unless a screen has chosen another mode meanwhile; going to AUTO reads the position, too
-            if self.look().mode == linuxcnc.MODE_MANUAL:
+            if self.look().mode == between:
                 self.mode(linuxcnc.MODE_AUTO)
         else:
             self.command.task_plan_synch()

@@ -104,8 +104,8 @@ KEYS = {
 class Settings:
     """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
 
-    units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s; z_joint: number of the joint of Z, -1
-    if there is none.
+    units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s; screen_aborts_mdi: whether the
+    screen aborts what others do in MDI right behind a program; z_joint: number of the joint of Z, -1 if there is none.
     """
 
     #: one of the keys, which are set by their names; a type checker learns of it here
@@ -134,6 +134,7 @@ class Settings:
                 raise SettingsError(f"{path}:{line}: section [{where}]: write [{SECTION}], in capitals")
         self.units_per_mm = _linear_units(ini)
         self.task_cycle = _task_cycle(ini)
+        self.screen_aborts_mdi = _aborts_mdi(ini)
         self.z_joint = _z_joint(ini)
         _check_coordinates(ini)
         _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
@@ -191,6 +192,12 @@ def _task_cycle(ini):
         return min(1.0, max(0.001, float(text)))
     except (TypeError, ValueError):
         return 0.1  # LinuxCNC's own default
+
+
+def _aborts_mdi(ini):
+    """gmoccapy aborts MDI and complains where it has not seen yet that the program has ended."""
+    display, _ = ini.find("DISPLAY", "DISPLAY")
+    return "gmoccapy" in (display or "")
 
 
 def _require(ini, key, wanted, why):
