@@ -31,11 +31,13 @@ impl DerivativeBounds {
         }
     }
 
-    /// Looks at one more place, where the derivatives are these.
+    /// Looks at one more place, where the derivatives are these. Where one is not a number, since the machine has no joints
+    /// for the place, nothing is possible: the greater of a number and of none would be the number.
     pub fn include(&mut self, [first, second, third]: &[Axes; 3]) {
-        self.first = self.first.sup(&first.abs());
-        self.second = self.second.sup(&second.abs());
-        self.third = self.third.sup(&third.abs());
+        let size = |of: f64| if of.is_nan() { f64::INFINITY } else { of.abs() };
+        self.first = self.first.sup(&first.map(size));
+        self.second = self.second.sup(&second.map(size));
+        self.third = self.third.sup(&third.map(size));
     }
 
     /// The greatest speed at which these velocities are kept, also between the places.
@@ -114,5 +116,22 @@ mod tests {
             "{curve:?}"
         );
         assert!(3.0 * 0.1 * v * curve.acceleration + curve.jerk * 2.0 <= 20_000.0);
+    }
+
+    #[test]
+    fn nothing_is_possible_where_there_are_no_joints() {
+        let mut bounds = DerivativeBounds::none();
+        bounds.include(&[Axes::x(), Axes::zeros(), Axes::zeros()]);
+        bounds.include(&[Axes::repeat(f64::NAN); 3]);
+        bounds.include(&[Axes::x(), Axes::zeros(), Axes::zeros()]);
+        for limits in [
+            bounds.path_limits(&LIMITS, 100.0),
+            bounds.path_limits_of_line(&LIMITS, 100.0),
+        ] {
+            assert_eq!(
+                [limits.velocity, limits.acceleration, limits.jerk],
+                [0.0; 3]
+            );
+        }
     }
 }

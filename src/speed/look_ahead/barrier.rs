@@ -291,44 +291,16 @@ mod tests {
     use crate::axes::{Axes, AxisLimits};
     use crate::machine_map::MachineMap;
     use crate::moves::shape::PathPoint;
-    use crate::speed::look_ahead::{MOST_BREAKPOINTS, Route, RouteVertex, SpeedCap};
+    use crate::speed::look_ahead::test_route::TestRoute;
 
     /// A curve whose derivatives are all different from 0.
-    struct BentRoute;
-
-    impl Route for BentRoute {
-        fn point(&self, s: f64) -> PathPoint {
-            let along = |x: f64, y: f64| Axes::from([x, y, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-            PathPoint {
-                position: Axes::zeros(),
-                first: along(0.8 + 0.1 * s, 0.6),
-                second: along(0.1, -0.2 + 0.3 * s),
-                third: along(0.05, 0.3),
-            }
-        }
-        fn known_end(&self) -> f64 {
-            10.0
-        }
-        fn is_complete(&self) -> bool {
-            true
-        }
-        fn speed_cap(&self, _: f64, _: &Axes) -> SpeedCap {
-            SpeedCap {
-                programmed: 50.0,
-                greatest: 60.0,
-            }
-        }
-        fn vertex_after(&self, _: f64) -> Option<RouteVertex> {
-            None
-        }
-        fn vertex_before(&self, _: f64) -> Option<RouteVertex> {
-            None
-        }
-        fn greatest_reach(&self) -> f64 {
-            0.0
-        }
-        fn breakpoints(&self, _: f64, _: f64, _: &mut [f64; MOST_BREAKPOINTS]) -> usize {
-            0
+    fn bent(s: f64) -> PathPoint {
+        let along = |x: f64, y: f64| Axes::from([x, y, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        PathPoint {
+            position: Axes::zeros(),
+            first: along(0.8 + 0.1 * s, 0.6),
+            second: along(0.1, -0.2 + 0.3 * s),
+            third: along(0.05, 0.3),
         }
     }
 
@@ -364,7 +336,11 @@ mod tests {
             jerk: Axes::repeat(20_000.0),
         };
         let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
-        let [start, middle, end] = [0.0, 0.2, 0.4].map(|s| rows.sample(&BentRoute, s, 0.0));
+        let route = TestRoute {
+            point: bent,
+            breakpoints: Vec::new(),
+        };
+        let [start, middle, end] = [0.0, 0.2, 0.4].map(|s| rows.sample(&route, s, 0.0));
         let departure = Departure {
             second: 0.0,
             third: 2e-6,

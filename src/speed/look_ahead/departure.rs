@@ -91,7 +91,8 @@ impl<R: Route> Between<'_, R> {
         ]
     }
 
-    /// How far q'' and q''' are off their parabolas at a place, over A and J.
+    /// How far q'' and q''' are off their parabolas at a place, over A and J; without end where the machine has no joints for
+    /// the place: the greater of a number and of none would be the number.
     fn departure_at(&self, samples: [&Sample; 3], place: f64) -> [f64; 2] {
         let x = (place - self.start) / self.length;
         let weights = [
@@ -104,6 +105,9 @@ impl<R: Route> Between<'_, R> {
         for (sample, weight) in samples.into_iter().zip(weights) {
             second -= sample.second * weight;
             third -= sample.third * weight;
+        }
+        if self.rows.bends() && !(second.sum() + third.sum()).is_finite() {
+            return [f64::INFINITY; 2];
         }
         let to_acceleration = *self.rows.jerk_time() / 3.0;
         [second.component_mul(&to_acceleration).amax(), third.amax()]
@@ -129,92 +133,63 @@ fn sort(places: &mut [f64]) {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::ArrayStorage;
+
+    use super::super::test_route::TestRoute;
     use super::*;
     use crate::axes::{Axes, AxisLimits};
-    use crate::machine_map::MachineMap;
+    use crate::machine_map::{JointMap, MachineMap};
     use crate::moves::shape::PathPoint;
-    use crate::speed::look_ahead::{RouteVertex, SpeedCap};
 
     /// q''' of X is a tooth of height 1 between these places, and 0 elsewhere.
-    struct Tooth {
-        from: f64,
-        to: f64,
-    }
-
-    impl Route for Tooth {
-        fn point(&self, s: f64) -> PathPoint {
-            let half = 0.5 * (self.to - self.from);
-            let x = ((s - self.from) / half).clamp(0.0, 2.0);
+    fn tooth(from: f64, to: f64) -> TestRoute<impl Fn(f64) -> PathPoint> {
+        let half = 0.5 * (to - from);
+        let point = move |s: f64| {
+            let x = ((s - from) / half).clamp(0.0, 2.0);
             let height = x.min(2.0 - x);
             let area = if x < 1.0 {
                 0.5 * x * x
             } else {
                 1.0 - 0.5 * height * height
             };
-            let along_x = |x| Axes::from([x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
             PathPoint {
-                position: Axes::zeros(),
+                position: Axes::x() * s,
                 first: Axes::zeros(),
-                second: along_x(half * area),
-                third: along_x(height),
+                second: Axes::x() * (half * area),
+                third: Axes::x() * height,
             }
-        }
-        fn known_end(&self) -> f64 {
-            10.0
-        }
-        fn is_complete(&self) -> bool {
-            true
-        }
-        fn speed_cap(&self, _: f64, _: &Axes) -> SpeedCap {
-            SpeedCap {
-                programmed: 50.0,
-                greatest: 60.0,
-            }
-        }
-        fn vertex_after(&self, _: f64) -> Option<RouteVertex> {
-            None
-        }
-        fn vertex_before(&self, _: f64) -> Option<RouteVertex> {
-            None
-        }
-        fn greatest_reach(&self) -> f64 {
-            0.0
-        }
-        fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
-            let all = [self.to, self.from].into_iter();
-            let inside = all.filter(|place| from < *place && *place < to);
-            places
-                .iter_mut()
-                .zip(inside)
-                .map(|(free, place)| *free = place)
-                .count()
+        };
+        TestRoute {
+            point,
+            breakpoints: vec![to, from],
         }
     }
 
     const JERK: f64 = 20_000.0;
 
+    const LIMITS: AxisLimits = AxisLimits {
+        velocity: Axes::from_array_storage(ArrayStorage([[100.0; 9]])),
+        acceleration: Axes::from_array_storage(ArrayStorage([[1000.0; 9]])),
+        jerk: Axes::from_array_storage(ArrayStorage([[JERK; 9]])),
+    };
+
     /// The departure of q''' in the interval from 0 to 1.
-    fn departure(route: &Tooth) -> f64 {
-        let limits = AxisLimits {
-            velocity: Axes::repeat(100.0),
-            acceleration: Axes::repeat(1000.0),
-            jerk: Axes::repeat(JERK),
-        };
-        let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
-        let [start, middle, end] = [0.0, 0.5, 1.0].map(|s| rows.sample(route, s, 0.0));
+    fn departure(route: &impl Route, map: &MachineMap) -> f64 {
+        let rows = AxisRows::new(&LIMITS, map, 1e-3);
+        let samples = [0.0, 0.5, 1.0].map(|s| rows.sample(route, s, 0.0));
         let between = Between {
             rows: &rows,
             route,
             start: 0.0,
             length: 1.0,
         };
-        f64::from(between.departure_from([&start, &middle, &end]).third) * JERK
+        f64::from(between.departure_from(samples.each_ref()).third) * JERK
     }
 
     #[test]
     fn a_change_that_is_0_at_both_breakpoints_and_all_samples_is_seen_between_them() {
         for (from, to) in [(0.1, 0.4), (0.6, 0.62), (0.7, 1.0), (0.2, 0.2001)] {
-            let third = departure(&Tooth { from, to });
+            let third = departure(&tooth(from, to), &MachineMap::IDENTITY);
             assert!((third - 1.0).abs() < 1e-3, "{from} {third}");
         }
     }
@@ -222,7 +197,24 @@ mod tests {
     #[test]
     fn what_begins_in_an_interval_departs_most_there() {
         // The parabola through 0, 1 and 0 is .64 where the tooth begins and ends.
-        let third = departure(&Tooth { from: 0.2, to: 0.8 });
+        let third = departure(&tooth(0.2, 0.8), &MachineMap::IDENTITY);
         assert!((third - 0.64).abs() < 1e-6, "{third}");
+    }
+
+    #[test]
+    fn a_place_without_joints_departs_without_end() {
+        let hole = JointMap::new(
+            |position, derivatives, _| {
+                if (0.2..0.3).contains(&position[0]) {
+                    [Axes::repeat(f64::NAN); 3]
+                } else {
+                    *derivatives
+                }
+            },
+            &LIMITS,
+            0.0,
+        );
+        let map = MachineMap::IDENTITY.with_joints(Some(hole));
+        assert_eq!(departure(&tooth(0.1, 0.4), &map), f64::INFINITY);
     }
 }

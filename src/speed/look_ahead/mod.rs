@@ -47,6 +47,8 @@ mod sample;
 mod spline;
 mod sweep;
 mod sweeps;
+#[cfg(test)]
+mod test_route;
 mod work;
 
 pub use look_ahead::{LookAhead, PlanProgress};
