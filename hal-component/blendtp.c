@@ -224,8 +224,7 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     int result;
     const char *fault, *spindle;
     double asked, greatest;
-    (void)period;
-    controller_plans();
+    controller_plans(period);
     if (reverse_refused)
         reverse_refused--;
 #ifdef FRAMEPATH_FAULT_INJECTION

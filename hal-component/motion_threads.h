@@ -6,6 +6,7 @@
 #ifndef FRAMEPATH_MOTION_THREADS_H
 #define FRAMEPATH_MOTION_THREADS_H
 
+#include <stdlib.h>
 #include "rtapi.h"
 #include "motion.h"
 #include "servo_thread.h"
@@ -19,10 +20,13 @@
 #define RIGHT_OUTWEIGHS 4
 /* How many times longer it is from a command to the controller than from the controller to the command in the wrong order. */
 #define MUCH_LONGER 4
+/* Of a period, what the controller may be early or late by to count as on time: one of so many parts. */
+#define ON_TIME 8
 
 static struct {
     int commands, number;       /* since the controller's last period; the number that task gave the last one */
     long long ended, commanded; /* ns; 0: nothing since */
+    long long planned;          /* when the controller last began, ns */
     int order;                  /* how many moves came in the wrong order, less those in the right one */
     int said;                   /* the order, or that nothing runs */
 } threads;
@@ -62,16 +66,26 @@ static void move_comes(const emcmot_status_t *status)
     threads.commanded = threads.ended && status && status->commandNumEcho ? rtapi_get_time() : 0;
 }
 
-/* The controller begins to plan; looks at the order until that is sure. */
-static void controller_plans(void)
+/* The controller begins to plan, every so many ns; looks at the order until that is sure. A thread that is late runs one period
+ * right behind the other, and may wait for the processor between handler and controller: that looks like the wrong order, and
+ * counts for nothing. */
+static void controller_plans(long period)
 {
-    long long before, after;
-    if (!threads.commanded || threads.order <= -ORDER_IS_SURE || threads.said)
+    long long now, before, after, since;
+    if (threads.order <= -ORDER_IS_SURE || threads.said)
+        return;
+    now = rtapi_get_time();
+    since = now - threads.planned;
+    threads.planned = now;
+    if (!threads.commanded)
         return;
     before = threads.commanded - threads.ended;
-    after = rtapi_get_time() - threads.commanded;
-    threads.order += after > MUCH_LONGER * before ? 1 : -RIGHT_OUTWEIGHS;
+    after = now - threads.commanded;
     threads.commanded = 0;
+    if (after <= MUCH_LONGER * before)
+        threads.order -= RIGHT_OUTWEIGHS;
+    else if (ON_TIME * llabs(since - period) <= period)
+        threads.order++;
     if (threads.order < ORDER_IS_SURE)
         return;
     threads.said = 1;
