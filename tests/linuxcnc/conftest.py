@@ -6,9 +6,9 @@ import unittest
 
 import pytest
 
-#: Files whose tests are marked as busy.
-BUSY = ("test_contract_table", "test_contract_soak", "test_plan", "test_compare", "test_short_programs", "test_faults_table",
-        "test_preview_speed")
+#: Files whose tests are marked as busy, the longest first.
+BUSY = ("test_contract_soak", "test_contract_table", "test_faults_table", "test_short_programs", "test_compare",
+        "test_preview_speed", "test_plan")
 #: What takes longest comes first, or the others would wait for it at the end.
 FIRST = ("test_dialect_examples", "test_spindle", "test_preview", "test_preview_axis", "test_preview_screens",
          "test_look_ahead")
@@ -35,7 +35,10 @@ def is_set_up_once(item):
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     def place(item):
-        return item.path.stem not in FIRST, -os.path.getsize(item.path)
+        stem = item.path.stem
+        if stem in BUSY:
+            return BUSY.index(stem), 0
+        return len(BUSY) + (stem not in FIRST), -os.path.getsize(item.path)
 
     for item in items:
         if item.path.stem in BUSY:
