@@ -122,8 +122,10 @@ test: export PROPTEST_RNG_SEED ?= 1
 # A text that differs from its snapshot, or has none, fails and writes nothing.
 test: export INSTA_UPDATE = no
 test: export TOOL_PROFILE = dev
-test: lint modules fault-modules
-	@./prerequisites browser screen sanitize package test
+test:
+	@./prerequisites lint browser screen sanitize package test
+# Two profiles of cargo: neither waits for the other, and what links on one processor leaves the other to what compiles.
+	$(MAKE) --jobs=2 --output-sync=target lint fault-modules
 	$(CARGO) test --locked --workspace --no-fail-fast
 # The tool is there: its own tests run it.
 	$(RUN_LINUXCNC_TESTS)

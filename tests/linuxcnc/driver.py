@@ -340,7 +340,7 @@ class Operator:
                 if file.read().strip() == "milltask":
                     send(int(process), getattr(signal, f"SIG{name}"))
 
-    def expect(self, name, value, timeout=5):
+    def expect(self, name, value, timeout=None):
         """Waits until a pin reads as this text."""
         self.wait_for(f"{name} = {value}", lambda: value_of(name) == value, timeout)
 

@@ -11,8 +11,8 @@ import time
 
 import hal
 
-#: s that an answer may take
-ANSWER_TIME = 2.0
+#: s that an answer may take: some servo periods, which may come late where other tests have the processors
+ANSWER_TIME = 60.0
 
 TABLE = ["x-rot-point", "y-rot-point", "z-rot-point", "y-offset", "z-offset", "tool-offset"]
 
