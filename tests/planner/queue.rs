@@ -351,3 +351,27 @@ fn an_axis_that_never_moves_needs_no_limits() {
         assert_eq!(machine.planner.status().position, at(1.0, 2.0));
     });
 }
+
+/// Whoever has a queue of two hands over a move when another has left: the planner waited for more, its host for the planner,
+/// a quarter of a second at each move. Now it takes what a rest after each takes, 31 ms, at most.
+#[test]
+fn short_moves_through_a_short_queue_go_on() {
+    const MOVES: u32 = 300;
+    for depth in [2, 5] {
+        with_machine(|machine| {
+            let mut sent = 0;
+            let mut periods = 0;
+            while sent < MOVES || !machine.planner.status().done {
+                if sent < MOVES && machine.planner.status().queue_depth < depth {
+                    sent += 1;
+                    let angle = 0.01 * f64::from(sent);
+                    let place = at(2.0 * angle.sin(), 2.0 - 2.0 * angle.cos());
+                    machine.line(place, &feed_move(50.0)).expect("a line");
+                }
+                machine.cycle();
+                periods += 1;
+                assert!(periods < 40 * MOVES, "{sent} moves with {depth} queued");
+            }
+        });
+    }
+}

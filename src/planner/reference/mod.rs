@@ -25,6 +25,7 @@ mod rest_to_rest;
 mod return_route;
 mod runs;
 mod single_move;
+mod supply_depth;
 mod time_ahead;
 
 pub use outlook::{Conditions, Outlook};

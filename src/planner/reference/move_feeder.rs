@@ -2,6 +2,7 @@
 //! more is to be expected.
 
 use super::outlook::Outlook;
+use super::supply_depth::{Expected, SupplyDepth};
 use crate::moves::{MotionType, Move, SynchronisationMode, TerminationCondition};
 use crate::path::{BlendError, BlendedPath, ProgrammedMove};
 use crate::planner::move_jerk;
@@ -39,6 +40,8 @@ pub(super) struct MoveFeeder {
     silence: f64,
     /// Seconds between two moves, in the mean.
     interval: f64,
+    /// How many moves are queued where no more come.
+    depth: SupplyDepth,
     /// What the last move added was like.
     kind: Kind,
     /// What no axis may exceed in it.
@@ -102,6 +105,7 @@ impl MoveFeeder {
             barred: false,
             silence: 0.0,
             interval: 0.0,
+            depth: SupplyDepth::new(),
             kind: Kind {
                 rapid: false,
                 overridden: false,
@@ -115,12 +119,14 @@ impl MoveFeeder {
 
     /// Begins with a move. `single`: and ends with it.
     pub fn restart(&mut self, first: u64, single: bool) {
+        // How moves come does not depend on where the path begins.
+        let depth = core::mem::replace(&mut self.depth, SupplyDepth::new());
         *self = Self {
             first,
             next: first,
             single,
-            // How fast moves come does not depend on where the path begins.
             interval: self.interval,
+            depth,
             ..Self::new()
         };
     }
@@ -153,12 +159,19 @@ impl MoveFeeder {
         self.silence >= silence.max(SHORTEST_SILENCE)
     }
 
+    /// What the depth of the queue tells of the next move.
+    pub fn expected(&self) -> Expected {
+        self.depth.expected()
+    }
+
     /// Adds what has come since the last cycle.
     ///
     /// # Errors
     /// A move that the path refuses for another reason than lack of room.
     pub fn feed(&mut self, path: &mut BlendedPath, outlook: &Outlook) -> Result<(), BlendError> {
         self.silence += outlook.now.period;
+        let queue = outlook.queue;
+        self.depth.look(queue.first_serial(), queue.len());
         for _ in 0..MOVES_A_CYCLE {
             let Some(queued) = outlook.queue.released(self.next) else {
                 break;

@@ -161,6 +161,11 @@ impl RestToRest {
             .filter(|stop| self.backwards || path.final_end() >= *stop)
     }
 
+    /// Whether a place was found where the machine has to come to rest.
+    pub fn has_stop(&self) -> bool {
+        self.stop.is_some()
+    }
+
     /// The next segment of the plan, which stays as it is; `None` at its end.
     pub fn freeze(&mut self) -> Option<PlannedSegment> {
         self.speed.freeze()

@@ -4,6 +4,7 @@ use super::outlook::Outlook;
 use super::reference::Reference;
 use super::rest_to_rest::RestToRest;
 use super::return_route::may_go_back;
+use super::supply_depth::Expected;
 use crate::path::BlendError;
 
 /// Work on the path in [`BUDGET_PERIOD`], kernel terms of 5 ns or so.
@@ -32,6 +33,9 @@ const LAST_CALL: f64 = 0.08;
 /// of the last move is better than one in the middle of it.
 const LAST_MOMENT: f64 = 0.04;
 
+/// Servo periods before a rest in which the next run is planned at the latest.
+const PERIODS_BEFORE_REST: f64 = 4.0;
+
 impl Reference {
     /// Plans on, a fixed amount of work. Once in each servo period.
     ///
@@ -44,7 +48,7 @@ impl Reference {
         }
         self.feeder.feed(&mut self.path, outlook)?;
         if !self.backwards {
-            self.end_path();
+            self.end_path(outlook);
         }
         let share = (outlook.now.period / BUDGET_PERIOD).clamp(LEAST_SHARE, GREATEST_SHARE);
         // Where the plan waits for more of the path, the path comes first.
@@ -72,7 +76,7 @@ impl Reference {
     }
 
     /// Where nothing more is to be expected the path may end.
-    pub(super) fn end_path(&mut self) {
+    pub(super) fn end_path(&mut self, outlook: &Outlook) {
         // A line may still wait to be merged with the next one, behind what is known to end at rest.
         let last = self.path.leg_ending_at(self.path.programmed_end());
         let complete = last.is_some_and(|(serial, _)| serial + 1 >= self.feeder.next());
@@ -86,15 +90,37 @@ impl Reference {
         };
         let last_moment =
             self.feeder.is_late(LAST_MOMENT) && last.is_ready() && last.brakes_within(LAST_MOMENT);
-        if self.feeder.is_barred() || last_moment {
-            self.path.finish();
-        } else if self.feeder.is_silent() {
-            if last.brakes_within(LAST_CALL) {
-                self.path.finish();
-            } else {
-                self.path.flush();
-            }
+        if self.feeder.is_barred() {
+            return self.path.finish();
         }
+        match self.feeder.expected() {
+            Expected::NothingBeforeOneLeaves if self.keeps_waiting(outlook) => {
+                self.path.finish();
+            }
+            Expected::NothingBeforeOneLeaves | Expected::OneAtOnce => {}
+            Expected::Anything if last_moment => self.path.finish(),
+            Expected::Anything if self.feeder.is_silent() => {
+                if last.brakes_within(LAST_CALL) {
+                    self.path.finish();
+                } else {
+                    self.path.flush();
+                }
+            }
+            Expected::Anything => {}
+        }
+    }
+
+    /// Whether no move would leave the queue before the machine rests, so that whoever waits for that would wait for ever.
+    fn keeps_waiting(&self, outlook: &Outlook) -> bool {
+        if self.resting {
+            // Until the machine is there more moves come.
+            let left = self.frontier - self.elapsed;
+            return self.segments.len() <= 1 && left <= PERIODS_BEFORE_REST * outlook.now.period;
+        }
+        let current = self.current();
+        let end = self.path.progress(current.end());
+        let leaves = end.is_some_and(|end| end.first > outlook.queue.first_serial());
+        !current.has_stop() && !(current.is_ready() && leaves)
     }
 
     /// Begins the runs that are due: from where the reference rests, and from where the run that

@@ -15,7 +15,7 @@ from row import all_rows
 STOCK, OURS = "tpmod", "blendtp"
 SECTIONS = ("Identity", "Status", "Path modes", "Feed", "Operator", "Outputs", "Probing", "Indexer", "Spindle", "Threads")
 #: LinuxCNCs for each planner
-AT_A_TIME = 3
+AT_A_TIME = 4
 #: share of what stock leaves below which ours is better, not the same
 BETTER = 0.8
 
