@@ -129,7 +129,7 @@ impl Stop<'_> {
             .iter()
             .map(|sample| PathSample {
                 position: sample.position,
-                cap: SpeedCap::NONE,
+                cap: SpeedCap::None,
             })
             .collect();
         let path = ExecutedPath::new(&path, self.period, &self.limits.velocity)?;

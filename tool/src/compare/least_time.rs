@@ -10,6 +10,7 @@ use crate::optimum::{
     AxisLimits, Boundary, ExecutedPath, Grid, PathSample, SpeedCap, corners, least_time, spacing,
     topp_ra,
 };
+use std::array::from_fn;
 use std::ops::Range;
 
 /// Less travel than this does not count, mm or degrees (LinuxCNC's own limit).
@@ -175,7 +176,7 @@ fn path_sample(samples: &[Sample], program: &Program, speeds: &[f64], number: us
     let Some(sample) = number.checked_sub(1).and_then(|k| samples.get(k)) else {
         return PathSample {
             position: [0.0; 9],
-            cap: SpeedCap::NONE,
+            cap: SpeedCap::None,
         };
     };
     let index = usize::try_from(sample.id)
@@ -183,14 +184,11 @@ fn path_sample(samples: &[Sample], program: &Program, speeds: &[f64], number: us
         .and_then(|id| id.checked_sub(1));
     let cap = index.and_then(|index| {
         let piece = program.handed.get(index)?;
-        Some(SpeedCap {
-            first_axis: counted_axis(piece),
-            speed: *speeds.get(index)?,
-        })
+        Some(asked(piece, *speeds.get(index)?))
     });
     PathSample {
         position: sample.position,
-        cap: cap.unwrap_or(SpeedCap::NONE),
+        cap: cap.unwrap_or(SpeedCap::None),
     }
 }
 
@@ -206,18 +204,29 @@ fn speeds(job: &Job) -> Vec<f64> {
     moves.map(|speed| speed.min(job.velocity_limit)).collect()
 }
 
-/// First of the three axes that F counts: X Y Z, else U V W, else A B C.
-fn counted_axis(piece: &Piece) -> usize {
+/// What a move with this `speed` says: F counts X Y Z, else U V W, else A B C.
+fn asked(piece: &Piece, speed: f64) -> SpeedCap {
     let segment = &piece.segment;
-    let moves = |axes: Range<usize>| {
-        axes.into_iter()
-            .any(|axis| (segment.end[axis] - segment.start[axis]).abs() > LEAST_TRAVEL)
+    let travel: [f64; 9] = from_fn(|axis| segment.end[axis] - segment.start[axis]);
+    let moves = |first: usize| {
+        let axes = &travel[first..first + 3];
+        axes.iter().any(|travel| travel.abs() > LEAST_TRAVEL)
     };
-    if segment.arc.is_some() || moves(0..3) {
-        0
-    } else if moves(6..9) {
-        6
-    } else {
-        3
+    let counted = |first_axis: usize| SpeedCap::Counted { first_axis, speed };
+    if segment.arc.is_some() {
+        return counted(0);
+    }
+    let groups: Vec<usize> = [0, 6, 3]
+        .into_iter()
+        .filter(|&first| moves(first))
+        .collect();
+    match groups[..] {
+        [first] => counted(first),
+        [first, ..] => {
+            let counts = &travel[first..first + 3];
+            let length = counts.iter().map(|part| part * part).sum::<f64>().sqrt();
+            SpeedCap::Along(travel.map(|travel| travel * speed / length))
+        }
+        [] => counted(3),
     }
 }

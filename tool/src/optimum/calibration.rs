@@ -80,7 +80,7 @@ fn lines_of_all_lengths_to_a_thousandth() {
     let along = [100.0 / 0.8, 600.0 / 0.8, 20_000.0 / 0.8];
     for length in [0.003, 0.3, 1.2, 10.0, 40.0] {
         let exact = line_time(length, along);
-        let samples = executed(1.5 * exact, SpeedCap::NONE, |share| {
+        let samples = executed(1.5 * exact, SpeedCap::None, |share| {
             let mut position = [50.0, 0.0, -20.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
             position[0] += 0.6 * length * share;
             position[2] -= 0.8 * length * share;
@@ -90,6 +90,60 @@ fn lines_of_all_lengths_to_a_thousandth() {
         assert_within(time, exact, 1e-3);
         assert_within(bound, trapezoid_time(length, along), 1e-3);
     }
+}
+
+/// 8 mm of X while A turns by 60 degrees, which is slower than X.
+fn with_rotation(share: f64) -> [f64; AXES] {
+    let mut position = [0.0; AXES];
+    position[0] = 8.0 * share;
+    position[3] = 5.0 - 60.0 * share;
+    position
+}
+
+#[test]
+fn lines_of_rotary_axes_to_a_thousandth() {
+    let mut limits = LIMITS;
+    limits.velocity[3] = 60.0;
+    limits.acceleration[3] = 450.0;
+    limits.jerk[3] = 6000.0;
+    // Over the greatest velocities A goes 7.5 times as far as X, and X is never at a limit.
+    let of_a = [60.0, 450.0, 6000.0];
+    for (together, length) in [(true, 60.0), (false, 60.0), (false, 2.0), (false, 0.01)] {
+        let exact = line_time(length, of_a);
+        let samples = executed(1.5 * exact, SpeedCap::None, |share| {
+            let mut position = with_rotation(share * length / 60.0);
+            position[0] *= f64::from(u8::from(together));
+            position
+        });
+        let (time, bound) = optimum(&samples, &limits);
+        assert_within(time, exact, 1e-3);
+        assert_within(bound, trapezoid_time(length, of_a), 1e-3);
+    }
+}
+
+#[test]
+fn the_feed_of_a_line_with_a_rotary_axis_to_a_thousandth() {
+    // 4 mm/s along X, which F counts: 30 degrees per second of A, which ramps up with its jerk.
+    let mut rate = [0.0; AXES];
+    (rate[0], rate[3]) = (4.0, -30.0);
+    let exact = 2.0 + 2.0 * (30.0_f64 / 20_000.0).sqrt();
+    let samples = executed(1.4 * exact, SpeedCap::Along(rate), with_rotation);
+    assert_within(optimum(&samples, &LIMITS).0, exact, 1e-3);
+}
+
+#[test]
+fn off_its_move_a_feed_does_not_hold() {
+    // A corner's way along X, which belongs to a move that turns A and hardly moves X: 1 mm/s of X would take 8 s.
+    let mut rate = [0.0; AXES];
+    (rate[0], rate[3]) = (1.0, 100.0);
+    let along = |share: f64| {
+        let mut position = with_rotation(share);
+        position[3] = 0.0;
+        position
+    };
+    let exact = line_time(8.0, [100.0, 1000.0, 20_000.0]);
+    let samples = executed(1.5 * exact, SpeedCap::Along(rate), along);
+    assert_within(optimum(&samples, &LIMITS).0, exact, 1e-3);
 }
 
 fn on_circle(radius: f64, share: f64) -> [f64; AXES] {
@@ -103,7 +157,7 @@ fn on_circle(radius: f64, share: f64) -> [f64; AXES] {
 #[test]
 fn a_circle_at_constant_speed_to_a_thousandth() {
     let feed = 20.0;
-    let cap = SpeedCap {
+    let cap = SpeedCap::Counted {
         first_axis: 0,
         speed: feed,
     };
@@ -124,7 +178,7 @@ fn a_turning_acceleration_that_is_limited_by_axes() {
     // Far above what the axes allow: at the speed at which an axis alone turns the machine at the
     // four points of the circle, faster in between.
     let length = TAU * 2.0;
-    let samples = executed(1.0, SpeedCap::NONE, |share| on_circle(2.0, share));
+    let samples = executed(1.0, SpeedCap::None, |share| on_circle(2.0, share));
     let (time, bound) = optimum(&samples, &LIMITS);
     let constant = length / (1000.0_f64 * 2.0).sqrt();
     let greatest = length / (2.0_f64.sqrt() * 1000.0 * 2.0).sqrt();
@@ -142,7 +196,7 @@ fn a_near_reversal_is_no_standstill() {
         position[1] = 5.0 * (1.0 - cosine);
         position
     };
-    let samples = executed(1.2, SpeedCap::NONE, ellipse);
+    let samples = executed(1.2, SpeedCap::None, ellipse);
     assert!(corners(&samples, &LIMITS.velocity).is_empty());
     let (time, bound) = optimum(&samples, &LIMITS);
     // From rest to rest over there and back again, if there were none in between: 2 x 10 mm.
@@ -153,11 +207,11 @@ fn a_near_reversal_is_no_standstill() {
 
 #[test]
 fn a_corner_is_cut_where_the_machine_stood() {
-    let mut samples = executed(0.5, SpeedCap::NONE, |share| {
+    let mut samples = executed(0.5, SpeedCap::None, |share| {
         from_fn(|axis| if axis == 0 { 5.0 * share } else { 0.0 })
     });
     let corner = samples.len() - 1;
-    let second = executed(0.5, SpeedCap::NONE, |share| {
+    let second = executed(0.5, SpeedCap::None, |share| {
         from_fn(|axis| match axis {
             0 => 5.0,
             1 => 3.0 * share,
@@ -181,7 +235,7 @@ fn stops_on_a_line() {
                 position[1] = 40.0 * t + 0.5 * acceleration * t * t;
                 PathSample {
                     position,
-                    cap: SpeedCap::NONE,
+                    cap: SpeedCap::None,
                 }
             })
             .collect();
@@ -219,7 +273,7 @@ fn a_rounded_corner_does_not_depend_on_the_grid() {
     };
     let mut limits = LIMITS;
     limits.jerk = [100_000.0; AXES];
-    let samples = executed(0.8, SpeedCap::NONE, corner);
+    let samples = executed(0.8, SpeedCap::None, corner);
     let path = ExecutedPath::new(&samples, PERIOD, &limits.velocity).expect("a path");
     let [(coarse, coarse_bound), (fine, fine_bound)] = [2e-3, 5e-4].map(|spacing| {
         let rests = (Boundary::Rest, Boundary::Rest);

@@ -1,7 +1,7 @@
 //! The path that a machine executed, from its positions in every servo cycle.
 
 use super::derivatives::{STENCIL, weights};
-use super::limits::{AXES, SpeedCap};
+use super::limits::{AXES, SpeedCap, angle, norm, over};
 use std::array::from_fn;
 
 /// A position of the machine, and what the program says about the speed there.
@@ -51,6 +51,8 @@ pub(crate) struct ExecutedPath {
     samples: Vec<PathSample>,
     /// When the machine was there, s from the start.
     time: Vec<f64>,
+    /// Greatest velocity of each axis.
+    velocity: [f64; AXES],
 }
 
 /// dq/ds and the next two derivatives.
@@ -100,6 +102,7 @@ impl ExecutedPath {
             parameter,
             samples: kept.iter().map(|&k| samples[k]).collect(),
             time: kept.iter().map(|&k| k as f64 * period).collect(),
+            velocity: *velocity,
         })
     }
 
@@ -154,7 +157,11 @@ impl ExecutedPath {
     pub(crate) fn cap(&self, s: f64, slope: &Slope) -> f64 {
         let k = self.index(s);
         let last = self.samples.len() - 1;
-        let of = |k: usize| self.samples[k.min(last)].cap.along(&slope.first);
+        let of = |k: usize| {
+            self.samples[k.min(last)]
+                .cap
+                .along(&slope.first, &self.velocity)
+        };
         of(k).min(of(k + 1))
     }
 
@@ -298,25 +305,6 @@ fn tips(samples: &[PathSample], period: f64, velocity: &[f64; AXES]) -> Vec<(usi
 }
 
 fn chord(from: &PathSample, to: &PathSample, velocity: &[f64; AXES]) -> [f64; AXES] {
-    from_fn(|axis| (to.position[axis] - from.position[axis]) / velocity[axis])
-}
-
-fn norm(vector: &[f64; AXES]) -> f64 {
-    vector.iter().map(|part| part * part).sum::<f64>().sqrt()
-}
-
-/// Angle between two vectors, radians; 0 if one of them is zero.
-fn angle(a: &[f64; AXES], b: &[f64; AXES]) -> f64 {
-    let lengths = norm(a) * norm(b);
-    if lengths <= 0.0 {
-        return 0.0;
-    }
-    let cosine = a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / lengths;
-    // More accurate than the arc cosine at small angles.
-    let difference: [f64; AXES] = from_fn(|axis| a[axis] / norm(a) - b[axis] / norm(b));
-    if cosine > 0.0 {
-        2.0 * (norm(&difference) / 2.0).min(1.0).asin()
-    } else {
-        cosine.clamp(-1.0, 1.0).acos()
-    }
+    let travel = from_fn(|axis| to.position[axis] - from.position[axis]);
+    over(&travel, velocity)
 }

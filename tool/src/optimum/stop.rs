@@ -259,7 +259,7 @@ mod tests {
                 position[..2].copy_from_slice(&path(d));
                 PathSample {
                     position,
-                    cap: SpeedCap::NONE,
+                    cap: SpeedCap::None,
                 }
             })
             .collect();
@@ -303,7 +303,7 @@ mod tests {
                 position[..2].copy_from_slice(&path(at));
                 PathSample {
                     position,
-                    cap: SpeedCap::NONE,
+                    cap: SpeedCap::None,
                 }
             })
             .collect();
