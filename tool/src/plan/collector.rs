@@ -4,11 +4,12 @@
 use super::cause::{Asked, AxisLimits, Cause, Phase, classify};
 use super::deviation::{Deviation, Follower};
 use super::drive::{Handed, Sample};
+use super::evenness::{self, Evenness};
 use super::places::{Pace, Place, Places};
 use super::polyline::{PathPoint, Polyline};
 use super::profile::Profiles;
 use super::setup::Setup;
-use crate::layer::program::MotionType;
+use crate::layer::program::{MotionType, Piece};
 use crate::path::Position;
 use crate::path::differences::{Differences, Rates};
 use framepath::axes::AXIS_COUNT;
@@ -74,6 +75,8 @@ struct Known {
     index: usize,
     line: i32,
     is_rapid: bool,
+    /// What F asks for where the move cuts: a feed move of a linear axis; machine units a minute.
+    cutting_feed: Option<f64>,
     asked: Asked,
 }
 
@@ -108,6 +111,8 @@ pub struct Collected {
     pub deviation: Deviation,
     /// The worst first.
     pub places: Vec<Place>,
+    /// How even the speed is in cutting.
+    pub evenness: evenness::Found,
     /// Over time, see [`CHANNELS`].
     pub profiles: Profiles,
     /// For drawings.
@@ -124,6 +129,7 @@ pub struct Collector<'a> {
     running: Option<Known>,
     follower: Follower,
     places: Places,
+    evenness: Evenness,
     polyline: Polyline,
     moved: bool,
     /// Cycles since the last motion, with what they are: they count only when motion goes on.
@@ -156,6 +162,7 @@ impl<'a> Collector<'a> {
             running: None,
             follower: Follower::new(setup.rotary_tolerance),
             places: Places::default(),
+            evenness: Evenness::default(),
             polyline: Polyline::new(DRAWN_WITHIN / setup.millimetres, DRAWN_SPEED * fastest),
             moved: false,
             standing: Vec::new(),
@@ -175,6 +182,7 @@ impl<'a> Collector<'a> {
                 length: 0.0,
                 deviation: Deviation::default(),
                 places: Vec::new(),
+                evenness: evenness::Found::default(),
                 profiles: Profiles::new(CHANNELS),
                 path: Vec::new(),
             },
@@ -188,6 +196,8 @@ impl<'a> Collector<'a> {
             index: handed.a_move.index,
             line: handed.a_move.line,
             is_rapid: handed.a_move.motion_type == MotionType::Traverse,
+            cutting_feed: is_cutting(handed)
+                .then(|| 60.0 * handed.a_move.velocity / self.setup.millimetres),
             asked: Asked {
                 velocity: handed.a_move.velocity,
                 greatest_velocity: handed.a_move.greatest_velocity,
@@ -239,6 +249,8 @@ impl<'a> Collector<'a> {
             cause,
         };
         self.count(&pace, &rates, moves);
+        let feed = self.running.and_then(|known| known.cutting_feed);
+        self.evenness.note(&pace, feed.filter(|_| moves));
         self.draw(&pace, &rates);
         Shown {
             time: sample.time,
@@ -335,9 +347,25 @@ impl<'a> Collector<'a> {
         self.out.after = self.standing_cycles;
         self.out.deviation = self.follower.finish();
         self.out.places = self.places.finish();
+        self.out.evenness = self.evenness.finish();
         self.out.path = self.polyline.finish();
         self.out
     }
+}
+
+/// Whether a move is run at a feed that counts lengths.
+fn is_cutting(handed: &Handed) -> bool {
+    let linear = |axis: &usize| !(3..6).contains(axis);
+    let travels = |piece: &Piece| {
+        let segment = &piece.segment;
+        let mut axes = (0..AXIS_COUNT).filter(linear);
+        segment.arc.is_some() || axes.any(|axis| segment.start[axis] != segment.end[axis])
+    };
+    let fed = matches!(
+        handed.a_move.motion_type,
+        MotionType::Feed | MotionType::Arc
+    );
+    fed && handed.pieces.iter().any(travels)
 }
 
 /// In X Y Z, else in U V W, else in A B C: the group that F counts.

@@ -3,6 +3,7 @@
 use super::cause::{Cause, Phase};
 use super::collector::{Collected, Peak};
 use super::deviation::Farthest;
+use super::evenness::{CuttingTime, Found, Stretch};
 use super::findings;
 use super::places::Place;
 use super::setup::Setup;
@@ -149,6 +150,57 @@ pub struct PlaceFigure {
     pub cause: String,
 }
 
+/// Time of cutting near the feed.
+#[derive(Clone, Debug, Serialize)]
+pub struct NearFigure {
+    /// Of cutting, s.
+    pub time: f64,
+    /// Within 5 % of the feed, s.
+    pub near: f64,
+    /// The same over the time of cutting; `None`: nothing is cut.
+    pub share: Option<f64>,
+}
+
+/// The same for one feed.
+#[derive(Clone, Debug, Serialize)]
+pub struct FeedFigure {
+    /// F within what the axes allow, machine units a minute.
+    pub feed: f64,
+    /// Its cutting.
+    #[serde(flatten)]
+    pub cutting: NearFigure,
+}
+
+/// A stretch of cutting below the feed.
+#[derive(Clone, Debug, Serialize)]
+pub struct BelowFigure {
+    /// Line where it is slowest.
+    pub line: i32,
+    /// Lines from, to.
+    pub lines: [i32; 2],
+    /// Text of the line, empty if it is not known.
+    pub text: String,
+    /// When it is slowest, s.
+    pub time: f64,
+    /// s.
+    pub duration: f64,
+    /// The least speed over the feed.
+    pub least_share: f64,
+    /// What keeps it below.
+    pub cause: String,
+}
+
+/// How even the speed is in cutting.
+#[derive(Clone, Debug, Serialize)]
+pub struct EvennessFigures {
+    /// All feeds together.
+    pub total: NearFigure,
+    /// The one that takes most time first.
+    pub feeds: Vec<FeedFigure>,
+    /// The longest first.
+    pub below: Vec<BelowFigure>,
+}
+
 /// All figures of a plan.
 #[derive(Clone, Debug, Serialize)]
 pub struct Figures {
@@ -186,6 +238,8 @@ pub struct Figures {
     pub limited_by: Vec<TimeShare>,
     /// The worst first.
     pub slowest: Vec<PlaceFigure>,
+    /// Speed in cutting.
+    pub evenness: EvennessFigures,
     /// Distance from the program.
     pub deviation: DeviationFigures,
     /// Axes that move.
@@ -249,9 +303,44 @@ impl Figures {
             phases: phases.into(),
             limited_by,
             slowest: collected.places.iter().map(place_figure).collect(),
+            evenness: evenness_figures(&collected.evenness),
             deviation,
             axes,
         }
+    }
+}
+
+fn near_figure(cutting: &CuttingTime) -> NearFigure {
+    NearFigure {
+        time: cutting.all,
+        near: cutting.near,
+        share: (cutting.all > 0.0).then(|| cutting.near / cutting.all),
+    }
+}
+
+fn below_figure(stretch: &Stretch) -> BelowFigure {
+    BelowFigure {
+        line: stretch.line,
+        lines: [stretch.first_line, stretch.last_line],
+        text: String::new(),
+        time: stretch.time,
+        duration: stretch.duration,
+        least_share: stretch.least_share,
+        cause: stretch.cause.name(),
+    }
+}
+
+fn evenness_figures(found: &Found) -> EvennessFigures {
+    let feeds = found.by_feed.iter();
+    EvennessFigures {
+        total: near_figure(&found.total),
+        feeds: feeds
+            .map(|(feed, cutting)| FeedFigure {
+                feed: *feed,
+                cutting: near_figure(cutting),
+            })
+            .collect(),
+        below: found.stretches.iter().map(below_figure).collect(),
     }
 }
 

@@ -87,6 +87,7 @@ fn wanted_lines(figures: &Figures, collected: &Collected) -> HashSet<i32> {
         .slowest
         .iter()
         .map(|place| place.line)
+        .chain(figures.evenness.below.iter().map(|stretch| stretch.line))
         .chain(drawn.map(|point| point.line))
         .collect()
 }

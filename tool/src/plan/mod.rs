@@ -3,7 +3,7 @@
 //! The files in the order of the work: [`setup`] is the machine, [`source`] the program as the task
 //! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with a
 //! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
-//! cycle: [`cause`] says what limits the machine, [`places`] where time is lost,
+//! cycle: [`cause`] says what limits the machine, [`places`] where time is lost, [`evenness`] how much of cutting is near the feed,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
 //! drawings; [`figures`] holds all of it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
 //! [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
@@ -15,6 +15,7 @@ mod csv;
 mod deviation;
 mod drive;
 mod error;
+mod evenness;
 mod figures;
 mod findings;
 mod limit;
@@ -265,6 +266,9 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
     let listing = listing::read(file, &figures, &collected);
     for place in &mut figures.slowest {
         place.text = listing.text(place.line);
+    }
+    for stretch in &mut figures.evenness.below {
+        stretch.text = listing.text(stretch.line);
     }
     let mut files = Vec::from_iter(table.map(Table::into_file));
     if let Some(times) = times {

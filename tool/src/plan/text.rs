@@ -28,6 +28,7 @@ pub fn render(figures: &Figures) -> Result<String, fmt::Error> {
     heading(out, figures)?;
     times(out, figures)?;
     places(out, figures)?;
+    evenness(out, figures)?;
     axes(out, figures)?;
     for (index, finding) in figures.findings.iter().enumerate() {
         let label = if index == 0 { "\nNot kept\n" } else { "" };
@@ -197,6 +198,39 @@ fn places(out: &mut String, figures: &Figures) -> fmt::Result {
     let more = figures.slowest.len().saturating_sub(LISTED_PLACES);
     if more > 0 {
         writeln!(out, "  and {more} more with --json or --html")?;
+    }
+    Ok(())
+}
+
+fn evenness(out: &mut String, figures: &Figures) -> fmt::Result {
+    let Some(share) = figures.evenness.total.share else {
+        return Ok(());
+    };
+    let all = 100.0 * share;
+    writeln!(out, "\nCutting within 5 % of the feed: {all:.1} %")?;
+    for feed in figures.evenness.feeds.iter().take(LISTED_PLACES) {
+        let share = 100.0 * feed.cutting.share.unwrap_or(0.0);
+        let label = format!("F{}", significant(feed.feed, 4));
+        let time = fixed(feed.cutting.time, 3);
+        writeln!(out, "  {label:10}{share:>6.1} % of {time} s")?;
+    }
+    if figures.evenness.below.is_empty() {
+        return Ok(());
+    }
+    let heads = ["lines", "s below", "least of F"];
+    let [lines, below, least] = heads;
+    writeln!(out, "  {lines:>17}{below:>11}{least:>12}  limited by")?;
+    for stretch in figures.evenness.below.iter().take(LISTED_PLACES) {
+        let [first, last] = stretch.lines;
+        let lines = format!("{first} to {last}");
+        let duration = fixed(stretch.duration, 4);
+        let least = 100.0 * stretch.least_share;
+        let text: String = stretch.text.chars().take(LINE_WIDTH).collect();
+        let row = format!(
+            "  {lines:>17}{duration:>11}{least:>10.0} %  {:<26}{text}",
+            stretch.cause
+        );
+        writeln!(out, "{}", row.trim_end())?;
     }
     Ok(())
 }

@@ -153,6 +153,35 @@ fn what_limits_a_plain_program() {
 }
 
 #[test]
+fn how_even_the_speed_of_cutting_is() {
+    let bench = Bench::new();
+    // 50 mm/s after 1.25 mm on both sides, with rapids before and behind.
+    let program = "G21 G61.1\nG0 X30\nF3000\nG1 X80\nF600\nX90\nG0 X0\nM2\n";
+    let figures = bench.figures(program, &[]);
+    let evenness = &figures["evenness"];
+    let feeds = evenness["feeds"].as_array().expect("feeds");
+    let named: Vec<f64> = feeds.iter().map(|feed| number(&feed["feed"])).collect();
+    assert_eq!(named, [3000.0, 600.0], "{evenness}");
+    // From rest to 95 % of 50 mm/s it takes .1 s less the end of the last jerk: sqrt(2 * 2.5 / 20000).
+    let below = 2.0 * (0.1 - (5.0_f64 / 20_000.0).sqrt());
+    let fast = &feeds[0];
+    let found = number(&fast["time"]) - number(&fast["near"]);
+    assert!((found - below).abs() < 0.004, "{found} {below}");
+    let times: f64 = feeds.iter().map(|feed| number(&feed["time"])).sum();
+    assert!((times - number(&evenness["total"]["time"])).abs() < 1e-9);
+    let stretches = evenness["below"].as_array().expect("stretches");
+    assert_eq!(stretches[0]["line"], 4, "{evenness}");
+    assert!(
+        stretches[0]["cause"]
+            .as_str()
+            .expect("text")
+            .ends_with("of X")
+    );
+    let rapid = bench.figures("G21\nG0 X30\nM2\n", &[]);
+    assert!(rapid["evenness"]["total"]["share"].is_null());
+}
+
+#[test]
 fn a_plan_names_the_options_that_changed_it() {
     let bench = Bench::new();
     let program = "G21 G64 P0.05 F600\nG1 X5\nM2\n";

@@ -71,6 +71,20 @@ function fillPlaces() {
   }));
 }
 
+function fillEvenness() {
+  const { total, feeds, below } = report.evenness;
+  if (total.share === null) return;
+  byId("even").hidden = false;
+  const row = (name, cutting) => [name, fixed(cutting.time, 3), `${fixed(100 * cutting.share, 1)} %`, bar(cutting.share)];
+  const all = [row("all", total), ...feeds.map((feed) => row(`F${number(feed.feed, 4)}`, feed))];
+  byId("feeds").append(table(["Feed", "Cutting (s)", "Near it", ""], all, [1, 2]));
+  const rows = below.map((stretch) => [
+    `${stretch.lines[0]} to ${stretch.lines[1]}`, fixed(stretch.time, 3), fixed(stretch.duration, 4),
+    `${fixed(100 * stretch.least_share, 0)} %`, stretch.cause, element("code", "", stretch.text),
+  ]);
+  byId("below").append(table(["Lines", "Slowest at (s)", "Below (s)", "Least of the feed", "Limited by", "Program"], rows, [0, 1, 2, 3]));
+}
+
 function fillPeaks() {
   const rows = report.axes.flatMap((axis) => axis.peaks.map((peak, i) => [
     i ? "" : axis.letter, ...peakCells(peak, axis.unit), fixed(peak.time, 3), String(peak.line),
@@ -118,6 +132,7 @@ fillFigures();
 fillLegend();
 fillTimes();
 fillPlaces();
+fillEvenness();
 fillPeaks();
 fillAccuracy();
 if (data.listing.whole) fillListing(report.program, data.listing.lines);
