@@ -170,7 +170,9 @@ fn how_even_the_speed_of_cutting_is() {
     let times: f64 = feeds.iter().map(|feed| number(&feed["time"])).sum();
     assert!((times - number(&evenness["total"]["time"])).abs() < 1e-9);
     let stretches = evenness["below"].as_array().expect("stretches");
-    assert_eq!(stretches[0]["line"], 4, "{evenness}");
+    // Braking for the stop between both feeds, and starting from it.
+    let lines = &stretches[0]["lines"];
+    assert_eq!([&lines[0], &lines[1]], [4, 6], "{evenness}");
     assert!(
         stretches[0]["cause"]
             .as_str()
