@@ -232,11 +232,16 @@ compare: modules tool
 # limits allow on the path that was run, which takes long to find.
 BLENDTP = --with $(MODULES)/blendtp.so
 
+# Programs that a host with a short queue hands over.
+SHORT_QUEUE = $(patsubst %,$(NCFILES)/%.ngc,tort arcspiral) --feed-at-least 6000 \
+    $(addprefix --generated ,dense trochoidal squares-p.5 arcs)
+
 figures: modules tool
 	$(TOOL) compare $(RAISED) $(COMPARED_JERK) --repeat 5
 	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --operator 1 --velocity-limit 200
 	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --holds 50
 	$(TOOL) compare --generated trochoidal $(BLENDTP) --jerk 20A --queue 200,2000
+	$(TOOL) compare $(SHORT_QUEUE) --jerk unlimited,20A --queue 2,5,10
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
 # What each constant that tunes does, written into docs/tuning.md: an hour.

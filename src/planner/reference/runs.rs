@@ -119,8 +119,9 @@ impl Reference {
         }
         let current = self.current();
         let end = self.path.progress(current.end());
-        let leaves = end.is_some_and(|end| end.first > outlook.queue.first_serial());
-        !current.has_stop() && !(current.is_ready() && leaves)
+        let leaves =
+            current.is_ready() && end.is_some_and(|end| end.first > outlook.queue.first_serial());
+        !leaves && !current.has_stop()
     }
 
     /// Begins the runs that are due: from where the reference rests, and from where the run that
