@@ -1,9 +1,14 @@
 """Limits of joints in LinuxCNC itself: a tilting table of LinuxCNC's and one of ours, and what cannot be kept."""
 
 import itertools
+import json
+import os
+import subprocess
+import tempfile
 import unittest
 
-from inner_machine import Machine
+import harness
+from inner_machine import SELECT, SWITCH, Machine
 from test_inner_machines import OWN, TILTING
 
 #: what joints may do here: half of what the axes may
@@ -71,6 +76,56 @@ class Table(unittest.TestCase):
 
     def test_the_table_of_ours_behind_a_frame(self):
         self.check(*self.run_twice(OWN, "o<rot_rpl> call [30]\n"))
+
+
+class Planned(unittest.TestCase):
+    """`framepath plan --ini` of a machine whose HAL file sets limits of joints."""
+
+    def machine(self, machine):
+        """With limits of joints in its HAL file."""
+        lines = "".join(" ".join(map(str, step)) + "\n" for step in set_limits(5))
+        return Machine(machine.kinematics, machine.home, machine.letters, machine.hal + lines)
+
+    def planned(self, machine):
+        """Text and figures."""
+        with tempfile.TemporaryDirectory() as folder:
+            # its INI file names the subroutines from there
+            os.symlink(os.path.join(harness.SAMPLES, "subroutines"), os.path.join(folder, "subroutines"))
+            place = os.path.join(folder, "configs", "robot")
+            os.makedirs(place)
+            files = {"robot.ini": machine.ini(None), "robot.hal": machine.hal_text(None), "turns.ngc": TURNS + "M2\n"}
+            files |= {f"to_type_{number}.ngc": SWITCH.format(number=number, output=SELECT) for number in range(2)}
+            for name, content in files.items():
+                with open(os.path.join(place, name), "w", encoding="utf-8") as file:
+                    file.write(content)
+            command = [harness.TOOL, "plan", os.path.join(place, "turns.ngc"), "--ini", os.path.join(place, "robot.ini")]
+            text, figures = (subprocess.run([*command, *more], capture_output=True, text=True, check=False)
+                             for more in ([], ["--json"]))
+            self.assertEqual(text.stderr, "")
+            return text.stdout, json.loads(figures.stdout)["programs"][0]
+
+    def test_the_time_is_that_of_linuxcnc(self):
+        machine = self.machine(OWN)
+        text, figures = self.planned(machine)
+        result = machine.run([["run", "PROGRAMS/turns.ngc"]], {"turns.ngc": TURNS + "M2\n"})
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [], result.log)
+        cycles = len(machine.way(result))
+        print(f"LinuxCNC {cycles} periods, planned {figures['cycles']}; {figures['limits_of_joints']}")
+        self.assertLessEqual(abs(figures["cycles"] - cycles), max(3, 0.002 * cycles))
+        self.assertIn("with the tool centre point", text)
+        causes = [share["name"] for share in figures["limited_by"]]
+        self.assertTrue(any("of joint" in cause for cause in causes), causes)
+        # without them another time
+        free = self.planned(OWN)[1]
+        self.assertIsNone(free["limits_of_joints"])
+        self.assertLess(free["time"], 0.95 * figures["time"])
+
+    def test_kinematics_that_are_not_known_are_named(self):
+        named = Machine("xyzac-trt-kins coordinates=XYZAC", TILTING.home, TILTING.letters, TILTING.hal)
+        text, figures = self.planned(self.machine(named))
+        self.assertIn("NOT planned", text)
+        self.assertIn("behind xyzac-trt-kins", figures["limits_of_joints"])
 
 
 class Refusals(unittest.TestCase):

@@ -5,6 +5,7 @@ use crate::machine::IniError;
 use crate::machine::configuration::Machine;
 use crate::machine::ini::Ini;
 use crate::machine::limits::Limits;
+use crate::wiring::joints::JointSettings;
 use std::path::Path;
 
 /// More than any machine has, mm/s.
@@ -17,6 +18,8 @@ pub(super) struct Conditions {
     pub limits: Limits,
     /// Where they come from, for the reader.
     pub limits_from: String,
+    /// The kinematics behind which HAL files set limits of joints, which do not hold here.
+    pub joints_behind: Option<String>,
     /// Servo period, s.
     pub period: f64,
     /// Along the path, mm/s.
@@ -58,6 +61,7 @@ impl Conditions {
         Conditions {
             limits: Limits::default(),
             limits_from: "V=100,A=1000".to_owned(),
+            joints_behind: None,
             period: 0.001,
             velocity_limit: NO_VELOCITY_LIMIT,
             max_feed_override: 1.0,
@@ -69,6 +73,7 @@ impl Conditions {
         let machine = Machine::from_ini(&ini)?;
         let mut conditions = Conditions {
             limits_from: format!("limits of {}", file.display()),
+            joints_behind: JointSettings::read(&ini).map(|settings| settings.kinematics),
             period: machine.servo_period,
             ..Conditions::without_machine()
         };

@@ -301,6 +301,11 @@ fn headline(arguments: &CompareArguments, conditions: &Conditions) -> String {
             conditions.velocity_limit
         );
     }
+    if let Some(kinematics) = &conditions.joints_behind {
+        text += &format!(
+            "; the limits of joints that its HAL files set behind {kinematics} do NOT hold here, those of the axes do"
+        );
+    }
     if conditions.max_feed_override > 1.0 {
         let percent = significant(100.0 * conditions.max_feed_override, 6);
         text += &format!("; feed override up to {percent} %");

@@ -63,6 +63,8 @@ pub enum Cause {
     PathVelocity,
     /// A limit of an axis, by its index.
     Axis(usize, Quantity),
+    /// A limit of a joint behind kinematics, by its number.
+    Joint(usize, Quantity),
     /// On the way between two limits: all are used up by less than half.
     Between,
     /// G4.
@@ -77,7 +79,7 @@ pub enum Cause {
 
 impl Cause {
     /// How many there are.
-    pub const COUNT: usize = 7 + 3 * AXIS_COUNT;
+    pub const COUNT: usize = 7 + 6 * AXIS_COUNT;
 
     /// Number, below [`Self::COUNT`].
     pub fn index(self) -> usize {
@@ -90,6 +92,7 @@ impl Cause {
             Cause::Rest => 5,
             Cause::Program => 6,
             Cause::Axis(axis, quantity) => 7 + 3 * axis + quantity.order() - 1,
+            Cause::Joint(joint, quantity) => Cause::Axis(AXIS_COUNT + joint, quantity).index(),
         }
     }
 
@@ -103,7 +106,13 @@ impl Cause {
             4 => Cause::Spindle,
             5 => Cause::Rest,
             6 => Cause::Program,
-            more => Cause::Axis((more - 7) / 3, Quantity::ALL[(more - 7) % 3]),
+            more => {
+                let (place, quantity) = ((more - 7) / 3, Quantity::ALL[(more - 7) % 3]);
+                match place.checked_sub(AXIS_COUNT) {
+                    None => Cause::Axis(place, quantity),
+                    Some(joint) => Cause::Joint(joint, quantity),
+                }
+            }
         }
     }
 
@@ -117,6 +126,7 @@ impl Cause {
                 quantity.name(),
                 AXIS_LETTERS.get(axis).copied().unwrap_or('?')
             ),
+            Cause::Joint(joint, quantity) => format!("{} of joint {joint}", quantity.name()),
             Cause::Between => "between limits".to_owned(),
             Cause::Dwell => "dwell (G4)".to_owned(),
             Cause::Spindle => "waiting for the spindle".to_owned(),
@@ -138,13 +148,15 @@ pub struct Asked {
     pub greatest_velocity: f64,
 }
 
-/// What happens in a cycle. `path_velocity` is the greatest velocity along the path.
+/// What happens in a cycle. `path_velocity` is the greatest velocity along the path; `joints` are the rates of joints that
+/// have limits of their own, with these.
 pub fn classify(
     sample: &Sample,
     rates: &Rates,
     asked: Option<Asked>,
     limits: &AxisLimits,
     path_velocity: f64,
+    joints: Option<(&Rates, &AxisLimits)>,
 ) -> (Phase, Cause) {
     // At rest the planner repeats its position to the last digit.
     let stands = rates.orders[0].iter().all(|v| *v == 0.0);
@@ -157,8 +169,14 @@ pub fn classify(
         };
         return (Phase::Standing, cause);
     }
-    let (reached, axis, quantity) = strongest(rates, limits);
-    let strongest = Cause::Axis(axis, quantity);
+    let (mut reached, axis, quantity) = strongest(rates, limits);
+    let mut cause = Cause::Axis(axis, quantity);
+    if let Some((share, joint, quantity)) = joints.map(|(rates, limits)| strongest(rates, limits))
+        && share > reached
+    {
+        (reached, cause) = (share, Cause::Joint(joint, quantity));
+    }
+    let strongest = cause;
     if sample.share_of_feed >= AT_FEED {
         let cause = match asked {
             Some(asked) if path_velocity < asked.velocity => Cause::PathVelocity,
@@ -234,7 +252,7 @@ mod tests {
             moves_done: 0,
             distance_to_go: 0.0,
         };
-        classify(&sample, &rates, Some(asked), &LIMITS, 1e9)
+        classify(&sample, &rates, Some(asked), &LIMITS, 1e9, None)
     }
 
     const SLOW: Asked = Asked {

@@ -125,6 +125,8 @@ pub struct Collector<'a> {
     limits: AxisLimits,
     scale: Position,
     differences: Differences,
+    /// Those of joints that have limits of their own, with these.
+    joints: Option<(Differences, AxisLimits)>,
     known: VecDeque<Known>,
     running: Option<Known>,
     follower: Follower,
@@ -144,11 +146,11 @@ impl<'a> Collector<'a> {
         let scale: Position = std::array::from_fn(|axis| setup.scale(axis));
         let scaled = |values: &Position| std::array::from_fn(|axis| values[axis] * scale[axis]);
         let start = scaled(&setup.surroundings.start);
-        let limits = [
-            scaled(&setup.limits.velocity),
-            scaled(&setup.limits.acceleration),
-            scaled(&setup.jerk),
-        ];
+        let limits = setup.bounds().each_ref().map(scaled);
+        let joints = setup.joints.planned().map(|joints| {
+            let start = Differences::new(joints.at(&start), setup.period);
+            (start, joints.limits())
+        });
         let fastest = (0..AXIS_COUNT)
             .filter(|axis| setup.axes[*axis])
             .map(|axis| limits[0][axis])
@@ -158,6 +160,7 @@ impl<'a> Collector<'a> {
             limits,
             scale,
             differences: Differences::new(start, setup.period),
+            joints,
             known: VecDeque::new(),
             running: None,
             follower: Follower::new(setup.rotary_tolerance),
@@ -219,6 +222,12 @@ impl<'a> Collector<'a> {
             std::array::from_fn(|axis| sample.position[axis] * self.scale[axis]);
         let before = *self.differences.position();
         let rates = self.differences.step(&position);
+        let joints = match (&mut self.joints, self.setup.joints.planned()) {
+            (Some((differences, limits)), Some(joints)) => {
+                Some((differences.step(&joints.at(&position)), *limits))
+            }
+            _ => None,
+        };
         let asked = self.running.map(|known| known.asked);
         let (phase, cause) = classify(
             sample,
@@ -226,6 +235,7 @@ impl<'a> Collector<'a> {
             asked,
             &self.limits,
             self.setup.velocity_limit,
+            joints.as_ref().map(|(rates, limits)| (rates, limits)),
         );
         let moves = phase != Phase::Standing;
         if moves {

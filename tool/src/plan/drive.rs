@@ -136,6 +136,11 @@ impl<'a> Drive<'a> {
             acceleration: scaled(&setup.limits.acceleration),
             jerk: scaled(&setup.jerk),
         });
+        if let Some(joints) = setup.joints.planned()
+            && !planner.set_joints(Some(joints.map()))
+        {
+            return Err(refused("the limits of joints"));
+        }
         let length = 1.0 / setup.millimetres;
         planner
             .set_blending(

@@ -210,6 +210,8 @@ pub struct Figures {
     pub machine: String,
     /// Where the limits come from.
     pub limits_from: String,
+    /// What is planned of the limits of joints, where these have some.
+    pub limits_of_joints: Option<String>,
     /// `mm` or `in`.
     pub length_unit: &'static str,
     /// s.
@@ -285,6 +287,7 @@ impl Figures {
             program: program.to_owned(),
             machine: setup.machine.clone(),
             limits_from: setup.origin.clone(),
+            limits_of_joints: setup.joints.told(),
             length_unit: setup.unit,
             servo_period: setup.period,
             time,
@@ -385,11 +388,7 @@ fn deviation_figures(setup: &Setup, collected: &Collected) -> DeviationFigures {
 const NO_TRAVEL: f64 = 1e-9;
 
 fn axes(setup: &Setup, collected: &Collected) -> Vec<AxisFigures> {
-    let limits = [
-        &setup.limits.velocity,
-        &setup.limits.acceleration,
-        &setup.jerk,
-    ];
+    let limits = setup.bounds();
     let of_axis = |axis: usize| {
         let peak = |(order, quantity): (usize, Quantity)| {
             let Peak { value, time, line } = collected.peaks[axis][order];

@@ -69,7 +69,7 @@ pub fn kind(cause: Cause) -> &'static str {
         Cause::PathVelocity => "path",
         Cause::Between => "between",
         Cause::Dwell | Cause::Spindle | Cause::Rest | Cause::Program => "waiting",
-        Cause::Axis(_, quantity) => quantity.name(),
+        Cause::Axis(_, quantity) | Cause::Joint(_, quantity) => quantity.name(),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::PlanArguments;
 use super::error::PlanError;
+use super::joints::Joints;
 use super::spindle::SpeedLimits;
 use crate::canon::Surroundings;
 use crate::canon::tool_table::{Tool, read_tool_table};
@@ -30,6 +31,8 @@ pub struct Setup {
     pub(super) limits: Limits,
     /// Jerk of each axis, mm (degrees) per second cubed, infinite where it is not limited.
     pub jerk: [f64; AXIS_COUNT],
+    /// What is known of the joints.
+    pub(super) joints: Joints,
     /// Which axes the machine has.
     pub axes: [bool; AXIS_COUNT],
     /// Greatest velocity along the path, mm/s.
@@ -89,6 +92,19 @@ impl Setup {
         Ok(setup)
     }
 
+    /// What holds for the axes: velocity, acceleration, jerk, shape (3, 9), mm (degrees) and seconds. Where joints have limits of
+    /// their own, axes keep their velocities alone.
+    pub(super) fn bounds(&self) -> [[f64; AXIS_COUNT]; 3] {
+        match self.joints.planned() {
+            None => [self.limits.velocity, self.limits.acceleration, self.jerk],
+            Some(_) => [
+                self.limits.velocity,
+                [f64::INFINITY; AXIS_COUNT],
+                [f64::INFINITY; AXIS_COUNT],
+            ],
+        }
+    }
+
     /// Machine units that an axis counts for one mm, or one degree.
     pub fn scale(&self, axis: usize) -> f64 {
         if is_rotary(axis) {
@@ -124,6 +140,7 @@ fn without_ini() -> Setup {
         millimetres: 1.0,
         limits: Limits::default(),
         jerk: [f64::INFINITY; AXIS_COUNT],
+        joints: Joints::Axes,
         axes: [true; AXIS_COUNT],
         velocity_limit: f64::INFINITY,
         spindle: SpeedLimits::default(),
@@ -162,6 +179,7 @@ fn from_ini(file: &Path) -> Result<Setup, PlanError> {
     if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
         setup.velocity_limit = velocity * millimetres;
     }
+    setup.joints = Joints::from_ini(&ini, setup.period)?;
     setup.spindle = SpeedLimits::from_ini(&ini)?;
     setup.surroundings = surroundings(&ini, file, &machine, millimetres)?;
     setup.ini.clone_from(&setup.surroundings.ini);

@@ -84,6 +84,9 @@ fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
         entry("Machine", figures.machine.clone())?;
     }
     entry("Limits", figures.limits_from.clone())?;
+    if let Some(joints) = &figures.limits_of_joints {
+        entry("Limits of joints", joints.clone())?;
+    }
     entry(
         "Moves",
         format!(

@@ -5,6 +5,8 @@ pub mod blendtp;
 pub mod codes;
 pub mod framekins;
 pub mod installed;
+#[cfg(feature = "linuxcnc")]
+pub mod joints;
 pub mod previews;
 pub mod settings;
 pub mod subject;

@@ -1,0 +1,69 @@
+//! The limits of joints that HAL files set for blendtp, and the kinematics behind which these are.
+
+use super::blendtp::{JOINT_LIMITS, LIMITED_JOINTS};
+use super::subject::{leading_number, parameter};
+use crate::hal::{State, read_script};
+use crate::machine::ini::Ini;
+
+/// What the HAL files of a machine leave behind for its joints.
+pub struct JointSettings {
+    /// Velocity, acceleration and jerk of joints 0 to 8, machine units, 0 where nothing sets one.
+    pub limits: [[f64; LIMITED_JOINTS]; 3],
+    /// `[KINS]KINEMATICS`, or what `inner=` names.
+    pub kinematics: String,
+    /// `machine=` of framekins.
+    pub machine: String,
+    /// `coordinates=`.
+    pub coordinates: String,
+    state: State,
+}
+
+impl JointSettings {
+    /// `None` where no joint has a limit, or where the joints are the axes, so that blendtp looks at none.
+    pub fn read(ini: &Ini) -> Option<JointSettings> {
+        let state = State::run(&read_script(ini, &[]).statements);
+        let limits = std::array::from_fn(|kind| {
+            std::array::from_fn(|joint| number(&state, &JOINT_LIMITS[kind].pin(joint)))
+        });
+        let words = ini.text("KINS", "KINEMATICS").unwrap_or("");
+        let framekins = state.module("framekins");
+        let of_framekins = |name: &str| framekins.and_then(|module| module.parameter(name));
+        let given = |name: &str| of_framekins(name).or(parameter(words, name)).unwrap_or("");
+        let named = words.split_whitespace().next().unwrap_or("");
+        let kinematics = match given("inner") {
+            "" => named,
+            inner => inner,
+        };
+        let settings = JointSettings {
+            limits,
+            kinematics: kinematics.to_owned(),
+            machine: given("machine").to_owned(),
+            coordinates: given("coordinates").to_owned(),
+            state,
+        };
+        let limited = settings.limits.iter().flatten().any(|limit| *limit != 0.0);
+        (limited && !settings.is_trivial()).then_some(settings)
+    }
+
+    fn is_trivial(&self) -> bool {
+        match self.kinematics.as_str() {
+            "trivkins" => true,
+            "framekins" => ["", "identity"].contains(&self.machine.as_str()),
+            _ => false,
+        }
+    }
+
+    /// What a pin of framekins is set to, 0 where nothing sets it.
+    pub fn framekins(&self, pin: &str) -> f64 {
+        number(&self.state, &format!("framekins.{pin}"))
+    }
+}
+
+/// What a pin is set to, 0 where nothing sets it.
+fn number(state: &State, pin: &str) -> f64 {
+    let value = state.settings.get(pin).map_or("", |setting| &setting.value);
+    match value.to_ascii_lowercase().as_str() {
+        "true" => 1.0,
+        text => leading_number(text).unwrap_or(0.0),
+    }
+}
