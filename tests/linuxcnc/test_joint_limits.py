@@ -99,8 +99,8 @@ class Planned(unittest.TestCase):
                 with open(os.path.join(place, name), "w", encoding="utf-8") as file:
                     file.write(content)
             command = [harness.TOOL, "plan", os.path.join(place, "turns.ngc"), "--ini", os.path.join(place, "robot.ini")]
-            text, figures = (subprocess.run([*command, *more], capture_output=True, text=True, check=False)
-                             for more in ([], ["--json"]))
+            text, figures = (subprocess.run(line, capture_output=True, text=True, check=False)
+                             for line in (command, [*command, "--json"]))
             self.assertEqual(text.stderr, "")
             return text.stdout, json.loads(figures.stdout)["programs"][0]
 
