@@ -108,7 +108,8 @@ class Planned(unittest.TestCase):
     def test_the_time_is_that_of_linuxcnc(self):
         machine = self.machine(OWN)
         text, figures = self.planned(machine)
-        tolerance = max(3, 0.002 * figures["cycles"])
+        # of two ways to blend it takes the slower one where a move comes a period later: ten periods
+        tolerance = max(3, 0.003 * figures["cycles"])
         for _ in range(ATTEMPTS):
             result = machine.run([["run", "PROGRAMS/turns.ngc"]], {"turns.ngc": TURNS + "M2\n"})
             self.assertIsNone(result.failure, result.log)
