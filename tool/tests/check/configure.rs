@@ -11,8 +11,12 @@ const STOCK: &str = "/usr/share/doc/linuxcnc/examples/sample-configs/sim/axis";
 /// A folder with LinuxCNC's axis_mm.
 fn stock() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    for name in ["axis_mm.ini", "sim_mm.tbl"] {
-        fs::copy(Path::new(STOCK).join(name), folder.path().join(name)).expect("copied");
+    for name in ["axis_mm.ini", "sim_mm.tbl", "cooling.hal"] {
+        let file = Path::new(STOCK).join(name);
+        // LinuxCNC 2.9.0 has no such HAL file, and names none
+        if name != "cooling.hal" || file.exists() {
+            fs::copy(file, folder.path().join(name)).expect("copied");
+        }
     }
     folder
 }
@@ -23,6 +27,13 @@ fn subroutines() -> String {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("a text")
+}
+
+/// What a difference writes anew, without what is around it: that depends on LinuxCNC's version.
+fn written(difference: &str) -> String {
+    let lines = difference.lines();
+    let written = lines.filter(|line| line.starts_with(['+', '-']));
+    written.map(|line| format!("{line}\n")).collect()
 }
 
 /// Configures axis_mm with a change of its INI file.
@@ -51,7 +62,10 @@ fn a_stock_configuration_needs_eight_lines_for_blendtp() {
     let (folder, output) = changed("", "", &[]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(text(&output.stdout).ends_with("MAX_JERK\n"));
-    insta::assert_snapshot!("blendtp_in_axis_mm_is_eight_lines", text(&output.stdout));
+    insta::assert_snapshot!(
+        "blendtp_in_axis_mm_is_eight_lines",
+        written(&text(&output.stdout))
+    );
     assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
     let old = fs::read(Path::new(STOCK).join("axis_mm.ini")).expect("read");
     assert_eq!(
@@ -275,13 +289,13 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "KINEMATICS = trivkins",
         "KINEMATICS =",
         &["--frames"],
-        "axis_mm.ini:135:1: error: [KINS]KINEMATICS names no module",
+        "error: [KINS]KINEMATICS names no module",
     ),
     (
         "KINEMATICS = trivkins",
         "KINEMATICS = trivkins colour=red",
         &["--frames"],
-        "axis_mm.ini:135:1: error: framekins does not know `colour=red`",
+        "error: framekins does not know `colour=red`",
     ),
     (
         "HALFILE = core_sim.hal",
@@ -299,7 +313,7 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "HALUI = halui",
         "HALCMD = net own motion.feed-inhibit",
         &["--frames"],
-        "axis_mm.ini:121:1: error: motion.feed-inhibit is linked to own already",
+        "error: motion.feed-inhibit is linked to own already",
     ),
     (
         "HALFILE = core_sim.hal",
