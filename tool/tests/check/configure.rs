@@ -301,7 +301,7 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "HALFILE = core_sim.hal",
         "HALFILE = LIB:basic_sim.tcl",
         &["--frames"],
-        "axis_mm.ini:108:1: error: LIB:basic_sim.tcl: it is written in Tcl",
+        "error: LIB:basic_sim.tcl: it is written in Tcl",
     ),
     (
         "PARAMETER_FILE = sim_mm.var",
@@ -319,13 +319,13 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "HALFILE = core_sim.hal",
         "HALFILE = nowhere.hal",
         &[],
-        "axis_mm.ini:108:1: error: the HAL file nowhere.hal is not there",
+        "error: the HAL file nowhere.hal is not there",
     ),
     (
         "POSITION_FILE",
         "TPMOD = blendtp\nPOSITION_FILE",
         &[],
-        "axis_mm.ini:132:1: error: this configuration has blendtp already",
+        "error: this configuration has blendtp already",
     ),
     (
         "COORDINATES = X Y Z",
