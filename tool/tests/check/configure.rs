@@ -62,10 +62,8 @@ fn a_stock_configuration_needs_eight_lines_for_blendtp() {
     let (folder, output) = changed("", "", &[]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(text(&output.stdout).ends_with("MAX_JERK\n"));
-    insta::assert_snapshot!(
-        "blendtp_in_axis_mm_is_eight_lines",
-        written(&text(&output.stdout))
-    );
+    let lines = written(&text(&output.stdout));
+    insta::assert_snapshot!("blendtp_in_axis_mm_is_eight_lines", lines);
     assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
     let old = fs::read(Path::new(STOCK).join("axis_mm.ini")).expect("read");
     assert_eq!(
