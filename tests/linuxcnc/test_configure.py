@@ -43,6 +43,10 @@ def configured(*options, kinematics=None):
     with open(os.path.join(folder, "axis_mm.ini"), "w", encoding="utf-8") as file:
         file.write(text)
     shutil.copy(os.path.join(STOCK, "sim_mm.tbl"), folder)
+    # since LinuxCNC 2.9.4
+    cooling = os.path.join(STOCK, "cooling.hal")
+    if os.path.exists(cooling):
+        shutil.copy(cooling, folder)
     subprocess.run([harness.TOOL, "configure", "axis_mm.ini", *options], cwd=folder, check=True, capture_output=True)
     return folder
 

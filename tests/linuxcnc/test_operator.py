@@ -137,7 +137,10 @@ class TimeLeft(Operator):
             if any(start <= n - begin < stop for start, stop, _ in longer):
                 continue
             left = (end - n) * PERIOD - sum(seconds for start, _, seconds in longer if start >= n - begin)
-            self.assertTrue(rows[n][0], f"{name}: unknown {left} s before the end")
+            if not rows[n][0]:
+                # as where moves come so late that the machine waits for them
+                print(f"{name}: unknown {left} s before the end", flush=True)
+                return math.inf
             worst = max(worst, abs(rows[n][1] - left) / (SHARE * left + PERIODS * PERIOD))
         print(f"{name:10} {(end - begin) * PERIOD:7.3f} s, known after {known - begin} periods; "
               f"off by {worst:.2f} of what is allowed",

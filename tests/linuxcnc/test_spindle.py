@@ -128,7 +128,7 @@ class Trouble(Spindle):
         steps = [["start", "PROGRAMS/part.ngc"], ["wait_line", 4], ["sleep", 1.5]]
         if slew:
             steps.append(["setp", "ramp.maxv", slew])
-        steps += [["force", "ramp.in", speed], ["sleep", 5], ["note", "stopped"], ["mdi", "G0 Z5"]]
+        steps += [["force", "ramp.in", speed], ["sleep", 5], ["finish"], ["note", "stopped"], ["mdi", "G0 Z5"]]
         result = self.run_spindle(steps, "M3 S600", "G4 P1", "G33 Z-400 K2", "G0 X50", "G0 Z0")
         self.assertIsNone(result.failure, result.log)
         self.within_limits(result)

@@ -103,7 +103,7 @@ class EndOfAFrame(Case):
     def test_abort_and_machine_off_in_motion(self):
         steps = []
         for end in (["abort"], ["machine_off"], ["estop"]):
-            steps += [["start", "PROGRAMS/long.ngc"], ON, ["wait_moving"], ["sleep", 0.2], end, OFF, ["on"],
+            steps += [["start", "PROGRAMS/long.ngc"], ON, ["wait_moving"], ["sleep", 0.2], end, OFF, ["on"], KNOWN,
                       ["switch_mode", "mdi"], ["mdi", "G0 Y0"], ["mdi", "G0 X0"]]
         result = watched([*steps, ["note", "end"]], {"long": "o<trans> call [10] [20] [0]\nG1 X1 Y2\nG1 X400\nM2\n"})
         self.fine(result)
