@@ -129,5 +129,6 @@ fn deviation_at_equal_widths(
             sum.add(&vertex.tangent_jump, &[value]);
         }
     }
-    (metric.norm(&sum.axes()), terms)
+    let share = chain.vertex(number).turn_share;
+    (metric.deviation(&sum.axes(), share), terms)
 }

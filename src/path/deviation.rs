@@ -71,12 +71,12 @@ impl<'a> Reaching<'a> {
         self.right.iter().map_while(|vertex| *vertex)
     }
 
-    fn deviation(&self, s: f64, metric: &Metric) -> f64 {
+    fn deviation(&self, s: f64, metric: &Metric, turn_share: f64) -> f64 {
         let mut sum = JumpSum::ZERO;
         for vertex in self.left().chain(self.right()) {
             vertex.add_deviation(&vertex.counted, s - vertex.s, &mut sum);
         }
-        metric.norm(&sum.axes())
+        metric.deviation(&sum.axes(), turn_share)
     }
 
     /// A bound of the second derivative of the deviation between `from` and `to`.
@@ -106,6 +106,7 @@ pub(super) fn check(
         reaching: &reaching,
         metric,
         tolerance: leg.tolerance() * share,
+        turn_share: leg.turn_share,
         halvings: 0,
         cost: 1 + reaching.count,
     };
@@ -146,6 +147,7 @@ struct Search<'a> {
     reaching: &'a Reaching<'a>,
     metric: &'a Metric,
     tolerance: f64,
+    turn_share: f64,
     halvings: u32,
     cost: usize,
 }
@@ -153,7 +155,7 @@ struct Search<'a> {
 impl Search<'_> {
     fn deviation(&mut self, s: f64) -> f64 {
         self.cost += self.reaching.count;
-        self.reaching.deviation(s, self.metric)
+        self.reaching.deviation(s, self.metric, self.turn_share)
     }
 
     /// Goes from left to right, each time over the largest half of halves that the bound allows.

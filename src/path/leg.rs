@@ -58,6 +58,8 @@ pub(super) struct Leg {
     pub greatest_speed: f64,
     /// How far the blended path may be from it.
     pub allowance: Allowance,
+    /// What a degree of C counts of that, see [`orientation`](super::orientation).
+    pub turn_share: f64,
     /// See [`BlendSettings::design_width`].
     pub design_width: f64,
     pub stop_before: bool,
@@ -83,6 +85,7 @@ impl Leg {
         speed: 0.0,
         greatest_speed: 0.0,
         allowance: Allowance::Exact(0.0),
+        turn_share: 1.0,
         design_width: 0.0,
         stop_before: false,
         stop_after: false,
@@ -96,6 +99,10 @@ impl Leg {
         let per_measure = metric.per_measure(&programmed.shape);
         let length = programmed.shape.length() * per_measure;
         let speed = programmed.feed * per_measure;
+        let allowance = match programmed.termination {
+            TerminationCondition::Continuous { tolerance } => settings.allowance(tolerance),
+            TerminationCondition::Exact | TerminationCondition::Stop => settings.exact(),
+        };
         Self {
             shape: programmed.shape,
             serial: programmed.serial,
@@ -112,10 +119,8 @@ impl Leg {
             turning: turning(&programmed.shape) / per_measure,
             speed,
             greatest_speed: programmed.greatest_feed.max(programmed.feed) * per_measure,
-            allowance: match programmed.termination {
-                TerminationCondition::Continuous { tolerance } => settings.allowance(tolerance),
-                TerminationCondition::Exact | TerminationCondition::Stop => settings.exact(),
-            },
+            allowance,
+            turn_share: turn_share(&programmed.shape, &allowance, settings),
             design_width: settings.design_width(speed),
             stop_before: programmed.stop_before,
             stop_after: programmed.termination == TerminationCondition::Stop,
@@ -203,6 +208,17 @@ impl Leg {
         point.second *= rate * rate;
         point.third *= rate * rate * rate;
         point
+    }
+}
+
+/// What a degree of C counts where a P is to be kept. Half legs are cut without one, so that nothing is known of the
+/// tilt there.
+fn turn_share(shape: &Shape, allowance: &Allowance, settings: &BlendSettings) -> f64 {
+    match (settings.orientation(), allowance) {
+        (Some(orientation), Allowance::Tolerance(_)) => {
+            orientation.share(&shape.position(0.0), &shape.end())
+        }
+        _ => 1.0,
     }
 }
 

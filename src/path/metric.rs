@@ -50,6 +50,14 @@ impl Metric {
         self.product(displacement, displacement).sqrt()
     }
 
+    /// The same where a degree of C counts a `share` of a degree, 0 to 1.
+    #[inline]
+    pub fn deviation(&self, displacement: &Axes, share: f64) -> f64 {
+        let mut displacement = *displacement;
+        displacement[5] *= share;
+        self.norm(&displacement)
+    }
+
     /// How far a shape goes in this distance while F counts one unit. For a spiral the greatest
     /// value, which holds where its radius is greatest.
     pub fn per_measure(&self, shape: &Shape) -> f64 {

@@ -47,6 +47,7 @@ mod kernel;
 mod leg;
 mod line_merger;
 mod metric;
+mod orientation;
 mod settings;
 mod vertex;
 mod views;

@@ -1,6 +1,7 @@
 //! What the shape of blends depends on, besides the program.
 
 use super::kernel;
+use super::orientation::Orientation;
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
 use crate::cube_root::cube_root;
 
@@ -42,6 +43,7 @@ pub struct BlendSettings {
     /// 1 over the limits of each axis; 0 where there is none.
     per_acceleration: Axes,
     per_jerk: Axes,
+    orientation: Option<Orientation>,
 }
 
 /// How far the blended path may be from a move.
@@ -66,6 +68,7 @@ impl BlendSettings {
         linear_jerk: GREATEST_JERK,
         per_acceleration: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
         per_jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
+        orientation: None,
     };
 
     /// `millimetre`: its length in machine units (1, or 1/25.4). `rotary_weight`: how many machine
@@ -103,7 +106,22 @@ impl BlendSettings {
             linear_jerk,
             per_acceleration: limits.acceleration.map(f64::recip),
             per_jerk: limits.jerk.map(f64::recip),
+            orientation: None,
         })
+    }
+
+    /// The same where an axis, 3 for A or 4 for B, tilts the tool, C turns it, and it may lean from the program by a
+    /// tolerance in degrees, positive: what a P allows rotary axes is no more.
+    #[must_use]
+    pub fn with_tilt(self, tilt: usize, tolerance: f64) -> Self {
+        Self {
+            orientation: Some(Orientation { tilt, tolerance }),
+            ..self
+        }
+    }
+
+    pub(super) const fn orientation(&self) -> Option<&Orientation> {
+        self.orientation.as_ref()
     }
 
     pub(super) const fn rotary_weight(&self) -> f64 {

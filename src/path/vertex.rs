@@ -90,6 +90,10 @@ pub(super) struct Vertex {
     pub tangent_jump_size: f64,
     /// Length of the jump of the curvature, 1 per machine unit.
     pub curvature_jump_size: f64,
+    /// What a degree of C counts of the tolerance on both legs at most.
+    pub turn_share: f64,
+    /// What the jump of the tangent counts of it: its length where C counts as much as A and B.
+    pub tolerance_jump_size: f64,
     /// The smaller of its legs' tolerances.
     pub tolerance: f64,
     /// Half of its shorter leg.
@@ -158,6 +162,8 @@ impl Vertex {
         curvature_jump: Jump::NONE,
         tangent_jump_size: 0.0,
         curvature_jump_size: 0.0,
+        turn_share: 1.0,
+        tolerance_jump_size: 0.0,
         tolerance: 0.0,
         half_leg: 0.0,
         longer_leg: 0.0,
@@ -205,6 +211,14 @@ impl Vertex {
         let significant = |size: f64, least: f64| if size > least { size } else { 0.0 };
         let tangent_jump_size = significant(metric.norm(&tangent_jump), NO_TANGENT_JUMP);
         let curvature_jump_size = significant(metric.norm(&curvature_jump), NO_CURVATURE_JUMP);
+        let turn_share = before.turn_share.max(after.turn_share);
+        let tolerance_jump_size = if tangent_jump_size > 0.0 {
+            metric
+                .deviation(&tangent_jump, turn_share)
+                .max(NO_TANGENT_JUMP)
+        } else {
+            0.0
+        };
         let exact = before.is_exact() || after.is_exact();
         let stop = before.stop_after || after.stop_before || (exact && tangent_jump_size > TANGENT);
         let mut vertex = Self {
@@ -213,6 +227,8 @@ impl Vertex {
             curvature_jump: Jump::new(&curvature_jump),
             tangent_jump_size,
             curvature_jump_size,
+            turn_share,
+            tolerance_jump_size,
             tolerance: before.tolerance().min(after.tolerance()),
             half_leg: 0.5 * before.length.min(after.length),
             longer_leg: before.length.max(after.length),
@@ -258,7 +274,7 @@ impl Vertex {
             self.free_limit = before.half_for_corner().min(after.half_for_corner());
         }
         if self.tangent_jump_size > 0.0 {
-            let within = KERNEL_SHARE * self.tolerance / self.tangent_jump_size;
+            let within = KERNEL_SHARE * self.tolerance / self.tolerance_jump_size;
             self.biweight_width = within / kernel::peak(0.0);
             // In the slower leg's half the other's feed does not matter.
             let slower = before.speed.min(after.speed);

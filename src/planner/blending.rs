@@ -43,6 +43,8 @@ pub struct Blending {
     rotary_tolerance: f64,
     /// The tolerance of runs of short moves under G64 without P, machine units.
     default_tolerance: f64,
+    /// Which axis tilts the tool while C turns it, 3 for A, 4 for B, where the machine tells.
+    tilt: Option<usize>,
     /// Machine units that count as much as a degree of A B C.
     weight: f64,
 }
@@ -56,6 +58,7 @@ impl Blending {
         millimetre: 1.0,
         rotary_tolerance: 0.0,
         default_tolerance: Self::DEFAULT_TOLERANCE,
+        tilt: None,
         weight: 1.0,
     };
 
@@ -79,6 +82,11 @@ impl Blending {
         self.rotary_tolerance = rotary_tolerance;
         self.default_tolerance = default_tolerance;
         Ok(())
+    }
+
+    /// Which axis tilts the tool while C turns it. Others than A and B count as none.
+    pub(super) fn set_tilt(&mut self, tilt: Option<usize>) {
+        self.tilt = tilt.filter(|axis| (3..5).contains(axis));
     }
 
     /// What no tolerance P may exceed so that rotary axes keep theirs, machine units.
@@ -117,7 +125,14 @@ impl Blending {
             let tolerance = given.unwrap_or(self.default_tolerance.max(1e-4 * self.millimetre));
             self.weight = (tolerance / self.rotary_tolerance).clamp(LEAST_WEIGHT, GREATEST_WEIGHT);
         }
-        BlendSettings::new(self.millimetre, self.weight, self.default_tolerance, limits)
+        let settings =
+            BlendSettings::new(self.millimetre, self.weight, self.default_tolerance, limits)?;
+        Some(match self.tilt {
+            Some(tilt) if self.rotary_tolerance > 0.0 => {
+                settings.with_tilt(tilt, self.rotary_tolerance)
+            }
+            _ => settings,
+        })
     }
 }
 

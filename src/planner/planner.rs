@@ -162,6 +162,13 @@ impl Planner {
             .set(millimetre, rotary_tolerance, default_tolerance)
     }
 
+    /// Sets which axis tilts the tool while C turns it and the coordinates of the program are those of its tip: 3 for A, 4
+    /// for B, `None` where the machine does not tell. The tolerance of rotary axes is then one of the tool axis. Holds
+    /// from the next rest on.
+    pub fn set_tilt_axis(&mut self, tilt: Option<usize>) {
+        self.blending.set_tilt(tilt);
+    }
+
     /// Sets how the moves to come meet the next one.
     pub fn set_termination(&mut self, termination: TerminationCondition) {
         self.next_move.termination = termination;
