@@ -4,3 +4,4 @@ mod common;
 mod modes;
 mod random;
 mod shapes;
+mod tool_axis;
