@@ -33,3 +33,4 @@ mod soft_limits;
 mod spindle;
 mod spindle_events;
 mod survey;
+mod tool_axis;
