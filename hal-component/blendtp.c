@@ -59,6 +59,7 @@ static int was_positive;
 
 /* framekins says how the axes of the program lie to those of the machine; other kinematics do not have it. */
 static int (*linear_map)(double map[9]);
+static int (*tool_tilt_axis)(void);
 
 #ifdef FRAMEPATH_FAULT_INJECTION
 #include "fault_injection.h"
@@ -88,6 +89,8 @@ static int prepare(void)
     say_forgotten_jerk_limits();
     if (linear_map)
         framepath_planner_set_machine_map(planner, linear_map(map), map);
+    if (tool_tilt_axis)
+        framepath_planner_set_tool_tilt_axis(planner, tool_tilt_axis());
     return has_velocity() || take_jerk_limits() || take_joint_limits() || take_tolerances() ? -1 : 0;
 }
 
@@ -168,6 +171,7 @@ int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: tpmod is loaded, too, and has nothing to do: remove its loadrt\n");
     /* motmod is loaded after the kinematics, so they can be looked up now; here, not in the servo thread. */
     *(void **)&linear_map = dlsym(RTLD_DEFAULT, "framekinsLinearMap");
+    *(void **)&tool_tilt_axis = dlsym(RTLD_DEFAULT, "framekinsToolTiltAxis");
     find_kinematics();
     find_joint_jet();
     return 0;

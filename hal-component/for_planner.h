@@ -6,6 +6,7 @@
 int framekinsLinearMap(double map[9]);
 int framekinsJet(const double *position, const double *derivatives, double *joints);
 int framekinsAxisOfJoint(int joint);
+int framekinsToolTiltAxis(void);
 const char *framekinsInner(void);
 
 /* The linear part of the frame, three rows of three, and whether one is in force. */
@@ -26,6 +27,12 @@ int framekinsAxisOfJoint(int joint)
     return framepath_kinematics_axis_of_joint(joint);
 }
 
+/* The axis that tilts the tool while C turns it, with the tool centre point on; -1 if there is none. */
+int framekinsToolTiltAxis(void)
+{
+    return framepath_kinematics_tool_tilt_axis();
+}
+
 /* The name of the kinematics behind the frame; NULL if they are ours. */
 const char *framekinsInner(void)
 {
@@ -35,4 +42,5 @@ const char *framekinsInner(void)
 EXPORT_SYMBOL(framekinsLinearMap);
 EXPORT_SYMBOL(framekinsJet);
 EXPORT_SYMBOL(framekinsAxisOfJoint);
+EXPORT_SYMBOL(framekinsToolTiltAxis);
 EXPORT_SYMBOL(framekinsInner);

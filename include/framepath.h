@@ -640,6 +640,12 @@ int framepath_kinematics_jet(const double *position,
                              double *joints);
 
 /*
+ The axis that tilts the tool against the workpiece while C turns it, 3 for A, 4 for B, where the coordinates of the program
+ are those of its tip; -1 where they are not, or the kinematics are another module's.
+ */
+int framepath_kinematics_tool_tilt_axis(void);
+
+/*
  The axis of a machine of ours that a joint moves, 0 to 8, as its lamp on a panel says; -1 if there is none, or where the
  kinematics are another module's.
  */
@@ -874,6 +880,16 @@ int framepath_planner_set_blending(struct framepath_planner *handle,
                                    double millimetre,
                                    double rotary_tolerance,
                                    double default_tolerance);
+
+/*
+ Says which axis tilts the tool while C turns it, 3 for A, 4 for B, where the coordinates of the program are those of its
+ tip: the tolerance of rotary axes is then one of the tool axis. Any other number: none does. Holds from the next rest on.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+void framepath_planner_set_tool_tilt_axis(struct framepath_planner *handle,
+                                          int axis);
 
 /*
  Says whether a frame is in force, and how the axes of the program lie to those of the machine behind it: three rows

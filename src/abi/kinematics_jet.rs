@@ -4,7 +4,7 @@ use libc::{c_double, c_int};
 
 use super::kinematics::module;
 use crate::axes::{AXIS_COUNT, Axes};
-use crate::machine::JOINT_COUNT;
+use crate::machine::{JOINT_COUNT, Machine};
 
 /// Three derivatives of the joints 0 to 8 for a position and its derivatives by the same parameter: nine numbers, three times
 /// nine, and room for three times nine. 0, or -1 where the kinematics behind the frame are another module's.
@@ -47,6 +47,18 @@ pub unsafe extern "C" fn framepath_kinematics_jet(
         }
     }
     0
+}
+
+/// The axis that tilts the tool against the workpiece while C turns it, 3 for A, 4 for B, where the coordinates of the program
+/// are those of its tip; -1 where they are not, or the kinematics are another module's.
+#[unsafe(no_mangle)]
+pub extern "C" fn framepath_kinematics_tool_tilt_axis() -> c_int {
+    let machine = module()
+        .control
+        .as_ref()
+        .and_then(|control| control.behind().machine());
+    let axis = machine.and_then(Machine::tool_tilt_axis);
+    axis.map_or(-1, |axis| axis as c_int)
 }
 
 /// The axis of a machine of ours that a joint moves, 0 to 8, as its lamp on a panel says; -1 if there is none, or where the

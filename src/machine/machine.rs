@@ -3,7 +3,7 @@
 use super::coordinates::Coordinates;
 use super::identity::Identity;
 use super::joints::JOINT_COUNT;
-use super::table_tilting::{TableTilting, TableTiltingParameters};
+use super::table_tilting::{TableTilting, TableTiltingParameters, TiltAxis};
 use crate::axes::Axes;
 use crate::frame::FrameError;
 
@@ -59,6 +59,20 @@ impl Machine {
         match self {
             Self::Identity(_) => false,
             Self::TableTilting(machine) => machine.parameters().tool_centre_point,
+        }
+    }
+
+    /// The axis that tilts the tool against the workpiece while C turns it, 3 for A, 4 for B, where X Y Z are those of its
+    /// tip.
+    pub fn tool_tilt_axis(&self) -> Option<usize> {
+        match self {
+            Self::TableTilting(machine) if machine.parameters().tool_centre_point => {
+                Some(match machine.tilt_axis() {
+                    TiltAxis::A => 3,
+                    TiltAxis::B => 4,
+                })
+            }
+            Self::TableTilting(_) | Self::Identity(_) => None,
         }
     }
 

@@ -57,6 +57,7 @@ mod window;
 pub use blended_path::BlendedPath;
 pub use error::BlendError;
 pub use leg::ProgrammedMove;
+pub use orientation::Orientation;
 pub use settings::BlendSettings;
 pub use views::{LegView, MoveProgress, VertexView};
 pub use width_optimizer::GREATEST_EXCESS;

@@ -16,7 +16,7 @@ const GREATEST_TURN: f64 = 45.0;
 
 /// The axis that tilts the tool, with C turning it, and how far the tool may lean from the program.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Orientation {
+pub struct Orientation {
     /// 3 for A, 4 for B.
     pub tilt: usize,
     /// Degrees, positive.
@@ -24,8 +24,8 @@ pub(super) struct Orientation {
 }
 
 impl Orientation {
-    /// What a degree of C counts at most where the tilt runs from that of one position to that of the other, shapes (9),
-    /// and leaves this by the tolerance: up to 1.
+    /// What a degree of C counts at most where the tilt runs from that of one position to that of the other, shapes (9), degrees,
+    /// and leaves this by the tolerance: above 0, up to 1.
     pub fn share(&self, from: &Axes, to: &Axes) -> f64 {
         let (one, other) = (from[self.tilt], to[self.tilt]);
         let low = one.min(other) - self.tolerance;

@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import math
 import os
 import subprocess
 import tempfile
@@ -23,6 +24,13 @@ G1 X60 Y-40 Z0 A20 C-60
 G1 X-40 Y-40 Z5 A10 C-80
 G1 X0 Y0 Z0 A0 C0
 """
+
+#: next to the pole C goes to and fro
+POLE = "\n".join(["G21 G17 G90 G94 G61 F1200", "G1 X0 A1 C0", "G64 P0.05", *(f"G1 X{k} C{6 * (k % 2)}" for k in range(1, 41)),
+                  "M2"]) + "\n"
+
+#: how far the tool axis may lean, degrees
+TOLERANCE = 0.05
 
 #: lines of the second program begin here
 SECOND = 100
@@ -79,6 +87,26 @@ class Table(unittest.TestCase):
         self.check(*self.run_twice(OWN, "o<rot_rpl> call [30]\n"))
 
 
+def planned(machine, program, *options):
+    """What `framepath plan --ini` says: its text, and figures."""
+    with tempfile.TemporaryDirectory() as folder:
+        # its INI file names the subroutines from there
+        os.symlink(os.path.join(harness.SAMPLES, "subroutines"), os.path.join(folder, "subroutines"))
+        place = os.path.join(folder, "configs", "robot")
+        os.makedirs(place)
+        files = {"robot.ini": machine.ini(None), "robot.hal": machine.hal_text(None), "part.ngc": program}
+        files |= {f"to_type_{number}.ngc": SWITCH.format(number=number, output=SELECT) for number in range(2)}
+        for name, content in files.items():
+            with open(os.path.join(place, name), "w", encoding="utf-8") as file:
+                file.write(content)
+        command = [harness.TOOL, "plan", os.path.join(place, "part.ngc"), "--ini", os.path.join(place, "robot.ini"), *options]
+        text, figures = (subprocess.run(line, capture_output=True, text=True, check=False)
+                         for line in (command, [*command, "--json"]))
+        if text.stderr:
+            raise RuntimeError(text.stderr)
+        return text.stdout, json.loads(figures.stdout)["programs"][0]
+
+
 class Planned(unittest.TestCase):
     """`framepath plan --ini` of a machine whose HAL file sets limits of joints."""
 
@@ -87,27 +115,9 @@ class Planned(unittest.TestCase):
         lines = "".join(" ".join(map(str, step)) + "\n" for step in set_limits(5))
         return Machine(machine.kinematics, machine.home, machine.letters, machine.hal + lines)
 
-    def planned(self, machine):
-        """Text and figures."""
-        with tempfile.TemporaryDirectory() as folder:
-            # its INI file names the subroutines from there
-            os.symlink(os.path.join(harness.SAMPLES, "subroutines"), os.path.join(folder, "subroutines"))
-            place = os.path.join(folder, "configs", "robot")
-            os.makedirs(place)
-            files = {"robot.ini": machine.ini(None), "robot.hal": machine.hal_text(None), "turns.ngc": TURNS + "M2\n"}
-            files |= {f"to_type_{number}.ngc": SWITCH.format(number=number, output=SELECT) for number in range(2)}
-            for name, content in files.items():
-                with open(os.path.join(place, name), "w", encoding="utf-8") as file:
-                    file.write(content)
-            command = [harness.TOOL, "plan", os.path.join(place, "turns.ngc"), "--ini", os.path.join(place, "robot.ini")]
-            text, figures = (subprocess.run(line, capture_output=True, text=True, check=False)
-                             for line in (command, [*command, "--json"]))
-            self.assertEqual(text.stderr, "")
-            return text.stdout, json.loads(figures.stdout)["programs"][0]
-
     def test_the_time_is_that_of_linuxcnc(self):
         machine = self.machine(OWN)
-        text, figures = self.planned(machine)
+        text, figures = planned(machine, TURNS + "M2\n")
         # of two ways to blend it takes the slower one where a move comes a period later: ten periods
         tolerance = max(3, 0.003 * figures["cycles"])
         for _ in range(ATTEMPTS):
@@ -124,15 +134,48 @@ class Planned(unittest.TestCase):
         causes = [share["name"] for share in figures["limited_by"]]
         self.assertTrue(any("of joint" in cause for cause in causes), causes)
         # without them another time
-        free = self.planned(OWN)[1]
+        free = planned(OWN, TURNS + "M2\n")[1]
         self.assertIsNone(free["limits_of_joints"])
         self.assertLess(free["time"], 0.95 * figures["time"])
 
     def test_kinematics_that_are_not_known_are_named(self):
         named = Machine("xyzac-trt-kins coordinates=XYZAC", TILTING.home, TILTING.letters, TILTING.hal)
-        text, figures = self.planned(self.machine(named))
+        text, figures = planned(self.machine(named), TURNS + "M2\n")
         self.assertIn("NOT planned", text)
         self.assertIn("behind xyzac-trt-kins", figures["limits_of_joints"])
+
+
+class ToolAxis(unittest.TestCase):
+    """Next to the pole C may leave the program by more than the tool axis, where framekins says what tilts the tool."""
+
+    def run_with(self, machine):
+        """X, A and C in each period of motion."""
+        steps = [["setp", "blendtp.rotary-tolerance", TOLERANCE], ["run", "PROGRAMS/pole.ngc"]]
+        result = machine.run(steps, {"pole.ngc": POLE})
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [], result.log)
+        rows = result.columns("axis.x", "axis.a", "axis.c")
+        return [row for row, before in zip(rows[1:], rows, strict=False) if row != before]
+
+    def leans(self, row):
+        """Degrees between the tool axis and that of the program at this X."""
+        x, a, c = row
+        programmed = 6 * (x % 2 if x % 2 <= 1 else 2 - x % 2)
+        half = math.sin(math.radians(c - programmed) / 2) ** 2
+        chord = 4 * math.sin(math.radians(a - 1) / 2) ** 2 + 4 * math.sin(math.radians(a)) * math.sin(math.radians(1)) * half
+        return math.degrees(math.sqrt(chord))
+
+    def test_next_to_the_pole_it_is_faster(self):
+        told = self.run_with(OWN)
+        without = self.run_with(Machine(OWN.kinematics, OWN.home, OWN.letters,
+                                        OWN.hal.replace("setp framekins.tool-centre-point 1", "")))
+        leans = max(self.leans(row) for row in told if row[0] > 0)
+        print(f"{len(told)} periods, {len(without)} where nothing tilts the tool; it leans by {leans} degrees")
+        self.assertLess(len(told), 0.93 * len(without))
+        self.assertLessEqual(leans, 1.005 * TOLERANCE)
+        text, figures = planned(OWN, POLE, "--rotary-tolerance", str(TOLERANCE))
+        self.assertLessEqual(abs(figures["cycles"] - len(told)), max(3, 0.003 * len(told)))
+        self.assertNotIn("beyond", text)
 
 
 class Refusals(unittest.TestCase):

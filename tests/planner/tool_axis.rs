@@ -1,9 +1,17 @@
 //! What it gains that C may leave the program by more where it hardly turns the tool.
 
-use crate::common::{equal_limits, feed_move, with_room};
+use std::cell::RefCell;
+use std::fmt::{self, Display, Formatter};
+
+use crate::common::seeded_runner::seeded_runner;
+use crate::common::{Extremes, Machine, equal_limits, feed_move, with_room};
+use crate::program::run::run_on;
+use crate::program::{Program, checked};
+use crate::short_program::any_program;
 use framepath::axes::Axes;
 use framepath::moves::TerminationCondition;
 use framepath::planner::{CycleInputs, Planner};
+use proptest::prelude::*;
 
 /// Seconds for 40 short moves with the tool tilted by `tilt` degrees, C going to and fro by 6 degrees.
 fn time(tilt: f64, told: Option<usize>) -> f64 {
@@ -41,4 +49,52 @@ fn next_to_the_pole_it_is_faster_and_untold_as_before() {
     println!("A 1: {before} s -> {now} s");
     assert!(now < 0.9 * before, "{before} {now}");
     assert_eq!(time(90.0, Some(3)), time(90.0, None));
+}
+
+/// A program, the axis that tilts the tool, and how far this may lean, degrees.
+#[derive(Clone, Debug)]
+struct Tilting {
+    program: Program,
+    tilt: usize,
+    tolerance: f64,
+}
+
+impl Display for Tilting {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            program,
+            tilt,
+            tolerance,
+        } = self;
+        write!(f, "axis {tilt}, {tolerance} degrees:\n{program}")
+    }
+}
+
+#[test]
+fn no_limit_is_exceeded_where_c_leaves_the_program_by_more() {
+    with_room(|| {
+        let greatest = RefCell::new(Extremes::default());
+        let mut runner = seeded_runner(ProptestConfig {
+            cases: 2_000,
+            failure_persistence: None,
+            ..ProptestConfig::default()
+        });
+        let machines =
+            (any_program(), 3usize..5, -3.0..1.0f64).prop_map(|(program, tilt, decade)| Tilting {
+                program,
+                tilt,
+                tolerance: 10f64.powf(decade),
+            });
+        let result = runner.run(&machines, |tilting| {
+            let mut machine = Machine::new(tilting.program.limits);
+            let set = machine.planner.set_blending(1.0, tilting.tolerance, 0.02);
+            set.expect("sound");
+            machine.planner.set_tilt_axis(Some(tilting.tilt));
+            let ran = run_on(&tilting.program, &mut machine)?;
+            greatest.borrow_mut().join(&ran.extremes);
+            Ok(())
+        });
+        checked(result);
+        println!("greatest over the limits: {:?}", greatest.borrow());
+    });
 }

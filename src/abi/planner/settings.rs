@@ -97,6 +97,19 @@ pub unsafe extern "C" fn framepath_planner_set_blending(
     })
 }
 
+/// Says which axis tilts the tool while C turns it, 3 for A, 4 for B, where the coordinates of the program are those of its
+/// tip: the tolerance of rotary axes is then one of the tool axis. Any other number: none does. Holds from the next rest on.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_tool_tilt_axis(handle: *mut Handle, axis: c_int) {
+    // SAFETY: see above.
+    if let Some(handle) = unsafe { handle.as_mut() } {
+        handle.planner.set_tilt_axis(usize::try_from(axis).ok());
+    }
+}
+
 /// Says whether a frame is in force, and how the axes of the program lie to those of the machine behind it: three rows
 /// of a 3x3 map of X Y Z. The map is taken while nothing is queued, since a frame changes only at standstill; otherwise it is left as it is. Behind one with an element that is not a number or greater than 1e4 no move is taken.
 ///

@@ -28,8 +28,15 @@ pub struct Ran {
 /// # Errors
 /// What is not as it is asked.
 pub fn run(program: &Program) -> Result<Ran, TestCaseError> {
-    let mut machine = Machine::new(program.limits);
-    let mut running = Running::new(program, &mut machine);
+    run_on(program, &mut Machine::new(program.limits))
+}
+
+/// The same on a machine with these limits, of which the planner knows more.
+///
+/// # Errors
+/// What is not as it is asked.
+pub fn run_on(program: &Program, machine: &mut Machine) -> Result<Ran, TestCaseError> {
+    let mut running = Running::new(program, machine);
     let last_event = program.events.last().map_or(0, |(period, _)| *period);
     let never = last_event + program.asked.most_periods();
     for period in 0.. {

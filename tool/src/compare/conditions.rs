@@ -71,9 +71,10 @@ impl Conditions {
     fn of_machine(file: &Path) -> Result<Conditions, IniError> {
         let ini = Ini::read(file)?;
         let machine = Machine::from_ini(&ini)?;
+        let joints = JointSettings::read(&ini);
         let mut conditions = Conditions {
             limits_from: format!("limits of {}", file.display()),
-            joints_behind: JointSettings::read(&ini).map(|settings| settings.kinematics),
+            joints_behind: joints.is_limited().then_some(joints.kinematics),
             period: machine.servo_period,
             ..Conditions::without_machine()
         };

@@ -163,7 +163,7 @@ impl<'a> Collector<'a> {
             joints,
             known: VecDeque::new(),
             running: None,
-            follower: Follower::new(setup.rotary_tolerance),
+            follower: Follower::new(setup.rotary_tolerance, setup.tool_tilt_axis),
             places: Places::default(),
             evenness: Evenness::default(),
             polyline: Polyline::new(DRAWN_WITHIN / setup.millimetres, DRAWN_SPEED * fastest),

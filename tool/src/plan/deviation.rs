@@ -6,6 +6,8 @@ use crate::layer::program::Piece;
 use crate::path::Position;
 use crate::path::exceeded::is_beyond;
 use crate::path::segment::Segment;
+use framepath::axes::Axes;
+use framepath::path::Orientation;
 use std::collections::VecDeque;
 
 /// Pieces behind and ahead of the nearest one that are looked at in each cycle.
@@ -80,6 +82,10 @@ pub struct Deviation {
 #[derive(Debug)]
 struct Tracked {
     piece: Piece,
+    /// The same with C counting as much as it turns the tool.
+    counted: Segment,
+    /// What a degree of C counts.
+    turn_share: f64,
     /// Distance of its end from the planned path so far.
     end_missed: f64,
     /// P of this piece and the one before, with what merging adds; `None` without P.
@@ -99,6 +105,8 @@ pub struct Follower {
     all_axes: bool,
     /// How far rotary axes may leave the program, degrees; 0: as many as P has mm.
     rotary_tolerance: f64,
+    /// What turns of C count.
+    orientation: Option<Orientation>,
     found: Deviation,
     last: Option<Position>,
 }
@@ -112,11 +120,24 @@ fn tolerance(piece: &Piece) -> Option<f64> {
     }
 }
 
+/// A position with C counting a share.
+fn with_turn(position: &Position, share: f64) -> Position {
+    let mut counted = *position;
+    counted[5] *= share;
+    counted
+}
+
 impl Follower {
     /// Where rotary axes may leave the program by so many degrees; 0: as many as P has mm.
-    pub fn new(rotary_tolerance: f64) -> Follower {
+    /// `tilt`: the axis, 3 or 4, that tilts the tool while C turns it, so that the tolerance is one of the tool axis.
+    pub fn new(rotary_tolerance: f64, tilt: Option<usize>) -> Follower {
+        let tilt = tilt.filter(|_| rotary_tolerance > 0.0);
         Follower {
             rotary_tolerance,
+            orientation: tilt.map(|tilt| Orientation {
+                tilt,
+                tolerance: rotary_tolerance,
+            }),
             ..Follower::default()
         }
     }
@@ -133,8 +154,18 @@ impl Follower {
             // Near its start the tolerance of the one before holds.
             let own = tolerance(piece);
             let before = last.as_ref().map_or(own, tolerance);
+            let turn_share = self.orientation.map_or(1.0, |orientation| {
+                let ends = [piece.segment.start, piece.segment.end].map(Axes::from);
+                orientation.share(&ends[0], &ends[1])
+            });
             self.pieces.push_back(Tracked {
                 piece: *piece,
+                counted: Segment {
+                    start: with_turn(&piece.segment.start, turn_share),
+                    end: with_turn(&piece.segment.end, turn_share),
+                    ..piece.segment
+                },
+                turn_share,
                 end_missed: f64::INFINITY,
                 tolerance: own.zip(before).map(|(own, before)| own.max(before)),
             });
@@ -147,12 +178,17 @@ impl Follower {
         let Some((near, distance)) = self.nearest(position) else {
             return;
         };
-        let chord = Segment::line(self.last.unwrap_or(*position), *position);
+        let before = self.last.unwrap_or(*position);
         let [first, last] = self.own;
         let from = first.min(near).saturating_sub(NEAR);
         let to = (last.max(near) + NEAR + 1).min(self.pieces.len());
         for tracked in self.pieces.range_mut(from..to) {
-            let missed = chord.deviation(&tracked.piece.segment.end, self.all_axes).0;
+            let turn_share = tracked.turn_share;
+            let chord = Segment::line(
+                with_turn(&before, turn_share),
+                with_turn(position, turn_share),
+            );
+            let missed = chord.deviation(&tracked.counted.end, self.all_axes).0;
             tracked.end_missed = tracked.end_missed.min(missed);
         }
         self.last = Some(*position);
@@ -258,8 +294,9 @@ impl Follower {
     /// The nearest piece, and its distance.
     fn nearest(&self, position: &Position) -> Option<(usize, f64)> {
         let away = |index: usize| {
-            let piece = &self.pieces.get(index)?.piece;
-            Some(piece.segment.deviation(position, self.all_axes).0)
+            let tracked = self.pieces.get(index)?;
+            let position = with_turn(position, tracked.turn_share);
+            Some(tracked.counted.deviation(&position, self.all_axes).0)
         };
         let first = self.near.saturating_sub(NEAR);
         let mut best = (first, away(first)?);
@@ -333,7 +370,7 @@ mod tests {
 
     /// Follows a machine that is exactly on the program, but off by `off` in X on the move with this number.
     fn followed(moves: &[Handed], (wrong, off): (usize, f64)) -> Deviation {
-        let mut follower = Follower::new(0.0);
+        let mut follower = Follower::new(0.0, None);
         for handed in moves {
             follower.add(handed);
         }

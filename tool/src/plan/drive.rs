@@ -149,6 +149,7 @@ impl<'a> Drive<'a> {
                 setup.default_tolerance * length,
             )
             .map_err(|_| refused("the tolerances: they must be 0 or positive"))?;
+        planner.set_tilt_axis(setup.tool_tilt_axis);
         planner.set_velocity_limit(setup.velocity_limit * length);
         planner
             .set_position(&scaled(&setup.surroundings.start))

@@ -44,14 +44,16 @@ pub struct PlannedJoints {
 impl Joints {
     /// # Errors
     /// Limits with which blendtp refuses every move, kinematics that framekins does not take.
-    pub fn from_ini(ini: &Ini, period: f64) -> Result<Joints, PlanError> {
-        let Some(settings) = JointSettings::read(ini) else {
+    pub fn from_settings(
+        settings: &JointSettings,
+        ini: &Ini,
+        period: f64,
+    ) -> Result<Joints, PlanError> {
+        if !settings.is_limited() {
             return Ok(Joints::Axes);
-        };
-        let tilt = match (settings.kinematics.as_str(), settings.machine.as_str()) {
-            ("framekins", "xyzac") => TiltAxis::A,
-            ("framekins", "xyzbc") => TiltAxis::B,
-            _ => return Ok(Joints::Unknown(settings.kinematics)),
+        }
+        let Some(tilt) = own_table(settings) else {
+            return Ok(Joints::Unknown(settings.kinematics.clone()));
         };
         let refused =
             |why: String| PlanError::from(ini.bad_value("KINS", "KINEMATICS", why.as_str()));
@@ -60,13 +62,13 @@ impl Joints {
         let mut table =
             table.map_err(|error| refused(format!("framekins refuses it: {error:?}")))?;
         table
-            .set_parameters(dimensions(&settings))
+            .set_parameters(dimensions(settings))
             .map_err(|error| refused(format!("framekins refuses the table: {error:?}")))?;
         let machine = Machine::TableTilting(table);
         Ok(Joints::Planned(Box::new(PlannedJoints {
-            limits: limits(&settings, &machine, period)?,
+            limits: limits(settings, &machine, period)?,
             machine,
-            name: settings.machine,
+            name: settings.machine.clone(),
         })))
     }
 
@@ -122,6 +124,25 @@ impl PlannedJoints {
         self.machine.inverse(&Axes::from(*position), &mut joints);
         std::array::from_fn(|joint| joints[joint])
     }
+}
+
+/// The table of ours that a machine has.
+fn own_table(settings: &JointSettings) -> Option<TiltAxis> {
+    match (settings.kinematics.as_str(), settings.machine.as_str()) {
+        ("framekins", "xyzac") => Some(TiltAxis::A),
+        ("framekins", "xyzbc") => Some(TiltAxis::B),
+        _ => None,
+    }
+}
+
+/// The axis, 3 for A or 4 for B, that tilts the tool while C turns it, as framekins tells blendtp.
+pub fn tool_tilt_axis(settings: &JointSettings) -> Option<usize> {
+    let tilt = own_table(settings)?;
+    let tilt = match tilt {
+        TiltAxis::A => 3,
+        TiltAxis::B => 4,
+    };
+    (settings.framekins("tool-centre-point") != 0.0).then_some(tilt)
 }
 
 fn jet(position: &Axes, derivatives: &[Axes; 3], _: &[Axes; 3]) -> [Axes; 3] {

@@ -94,8 +94,8 @@ pub struct PlanArguments {
     /// Lines of a servo cycle, the moves that have come by then, and what all feeds are multiplied by
     #[arg(long, value_name = "FILE", conflicts_with = "fill_queue")]
     pub arrivals: Option<PathBuf>,
-    /// blendtp.rotary-tolerance: how far rotary axes may leave the program, degrees [default: as
-    /// many as P has mm]
+    /// blendtp.rotary-tolerance: how far rotary axes may leave the program, or the tool axis where framekins
+    /// has the tool centre point on, degrees [default: as many as P has mm]
     #[arg(long, value_name = "DEGREES", value_parser = positive)]
     pub rotary_tolerance: Option<f64>,
     /// blendtp.default-tolerance: tolerance of runs of short moves under G64 without P, machine units

@@ -2,13 +2,14 @@
 
 use super::PlanArguments;
 use super::error::PlanError;
-use super::joints::Joints;
+use super::joints::{Joints, tool_tilt_axis};
 use super::spindle::SpeedLimits;
 use crate::canon::Surroundings;
 use crate::canon::tool_table::{Tool, read_tool_table};
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
 use crate::machine::ini::Ini;
 use crate::machine::limits::{Jerk, Limits, is_rotary};
+use crate::wiring::joints::JointSettings;
 use framepath::axes::AXIS_COUNT;
 use std::path::{Path, PathBuf};
 
@@ -33,6 +34,8 @@ pub struct Setup {
     pub jerk: [f64; AXIS_COUNT],
     /// What is known of the joints.
     pub(super) joints: Joints,
+    /// The axis that tilts the tool while C turns it, with the tool centre point on.
+    pub(super) tool_tilt_axis: Option<usize>,
     /// Which axes the machine has.
     pub axes: [bool; AXIS_COUNT],
     /// Greatest velocity along the path, mm/s.
@@ -141,6 +144,7 @@ fn without_ini() -> Setup {
         limits: Limits::default(),
         jerk: [f64::INFINITY; AXIS_COUNT],
         joints: Joints::Axes,
+        tool_tilt_axis: None,
         axes: [true; AXIS_COUNT],
         velocity_limit: f64::INFINITY,
         spindle: SpeedLimits::default(),
@@ -179,7 +183,9 @@ fn from_ini(file: &Path) -> Result<Setup, PlanError> {
     if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
         setup.velocity_limit = velocity * millimetres;
     }
-    setup.joints = Joints::from_ini(&ini, setup.period)?;
+    let joints = JointSettings::read(&ini);
+    setup.joints = Joints::from_settings(&joints, &ini, setup.period)?;
+    setup.tool_tilt_axis = tool_tilt_axis(&joints);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
     setup.surroundings = surroundings(&ini, file, &machine, millimetres)?;
     setup.ini.clone_from(&setup.surroundings.ini);

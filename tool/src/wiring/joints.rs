@@ -19,8 +19,8 @@ pub struct JointSettings {
 }
 
 impl JointSettings {
-    /// `None` where no joint has a limit, or where the joints are the axes, so that blendtp looks at none.
-    pub fn read(ini: &Ini) -> Option<JointSettings> {
+    /// As the HAL files leave it.
+    pub fn read(ini: &Ini) -> JointSettings {
         let state = State::run(&read_script(ini, &[]).statements);
         let limits = std::array::from_fn(|kind| {
             std::array::from_fn(|joint| number(&state, &JOINT_LIMITS[kind].pin(joint)))
@@ -34,15 +34,19 @@ impl JointSettings {
             "" => named,
             inner => inner,
         };
-        let settings = JointSettings {
+        JointSettings {
             limits,
             kinematics: kinematics.to_owned(),
             machine: given("machine").to_owned(),
             coordinates: given("coordinates").to_owned(),
             state,
-        };
-        let limited = settings.limits.iter().flatten().any(|limit| *limit != 0.0);
-        (limited && !settings.is_trivial()).then_some(settings)
+        }
+    }
+
+    /// Whether blendtp looks at limits of joints: it does at none where the joints are the axes.
+    pub fn is_limited(&self) -> bool {
+        let limited = self.limits.iter().flatten().any(|limit| *limit != 0.0);
+        limited && !self.is_trivial()
     }
 
     fn is_trivial(&self) -> bool {
