@@ -17,7 +17,7 @@ const GREATEST_TURN: f64 = 45.0;
 /// The axis that tilts the tool, with C turning it, and how far the tool may lean from the program.
 #[derive(Clone, Copy, Debug)]
 pub struct Orientation {
-    /// 3 for A, 4 for B.
+    /// 4 for B, otherwise A.
     pub tilt: usize,
     /// Degrees, positive.
     pub tolerance: f64,
@@ -27,7 +27,12 @@ impl Orientation {
     /// What a degree of C counts at most where the tilt runs from that of one position to that of the other, shapes (9), degrees,
     /// and leaves this by the tolerance: above 0, up to 1.
     pub fn share(&self, from: &Axes, to: &Axes) -> f64 {
-        let (one, other) = (from[self.tilt], to[self.tilt]);
+        // written so that no index can be out of range: the modules cannot panic
+        let tilt = |position: &Axes| match self.tilt {
+            4 => position[4],
+            _ => position[3],
+        };
+        let (one, other) = (tilt(from), tilt(to));
         let low = one.min(other) - self.tolerance;
         let high = one.max(other) + self.tolerance;
         let lies_flat = ((low - 90.0) / 180.0).ceil() <= ((high - 90.0) / 180.0).floor();
