@@ -232,6 +232,9 @@ class Operator:
     def wait_moving(self):
         self.wait_for("motion", lambda: self.status.current_vel > 0, 10)
 
+    def wait_standing(self):
+        self.wait_for("standstill", lambda: self.status.current_vel == 0, 10)
+
     def setp(self, pin, value):
         subprocess.run(["halcmd", "setp", pin, str(value)], check=True)
 

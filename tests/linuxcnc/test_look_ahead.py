@@ -237,7 +237,8 @@ class Operator(LookAhead):
         corners = zigzag(5)
         steps: list[list] = [["open", "PROGRAMS/part.ngc"]]
         for n in range(5):
-            steps += [["step"], ["sleep", 0.8], ["note", f"step {n}"]]
+            # on a busy computer task may come late to a step
+            steps += [["step"], ["sleep", 0.8], ["wait_standing"], ["note", f"step {n}"]]
         result = harness.run([*steps, ["resume"], ["finish"], ["note", "end"]],
                              program("G64 P0.5", *moves(corners)))
         result.forgive_end_of_steps()

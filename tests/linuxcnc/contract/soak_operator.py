@@ -20,6 +20,8 @@ EXPECTED = ("Can't switch mode while mode is AUTO", "File ended with no percent 
             "Must be in MDI mode to issue MDI command", "blendtp: there is no way back from here")
 #: Seconds of servo periods that the machine has for coming to rest, and a program for its end once nothing interferes.
 REST, END = 4.0, 90.0
+#: The same for task to hear of a command on a busy computer.
+HEARD = 60.0
 
 
 class SoakOperator(RowOperator):
@@ -106,7 +108,7 @@ class SoakOperator(RowOperator):
         self.command.maxvel(100.0)
         if self.backwards:
             self.turn(False)
-        limit = self.period() + round(REST / PERIOD)
+        limit = self.period() + round(HEARD / PERIOD)
         # a step that is under way has to end before the program can go on
         while True:
             self.poll()

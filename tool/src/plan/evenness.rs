@@ -1,6 +1,7 @@
 //! How even the speed is in cutting: the time near the programmed feed, and the stretches below it.
 
 use super::cause::Cause;
+use super::dip::Dip;
 use super::places::Pace;
 use std::collections::BTreeMap;
 
@@ -31,7 +32,7 @@ impl CuttingTime {
     }
 }
 
-/// Lines in succession that are run below the feed.
+/// Lines in succession that are run below the feed, around one place where that is slowest.
 #[derive(Clone, Copy, Debug)]
 pub struct Stretch {
     /// Where it is slowest.
@@ -50,13 +51,22 @@ pub struct Stretch {
     pub cause: Cause,
 }
 
+/// A stretch under way.
+#[derive(Clone, Debug)]
+struct Begun {
+    stretch: Stretch,
+    dip: Dip,
+    /// s.
+    by_cause: [f64; Cause::COUNT],
+}
+
 /// Takes in the cycles of cutting.
 #[derive(Clone, Debug, Default)]
 pub struct Evenness {
     total: CuttingTime,
     /// By feed, machine units a minute, as a number of its last digit and that digit's power of ten.
     feeds: BTreeMap<(i32, i64), CuttingTime>,
-    stretch: Option<(Stretch, [f64; Cause::COUNT])>,
+    stretch: Option<Begun>,
     /// The longest first.
     found: Vec<Stretch>,
 }
@@ -80,20 +90,31 @@ impl Evenness {
     }
 
     fn extend(&mut self, pace: &Pace) {
-        let begun = Stretch {
-            line: pace.line,
-            first_line: pace.line,
-            last_line: pace.line,
-            time: pace.time,
-            duration: 0.0,
-            least_share: f64::INFINITY,
-            cause: pace.cause,
-        };
-        let (stretch, by_cause) = self.stretch.get_or_insert((begun, [0.0; Cause::COUNT]));
+        let begun = self.stretch.as_ref();
+        if begun.is_some_and(|begun| begun.dip.is_passed(pace.share_of_feed)) {
+            self.close();
+        }
+        let Begun {
+            stretch,
+            dip,
+            by_cause,
+        } = self.stretch.get_or_insert(Begun {
+            stretch: Stretch {
+                line: pace.line,
+                first_line: pace.line,
+                last_line: pace.line,
+                time: pace.time,
+                duration: 0.0,
+                least_share: f64::INFINITY,
+                cause: pace.cause,
+            },
+            dip: Dip::BEGUN,
+            by_cause: [0.0; Cause::COUNT],
+        });
         stretch.duration += pace.duration;
         stretch.last_line = pace.line;
         by_cause[pace.cause.index()] += pace.duration;
-        if pace.share_of_feed < stretch.least_share {
+        if dip.note(pace.share_of_feed) {
             stretch.least_share = pace.share_of_feed;
             stretch.line = pace.line;
             stretch.time = pace.time;
@@ -101,9 +122,14 @@ impl Evenness {
     }
 
     fn close(&mut self) {
-        let Some((mut stretch, by_cause)) = self.stretch.take() else {
+        let Some(begun) = self.stretch.take() else {
             return;
         };
+        let Begun {
+            mut stretch,
+            by_cause,
+            ..
+        } = begun;
         let causes = by_cause.iter().enumerate();
         let most = causes.max_by(|a, b| a.1.total_cmp(b.1));
         stretch.cause = most.map_or(stretch.cause, |(index, _)| Cause::at(index));
@@ -188,5 +214,36 @@ mod tests {
         assert_eq!((long.cause, short.cause), (Cause::Feed, Cause::Between));
         assert_eq!((short.line, short.least_share), (4, 0.5));
         assert!((short.duration - 0.05).abs() < 1e-9);
+    }
+
+    #[test]
+    fn dense_code_is_a_stretch_for_each_slow_place() {
+        let mut evenness = Evenness::default();
+        for k in 0..300 {
+            // slowest at 50, 150 and 250, and never near the feed
+            let from_slowest = f64::from(k % 100 - 50).abs() / 50.0;
+            let share = 0.3 + 0.3 * from_slowest;
+            evenness.note(
+                &Pace {
+                    time: f64::from(k) * 0.001,
+                    duration: 0.001,
+                    share_of_feed: share,
+                    speed: 10.0 * share,
+                    line: 1 + k / 10,
+                    position: [0.0; 9],
+                    phase: Phase::Turning,
+                    cause: Cause::Between,
+                },
+                Some(600.0),
+            );
+        }
+        let mut lines: Vec<i32> = evenness
+            .finish()
+            .stretches
+            .iter()
+            .map(|found| found.line)
+            .collect();
+        lines.sort_unstable();
+        assert_eq!(lines, [6, 16, 26]);
     }
 }

@@ -13,6 +13,7 @@ mod cause;
 mod collector;
 mod csv;
 mod deviation;
+mod dip;
 mod drive;
 mod error;
 mod evenness;

@@ -1,13 +1,8 @@
 //! The places where most time is lost: stretches between two places where the machine is fast.
 
 use super::cause::{Cause, Phase};
+use super::dip::Dip;
 use crate::path::Position;
-
-/// Speed over feed has to rise and fall by this factor between two places.
-const HYSTERESIS: f64 = 1.3;
-
-/// Below this share of the feed all is slow.
-const SLOW: f64 = 0.02;
 
 /// Places that are kept.
 pub const MOST_PLACES: usize = 20;
@@ -64,7 +59,7 @@ pub struct Place {
 #[derive(Clone, Debug)]
 struct Stretch {
     place: Place,
-    greatest_share: f64,
+    dip: Dip,
     lost_by_cause: [f64; Cause::COUNT],
     lost_by_phase: [f64; Phase::COUNT],
 }
@@ -81,12 +76,8 @@ impl Places {
     /// The next cycle.
     pub fn note(&mut self, pace: &Pace) {
         let share = pace.share_of_feed;
-        let passed = self.stretch.as_ref().is_some_and(|stretch| {
-            let differ = |fast: f64, slow: f64| fast + SLOW > HYSTERESIS * (slow + SLOW);
-            differ(stretch.greatest_share, stretch.place.least_share)
-                && differ(stretch.greatest_share, share)
-        });
-        if passed {
+        let before = self.stretch.as_ref();
+        if before.is_some_and(|stretch| stretch.dip.is_passed(share)) {
             self.close();
         }
         let stretch = self.stretch.get_or_insert(Stretch {
@@ -103,7 +94,7 @@ impl Places {
                 phase: pace.phase,
                 cause: pace.cause,
             },
-            greatest_share: 0.0,
+            dip: Dip::BEGUN,
             lost_by_cause: [0.0; Cause::COUNT],
             lost_by_phase: [0.0; Phase::COUNT],
         });
@@ -120,16 +111,13 @@ impl Places {
         place.lost += lost;
         stretch.lost_by_cause[pace.cause.index()] += lost;
         stretch.lost_by_phase[pace.phase as usize] += lost;
-        if share < place.least_share {
+        if stretch.dip.note(share) {
             place.least_share = share;
             place.least_speed = pace.speed;
             place.line = pace.line;
             place.time = pace.time;
             place.position = pace.position;
-            // Only what comes after the slowest cycle ends the place.
-            stretch.greatest_share = share;
         }
-        stretch.greatest_share = stretch.greatest_share.max(share);
     }
 
     /// The worst places, the worst first.

@@ -18,6 +18,21 @@ const HALSAMPLER_ENDS: Duration = Duration::from_secs(2);
 /// HAL keeps the memory of a component that is unloaded: less than this is not touched, bytes.
 const LEAST_MEMORY: u64 = 32_000;
 
+/// How long the process with which halcmd has asked LinuxCNC's may take to end on a busy computer.
+const MESSENGER_ENDS: Duration = Duration::from_secs(1);
+
+/// Whether there are more processes with threads of a LinuxCNC than before, and not only for a moment.
+fn another_stays(before: usize) -> bool {
+    let begin = Instant::now();
+    while processes::own_real_time() > before {
+        if begin.elapsed() > MESSENGER_ENDS {
+            return true;
+        }
+        sleep(Duration::from_millis(10));
+    }
+    false
+}
+
 /// Taken away when it is dropped, or before by [`Attached::detach`], which tells what is wrong.
 #[derive(Debug)]
 pub struct Attached {
@@ -38,7 +53,7 @@ impl Attached {
         let processes = processes::own_real_time();
         let attached = Attached { is_there: true };
         halcmd::carry_out(&wiring.load)?;
-        if processes::own_real_time() > processes {
+        if another_stays(processes) {
             return Err(RecordError::OtherProcess);
         }
         halcmd::carry_out(&wiring.link)?;
