@@ -178,6 +178,20 @@ mod tests {
     use super::super::cause::Phase;
     use super::*;
 
+    /// A period, its speed over the feed, and its line.
+    fn at(period: i32, share_of_feed: f64, line: i32) -> Pace {
+        Pace {
+            time: f64::from(period) * 0.001,
+            duration: 0.001,
+            share_of_feed,
+            speed: 10.0 * share_of_feed,
+            line,
+            position: [0.0; 9],
+            phase: Phase::Turning,
+            cause: Cause::Between,
+        }
+    }
+
     #[test]
     fn time_near_the_feed_and_what_is_below() {
         let mut evenness = Evenness::default();
@@ -188,14 +202,8 @@ mod tests {
                 _ => 0.96,
             };
             let pace = Pace {
-                time: f64::from(k) * 0.001,
-                duration: 0.001,
-                share_of_feed: share,
-                speed: 10.0 * share,
-                line: 1 + k / 100,
-                position: [0.0; 9],
-                phase: Phase::Turning,
                 cause: if k < 500 { Cause::Between } else { Cause::Feed },
+                ..at(k, share, 1 + k / 100)
             };
             // 100 cycles of a rapid at the end, and two feeds before it.
             let feed = if k < 400 { 1500.04 } else { 600.0 };
@@ -223,19 +231,7 @@ mod tests {
             // slowest at 50, 150 and 250, and never near the feed
             let from_slowest = f64::from(k % 100 - 50).abs() / 50.0;
             let share = 0.3 + 0.3 * from_slowest;
-            evenness.note(
-                &Pace {
-                    time: f64::from(k) * 0.001,
-                    duration: 0.001,
-                    share_of_feed: share,
-                    speed: 10.0 * share,
-                    line: 1 + k / 10,
-                    position: [0.0; 9],
-                    phase: Phase::Turning,
-                    cause: Cause::Between,
-                },
-                Some(600.0),
-            );
+            evenness.note(&at(k, share, 1 + k / 10), Some(600.0));
         }
         let mut lines: Vec<i32> = evenness
             .finish()
