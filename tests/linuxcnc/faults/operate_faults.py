@@ -74,20 +74,22 @@ class FaultOperator(Operator):
         time.sleep(0.1)
 
     def wait_for_rest(self, name="rest", seconds=30):
-        """Keeps how long it took until no joint moved any more, s, and where it is then."""
+        """Keeps how long it took until no joint moved any more, s, and where it is then. On a busy computer periods come late
+        and then in a hurry: the time is the shorter one of theirs and the clock's, as the guard is listened for."""
         pins = [f"joint.{joint}.motor-pos-cmd" for joint in range(self.status.joints)]
         began = hal.get_value("threadtest.0.count")
-        last, since = None, began
+        clock = time.monotonic()
+        last, since, took = None, began, 0.0
         while True:
             now, period = [hal.get_value(pin) for pin in pins], hal.get_value("threadtest.0.count")
             if now != last:
-                last, since = now, period
+                last, since, took = now, period, time.monotonic() - clock
             elif period - since > QUIET:
                 break
             if period - began > seconds * 1000:
                 raise Failure(f"the machine does not come to rest in {seconds} s")
             self.after_periods(5)
-        self.answers[name] = {"seconds": (since - began) / 1000, "joints": last}
+        self.answers[name] = {"seconds": min((since - began) / 1000, took), "joints": last}
 
     def refused_mdi(self, text):
         """A line of MDI that must not move a joint."""
