@@ -3,7 +3,7 @@
 use super::coordinates::Coordinates;
 use super::identity::Identity;
 use super::joints::JOINT_COUNT;
-use super::table_tilting::{TableTilting, TableTiltingParameters, TiltAxis};
+use super::table_tilting::{TableTilting, TableTiltingParameters};
 use crate::axes::Axes;
 use crate::frame::FrameError;
 
@@ -67,10 +67,7 @@ impl Machine {
     pub fn tool_tilt_axis(&self) -> Option<usize> {
         match self {
             Self::TableTilting(machine) if machine.parameters().tool_centre_point => {
-                Some(match machine.tilt_axis() {
-                    TiltAxis::A => 3,
-                    TiltAxis::B => 4,
-                })
+                Some(machine.tilt_axis().axis())
             }
             Self::TableTilting(_) | Self::Identity(_) => None,
         }

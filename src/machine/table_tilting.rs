@@ -44,6 +44,16 @@ pub enum TiltAxis {
     B,
 }
 
+impl TiltAxis {
+    /// Its number: 3 for A, 4 for B.
+    pub fn axis(self) -> usize {
+        match self {
+            Self::A => 3,
+            Self::B => 4,
+        }
+    }
+}
+
 /// Which way a positive angle turns the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RotaryDirection {
@@ -89,11 +99,7 @@ impl TableTilting {
     ///
     /// [`CoordinatesError::MissingAxis`] unless X, Y, Z, C and the tilting axis are named.
     pub fn new(tilt_axis: TiltAxis, coordinates: Coordinates) -> Result<Self, CoordinatesError> {
-        let tilt = match tilt_axis {
-            TiltAxis::A => 3,
-            TiltAxis::B => 4,
-        };
-        coordinates.require(&[0, 1, 2, tilt, 5])?;
+        coordinates.require(&[0, 1, 2, tilt_axis.axis(), 5])?;
         Ok(Self {
             coordinates,
             tilt_axis,

@@ -9,6 +9,7 @@ use framepath::abi::kinematics::{
     framepath_kinematics_inverse, framepath_kinematics_linear_map, framepath_kinematics_switch,
     framepath_kinematics_tilt_axis, framepath_kinematics_update,
 };
+use framepath::abi::kinematics_jet::framepath_kinematics_tool_tilt_axis;
 use framepath::abi::kinematics_words::framepath_kinematics_refusal_text;
 use framepath::abi::linuxcnc::EmcPose;
 
@@ -406,6 +407,7 @@ impl Calls {
             }
         }
         assert!((0..=2).contains(&framepath_kinematics_tilt_axis()));
+        assert!([-1, 3, 4].contains(&framepath_kinematics_tool_tilt_axis()));
     }
 
     /// The guard of the frames lives.

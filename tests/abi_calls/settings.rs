@@ -7,7 +7,7 @@ use framepath::abi::planner::settings::{
     framepath_planner_set_cycle_time, framepath_planner_set_digital_output,
     framepath_planner_set_id, framepath_planner_set_jerk, framepath_planner_set_machine_map,
     framepath_planner_set_spindle_sync, framepath_planner_set_termination,
-    framepath_planner_set_velocity_limit,
+    framepath_planner_set_tool_tilt_axis, framepath_planner_set_velocity_limit,
 };
 use framepath::axes::AXIS_COUNT;
 use framepath::planner::JerkLimit;
@@ -226,6 +226,11 @@ impl Calls {
             framepath_planner_set_blending(self.shared.handle, millimetre, rotary, default)
         };
         assert!((0..=3).contains(&answer));
+        let tilt = choices.one_of([-1, 3, 4]);
+        let tilt = choices.integer(tilt);
+        self.tell(format_args!("tilt {tilt}"));
+        // SAFETY: a handle of the planner.
+        unsafe { framepath_planner_set_tool_tilt_axis(self.shared.handle, tilt) };
         self.check(Kind::Command);
     }
 

@@ -10,7 +10,7 @@ const SLOW: f64 = 0.02;
 #[derive(Clone, Copy, Debug)]
 pub struct Dip {
     /// The least, infinite before the first.
-    pub least: f64,
+    least: f64,
     /// The greatest behind the least.
     greatest: f64,
 }

@@ -138,11 +138,7 @@ fn own_table(settings: &JointSettings) -> Option<TiltAxis> {
 /// The axis, 3 for A or 4 for B, that tilts the tool while C turns it, as framekins tells blendtp.
 pub fn tool_tilt_axis(settings: &JointSettings) -> Option<usize> {
     let tilt = own_table(settings)?;
-    let tilt = match tilt {
-        TiltAxis::A => 3,
-        TiltAxis::B => 4,
-    };
-    (settings.framekins("tool-centre-point") != 0.0).then_some(tilt)
+    (settings.framekins("tool-centre-point") != 0.0).then_some(tilt.axis())
 }
 
 fn jet(position: &Axes, derivatives: &[Axes; 3], _: &[Axes; 3]) -> [Axes; 3] {

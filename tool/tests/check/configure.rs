@@ -282,24 +282,25 @@ fn files_that_are_there_are_replaced_by_force_only() {
 }
 
 /// A change of axis_mm, options, and the line that refuses it.
+/// From, to, options, and what is said: LINE is that of the first line of what was written, another one in each LinuxCNC.
 const REFUSED: [(&str, &str, &[&str], &str); 9] = [
     (
         "KINEMATICS = trivkins",
         "KINEMATICS =",
         &["--frames"],
-        "error: [KINS]KINEMATICS names no module",
+        "axis_mm.ini:LINE:1: error: [KINS]KINEMATICS names no module",
     ),
     (
         "KINEMATICS = trivkins",
         "KINEMATICS = trivkins colour=red",
         &["--frames"],
-        "error: framekins does not know `colour=red`",
+        "axis_mm.ini:LINE:1: error: framekins does not know `colour=red`",
     ),
     (
         "HALFILE = core_sim.hal",
         "HALFILE = LIB:basic_sim.tcl",
         &["--frames"],
-        "error: LIB:basic_sim.tcl: it is written in Tcl",
+        "axis_mm.ini:LINE:1: error: LIB:basic_sim.tcl: it is written in Tcl",
     ),
     (
         "PARAMETER_FILE = sim_mm.var",
@@ -311,19 +312,19 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "HALUI = halui",
         "HALCMD = net own motion.feed-inhibit",
         &["--frames"],
-        "error: motion.feed-inhibit is linked to own already",
+        "axis_mm.ini:LINE:1: error: motion.feed-inhibit is linked to own already",
     ),
     (
         "HALFILE = core_sim.hal",
         "HALFILE = nowhere.hal",
         &[],
-        "error: the HAL file nowhere.hal is not there",
+        "axis_mm.ini:LINE:1: error: the HAL file nowhere.hal is not there",
     ),
     (
         "POSITION_FILE",
         "TPMOD = blendtp\nPOSITION_FILE",
         &[],
-        "error: this configuration has blendtp already",
+        "axis_mm.ini:LINE:1: error: this configuration has blendtp already",
     ),
     (
         "COORDINATES = X Y Z",
@@ -345,8 +346,13 @@ fn what_cannot_be_configured_is_refused_by_name() {
         let (folder, output) = changed(from, to, options);
         let said = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{to}");
+        let ini = fs::read_to_string(folder.path().join("axis_mm.ini")).expect("a text");
+        let written = to.lines().next().expect("a line");
+        let line = ini.lines().position(|line| line.starts_with(written));
+        let line = line.expect("it was written") + 1;
+        let refusal = refusal.replace("LINE", &line.to_string());
         assert!(
-            said.contains(refusal) && said.contains("\n  help: "),
+            said.contains(&refusal) && said.contains("\n  help: "),
             "{to}: {said}"
         );
         assert!(output.stdout.is_empty());
