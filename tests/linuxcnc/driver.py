@@ -151,9 +151,13 @@ class Operator:
     def finish(self, timeout=None):
         """Waits until the interpreter is idle and motion has ended."""
         self.wait_for("the end of the program", lambda: self.status.interp_state == linuxcnc.INTERP_IDLE
-                      and self.status.inpos and self.status.queue == 0, timeout)
+                      and self.status.inpos and self.status.queue == 0 and self.joints_stand(), timeout)
         time.sleep(0.05)
         self.poll()
+
+    def joints_stand(self):
+        """LinuxCNC interpolates between planner and joints: they stand some periods after motion is in position."""
+        return all(abs(joint["velocity"]) < 1e-9 for joint in self.status.joint[:self.status.joints])
 
     def run(self, program, timeout=None):
         self.start(program)

@@ -21,8 +21,8 @@ PERIOD = 500 / 60 * 0.001
 #: half of the last digit of a position display, mm
 SHOWN = 6e-4
 
-#: how LinuxCNC begins what it says when a screen of qtvcp reads a program in AUTO
-QTVCP_READS = "can't do that (EMC_TASK_PLAN_SYNCH) in auto mode"
+#: how LinuxCNC begins what it says when its position is to be read anew in AUTO, as a screen of qtvcp does to read a program
+READS_IN_AUTO = "can't do that (EMC_TASK_PLAN_SYNCH) in auto mode"
 
 #: pins of the panel, in the frame of the program of OnTheScreen and behind it
 PANEL = {"frame.active": ("TRUE", "FALSE"), "frame.guarded": ("TRUE", "TRUE"), "frame.hold": ("FALSE", "FALSE"),
@@ -53,9 +53,8 @@ PANELS: dict[str, dict[tuple[str, str], str | None]] = {
     "qtvcp": {("DISPLAY", "PYVCP"): None, ("HAL", "POSTGUI_HALFILE"): "../../panel/panel_window.hal"}}
 
 
-#: Screens read a program that somebody else has opened, and qtdragon sends a command then, which may take the
-#: place of that to run.
-START = [["open", "PROGRAMS/part.ngc"], ["sleep", 2], ["start", "PROGRAMS/part.ngc"]]
+#: Screens read a program that somebody else has opened.
+START = [["open", "PROGRAMS/part.ngc"], ["sleep", 2], ["start_to_pause", "PROGRAMS/part.ngc"]]
 
 
 class Screen:

@@ -131,7 +131,13 @@ class TimeLeft(Operator):
         self.assertLess(known - begin, 100, f"{name}: it takes too long until the time is known")
         # how long the first move takes from there the plan cannot know
         known += 300 if name in PLACES else 0
-        longer = self.longer(name, still[begin:end])
+        dwells = [(start, start + len(rows)) for start, rows in stretches_of(still[begin:end]) if len(rows) * PERIOD > SHORT]
+        if len(dwells) != len(self.planned[name]):
+            print(f"{name}: {len(dwells)} dwells, {len(self.planned[name])} planned", flush=True)
+            return math.inf
+        # LinuxCNC counts dwells by another clock: how much longer than planned each was
+        longer = [(start, stop, (stop - start) * PERIOD - seconds)
+                  for (start, stop), seconds in zip(dwells, self.planned[name], strict=True)]
         worst = 0.0
         for n in random.Random(name).choices(range(known, end + 1), k=MOMENTS):
             if any(start <= n - begin < stop for start, stop, _ in longer):
@@ -148,13 +154,6 @@ class TimeLeft(Operator):
         # nothing is left behind the end
         self.assertEqual(rows[-1][:2], (0, 0.0))
         return worst
-
-    def longer(self, name, still):
-        """Where the machine dwells, and by how much longer than planned: LinuxCNC counts dwells by another clock."""
-        stretches = [(start, start + len(rows)) for start, rows in stretches_of(still)]
-        dwells = [(start, stop) for start, stop in stretches if (stop - start) * PERIOD > SHORT]
-        return [(start, stop, (stop - start) * PERIOD - seconds)
-                for (start, stop), seconds in zip(dwells, self.planned[name], strict=True)]
 
 
 def stretches_of(still):

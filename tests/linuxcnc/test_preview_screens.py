@@ -6,7 +6,7 @@ import screen_checks
 from test_preview import program
 
 GMOCCAPY = screen_checks.Screen(["gmoccapy"], "probe_gmoccapy.py", ["gmoccapy_screen.py"])
-QTDRAGON = screen_checks.Screen(["qtvcp", "qtdragon"], "probe_qtvcp.py", ["qtvcp_screen.py"], (screen_checks.QTVCP_READS,))
+QTDRAGON = screen_checks.Screen(["qtvcp", "qtdragon"], "probe_qtvcp.py", ["qtvcp_screen.py"], (screen_checks.READS_IN_AUTO,))
 
 
 class Gmoccapy(screen_checks.OnTheScreen):

@@ -5,6 +5,7 @@ import unittest
 from typing import ClassVar
 
 import harness
+from screen_checks import READS_IN_AUTO
 from test_gcode import QUICK
 from test_operation import OFF, ON, Case, clearing, programs
 
@@ -15,9 +16,8 @@ from frame_offsets import Offsets
 #: servo periods in which a frame is gone: behind an error, an abort, machine off; behind the end under a screen
 AT_ONCE, UNDER_A_SCREEN = 10, 50
 
-#: servo periods from the last sign of life to the hold, with room for periods that a loaded machine makes up for and
-#: that do not count, and from there to the rest
-HELD, REST = 3000, 1000
+#: seconds from the last sign of life to the hold, and servo periods from there to the rest
+HELD, REST = 3.0, 1000
 
 #: the interpreter has its position without the frame
 KNOWN = ["expect", "framekins.hold", "FALSE"]
@@ -26,20 +26,31 @@ KNOWN = ["expect", "framekins.hold", "FALSE"]
 WATCHED = {"command": ("conv-float-s32.0", "frame-command"), "in_position": ("conv-bit-s32.0", "motion-in-position"),
            "on": ("conv-bit-s32.1", "motion-on"), "teleop": ("conv-bit-s32.2", "motion-teleop"),
            "held": ("conv-bit-s32.3", "frame-hold"), "beat": ("conv-u32-s32.0", "frame-guard-heartbeat")}
-WATCH = "loadrt conv_float_s32\nloadrt conv_bit_s32 count=4\nloadrt conv_u32_s32\n" + "".join(
-    f"net {net} => {converter}.in\naddf {converter} servo-thread\n" for converter, net in WATCHED.values())
+WATCH = ("loadrt conv_float_s32\nloadrt conv_bit_s32 count=4\nloadrt conv_u32_s32\nloadrt timedelta\n"
+         "addf timedelta.0 servo-thread\n" + "".join(
+             f"net {net} => {converter}.in\naddf {converter} servo-thread\n" for converter, net in WATCHED.values()))
+#: nanoseconds since the period before
+TOOK = {"took": "timedelta.0.out"}
 
 REFUSED = "G0 X0 Y0 Z5\no<trans> call [10] [0] [0]\nG1 X10 F1000\no<scale> call [0] [1] [1]\nG1 X20\nM2\n"
 
 
 def watched(steps, texts, ini=None, **options):
     return harness.run(steps, programs(**texts), ini={**QUICK, **(ini or {})}, hal=WATCH,
-                       integers={name: f"{converter}.out" for name, (converter, _) in WATCHED.items()}, **options)
+                       integers={name: f"{converter}.out" for name, (converter, _) in WATCHED.items()} | TOOK, **options)
 
 
 def rows_of(flags):
     """The lengths of the rows of periods in which something holds."""
     return [sum(1 for _ in row) for flag, row in itertools.groupby(flags, bool) if flag]
+
+
+def silences(result):
+    """How long the heartbeat was not heard each time, in seconds. On a loaded machine periods come late and then in a hurry:
+    one that was slept through counts as one, those that make up for it count what they took."""
+    rows = zip(itertools.pairwise(result.column("beat")), result.column("took")[1:], strict=True)
+    return [sum(min(took, 1e6) for _, took in row) * 1e-9
+            for silent, row in itertools.groupby(rows, lambda row: row[0][0] == row[0][1]) if silent]
 
 
 def longest(flags):
@@ -89,6 +100,8 @@ class EndOfAFrame(Case):
             steps += [["run_as_a_screen", "PROGRAMS/leave.ngc"], ["sleep", 0.3], OFF]
         result = watched([*steps, ["note", "end"], ["mdi", "G0 X1"], ["note", "moved"]],
                          {"leave": "o<trans> call [10] [20] [0]\nG0 X1 Y2 Z3\nM2\n"})
+        # LinuxCNC says it of frame_guard's reading, if it comes to it behind the next start: that has read the position itself
+        result.errors = [error for error in result.errors if not error.startswith(READS_IN_AUTO)]
         self.fine(result)
         self.at(result, "end", (11, 22, 3), (11, 22, 3))
         self.at(result, "moved", (1, 22, 3), (1, 22, 3))
@@ -203,7 +216,7 @@ class Dead(Case):
         beats = result.column("beat")
         last = max(n for n in range(1, len(beats)) if beats[n] != beats[n - 1])
         held = result.column("held").index(1, last)
-        self.assertLess(held - last, HELD)
+        self.assertLess(sum(min(took, 1e6) for took in result.column("took")[last:held]) * 1e-9, HELD)
         x = result.commanded(0)
         moving = [n for n in range(last + 2, len(x)) if abs(x[n] - x[n - 1]) > 1e-7]
         self.assertLess(max(moving, default=held) - held, REST)
@@ -273,8 +286,7 @@ class Living(Case):
                           ["force", "framekins.command", 0], ["sleep", 4], ON, ["task", "CONT"], OFF,
                           ["sleep", 0.3], ["note", "end"]], {})
         self.fine(result)
-        beats = result.column("beat")
-        self.assertLess(longest(one == other for one, other in itertools.pairwise(beats)), 1000)
+        self.assertLess(max(silences(result)), 1)
         rows = result.columns("slot", "on", "teleop")
         self.assertTrue(all(on for slot, on, _ in rows if slot))
         # the frame was in force all the while
