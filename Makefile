@@ -236,12 +236,16 @@ BLENDTP = --with $(MODULES)/blendtp.so
 SHORT_QUEUE = $(patsubst %,$(NCFILES)/%.ngc,tort arcspiral) --feed-at-least 6000 \
     $(addprefix --generated ,dense trochoidal squares-p.5 arcs)
 
+# Lines with two feeds, or two path modes, in turn.
+ALTERNATING = --generated alternating-feeds --generated alternating-modes
+
 figures: modules tool
 	$(TOOL) compare $(RAISED) $(COMPARED_JERK) --repeat 5
 	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --operator 1 --velocity-limit 200
 	$(TOOL) compare $(RAISED) $(BLENDTP) $(COMPARED_JERK) --holds 50
 	$(TOOL) compare --generated trochoidal $(BLENDTP) --jerk 20A --queue 200,2000
 	$(TOOL) compare $(SHORT_QUEUE) --jerk unlimited,20A --queue 2,5,10
+	$(TOOL) compare $(ALTERNATING) $(COMPARED_JERK) --optimum
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
 # What each constant that tunes does, written into docs/tuning.md: an hour.

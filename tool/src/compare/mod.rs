@@ -69,7 +69,7 @@ pub struct CompareArguments {
     /// tpmod.so, and blendtp.so from the folder FRAMEPATH_MODULES or LinuxCNC's]
     #[arg(long = "with", value_name = "MODULE.so")]
     pub modules: Vec<PathBuf>,
-    /// Program of `framepath generate`; `all` for every one
+    /// Program of `framepath generate`; `all` for every one but the alternating ones
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub generated: Vec<String>,
     /// INI file of a machine: its limits of velocity and acceleration, servo period, greatest velocity along the path
@@ -360,7 +360,7 @@ fn generated_names(asked: &[String]) -> Result<Vec<String>, CompareError> {
     let mut names = Vec::new();
     for name in asked {
         if name == "all" {
-            names.extend(known.iter().map(|&name| name.to_owned()));
+            names.extend(generated::compared().into_iter().map(str::to_owned));
         } else if known.contains(&name.as_str()) {
             names.push(name.clone());
         } else {

@@ -1,8 +1,10 @@
 //! Programs that show what a planner does, the same every time.
 //!
 //! [`text`] writes G-code; the programs are in [`corners`] (legs and squares), [`dense`] (runs of
-//! short lines), [`random_shapes`] (random lines and arcs) and [`more_axes`] (rotary axes, U V W).
+//! short lines), [`random_shapes`] (random lines and arcs), [`more_axes`] (rotary axes, U V W) and
+//! [`alternating`] (feeds and path modes in turn).
 
+mod alternating;
 mod corners;
 mod dense;
 mod more_axes;
@@ -40,7 +42,12 @@ impl Options {
     }
 }
 
-pub(crate) const GENERATORS: [Generator; 15] = [
+/// How many of them `all` means.
+const COMPARED: usize = 15;
+
+/// Those that `all` means, and behind them two in which LinuxCNC's planner is no measure: it leaves
+/// the feed, or a G61 line.
+pub(crate) const GENERATORS: [Generator; COMPARED + 2] = [
     Generator {
         name: "zigzag",
         about: "200 legs of 1 mm that turn by 90 degrees to and fro, P .05",
@@ -116,11 +123,26 @@ pub(crate) const GENERATORS: [Generator; 15] = [
         about: "a wavy contour in short lines in which all nine axes move, P .02",
         write: more_axes::nine_axes,
     },
+    Generator {
+        name: "alternating-feeds",
+        about: "200 lines of 2 mm, every other one with a quarter of the feed, P .05",
+        write: alternating::feeds,
+    },
+    Generator {
+        name: "alternating-modes",
+        about: "200 lines of 2 mm in G64 P .05 and in G61 in turn",
+        write: alternating::modes,
+    },
 ];
 
 /// The names of all programs.
 pub fn names() -> Vec<&'static str> {
     GENERATORS.iter().map(|generator| generator.name).collect()
+}
+
+/// The names of those that `all` means.
+pub fn compared() -> Vec<&'static str> {
+    names().into_iter().take(COMPARED).collect()
 }
 
 /// A program with its own settings; `None` if there is none of this name.
