@@ -91,13 +91,16 @@ impl Machine {
             ));
         }
         let length_unit = length_unit(ini)?;
-        let (kinematics, letters) = coordinates(ini)?;
-        let mut joints = Vec::with_capacity(letters.len());
-        for (number, letter) in letters.iter().copied().enumerate() {
+        let coordinates = Coordinates::from_ini(ini)?;
+        let mut joints = Vec::with_capacity(coordinates.joints.len());
+        for (number, letter) in coordinates.joints.iter().copied().enumerate() {
             joints.push(joint(ini, number, letter, length_unit)?);
         }
         let mut axes = Vec::new();
-        for letter in AXIS_LETTERS.chars().filter(|l| letters.contains(l)) {
+        for letter in AXIS_LETTERS
+            .chars()
+            .filter(|l| coordinates.axes.contains(l))
+        {
             let section = format!("AXIS_{letter}");
             axes.push(Member {
                 name: format!("axis.{}", letter.to_ascii_lowercase()),
@@ -106,9 +109,10 @@ impl Machine {
                 limits: limits(ini, &section, None)?,
             });
         }
-        let path_source = match kinematics {
-            "trivkins" | "framekins" => PathSource::Joints,
-            _ => PathSource::Axes,
+        let path_source = if coordinates.are_joints {
+            PathSource::Joints
+        } else {
+            PathSource::Axes
         };
         Ok(Machine {
             name: ini.text("EMC", "MACHINE").unwrap_or_default().to_owned(),
@@ -147,40 +151,86 @@ fn unit_of(letter: char, length_unit: &'static str) -> &'static str {
     }
 }
 
-/// The name of the kinematics module, and the letter of each joint: `coordinates=` of
-/// `[KINS]KINEMATICS`, else all of [`AXIS_LETTERS`] as far as there are joints, like trivkins.
-fn coordinates(ini: &Ini) -> Result<(&str, Vec<char>), IniError> {
-    let text = ini.required_text(
-        "KINS",
-        "KINEMATICS",
-        "write for example KINEMATICS = framekins coordinates=XYZ",
-    )?;
-    let mut words = text.split_whitespace();
-    let module = words.next().unwrap_or_default();
-    let letters: Vec<char> = match words.find_map(|word| word.strip_prefix("coordinates=")) {
-        Some(letters) => letters.to_ascii_uppercase().chars().collect(),
-        None => {
-            let joints = (0..AXIS_LETTERS.len())
-                .take_while(|number| ini.has_section(&format!("JOINT_{number}")))
-                .count();
-            AXIS_LETTERS.chars().take(joints).collect()
-        }
-    };
-    if letters.iter().any(|letter| !AXIS_LETTERS.contains(*letter)) {
-        return Err(ini.bad_value(
+/// The letters of joints and axes.
+struct Coordinates {
+    /// The axis that each joint moves, or the one whose unit it most likely has.
+    joints: Vec<char>,
+    /// The axes, in any order.
+    axes: Vec<char>,
+    /// Whether the first joints are X, Y and Z of the machine.
+    are_joints: bool,
+}
+
+impl Coordinates {
+    /// `coordinates=` of `[KINS]KINEMATICS` for joints and axes; without it all of [`AXIS_LETTERS`] as far as there
+    /// are joints, like trivkins, and for other kinematics the axes of `[TRAJ]COORDINATES`, as LinuxCNC has them.
+    fn from_ini(ini: &Ini) -> Result<Self, IniError> {
+        let text = ini.required_text(
             "KINS",
             "KINEMATICS",
-            "coordinates= takes letters out of XYZABCUVW, one for each joint",
-        ));
+            "write for example KINEMATICS = framekins coordinates=XYZ",
+        )?;
+        let mut words = text.split_whitespace();
+        let are_joints = matches!(words.next(), Some("trivkins" | "framekins"));
+        let remedy = "coordinates= takes letters out of XYZABCUVW, one for each joint";
+        let named = match words.find_map(|word| word.strip_prefix("coordinates=")) {
+            Some(text) => {
+                Some(letters(text).ok_or_else(|| ini.bad_value("KINS", "KINEMATICS", remedy))?)
+            }
+            None => None,
+        };
+        let count = joints_of(ini);
+        let in_order = AXIS_LETTERS.chars().take(count).collect::<Vec<_>>();
+        let (joints, axes) = match (named, ini.text("TRAJ", "COORDINATES")) {
+            (Some(named), _) => (named.clone(), named),
+            (None, Some(text)) if !are_joints => {
+                let remedy = "write the letters of the axes out of XYZABCUVW, for example XYZAC";
+                let axes =
+                    letters(text).ok_or_else(|| ini.bad_value("TRAJ", "COORDINATES", remedy))?;
+                let joints = if axes.len() == count {
+                    axes.clone()
+                } else {
+                    in_order
+                };
+                (joints, axes)
+            }
+            (None, _) => (in_order.clone(), in_order),
+        };
+        if joints.is_empty() {
+            return Err(ini.missing(
+                "JOINT_0",
+                "MAX_VELOCITY",
+                "the file describes no joint; add a section [JOINT_n] for each",
+            ));
+        }
+        Ok(Self {
+            joints,
+            axes,
+            are_joints,
+        })
     }
-    if letters.is_empty() {
-        return Err(ini.missing(
-            "JOINT_0",
-            "MAX_VELOCITY",
-            "the file describes no joint; add a section [JOINT_n] for each",
-        ));
-    }
-    Ok((module, letters))
+}
+
+/// `[KINS]JOINTS`, without it as many as have a section.
+fn joints_of(ini: &Ini) -> usize {
+    let said = ini
+        .text("KINS", "JOINTS")
+        .and_then(|text| text.parse().ok());
+    said.unwrap_or_else(|| {
+        (0..AXIS_LETTERS.len())
+            .take_while(|number| ini.has_section(&format!("JOINT_{number}")))
+            .count()
+    })
+}
+
+/// The letters of axes in a text, spaces left out; `None` if there are other ones.
+fn letters(text: &str) -> Option<Vec<char>> {
+    let letters = text.to_ascii_uppercase();
+    letters
+        .chars()
+        .filter(|letter| !letter.is_whitespace())
+        .map(|letter| AXIS_LETTERS.contains(letter).then_some(letter))
+        .collect()
 }
 
 fn joint(
@@ -292,6 +342,40 @@ MAX_ACCELERATION = 1000
             .replace("AXIS_Z", "AXIS_C");
         let rotary = machine(&text).expect("a valid machine");
         assert_eq!((rotary.joints[2].unit, rotary.axes[2].unit), ("deg", "deg"));
+    }
+
+    #[test]
+    fn other_kinematics_have_the_axes_that_linuxcnc_gives_them() {
+        let table = MILL
+            .replace(
+                "framekins coordinates=XYZ",
+                "xyzac-trt-kins sparm=identityfirst",
+            )
+            .replace("[TRAJ]", "[TRAJ]\nCOORDINATES = X Y c")
+            .replace("AXIS_Z", "AXIS_C");
+        let letters = |members: &[Member]| members.iter().map(|m| m.letter).collect::<String>();
+        let machine_of = |text: &str| machine(text).expect("a valid machine");
+        let found = machine_of(&table);
+        assert_eq!(
+            (letters(&found.axes), letters(&found.joints)),
+            ("XYC".into(), "XYC".into())
+        );
+        assert_eq!(
+            (found.joints[2].unit, found.path_source),
+            ("deg", PathSource::Axes)
+        );
+        // as many joints as it likes, and sections of more
+        let fewer = table
+            .replace("= X Y c", "= XC")
+            .replace("[KINS]", "[KINS]\nJOINTS = 2");
+        assert_eq!(letters(&machine_of(&fewer).joints), "XC");
+        let found = machine_of(&table.replace("= X Y c", "= XC"));
+        assert_eq!(
+            (letters(&found.axes), letters(&found.joints)),
+            ("XC".into(), "XYZ".into())
+        );
+        let wrong = machine(&table.replace("= X Y c", "= XQ")).expect_err("an error");
+        assert!(wrong.to_string().contains("[TRAJ]COORDINATES"), "{wrong}");
     }
 
     #[test]
