@@ -147,9 +147,9 @@ impl<'a> Collector<'a> {
         let scaled = |values: &Position| std::array::from_fn(|axis| values[axis] * scale[axis]);
         let start = scaled(&setup.surroundings.start);
         let limits = setup.bounds().each_ref().map(scaled);
-        let joints = setup.joints.planned().map(|joints| {
+        let joints = setup.joints.limited().map(|joints| {
             let start = Differences::new(joints.at(&start), setup.period);
-            (start, joints.limits())
+            (start, *joints.limits())
         });
         let fastest = (0..AXIS_COUNT)
             .filter(|axis| setup.axes[*axis])
@@ -222,7 +222,7 @@ impl<'a> Collector<'a> {
             std::array::from_fn(|axis| sample.position[axis] * self.scale[axis]);
         let before = *self.differences.position();
         let rates = self.differences.step(&position);
-        let joints = match (&mut self.joints, self.setup.joints.planned()) {
+        let joints = match (&mut self.joints, self.setup.joints.limited()) {
             (Some((differences, limits)), Some(joints)) => {
                 Some((differences.step(&joints.at(&position)), *limits))
             }

@@ -5,6 +5,7 @@ use super::collector::{Collected, Peak};
 use super::deviation::Farthest;
 use super::evenness::{CuttingTime, Found, Stretch};
 use super::findings;
+use super::joints;
 use super::places::Place;
 use super::setup::Setup;
 use crate::path::rates::Quantity;
@@ -287,7 +288,7 @@ impl Figures {
             program: program.to_owned(),
             machine: setup.machine.clone(),
             limits_from: setup.origin.clone(),
-            limits_of_joints: setup.joints.told(),
+            limits_of_joints: joints::told(&setup.joints),
             length_unit: setup.unit,
             servo_period: setup.period,
             time,

@@ -2,13 +2,13 @@
 
 use super::PlanArguments;
 use super::error::PlanError;
-use super::joints::{Joints, tool_tilt_axis};
 use super::spindle::SpeedLimits;
 use crate::canon::Surroundings;
 use crate::canon::tool_table::{Tool, read_tool_table};
+use crate::joints::{Joints, tool_tilt_axis};
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
 use crate::machine::ini::Ini;
-use crate::machine::limits::{Jerk, Limits, is_rotary};
+use crate::machine::limits::{Jerk, Limits, infinite_for_none, is_rotary};
 use crate::wiring::joints::JointSettings;
 use framepath::axes::AXIS_COUNT;
 use std::path::{Path, PathBuf};
@@ -98,7 +98,7 @@ impl Setup {
     /// What holds for the axes: velocity, acceleration, jerk, shape (3, 9), mm (degrees) and seconds. Where joints have limits of
     /// their own, axes keep their velocities alone.
     pub(super) fn bounds(&self) -> [[f64; AXIS_COUNT]; 3] {
-        match self.joints.planned() {
+        match self.joints.limited() {
             None => [self.limits.velocity, self.limits.acceleration, self.jerk],
             Some(_) => [
                 self.limits.velocity,
@@ -125,11 +125,6 @@ impl Setup {
 
 /// Jerk limits where nothing says otherwise, accelerations per second.
 pub const DEFAULT_JERK: f64 = 20.0;
-
-/// A jerk limit of 0 is none.
-fn infinite_for_none(jerk: f64) -> f64 {
-    if jerk > 0.0 { jerk } else { f64::INFINITY }
-}
 
 fn without_ini() -> Setup {
     Setup {
@@ -184,7 +179,7 @@ fn from_ini(file: &Path) -> Result<Setup, PlanError> {
         setup.velocity_limit = velocity * millimetres;
     }
     let joints = JointSettings::read(&ini);
-    setup.joints = Joints::from_settings(&joints, &ini, setup.period)?;
+    setup.joints = Joints::from_settings(&joints, &ini, setup.period, 1.0)?;
     setup.tool_tilt_axis = tool_tilt_axis(&joints);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
     setup.surroundings = surroundings(&ini, file, &machine, millimetres)?;

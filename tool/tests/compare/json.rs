@@ -1,6 +1,7 @@
 //! What `--json` prints.
 
 use crate::fields::assert_documented;
+use crate::joints::table;
 use crate::support::{Bench, STOCK, json};
 
 /// Short and with rests: G61.1 and G64 with P.
@@ -39,5 +40,8 @@ fn fields_are_documented() {
         "--abort",
         "0.4",
     ]);
-    assert_documented("compare", &[modules, optimum, operator]);
+    table(&bench, "mm", 1.0);
+    let ini = bench.path().join("table.ini");
+    let joints = all(&["--ini", ini.to_str().expect("text")]);
+    assert_documented("compare", &[modules, optimum, operator, joints]);
 }

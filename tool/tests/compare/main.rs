@@ -7,6 +7,7 @@ mod canon;
 mod errors;
 #[path = "../common/fields.rs"]
 mod fields;
+mod joints;
 mod json;
 mod measuring;
 mod operator;
