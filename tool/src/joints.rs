@@ -128,6 +128,14 @@ impl Joints {
         })))
     }
 
+    /// The same with another limit of jerk. A mm has so many `lengths`.
+    pub(crate) fn with_jerk(self, jerk: Jerk, lengths: f64) -> Joints {
+        match self {
+            Joints::Limited(joints) => Joints::Limited(Box::new(joints.with_jerk(jerk, lengths))),
+            others => others,
+        }
+    }
+
     /// The joints whose limits are known to hold.
     pub(crate) fn limited(&self) -> Option<&LimitedJoints> {
         match self {
@@ -164,12 +172,16 @@ impl LimitedJoints {
         self.machine.coordinates().axis_of_joint(joint)
     }
 
-    /// The same joints with another limit of jerk.
-    pub(crate) fn with_jerk(&self, jerk: Jerk) -> LimitedJoints {
+    /// The same joints with another limit of jerk. A mm has so many `lengths`.
+    pub(crate) fn with_jerk(&self, jerk: Jerk, lengths: f64) -> LimitedJoints {
         let mut joints = self.clone();
-        let [_, accelerations, jerks] = &mut joints.limits;
-        for (limit, acceleration) in jerks.iter_mut().zip(accelerations) {
-            *limit = infinite_for_none(jerk.of_axis(*acceleration));
+        for joint in 0..LIMITED_JOINTS {
+            let unit = match self.axis(joint) {
+                Some(axis) if !is_rotary(axis) => lengths,
+                _ => 1.0,
+            };
+            let asked = jerk.of_axis(self.limits[1][joint] / unit) * unit;
+            joints.limits[2][joint] = infinite_for_none(asked);
         }
         joints
     }
@@ -367,9 +379,14 @@ mod tests {
 
     #[test]
     fn jerk_of_another_number() {
-        let with = joints().with_jerk(Jerk::Accelerations(20.0));
+        let with = joints().with_jerk(Jerk::Accelerations(20.0), 1.0);
         assert_eq!(with.limits()[2], [20_000.0; 9]);
-        let without = with.with_jerk(Jerk::Unlimited);
+        let without = with.with_jerk(Jerk::Unlimited, 1.0);
         assert_eq!(without.limits(), joints().limits());
+        let inches = with.with_jerk(Jerk::Value(2540.0), 1.0 / 25.4);
+        assert_eq!(
+            inches.limits()[2][..5],
+            [100.0, 100.0, 100.0, 2540.0, 2540.0]
+        );
     }
 }

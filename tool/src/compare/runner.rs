@@ -115,7 +115,7 @@ impl<'a> Runner<'a> {
                 period: conditions.period,
                 limits: conditions.limits,
                 jerk: jerk.of_axes(&conditions.limits),
-                joints: joints.map(|joints| joints.with_jerk(jerk)),
+                joints: joints.map(|joints| joints.with_jerk(jerk, 1.0)),
                 adds_per_cycle: usize::from(arguments.adds_per_cycle),
                 queue: module.queue,
                 velocity_limit: conditions.velocity_limit,

@@ -65,6 +65,7 @@ impl Setup {
         }
         if let Some(jerk) = arguments.jerk {
             setup.jerk = jerk.of_axes(&setup.limits).map(infinite_for_none);
+            setup.joints = setup.joints.with_jerk(jerk, 1.0 / setup.millimetres);
             changed.push(format!("--jerk {jerk}"));
         } else if setup.ini.is_none() {
             let jerk = Jerk::Accelerations(DEFAULT_JERK).of_axes(&setup.limits);

@@ -1,8 +1,8 @@
 //! What `--json` prints.
 
 use crate::fields::assert_documented;
-use crate::joints::table;
 use crate::support::{Bench, STOCK, json};
+use crate::table::table;
 
 /// Short and with rests: G61.1 and G64 with P.
 const PROGRAM: &str = "G21 G61.1 F3000\nG1 X4\nG64 P0.1\nY4\nX8\nM2\n";

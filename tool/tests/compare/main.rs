@@ -15,3 +15,5 @@ mod optimum;
 mod programs;
 mod stock;
 mod support;
+#[path = "../common/table.rs"]
+mod table;
