@@ -221,6 +221,28 @@ class Refusals(unittest.TestCase):
         self.refused(TILTING, set_limits(4), "blendtp.joint.4.max-velocity is 0", "must be positive for each joint",
                      "[JOINT_4]MAX_VELOCITY")
 
+    def test_limits_that_make_no_sense(self):
+        """Each is refused for itself, by its pin; the machine stays where it is, and moves when all of them are right."""
+        wrong = [("velocity", -1), ("velocity", "nan"), ("acceleration", 0), ("acceleration", "nan"), ("acceleration", "inf"),
+                 ("jerk", 1), ("jerk", -5), ("jerk", "nan")]
+        right = {"velocity": VELOCITY, "acceleration": ACCELERATION, "jerk": JERK}
+        steps = set_limits(5)
+        for quantity, value in wrong:
+            pin = f"blendtp.joint.2.max-{quantity}"
+            steps += [["setp", pin, value], ["mdi", "G1 X5 F6000"], ["setp", pin, right[quantity]]]
+        steps += [["getp", "before", "joint.0.pos-cmd"], ["mdi", "G1 X5 F6000"], ["getp", "behind", "joint.0.pos-cmd"]]
+        result = TILTING.run(steps, record=False)
+        # the log has what is said twice: from motion, and from the operator's screen
+        said = {line[line.index("blendtp.joint."):] for line in result.log.splitlines() if "blendtp.joint." in line}
+        for quantity, value in wrong:
+            begin = f"blendtp.joint.2.max-{quantity} is {value}: "
+            found = [line for line in said if line.startswith(begin)]
+            self.assertEqual(len(found), 1, (begin, said))
+            self.assertIn(f"[JOINT_2]MAX_{quantity.upper()}", found[0])
+        self.assertEqual(len(said), len(wrong), said)
+        self.assertAlmostEqual(float(result.answers["before"]), 0, delta=1e-9)
+        self.assertAlmostEqual(float(result.answers["behind"]), 5, delta=1e-6)
+
     def test_kinematics_that_take_too_long(self):
         robot = Machine("genserkins", (10, -40, -20, 20, 50, 30), "XYZABC")
         self.refused(robot, set_limits(6), "genserkins takes", "us at most", "set all blendtp.joint.* to 0")
