@@ -14,6 +14,7 @@ use framepath::machine::{
 use framepath::planner::JerkLimit;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// What is known of joints with limits.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +63,13 @@ pub enum JointsError {
     /// The INI file names kinematics that framekins refuses.
     #[error(transparent)]
     Ini(#[from] IniError),
+    /// --tool-centre-point for a machine of which that is not known.
+    #[error(
+        "--tool-centre-point: the HAL files of {} set no limits of joints (blendtp.joint.*) behind a table of framekins \
+         (machine=xyzac or machine=xyzbc)",
+        .0.display()
+    )]
+    NoTable(PathBuf),
     /// Without this limit blendtp refuses every move.
     #[error(
         "blendtp.joint.{joint}.max-{quantity} is {limit}: since a limit of joints is set, blendtp refuses every move \
@@ -111,6 +119,10 @@ impl Joints {
         period: f64,
         lengths: f64,
     ) -> Result<Joints, JointsError> {
+        let is_planned = settings.is_limited() && own_table(settings).is_some();
+        if settings.turned_on && !is_planned {
+            return Err(JointsError::NoTable(ini.file().to_owned()));
+        }
         if !settings.is_limited() {
             return Ok(Joints::Axes);
         }
@@ -246,7 +258,7 @@ impl Table {
             offset: ["x-offset", "y-offset", "z-offset"].map(length),
             tool_offset: length("tool-offset"),
             conventional: pin("conventional-directions") != 0.0,
-            tool_centre_point: pin("tool-centre-point") != 0.0,
+            tool_centre_point: settings.tool_centre_point(),
         }
     }
 
@@ -283,7 +295,7 @@ fn own_table(settings: &JointSettings) -> Option<TiltAxis> {
 /// The axis, 3 for A or 4 for B, that tilts the tool while C turns it, as framekins tells blendtp.
 pub(crate) fn tool_tilt_axis(settings: &JointSettings) -> Option<usize> {
     let tilt = own_table(settings)?;
-    (settings.framekins("tool-centre-point") != 0.0).then_some(tilt.axis())
+    settings.tool_centre_point().then_some(tilt.axis())
 }
 
 fn limits(

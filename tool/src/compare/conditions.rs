@@ -34,7 +34,7 @@ impl Conditions {
     /// An INI file, or limits of joints, that cannot be used.
     pub(super) fn new(arguments: &CompareArguments) -> Result<Conditions, CompareError> {
         let mut conditions = match &arguments.ini {
-            Some(file) => Conditions::of_machine(file)?,
+            Some(file) => Conditions::of_machine(file, arguments.tool_centre_point)?,
             None => Conditions::without_machine(),
         };
         if let Some(changes) = &arguments.limits {
@@ -69,11 +69,12 @@ impl Conditions {
         }
     }
 
-    fn of_machine(file: &Path) -> Result<Conditions, CompareError> {
+    fn of_machine(file: &Path, tool_centre_point: bool) -> Result<Conditions, CompareError> {
         let ini = Ini::read(file)?;
         let machine = Machine::from_ini(&ini)?;
         let period = machine.servo_period;
-        let joints = JointSettings::read(&ini);
+        let mut joints = JointSettings::read(&ini);
+        joints.turned_on = tool_centre_point;
         let mut conditions = Conditions {
             limits_from: format!("limits of {}", file.display()),
             joints: Joints::from_settings(&joints, &ini, period, machine.millimetres())?,

@@ -78,6 +78,10 @@ pub struct CompareArguments {
     /// and greatest feed override, where the options do not say otherwise
     #[arg(long, value_name = "MACHINE.ini")]
     pub ini: Option<PathBuf>,
+    /// As programs run behind G43.4 or M64 P0: X Y Z are the tool centre point on the table of framekins that the INI file
+    /// names, whose joints have limits
+    #[arg(long, requires = "ini")]
+    pub tool_centre_point: bool,
     /// Limits of the axes, mm (degrees) and seconds: V=100,A=1000 for all, XY:V=50 for some, several
     /// separated by `;` [default: V=100,A=1000]
     #[arg(long, value_name = "LIMITS")]

@@ -70,6 +70,10 @@ pub struct PlanArguments {
     /// [default: a machine in mm with 100 mm/s, 1000 mm/s2 and 20000 mm/s3 on each axis, 1 ms]
     #[arg(long, value_name = "MACHINE.ini")]
     pub ini: Option<PathBuf>,
+    /// As programs run behind G43.4 or M64 P0: X Y Z are the tool centre point on the table of framekins that the INI file
+    /// names, whose joints have limits
+    #[arg(long, requires = "ini")]
+    pub tool_centre_point: bool,
     /// Limits of the axes in place of those of the machine, mm (degrees) and seconds: V=100,A=1000
     /// for all, XY:V=50 for some, several separated by `;`
     #[arg(long, value_name = "LIMITS")]

@@ -55,10 +55,13 @@ impl Setup {
     /// An INI file that is missing or lacks limits, options that make no sense.
     pub fn new(arguments: &PlanArguments) -> Result<Setup, PlanError> {
         let mut setup = match &arguments.ini {
-            Some(file) => from_ini(file)?,
+            Some(file) => from_ini(file, arguments.tool_centre_point)?,
             None => without_ini(),
         };
         let mut changed = Vec::new();
+        if arguments.tool_centre_point {
+            changed.push("--tool-centre-point".to_owned());
+        }
         if let Some(limits) = &arguments.limits {
             setup.limits.apply(limits);
             changed.push(format!("--limits {limits}"));
@@ -153,7 +156,7 @@ fn without_ini() -> Setup {
 /// Of the planner, in machine units.
 const DEFAULT_TOLERANCE: f64 = framepath::planner::Blending::DEFAULT_TOLERANCE;
 
-fn from_ini(file: &Path) -> Result<Setup, PlanError> {
+fn from_ini(file: &Path, tool_centre_point: bool) -> Result<Setup, PlanError> {
     let ini = Ini::read(file)?;
     let machine = Machine::from_ini(&ini)?;
     let millimetres = machine.millimetres();
@@ -179,7 +182,8 @@ fn from_ini(file: &Path) -> Result<Setup, PlanError> {
     if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
         setup.velocity_limit = velocity * millimetres;
     }
-    let joints = JointSettings::read(&ini);
+    let mut joints = JointSettings::read(&ini);
+    joints.turned_on = tool_centre_point;
     setup.joints = Joints::from_settings(&joints, &ini, setup.period, 1.0)?;
     setup.tool_tilt_axis = tool_tilt_axis(&joints);
     setup.spindle = SpeedLimits::from_ini(&ini)?;

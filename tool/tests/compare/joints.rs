@@ -1,6 +1,7 @@
 //! Joints with limits of their own, behind a table of framekins.
 
-use crate::support::{Bench, STOCK, assert_near, json};
+use crate::bench::refusal;
+use crate::support::{Bench, STOCK, assert_near, json, number};
 use crate::table::{TURN, table};
 use serde_json::Value;
 
@@ -132,4 +133,43 @@ fn limits_that_make_no_sense_and_kinematics_that_are_not_known() {
     assert!(text.contains("behind 5axiskins do NOT hold here"), "{text}");
     assert!(!text.contains("joint v/V"), "{text}");
     assert!(json(&bench.compare(&[&arguments[..], &["--json"]].concat()))["joints"].is_null());
+}
+
+/// The samples turn it on in programs.
+#[test]
+fn the_tool_centre_point_of_an_option() {
+    let bench = Bench::new();
+    bench.write("turn.ngc", TURN);
+    table(&bench, "mm", 1.0);
+    let hal = std::fs::read_to_string(bench.path().join("table.hal")).expect("a text");
+    let off = hal.replace("setp framekins.tool-centre-point 1\n", "");
+    assert_ne!(hal, off);
+    bench.write("table.hal", &off);
+    let ratio = |more: &[&str]| {
+        let velocity = &run(&bench, STOCK, more)["motion"]["joints"]["velocity"];
+        (velocity["joint"].clone(), number(&velocity["ratio"]))
+    };
+    let (joint, without) = ratio(&[]);
+    assert!(
+        joint == 4 && (without - 1.0).abs() < 1e-6,
+        "{joint} {without}"
+    );
+    let (joint, with) = ratio(&["--tool-centre-point"]);
+    assert!(joint == 0 && with > 1.3, "{joint} {with}");
+    // C may turn at 60 degrees/s, and joint 0 is slower.
+    let plan = |more: &[&str]| {
+        let arguments = ["turn.ngc", "--ini", "table.ini", "--json"];
+        let plan = json(&bench.run("plan", &[&arguments, more].concat()));
+        number(&plan["programs"][0]["time"])
+    };
+    assert!(plan(&["--tool-centre-point"]) > plan(&[]) + 0.2);
+    bench.write("table.hal", &off.replace("setp blendtp", "# setp blendtp"));
+    let arguments = ["turn.ngc", "--ini", "table.ini", "--tool-centre-point"];
+    for refused in [bench.compare(&arguments), bench.run("plan", &arguments)] {
+        assert_eq!(
+            refusal(refused).trim_end(),
+            "--tool-centre-point: the HAL files of table.ini set no limits of joints (blendtp.joint.*) behind a table of \
+             framekins (machine=xyzac or machine=xyzbc)"
+        );
+    }
 }
