@@ -245,7 +245,7 @@ figures: modules tool
 	$(TOOL) compare $(SHORT_QUEUE) --jerk unlimited,20A --queue 2,5,10
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
-# A tilting table with the tool centre point: LinuxCNC's five-axis programs, without the M428 that turns it on there, and a
+# A tilting table with the tool centre point: LinuxCNC's five-axis programs, without the M428 and M429 that switch it there, and a
 # generated one; then with a restless operator.
 TABLE_PROGRAMS ?= /usr/share/doc/linuxcnc/examples/sample-configs/sim/axis/vismach/5axis/table-rotary-tilting/demos
 TABLE = --ini hal-component/configs/framepath-xyzac/framepath-xyzac.ini --tool-centre-point --feed-at-least 6000 --jerk 20A
@@ -254,7 +254,7 @@ FIVE_AXES = $(patsubst %,$(TARGET)/five-axes/%-xyzac.ngc,boat impeller-7bl) --ge
 five-axes: modules tool
 	@mkdir -p $(TARGET)/five-axes
 	for program in boat impeller-7bl; do \
-	    (echo 'G64 P0.05' && sed 's/^%.*//; s/^M428.*//' $(TABLE_PROGRAMS)/$$program-xyzac.ngc) \
+	    (echo 'G64 P0.05' && sed 's/^%.*//; s/^M42[89].*//' $(TABLE_PROGRAMS)/$$program-xyzac.ngc) \
 	    > $(TARGET)/five-axes/$$program-xyzac.ngc || exit 1; done
 	$(TOOL) compare $(FIVE_AXES) $(TABLE) --optimum
 	$(TOOL) compare $(FIVE_AXES) $(TABLE) --operator 1
