@@ -68,6 +68,7 @@ help:
 	@echo 'make bench      measure the functions that the servo thread calls'
 	@echo 'make compare    drive LinuxCNC'"'"'s own planner and blendtp with the same programs and tabulate what they do'
 	@echo 'make figures    more about blendtp: least costs of its calls, a restless operator, feed holds, queues, distance from the least time'
+	@echo 'make five-axes  both planners on a table with the tool centre point: peaks of its joints, and the distance from the least time'
 	@echo 'make tuning     what each constant that tunes the planner does to the times of programs: docs/tuning.md'
 	@echo 'make book       docs, DESIGN and CONTRIBUTING as a book (mdbook)'
 	@echo 'make screens    each sample in AXIS, one with its panel in gmoccapy and qtdragon, without a monitor: pictures in target/screens'
@@ -248,6 +249,20 @@ figures: modules tool
 	$(TOOL) compare $(ALTERNATING) $(COMPARED_JERK) --optimum
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
+# A tilting table with the tool centre point: LinuxCNC's five-axis programs, without the M428 and M429 that switch it there, and a
+# generated one; then with a restless operator.
+TABLE_PROGRAMS ?= /usr/share/doc/linuxcnc/examples/sample-configs/sim/axis/vismach/5axis/table-rotary-tilting/demos
+TABLE = --ini hal-component/configs/framepath-xyzac/framepath-xyzac.ini --tool-centre-point --feed-at-least 6000 --jerk 20A
+FIVE_AXES = $(patsubst %,$(TARGET)/five-axes/%-xyzac.ngc,boat impeller-7bl) --generated blade
+
+five-axes: modules tool
+	@mkdir -p $(TARGET)/five-axes
+	for program in boat impeller-7bl; do \
+	    (echo 'G64 P0.05' && sed 's/^%.*//; s/^M42[89].*//' $(TABLE_PROGRAMS)/$$program-xyzac.ngc) \
+	    > $(TARGET)/five-axes/$$program-xyzac.ngc || exit 1; done
+	$(TOOL) compare $(FIVE_AXES) $(TABLE) --optimum
+	$(TOOL) compare $(FIVE_AXES) $(TABLE) --operator 1
+
 # What each constant that tunes does, written into docs/tuning.md: an hour.
 tuning: modules tool
 	$(PYTHON) -B benches/tuning.py --tool $(TOOL) --target $(TARGET)
@@ -321,5 +336,5 @@ clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
-    fuzz fuzz-filter mutants compare figures tuning book screens header install uninstall deb deb-source \
+    fuzz fuzz-filter mutants compare figures five-axes tuning book screens header install uninstall deb deb-source \
     debian-12 debian-13 clean

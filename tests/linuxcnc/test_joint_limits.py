@@ -87,8 +87,8 @@ class Table(unittest.TestCase):
         self.check(*self.run_twice(OWN, "o<rot_rpl> call [30]\n"))
 
 
-def planned(machine, program, *options):
-    """What `framepath plan --ini` says: its text, and figures."""
+def asked(command, machine, program, *options):
+    """What `framepath plan --ini` or `compare --ini` says: its text, and all of its figures."""
     with tempfile.TemporaryDirectory() as folder:
         # its INI file names the subroutines from there
         os.symlink(os.path.join(harness.SAMPLES, "subroutines"), os.path.join(folder, "subroutines"))
@@ -99,24 +99,31 @@ def planned(machine, program, *options):
         for name, content in files.items():
             with open(os.path.join(place, name), "w", encoding="utf-8") as file:
                 file.write(content)
-        command = [harness.TOOL, "plan", os.path.join(place, "part.ngc"), "--ini", os.path.join(place, "robot.ini"), *options]
+        command = [harness.TOOL, command, os.path.join(place, "part.ngc"), "--ini", os.path.join(place, "robot.ini"), *options]
         text, figures = (subprocess.run(line, capture_output=True, text=True, check=False)
                          for line in (command, [*command, "--json"]))
         if text.stderr:
             raise RuntimeError(text.stderr)
-        return text.stdout, json.loads(figures.stdout)["programs"][0]
+        return text.stdout, json.loads(figures.stdout)
+
+
+def planned(machine, program, *options):
+    """What `framepath plan --ini` says: its text, and figures."""
+    text, figures = asked("plan", machine, program, *options)
+    return text, figures["programs"][0]
+
+
+def limited(machine):
+    """The machine with limits of joints in its HAL file."""
+    lines = "".join(" ".join(map(str, step)) + "\n" for step in set_limits(5))
+    return Machine(machine.kinematics, machine.home, machine.letters, machine.hal + lines)
 
 
 class Planned(unittest.TestCase):
     """`framepath plan --ini` of a machine whose HAL file sets limits of joints."""
 
-    def machine(self, machine):
-        """With limits of joints in its HAL file."""
-        lines = "".join(" ".join(map(str, step)) + "\n" for step in set_limits(5))
-        return Machine(machine.kinematics, machine.home, machine.letters, machine.hal + lines)
-
     def test_the_time_is_that_of_linuxcnc(self):
-        machine = self.machine(OWN)
+        machine = limited(OWN)
         text, figures = planned(machine, TURNS + "M2\n")
         # of two ways to blend it takes the slower one where a move comes a period later: ten periods
         tolerance = max(3, 0.003 * figures["cycles"])
@@ -140,9 +147,32 @@ class Planned(unittest.TestCase):
 
     def test_kinematics_that_are_not_known_are_named(self):
         named = Machine("xyzac-trt-kins coordinates=XYZAC", TILTING.home, TILTING.letters, TILTING.hal)
-        text, figures = planned(self.machine(named), TURNS + "M2\n")
+        text, figures = planned(limited(named), TURNS + "M2\n")
         self.assertIn("NOT planned", text)
         self.assertIn("behind xyzac-trt-kins", figures["limits_of_joints"])
+
+
+class Compared(unittest.TestCase):
+    """`framepath compare --ini` of the same: the module finds the kinematics, the jets and the limits as in LinuxCNC."""
+
+    def test_modules_are_judged_by_their_joints(self):
+        machine = limited(OWN)
+        report = asked("compare", machine, TURNS + "M2\n", "--jerk", "20A", "--holds", "5")[1]
+        stock, ours = ({name: run["motion"]["joints"][name]["ratio"] for name in ("velocity", "acceleration", "jerk")}
+                       for run in report["programs"][0]["runs"])
+        print(f"over the limits of joints: {stock} with LinuxCNC's planner, {ours} with blendtp")
+        self.assertGreater(stock["velocity"], 1.2)
+        self.assertGreater(stock["acceleration"], 1.2)
+        self.assertLessEqual(ours["velocity"], 1.001)
+        self.assertLessEqual(ours["acceleration"], 1.001)
+        self.assertLessEqual(ours["jerk"], 1.05)
+        self.assertGreater(ours["velocity"], 0.95)
+        run = report["programs"][0]["runs"][1]
+        cycles = round(1000 * run["motion"]["time"])
+        planned_cycles = planned(machine, TURNS + "M2\n")[1]["cycles"]
+        self.assertLessEqual(abs(cycles - planned_cycles), max(3, 0.003 * cycles))
+        self.assertGreater(run["holds"]["count"], 0)
+        self.assertLess(run["holds"]["mean_ratio"], 1.2)
 
 
 class ToolAxis(unittest.TestCase):
@@ -190,6 +220,28 @@ class Refusals(unittest.TestCase):
     def test_a_joint_without_a_limit_of_its_own(self):
         self.refused(TILTING, set_limits(4), "blendtp.joint.4.max-velocity is 0", "must be positive for each joint",
                      "[JOINT_4]MAX_VELOCITY")
+
+    def test_limits_that_make_no_sense(self):
+        """Each is refused for itself, by its pin; the machine stays where it is, and moves when all of them are right."""
+        wrong = [("velocity", -1), ("velocity", "nan"), ("acceleration", 0), ("acceleration", "nan"), ("acceleration", "inf"),
+                 ("jerk", 1), ("jerk", -5), ("jerk", "nan")]
+        right = {"velocity": VELOCITY, "acceleration": ACCELERATION, "jerk": JERK}
+        steps = set_limits(5)
+        for quantity, value in wrong:
+            pin = f"blendtp.joint.2.max-{quantity}"
+            steps += [["setp", pin, value], ["mdi", "G1 X5 F6000"], ["setp", pin, right[quantity]]]
+        steps += [["getp", "before", "joint.0.pos-cmd"], ["mdi", "G1 X5 F6000"], ["getp", "behind", "joint.0.pos-cmd"]]
+        result = TILTING.run(steps, record=False)
+        # the log has what is said twice: from motion, and from the operator's screen
+        said = {line[line.index("blendtp.joint."):] for line in result.log.splitlines() if "blendtp.joint." in line}
+        for quantity, value in wrong:
+            begin = f"blendtp.joint.2.max-{quantity} is {value}: "
+            found = [line for line in said if line.startswith(begin)]
+            self.assertEqual(len(found), 1, (begin, said))
+            self.assertIn(f"[JOINT_2]MAX_{quantity.upper()}", found[0])
+        self.assertEqual(len(said), len(wrong), said)
+        self.assertAlmostEqual(float(result.answers["before"]), 0, delta=1e-9)
+        self.assertAlmostEqual(float(result.answers["behind"]), 5, delta=1e-6)
 
     def test_kinematics_that_take_too_long(self):
         robot = Machine("genserkins", (10, -40, -20, 20, 50, 30), "XYZABC")

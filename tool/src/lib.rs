@@ -21,6 +21,8 @@ pub mod generated;
 pub(crate) mod hal;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod host;
+#[cfg(feature = "linuxcnc")]
+pub(crate) mod joints;
 pub(crate) mod json;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod layer;

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What the commands share, and what each is for.
-const ROOMS: [(&str, &str); 22] = [
+const ROOMS: [(&str, &str); 23] = [
     (
         "arguments",
         "what the commands share in reading their arguments",
@@ -34,6 +34,10 @@ const ROOMS: [(&str, &str); 22] = [
     (
         "path",
         "segments and pieces of a path, rates of change along it",
+    ),
+    (
+        "joints",
+        "joints behind kinematics of ours, and their limits",
     ),
     ("format", "numbers as text"),
     ("page", "pages with drawings"),

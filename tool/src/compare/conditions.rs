@@ -1,7 +1,8 @@
 //! Under which conditions the modules are compared: options, else the INI file of a machine, else stated defaults.
 
 use super::CompareArguments;
-use crate::machine::IniError;
+use super::error::CompareError;
+use crate::joints::Joints;
 use crate::machine::configuration::Machine;
 use crate::machine::ini::Ini;
 use crate::machine::limits::Limits;
@@ -18,8 +19,8 @@ pub(super) struct Conditions {
     pub limits: Limits,
     /// Where they come from, for the reader.
     pub limits_from: String,
-    /// The kinematics behind which HAL files set limits of joints, which do not hold here.
-    pub joints_behind: Option<String>,
+    /// What is known of the joints.
+    pub joints: Joints,
     /// Servo period, s.
     pub period: f64,
     /// Along the path, mm/s.
@@ -30,10 +31,10 @@ pub(super) struct Conditions {
 
 impl Conditions {
     /// # Errors
-    /// An INI file that cannot be used.
-    pub(super) fn new(arguments: &CompareArguments) -> Result<Conditions, IniError> {
+    /// An INI file, or limits of joints, that cannot be used.
+    pub(super) fn new(arguments: &CompareArguments) -> Result<Conditions, CompareError> {
         let mut conditions = match &arguments.ini {
-            Some(file) => Conditions::of_machine(file)?,
+            Some(file) => Conditions::of_machine(file, arguments.tool_centre_point)?,
             None => Conditions::without_machine(),
         };
         if let Some(changes) = &arguments.limits {
@@ -61,21 +62,23 @@ impl Conditions {
         Conditions {
             limits: Limits::default(),
             limits_from: "V=100,A=1000".to_owned(),
-            joints_behind: None,
+            joints: Joints::Axes,
             period: 0.001,
             velocity_limit: NO_VELOCITY_LIMIT,
             max_feed_override: 1.0,
         }
     }
 
-    fn of_machine(file: &Path) -> Result<Conditions, IniError> {
+    fn of_machine(file: &Path, tool_centre_point: bool) -> Result<Conditions, CompareError> {
         let ini = Ini::read(file)?;
         let machine = Machine::from_ini(&ini)?;
-        let joints = JointSettings::read(&ini);
+        let period = machine.servo_period;
+        let mut joints = JointSettings::read(&ini);
+        joints.turned_on = tool_centre_point;
         let mut conditions = Conditions {
             limits_from: format!("limits of {}", file.display()),
-            joints_behind: joints.is_limited().then_some(joints.kinematics),
-            period: machine.servo_period,
+            joints: Joints::from_settings(&joints, &ini, period, machine.millimetres())?,
+            period,
             ..Conditions::without_machine()
         };
         conditions.limits.take_from(&machine);

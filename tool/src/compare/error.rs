@@ -1,6 +1,7 @@
 //! What can go wrong before anything is measured.
 
 use crate::canon::CanonError;
+use crate::joints::JointsError;
 use crate::machine::IniError;
 use std::io;
 use std::path::PathBuf;
@@ -57,6 +58,9 @@ pub enum CompareError {
     /// The INI file cannot be used.
     #[error(transparent)]
     Ini(#[from] IniError),
+    /// Limits of joints cannot be used.
+    #[error(transparent)]
+    Joints(#[from] JointsError),
     /// Something that is not the module's doing.
     #[error("a module cannot be run: {0}")]
     Run(io::Error),

@@ -4,8 +4,8 @@ use super::against_optimum::{Holds, LeastTime};
 use super::cost::Cost;
 use super::distance::{Distance, Path, executed_to_path, path_to_executed};
 #[cfg(feature = "optimum")]
-use super::holds::holds;
-use super::kinematics::{Motion, motion};
+use super::holds::holds_of;
+use super::kinematics::{Motion, Mover, Peak, Peaks};
 use super::rests::{Rests, rests};
 use crate::format::{length, significant};
 use crate::host::job::Job;
@@ -165,17 +165,8 @@ impl Figures {
         if motion.not_finite {
             broken.push("a position is not a number".to_owned());
         }
-        for (quantity, peak) in [
-            (Quantity::Velocity, &motion.velocity),
-            (Quantity::Acceleration, &motion.acceleration),
-            (Quantity::Jerk, &motion.jerk),
-        ] {
-            if exceeds(quantity, peak.ratio) {
-                let (name, time) = (quantity.name(), peak.time);
-                let ratio = significant(peak.ratio, 4);
-                broken.push(format!("{name} is {ratio} times its limit at {time:.3} s"));
-            }
-        }
+        broken.extend(broken_limits(&motion.axes));
+        broken.extend(motion.joints.iter().flat_map(broken_limits));
         for (what, distance) in [
             ("the executed path is off the program", &self.deviation),
             (
@@ -213,7 +204,7 @@ impl Figures {
     ) -> Figures {
         let state = State::of(outcome, recording, job.period);
         let jerk_limits = job.jerk_limits(recording.takes_jerk);
-        let motion = motion(recording, &job.limits, &jerk_limits, job.period);
+        let motion = Motion::of(recording, job);
         let samples = recording.samples.as_slice();
         let aborted = samples
             .iter()
@@ -254,13 +245,7 @@ impl Figures {
             #[cfg(not(feature = "optimum"))]
             holds: Holds::default(),
             #[cfg(feature = "optimum")]
-            holds: holds(
-                recording,
-                &job.limits,
-                &jerk_limits,
-                job.period,
-                &job.in_thread(),
-            ),
+            holds: holds_of(recording, job),
             optimum: None,
             state,
             motion,
@@ -288,6 +273,26 @@ impl Figures {
             id_backwards: ids_going_back(recording, program.handed.len()),
         }
     }
+}
+
+/// In words, each limit that is exceeded.
+fn broken_limits(peaks: &Peaks) -> Vec<String> {
+    let quantities = [
+        (Quantity::Velocity, &peaks.velocity),
+        (Quantity::Acceleration, &peaks.acceleration),
+        (Quantity::Jerk, &peaks.jerk),
+    ];
+    let exceeded = |&(quantity, peak): &(Quantity, &Peak)| exceeds(quantity, peak.ratio);
+    let told = |(quantity, peak): (Quantity, &Peak)| {
+        let (name, time) = (quantity.name(), peak.time);
+        let ratio = significant(peak.ratio, 4);
+        let whose = match peak.mover {
+            Mover::Axis(_) => String::new(),
+            Mover::Joint(joint) => format!(" of joint {joint}"),
+        };
+        format!("{name}{whose} is {ratio} times its limit at {time:.3} s")
+    };
+    quantities.into_iter().filter(exceeded).map(told).collect()
 }
 
 fn ids_going_back(recording: &Recording, count: usize) -> usize {
@@ -341,7 +346,7 @@ pub(crate) mod tests {
     fn what_counts_as_exceeded() {
         assert!(!finished("a", 1.0).exceeds());
         let mut fast = finished("a", 1.0);
-        fast.motion.velocity.ratio = 1.02;
+        fast.motion.axes.velocity.ratio = 1.02;
         assert!(fast.exceeds());
         let mut off = finished("a", 1.0);
         off.missed.exceeds = true;

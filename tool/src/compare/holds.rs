@@ -2,13 +2,37 @@
 
 use super::against_optimum::Holds;
 use super::shortest_stop::State;
+use crate::host::job::Job;
 use crate::host::recording::{HELD, Recording, Sample, WAITING, moves, step};
-use crate::machine::limits::Limits;
-use crate::optimum::{AxisLimits, ExecutedPath, PathSample, SpeedCap, shortest_stop};
+use crate::machine::limits::{Limits, infinite_for_none};
+use crate::optimum::{ExecutedPath, PathLimits, PathSample, SpeedCap, shortest_stop};
+
+/// Measures all holds of a run: along the joints, where these have limits of their own.
+pub(crate) fn holds_of(recording: &Recording, job: &Job) -> Holds {
+    let takes_jerk = recording.takes_jerk;
+    let (period, in_thread) = (job.period, job.in_thread());
+    let (Some(joints), Some(bounds)) = (&job.joints, job.joint_bounds(takes_jerk)) else {
+        let jerk = job.jerk_limits(takes_jerk);
+        return holds(recording, &job.limits, &jerk, period, &in_thread);
+    };
+    let [velocity, acceleration, jerk] = bounds;
+    let limits = Limits {
+        velocity,
+        acceleration,
+    };
+    let jerk = jerk.map(|jerk| if jerk.is_finite() { jerk } else { 0.0 });
+    holds(
+        &recording.of_joints(joints),
+        &limits,
+        &jerk,
+        period,
+        &in_thread,
+    )
+}
 
 /// Measures all holds; `jerk` are the limits of the axes, 0 = none. `in_thread`: whether each move, by its
 /// number, follows the angle of a spindle.
-pub(crate) fn holds(
+fn holds(
     recording: &Recording,
     limits: &Limits,
     jerk: &[f64; 9],
@@ -127,12 +151,15 @@ impl Stop<'_> {
         let to = (goes_on + AROUND).min(self.samples.len());
         let path: Vec<PathSample> = self.samples[from..to]
             .iter()
-            .map(|sample| PathSample {
-                position: sample.position,
-                cap: SpeedCap::None,
-            })
+            .map(|sample| PathSample::new(&sample.position, None, SpeedCap::None))
             .collect();
-        let path = ExecutedPath::new(&path, self.period, &self.limits.velocity)?;
+        let Limits {
+            velocity,
+            acceleration,
+        } = *self.limits;
+        let jerk = self.jerk.map(infinite_for_none);
+        let limits = PathLimits::new([velocity, acceleration, jerk], None);
+        let path = ExecutedPath::new(&path, self.period, &limits.velocity)?;
         // Sample k is the position after cycle k.
         let at = |k: usize| (k - from) as f64 * self.period;
         let (start, squared, acceleration) = path.state(at(self.start.checked_sub(1)?))?;
@@ -140,12 +167,6 @@ impl Stop<'_> {
         if stopped <= STANDSTILL {
             return None;
         }
-        let limit = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
-        let limits = AxisLimits {
-            velocity: self.limits.velocity,
-            acceleration: self.limits.acceleration,
-            jerk: self.jerk.map(limit),
-        };
         let least = BENDS * state.least_distance() * squared.sqrt() / state.speed;
         shortest_stop(
             &path,

@@ -7,9 +7,10 @@ use crate::host::job::Job;
 use crate::host::recording::{DONE, Recording, Sample, WAITING, moves, step};
 use crate::layer::program::{Operation, Piece, Program};
 use crate::optimum::{
-    AxisLimits, Boundary, ExecutedPath, Grid, PathSample, SpeedCap, corners, least_time, spacing,
+    Boundary, ExecutedPath, Grid, PathLimits, PathSample, SpeedCap, corners, least_time, spacing,
     topp_ra,
 };
+use crate::path::Position;
 use std::array::from_fn;
 use std::ops::Range;
 
@@ -26,7 +27,8 @@ impl LeastTime {
         progress: &Progress,
     ) -> LeastTime {
         let samples = &recording.samples;
-        let limits = axis_limits(recording, job);
+        let takes_jerk = recording.takes_jerk;
+        let limits = PathLimits::new(job.bounds(takes_jerk), job.joint_bounds(takes_jerk));
         let handed_over = recording.adds.len() as f64 / job.adds_per_cycle.max(1) as f64;
         let mut found = LeastTime {
             supply: (handed_over - range.0 as f64).max(0.0) * job.period,
@@ -41,7 +43,7 @@ impl LeastTime {
         for stretch in stretches(samples, program, job, range) {
             let path: Vec<PathSample> = stretch
                 .clone()
-                .map(|k| path_sample(samples, program, &speeds, k))
+                .map(|k| path_sample(samples, program, (job, &speeds), k))
                 .collect();
             found.stretches += 1;
             let ids = stretch.clone().filter_map(|k| k.checked_sub(1));
@@ -66,7 +68,7 @@ impl LeastTime {
         found
     }
 
-    fn add(&mut self, path: &[PathSample], limits: &AxisLimits, period: f64) {
+    fn add(&mut self, path: &[PathSample], limits: &PathLimits, period: f64) {
         let mut cuts = corners(path, &limits.velocity);
         cuts.push(path.len() - 1);
         let mut from = 0;
@@ -82,7 +84,7 @@ impl LeastTime {
                     self.time += run;
                     self.without_jerk_limit += run;
                     self.not_solved += 1;
-                    let at = piece.first().map_or([0.0; 9], |sample| sample.position);
+                    let at = piece.first().map_or([0.0; 9], PathSample::axes);
                     self.problem
                         .get_or_insert(format!("{problem} from {at:?} in {run} s"));
                 }
@@ -93,7 +95,7 @@ impl LeastTime {
 }
 
 /// Least time with and without the limit of jerk.
-fn optimum(piece: &[PathSample], limits: &AxisLimits, period: f64) -> Result<(f64, f64), String> {
+fn optimum(piece: &[PathSample], limits: &PathLimits, period: f64) -> Result<(f64, f64), String> {
     let Some(path) = ExecutedPath::new(piece, period, &limits.velocity) else {
         return Err("too few positions".to_owned());
     };
@@ -106,15 +108,6 @@ fn optimum(piece: &[PathSample], limits: &AxisLimits, period: f64) -> Result<(f6
     }
     let optimum = least_time(&grid, limits).map_err(|problem| problem.to_string())?;
     Ok((optimum.time, bound))
-}
-
-fn axis_limits(recording: &Recording, job: &Job) -> AxisLimits {
-    let limit = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
-    AxisLimits {
-        velocity: job.limits.velocity,
-        acceleration: job.limits.acceleration,
-        jerk: job.jerk_limits(recording.takes_jerk).map(limit),
-    }
 }
 
 /// Samples between standstills that the program asks for: from one at rest to the next.
@@ -172,12 +165,18 @@ fn travel(samples: &[Sample], k: usize) -> f64 {
     step(samples, k).iter().map(|part| part * part).sum()
 }
 
-fn path_sample(samples: &[Sample], program: &Program, speeds: &[f64], number: usize) -> PathSample {
+fn path_sample(
+    samples: &[Sample],
+    program: &Program,
+    (job, speeds): (&Job, &[f64]),
+    number: usize,
+) -> PathSample {
+    let at = |position: &Position, cap: SpeedCap| {
+        let joints = job.joints.as_ref().map(|joints| joints.at(position));
+        PathSample::new(position, joints.as_ref(), cap)
+    };
     let Some(sample) = number.checked_sub(1).and_then(|k| samples.get(k)) else {
-        return PathSample {
-            position: [0.0; 9],
-            cap: SpeedCap::None,
-        };
+        return at(&[0.0; 9], SpeedCap::None);
     };
     let index = usize::try_from(sample.id)
         .ok()
@@ -186,10 +185,7 @@ fn path_sample(samples: &[Sample], program: &Program, speeds: &[f64], number: us
         let piece = program.handed.get(index)?;
         Some(asked(piece, *speeds.get(index)?))
     });
-    PathSample {
-        position: sample.position,
-        cap: cap.unwrap_or(SpeedCap::None),
-    }
+    at(&sample.position, cap.unwrap_or(SpeedCap::None))
 }
 
 /// What each move asks for, mm/s or degrees per second.

@@ -36,10 +36,12 @@ use crate::format::significant;
 use crate::generated;
 use crate::host;
 use crate::host::operator::{Action, Event, at_time, random_events};
+use crate::joints::{Joints, LimitedJoints};
 use crate::json;
 use crate::layer::program::Program;
 use crate::layer::{LayerSettings, lay};
 use crate::machine::limits::{Jerk, LimitChanges, Limits};
+use crate::path::Position;
 use conditions::{Conditions, NO_VELOCITY_LIMIT};
 use figures::Figures;
 use progress::Progress;
@@ -76,6 +78,10 @@ pub struct CompareArguments {
     /// and greatest feed override, where the options do not say otherwise
     #[arg(long, value_name = "MACHINE.ini")]
     pub ini: Option<PathBuf>,
+    /// As programs run behind G43.4 or M64 P0: X Y Z are the tool centre point on the table of framekins that the INI file
+    /// names, whose joints have limits
+    #[arg(long, requires = "ini")]
+    pub tool_centre_point: bool,
     /// Limits of the axes, mm (degrees) and seconds: V=100,A=1000 for all, XY:V=50 for some, several
     /// separated by `;` [default: V=100,A=1000]
     #[arg(long, value_name = "LIMITS")]
@@ -165,6 +171,7 @@ pub fn serve_as_host() -> ExitCode {
 struct Report<'a> {
     period: f64,
     limits: Limits,
+    joints: Option<ReportedJoints>,
     feed_at_least: Option<f64>,
     adds_per_cycle: u16,
     velocity_limit: f64,
@@ -172,6 +179,26 @@ struct Report<'a> {
     events: &'a [Event],
     programs: &'a [ProgramRuns],
     ratios: &'a [ratios::Ratio],
+}
+
+/// The joints that have limits of their own.
+#[derive(Serialize)]
+struct ReportedJoints {
+    behind: String,
+    velocity: Vec<f64>,
+    acceleration: Vec<f64>,
+}
+
+impl ReportedJoints {
+    fn new(joints: &LimitedJoints) -> ReportedJoints {
+        let [velocity, acceleration, _] = joints.limits();
+        let of_joints = |limits: &Position| limits.iter().take(joints.count()).copied().collect();
+        ReportedJoints {
+            behind: joints.told(),
+            velocity: of_joints(velocity),
+            acceleration: of_joints(acceleration),
+        }
+    }
 }
 
 /// Compares; tables or JSON on standard output.
@@ -212,12 +239,15 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
     }
     progress.finish();
     let mut ratios = ratios(&all);
-    ratios.extend(s_curve::ratios(&all, &limits));
+    if conditions.joints.limited().is_none() {
+        ratios.extend(s_curve::ratios(&all, &limits));
+    }
     ratios.extend(ratios::over_the_optimum(&all));
     if arguments.json {
         let report = Report {
             period: conditions.period,
             limits,
+            joints: conditions.joints.limited().map(ReportedJoints::new),
             feed_at_least: arguments.feed_at_least,
             adds_per_cycle: arguments.adds_per_cycle,
             velocity_limit: conditions.velocity_limit,
@@ -231,6 +261,9 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
         write!(output, "{}", ratios::text(&ratios)).map_err(CompareError::Write)?;
         write!(output, "{}", summary::text(&all)).map_err(CompareError::Write)?;
         write!(output, "\n{}", table::LEGEND).map_err(CompareError::Write)?;
+        if conditions.joints.limited().is_some() {
+            write!(output, "{}", table::JOINT_LEGEND).map_err(CompareError::Write)?;
+        }
         if arguments.optimum {
             write!(output, "{}", table::OPTIMUM_LEGEND).map_err(CompareError::Write)?;
         }
@@ -301,10 +334,19 @@ fn headline(arguments: &CompareArguments, conditions: &Conditions) -> String {
             conditions.velocity_limit
         );
     }
-    if let Some(kinematics) = &conditions.joints_behind {
-        text += &format!(
-            "; the limits of joints that its HAL files set behind {kinematics} do NOT hold here, those of the axes do"
-        );
+    match &conditions.joints {
+        Joints::Axes => {}
+        Joints::Unknown(kinematics) => {
+            text += &format!(
+                "; the limits of joints that its HAL files set behind {kinematics} do NOT hold here, those of the axes do"
+            );
+        }
+        Joints::Limited(joints) => {
+            text += &format!(
+                "; limits of joints as its HAL files set them behind {}",
+                joints.told()
+            );
+        }
     }
     if conditions.max_feed_override > 1.0 {
         let percent = significant(100.0 * conditions.max_feed_override, 6);

@@ -233,7 +233,7 @@ mod tests {
     }
 
     fn exceeding(mut figures: Figures) -> Figures {
-        figures.motion.acceleration.ratio = 2.0;
+        figures.motion.axes.acceleration.ratio = 2.0;
         figures
     }
 

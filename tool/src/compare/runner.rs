@@ -7,7 +7,7 @@ use super::conditions::Conditions;
 use super::error::CompareError;
 use super::figures::Figures;
 #[cfg(feature = "optimum")]
-use super::holds::holds;
+use super::holds::holds_of;
 use super::progress::Progress;
 use crate::arguments::file_name;
 use crate::host::job::Job;
@@ -18,6 +18,8 @@ use crate::host::operator::random_holds;
 use crate::host::recording::Recording;
 use crate::host::supervise;
 use crate::layer::program::Program;
+#[cfg(feature = "optimum")]
+use crate::machine::limits::{Limits, infinite_for_none};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -105,6 +107,7 @@ impl<'a> Runner<'a> {
         progress: &Progress,
     ) -> Result<Vec<Figures>, CompareError> {
         let (arguments, conditions) = (self.arguments, self.conditions);
+        let joints = conditions.joints.limited();
         let mut runs = Vec::new();
         for (index, &jerk) in arguments.jerk.iter().enumerate() {
             let job = Job {
@@ -112,6 +115,7 @@ impl<'a> Runner<'a> {
                 period: conditions.period,
                 limits: conditions.limits,
                 jerk: jerk.of_axes(&conditions.limits),
+                joints: joints.map(|joints| joints.with_jerk(jerk, 1.0)),
                 adds_per_cycle: usize::from(arguments.adds_per_cycle),
                 queue: module.queue,
                 velocity_limit: conditions.velocity_limit,
@@ -165,8 +169,7 @@ impl<'a> Runner<'a> {
             job.events = random_holds(usize::from(count), figures.motion.time, hold_time(&job));
             let (_, recording) =
                 supervise::run(&job, self.patience()).map_err(CompareError::Run)?;
-            let jerk = job.jerk_limits(recording.takes_jerk);
-            figures.holds = holds(&recording, &job.limits, &jerk, job.period, &job.in_thread());
+            figures.holds = holds_of(&recording, &job);
         }
         Ok(figures)
     }
@@ -177,16 +180,27 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Long enough for every planner to come to rest, s: three times what the slowest axis needs from its
-/// greatest velocity.
+/// Long enough for every planner to come to rest, s: three times what the slowest axis or joint needs from
+/// its greatest velocity.
 #[cfg(feature = "optimum")]
 fn hold_time(job: &Job) -> f64 {
-    let axes = job.limits.velocity.iter().zip(&job.limits.acceleration);
-    axes.zip(&job.jerk)
-        .map(|((velocity, acceleration), &jerk)| {
-            let smooth = if jerk > 0.0 { acceleration / jerk } else { 0.0 };
-            3.0 * (velocity / acceleration + smooth)
+    let Limits {
+        velocity,
+        acceleration,
+    } = job.limits;
+    let axes = [velocity, acceleration, job.jerk.map(infinite_for_none)];
+    let joints = job.joints.as_ref().map(|joints| *joints.limits());
+    [Some(axes), joints]
+        .into_iter()
+        .flatten()
+        .flat_map(|[velocity, acceleration, jerk]| {
+            let time = move |mover: usize| {
+                let braking = velocity[mover] / acceleration[mover];
+                3.0 * (braking + acceleration[mover] / jerk[mover])
+            };
+            (0..velocity.len()).map(time)
         })
+        .filter(|time| time.is_finite())
         .fold(0.0, f64::max)
 }
 

@@ -3,6 +3,7 @@
 use super::against_optimum::{Holds, LeastTime};
 use super::distance::Distance;
 use super::figures::{Figures, State};
+use super::kinematics::Peaks;
 use crate::layer::program::Program;
 use crate::path::exceeded::exceeds;
 use crate::path::rates::Quantity;
@@ -12,6 +13,17 @@ const HEAD: [&str; 18] = [
     "module", "jerk", "time s", "v/V", "a/A", "jerk", "dev mm", "/tol", "miss mm", "/tol", "rests",
     "run us", "p99.9", "max", "add us", "p99.9", "max", "heap",
 ];
+
+/// Behind those of the axes, where joints have limits of their own.
+const JOINT_HEAD: [&str; 3] = ["joint v/V", "a/A", "jerk"];
+
+/// Where these columns stand.
+const AFTER_AXES: usize = 6;
+
+/// What they mean.
+pub(crate) const JOINT_LEGEND: &str = "\
+joint       the same of a joint; where joints have limits of their own, axes keep their velocities alone
+";
 
 /// Beside the time, if the optimum was asked for.
 const OPTIMUM_HEAD: [&str; 3] = ["least s", "/least", "any jerk s"];
@@ -50,12 +62,20 @@ pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
     let mut text = format!("{name}: {} moves, {length:.1} mm\n", program.handed.len());
     let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
     rows.extend(runs.iter().map(|run| row(run).to_vec()));
-    if runs.iter().any(|run| run.optimum.is_some()) {
-        let heads = OPTIMUM_HEAD.map(str::to_owned);
-        let cells = runs.iter().map(|run| optimum(run.optimum.as_ref()));
-        for (row, cells) in rows.iter_mut().zip(std::iter::once(heads).chain(cells)) {
-            row.splice(AFTER_TIME..AFTER_TIME, cells);
+    let mut insert = |at: usize, heads: [&str; 3], cells: &dyn Fn(&Figures) -> [String; 3]| {
+        let cells = runs.iter().map(cells);
+        let cells = std::iter::once(heads.map(str::to_owned)).chain(cells);
+        for (row, cells) in rows.iter_mut().zip(cells) {
+            row.splice(at..at, cells);
         }
+    };
+    if runs.iter().any(|run| run.motion.joints.is_some()) {
+        insert(AFTER_AXES, JOINT_HEAD, &joints);
+    }
+    if runs.iter().any(|run| run.optimum.is_some()) {
+        insert(AFTER_TIME, OPTIMUM_HEAD, &|run| {
+            optimum(run.optimum.as_ref())
+        });
     }
     let mut widths = vec![0; rows[0].len()];
     for row in &rows {
@@ -98,10 +118,10 @@ fn row(figures: &Figures) -> [String; HEAD.len()] {
         return row;
     }
     let motion = &figures.motion;
-    let jerk_ratio = if motion.jerk.ratio > 0.0 {
-        ratio(Quantity::Jerk, motion.jerk.ratio)
-    } else {
-        format!("{:.0}A", motion.jerk_in_accelerations)
+    let [velocity, acceleration, jerk_ratio] = ratios(&motion.axes);
+    let [acceleration, jerk_ratio] = match motion.joints {
+        None => [acceleration, jerk_ratio],
+        Some(_) => ["-", "-"].map(str::to_owned),
     };
     let path_ratio = |distance: &Distance| {
         let mark = if distance.exceeds { "!" } else { "" };
@@ -112,8 +132,8 @@ fn row(figures: &Figures) -> [String; HEAD.len()] {
         figures.module.clone(),
         jerk,
         format!("{:.3}", motion.time),
-        ratio(Quantity::Velocity, motion.velocity.ratio),
-        ratio(Quantity::Acceleration, motion.acceleration.ratio),
+        velocity,
+        acceleration,
         jerk_ratio,
         format!("{:.4}", figures.deviation.largest),
         path_ratio(&figures.deviation),
@@ -127,6 +147,27 @@ fn row(figures: &Figures) -> [String; HEAD.len()] {
         format!("{:.1}", figures.add.p999),
         format!("{:.0}", figures.add.max),
         figures.heap_calls.to_string(),
+    ]
+}
+
+fn joints(figures: &Figures) -> [String; JOINT_HEAD.len()] {
+    match &figures.motion.joints {
+        Some(peaks) if !matches!(figures.state, State::NotUsable(_)) => ratios(peaks),
+        _ => [const { String::new() }; JOINT_HEAD.len()],
+    }
+}
+
+/// Velocity, acceleration and jerk over their limits.
+fn ratios(peaks: &Peaks) -> [String; 3] {
+    let jerk = if peaks.jerk.ratio > 0.0 {
+        ratio(Quantity::Jerk, peaks.jerk.ratio)
+    } else {
+        format!("{:.0}A", peaks.jerk_in_accelerations)
+    };
+    [
+        ratio(Quantity::Velocity, peaks.velocity.ratio),
+        ratio(Quantity::Acceleration, peaks.acceleration.ratio),
+        jerk,
     ]
 }
 

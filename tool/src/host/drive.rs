@@ -3,6 +3,7 @@
 
 use super::functions::{Functions, load};
 use super::job::Job;
+use super::kinematics;
 use super::machine::{self, Machine, pose, position};
 use super::operator::Action;
 use super::progress::{Progress, Step};
@@ -11,6 +12,7 @@ use super::recording::{
 };
 use super::stop_watch::StopWatch;
 use super::stubs::Stubs;
+use crate::joints::LimitedJoints;
 use crate::layer::program::{MotionType, Operation};
 use crate::layer::spindle::{SpindleCommand, Surface};
 use crate::path::Position;
@@ -161,6 +163,9 @@ impl<'a> Drive<'a> {
         let Machine { tp, status, config } = self.machine;
         let limit = self.job.velocity_limit;
         let zero = pose(&[0.0; 9]);
+        if let Some(joints) = &self.job.joints {
+            self.stubs.set_kinematics(kinematics::with(joints));
+        }
         // SAFETY: the structures of the machine, in the order in which motmod calls.
         unsafe {
             (self.tp.tpMotFunctions)(
@@ -184,11 +189,29 @@ impl<'a> Drive<'a> {
             (self.tp.tpSetVlimit)(tp, limit);
             (self.tp.tpSetAmax)(tp, 1e99);
         }
+        if let Some(joints) = &self.job.joints {
+            self.limit_joints(joints);
+        }
         let mut pins = 0;
         for (letter, jerk) in "xyzabcuvw".chars().zip(self.job.jerk) {
             pins += self.stubs.set(&format!("axis.{letter}.max-jerk"), jerk);
         }
         Ok(pins > 0)
+    }
+
+    /// As HAL files set the limits of joints, 0 for none.
+    fn limit_joints(&self, joints: &LimitedJoints) {
+        let [velocity, acceleration, jerk] = *joints.limits();
+        let jerk = jerk.map(|jerk| if jerk.is_finite() { jerk } else { 0.0 });
+        for joint in 0..joints.count().min(velocity.len()) {
+            let set = |quantity: &str, limits: &Position| {
+                let pin = format!("joint.{joint}.max-{quantity}");
+                self.stubs.set(&pin, limits[joint]);
+            };
+            set("velocity", &velocity);
+            set("acceleration", &acceleration);
+            set("jerk", &jerk);
+        }
     }
 
     fn run<W: Write>(&mut self, recorder: &mut Recorder<W>) -> io::Result<Ending> {
@@ -376,6 +399,12 @@ impl<'a> Drive<'a> {
             let status = &mut *status;
             status.carte_pos_cmd = *now;
             status.carte_pos_fb = *now;
+            if let Some(joints) = &self.job.joints {
+                let there = joints.at(&position(now));
+                for (joint, position) in status.joint_status.iter_mut().zip(there) {
+                    joint.pos_cmd = position;
+                }
+            }
             status.depth = (self.tp.tpQueueDepth)(tp);
             status.activeDepth = (self.tp.tpActiveDepth)(tp);
             status.id = (self.tp.tpGetExecId)(tp);

@@ -1,10 +1,12 @@
 //! What the process that drives a module is told.
 
 use super::operator::{Action, Event};
+use crate::joints::LimitedJoints;
 use crate::layer::program::Operation;
 #[cfg(feature = "optimum")]
 use crate::layer::program::Shape;
-use crate::machine::limits::Limits;
+use crate::machine::limits::{Limits, infinite_for_none};
+use crate::path::Position;
 use serde::{Deserialize, Serialize};
 
 /// One run of a module.
@@ -17,6 +19,8 @@ pub(crate) struct Job {
     /// Jerk limit of each axis, 0 = not limited.
     pub jerk: [f64; 9],
     pub adds_per_cycle: usize,
+    /// The joints that have limits of their own, with these.
+    pub joints: Option<LimitedJoints>,
     /// No move is handed over while so many are queued.
     pub queue: usize,
     /// Greatest velocity of the machine, mm/s.
@@ -47,6 +51,28 @@ impl Job {
     /// The jerk limits that a module is held to, 0 = none: those of the machine where it takes them.
     pub(crate) fn jerk_limits(&self, takes_jerk: bool) -> [f64; 9] {
         if takes_jerk { self.jerk } else { [0.0; 9] }
+    }
+
+    /// What a module is held to: velocity, acceleration and jerk of each axis, shape (3, 9), infinite where there is no
+    /// limit. Where joints have limits of their own, axes keep their velocities alone.
+    pub(crate) fn bounds(&self, takes_jerk: bool) -> [Position; 3] {
+        let none = [f64::INFINITY; 9];
+        let Limits {
+            velocity,
+            acceleration,
+        } = self.limits;
+        if self.joints.is_some() {
+            return [velocity, none, none];
+        }
+        let jerk = self.jerk_limits(takes_jerk).map(infinite_for_none);
+        [velocity, acceleration, jerk]
+    }
+
+    /// The same of the joints that have limits.
+    pub(crate) fn joint_bounds(&self, takes_jerk: bool) -> Option<[Position; 3]> {
+        let [velocity, acceleration, jerk] = *self.joints.as_ref()?.limits();
+        let jerk = if takes_jerk { jerk } else { [f64::INFINITY; 9] };
+        Some([velocity, acceleration, jerk])
     }
 }
 
@@ -115,6 +141,7 @@ mod tests {
             limits: Limits::default(),
             jerk: [20_000.0; 9],
             adds_per_cycle: 1,
+            joints: None,
             queue: usize::MAX,
             velocity_limit: 1e9,
             max_feed_override: 2.0,

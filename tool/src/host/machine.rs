@@ -85,8 +85,10 @@ impl Machine {
     fn configure(&self, job: &Job) {
         // SAFETY: memory of this type, all zero, which nobody else knows yet.
         let config = unsafe { &mut *self.config };
-        config.numJoints = 9;
-        config.kinType = KINEMATICS_TYPE::KINEMATICS_IDENTITY;
+        (config.numJoints, config.kinType) = match &job.joints {
+            Some(joints) => (joints.count() as c_int, KINEMATICS_TYPE::KINEMATICS_BOTH),
+            None => (9, KINEMATICS_TYPE::KINEMATICS_IDENTITY),
+        };
         config.numSpindles = 1;
         config.numDIO = 4;
         config.numAIO = 4;

@@ -2,6 +2,7 @@
 //!
 //! The driven process writes it as a stream of records, so that what was recorded before a crash is there.
 
+use crate::joints::LimitedJoints;
 use crate::path::Position;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
@@ -167,6 +168,15 @@ impl Recording {
             *add = (*add).min(*other);
         }
         true
+    }
+
+    /// The same with the joints in place of the axes.
+    pub(crate) fn of_joints(&self, joints: &LimitedJoints) -> Recording {
+        let mut recording = self.clone();
+        for sample in &mut recording.samples {
+            sample.position = joints.at(&sample.position);
+        }
+        recording
     }
 
     /// Reads records up to the end, or to where they break off.

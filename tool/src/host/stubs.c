@@ -388,14 +388,42 @@ EXPORTED int hal_param_float_set(const char *name, double value) { return put_na
 EXPORTED int hal_param_u32_set(const char *name, unsigned long value) { return put_named(name, value); }
 EXPORTED int hal_param_s32_set(const char *name, signed long value) { return put_named(name, value); }
 
-/* ------------------------------------ kinematics: the joints are the axes */
+/* ------------- kinematics: the joints are the axes, unless the driver says otherwise */
 #ifndef HOST_WITHOUT_KINEMATICS
+
+/* A machine of framekins: what its kinematics functions answer, and what it tells blendtp besides. */
+struct framepath_host_kinematics {
+    int (*forward)(const double *joint, struct EmcPose *world);
+    int (*inverse)(const struct EmcPose *world, double *joint);
+    int (*jet)(const double *position, const double *derivatives, double *joints);
+    int (*axis_of_joint)(int joint);
+};
+
+static const struct framepath_host_kinematics *machine;
+
+/* From here on these are the kinematics; NULL for none but the axes. */
+EXPORTED void framepath_host_set_kinematics(const struct framepath_host_kinematics *kinematics)
+{
+    machine = kinematics;
+}
+
+EXPORTED int framekinsJet(const double *position, const double *derivatives, double *joints)
+{
+    return machine ? machine->jet(position, derivatives, joints) : -1;
+}
+
+EXPORTED int framekinsAxisOfJoint(int joint)
+{
+    return machine ? machine->axis_of_joint(joint) : -1;
+}
 
 EXPORTED int kinematicsForward(const double *joint, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *forward,
                                KINEMATICS_INVERSE_FLAGS *inverse)
 {
     (void)forward;
     (void)inverse;
+    if (machine)
+        return machine->forward(joint, world);
     memcpy(world, joint, sizeof *world);
     return 0;
 }
@@ -405,6 +433,8 @@ EXPORTED int kinematicsInverse(const struct EmcPose *world, double *joint, const
 {
     (void)inverse;
     (void)forward;
+    if (machine)
+        return machine->inverse(world, joint);
     memcpy(joint, world, sizeof *world);
     return 0;
 }
@@ -415,7 +445,7 @@ EXPORTED int kinematicsHome(struct EmcPose *world, double *joint, KINEMATICS_FOR
     return kinematicsForward(joint, world, forward, inverse);
 }
 
-EXPORTED KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_IDENTITY; }
+EXPORTED KINEMATICS_TYPE kinematicsType(void) { return machine ? KINEMATICS_BOTH : KINEMATICS_IDENTITY; }
 EXPORTED int kinematicsSwitchable(void) { return 0; }
 EXPORTED int kinematicsSwitch(int type) { return type ? -1 : 0; }
 #endif

@@ -1,6 +1,16 @@
 //! The functions of `stubs.c`, found in this process.
 
+use framepath::abi::linuxcnc::EmcPose;
 use std::ffi::{CStr, CString, c_char, c_int, c_long, c_ulong};
+
+/// `struct framepath_host_kinematics` of `stubs.c`.
+#[repr(C)]
+pub(super) struct HostKinematics {
+    pub forward: unsafe extern "C" fn(*const f64, *mut EmcPose) -> c_int,
+    pub inverse: unsafe extern "C" fn(*const EmcPose, *mut f64) -> c_int,
+    pub jet: unsafe extern "C" fn(*const f64, *const f64, *mut f64) -> c_int,
+    pub axis_of_joint: unsafe extern "C" fn(c_int) -> c_int,
+}
 
 type SetFlag = unsafe extern "C" fn(c_int);
 type SetNumber = unsafe extern "C" fn(c_long);
@@ -8,6 +18,7 @@ type SetNamed = unsafe extern "C" fn(*const c_char, f64) -> c_int;
 type Count = unsafe extern "C" fn() -> c_ulong;
 type Text = unsafe extern "C" fn() -> *const c_char;
 type Run = unsafe extern "C" fn();
+type SetKinematics = unsafe extern "C" fn(*const HostKinematics);
 
 /// What `stubs.c` offers to the driver.
 pub(super) struct Stubs {
@@ -17,6 +28,7 @@ pub(super) struct Stubs {
     errors: Count,
     set_period: SetNumber,
     set: SetNamed,
+    set_kinematics: SetKinematics,
     run_functions: Run,
 }
 
@@ -42,6 +54,7 @@ impl Stubs {
             errors: find!(c"framepath_host_errors" as Count),
             set_period: find!(c"framepath_host_set_period" as SetNumber),
             set: find!(c"framepath_host_set" as SetNamed),
+            set_kinematics: find!(c"framepath_host_set_kinematics" as SetKinematics),
             run_functions: find!(c"framepath_host_run_functions" as Run),
         })
     }
@@ -79,6 +92,12 @@ impl Stubs {
         };
         // SAFETY: a string that ends with 0.
         unsafe { (self.set)(ending.as_ptr(), value) }
+    }
+
+    /// From here on these are the kinematics that modules find.
+    pub(super) fn set_kinematics(&self, kinematics: &'static HostKinematics) {
+        // SAFETY: keeps an address of what never goes.
+        unsafe { (self.set_kinematics)(kinematics) };
     }
 
     pub(super) fn run_functions(&self) {

@@ -13,6 +13,12 @@ pub(crate) fn is_rotary(axis: usize) -> bool {
     (3..6).contains(&axis)
 }
 
+/// A limit of 0 is none.
+#[cfg(feature = "linuxcnc")]
+pub(crate) fn infinite_for_none(limit: f64) -> f64 {
+    if limit > 0.0 { limit } else { f64::INFINITY }
+}
+
 /// Limits of each axis, in mm (degrees) and seconds, in the order x y z a b c u v w.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Limits {

@@ -3,17 +3,19 @@
 use super::executed_path::{ExecutedPath, PathSample, corners};
 use super::grid::{Boundary, Grid, spacing};
 use super::jerk_limited::least_time;
-use super::limits::{AXES, AxisLimits, SpeedCap};
+use super::limits::{AXES, COORDINATES, PathLimits, SpeedCap};
 use super::stop::shortest_stop;
 use super::topp_ra::topp_ra;
+use framepath::machine::{JOINT_COUNT, Machine, TableTiltingParameters};
+use nalgebra::Vector3;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
 const PERIOD: f64 = 1e-3;
-const LIMITS: AxisLimits = AxisLimits {
-    velocity: [100.0; AXES],
-    acceleration: [1000.0; AXES],
-    jerk: [20_000.0; AXES],
+const LIMITS: PathLimits = PathLimits {
+    velocity: [100.0; COORDINATES],
+    acceleration: [1000.0; COORDINATES],
+    jerk: [20_000.0; COORDINATES],
 };
 
 /// A motion from rest to rest in `duration` seconds: share of the path by a polynomial of the fifth
@@ -28,16 +30,13 @@ fn executed(
         .map(|k| {
             let t = (k as f64 / count as f64).min(1.0);
             let share = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
-            PathSample {
-                position: position(share),
-                cap,
-            }
+            PathSample::new(&position(share), None, cap)
         })
         .collect()
 }
 
 /// Least times with and without the limit of jerk.
-fn optimum(samples: &[PathSample], limits: &AxisLimits) -> (f64, f64) {
+fn optimum(samples: &[PathSample], limits: &PathLimits) -> (f64, f64) {
     let path = ExecutedPath::new(samples, PERIOD, &limits.velocity).expect("a path");
     let rests = (Boundary::Rest, Boundary::Rest);
     let spacing = spacing(samples.len() as f64 * PERIOD);
@@ -119,6 +118,76 @@ fn lines_of_rotary_axes_to_a_thousandth() {
         assert_within(time, exact, 1e-3);
         assert_within(bound, trapezoid_time(length, of_a), 1e-3);
     }
+}
+
+/// A table that C turns, with the tool centre point: its joints where the tip stands at `axes`, and back.
+fn table() -> Machine {
+    let mut table = Machine::configured(b"xyzac", b"XYZABC").expect("a table");
+    let parameters = TableTiltingParameters {
+        rotation_point: Vector3::new(-30.0, 10.0, 0.0),
+        tool_centre_point: true,
+        ..TableTiltingParameters::default()
+    };
+    table.set_parameters(&parameters).expect("dimensions");
+    table
+}
+
+/// A path of joints, which bends where the axes are.
+fn executed_by_joints(duration: f64, joints: impl Fn(f64) -> [f64; AXES]) -> Vec<PathSample> {
+    let table = table();
+    executed(duration, SpeedCap::None, joints)
+        .iter()
+        .map(|sample| {
+            let (joints, mut all) = (sample.axes(), [0.0; JOINT_COUNT]);
+            all[..AXES].copy_from_slice(&joints);
+            let axes = table.forward(&all).into();
+            PathSample::new(&axes, Some(&joints), SpeedCap::None)
+        })
+        .collect()
+}
+
+#[test]
+fn a_line_of_joints_to_a_thousandth() {
+    let limits = |axes: f64| {
+        let joints = [[100.0; AXES], [1000.0; AXES], [20_000.0; AXES]];
+        let infinite = [f64::INFINITY; AXES];
+        PathLimits::new([[axes; AXES], infinite, infinite], Some(joints))
+    };
+    for length in [1.5, 40.0] {
+        let exact = line_time(length, [100.0, 1000.0, 20_000.0]);
+        let samples = executed_by_joints(1.5 * exact, |share| {
+            let mut joints = [0.0; AXES];
+            (joints[0], joints[1], joints[5]) = (length * share, 10.0, -0.8 * length * share);
+            joints
+        });
+        let (time, bound) = optimum(&samples, &limits(1e4));
+        assert_within(time, exact, 1e-3);
+        assert_within(bound, trapezoid_time(length, [100.0, 1000.0, 0.0]), 1e-3);
+    }
+}
+
+#[test]
+fn axes_keep_their_velocities_before_joints_to_a_thousandth() {
+    // The workpiece turns under a tip that stays at 50 mm from C: half a turn at 20 degrees per second of C, which
+    // no joint of its own needs.
+    let joints = [[400.0; AXES], [1e5; AXES], [1e8; AXES]];
+    let infinite = [f64::INFINITY; AXES];
+    let limits = PathLimits::new([[20.0; AXES], infinite, infinite], Some(joints));
+    let table = table();
+    let samples: Vec<PathSample> = executed(12.0, SpeedCap::None, |share| {
+        let mut axes = [0.0; AXES];
+        (axes[0], axes[1], axes[5]) = (10.0, 40.0, 180.0 * share);
+        axes
+    })
+    .iter()
+    .map(|sample| {
+        let mut all = [0.0; JOINT_COUNT];
+        table.inverse(&sample.axes().into(), &mut all);
+        let joints = from_fn(|joint| all[joint]);
+        PathSample::new(&sample.axes(), Some(&joints), SpeedCap::None)
+    })
+    .collect();
+    assert_within(optimum(&samples, &limits).0, 9.0, 1e-3);
 }
 
 #[test]
@@ -233,10 +302,7 @@ fn stops_on_a_line() {
                 let t = f64::from(k) * PERIOD;
                 let mut position = [0.0; AXES];
                 position[1] = 40.0 * t + 0.5 * acceleration * t * t;
-                PathSample {
-                    position,
-                    cap: SpeedCap::None,
-                }
+                PathSample::new(&position, None, SpeedCap::None)
             })
             .collect();
         let path = ExecutedPath::new(&samples, PERIOD, &LIMITS.velocity).expect("a path");
@@ -272,7 +338,7 @@ fn a_rounded_corner_does_not_depend_on_the_grid() {
         position
     };
     let mut limits = LIMITS;
-    limits.jerk = [100_000.0; AXES];
+    limits.jerk = [100_000.0; COORDINATES];
     let samples = executed(0.8, SpeedCap::None, corner);
     let path = ExecutedPath::new(&samples, PERIOD, &limits.velocity).expect("a path");
     let [(coarse, coarse_bound), (fine, fine_bound)] = [2e-3, 5e-4].map(|spacing| {

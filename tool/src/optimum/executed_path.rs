@@ -1,13 +1,13 @@
 //! The path that a machine executed, from its positions in every servo cycle.
 
 use super::derivatives::{STENCIL, weights};
-use super::limits::{AXES, SpeedCap, angle, norm, over};
+use super::limits::{AXES, COORDINATES, Coordinates, SpeedCap, angle, coordinates, norm, over};
 use std::array::from_fn;
 
 /// A position of the machine, and what the program says about the speed there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PathSample {
-    pub position: [f64; AXES],
+    pub position: Coordinates,
     pub cap: SpeedCap,
 }
 
@@ -42,7 +42,7 @@ const CORNER: f64 = 0.5;
 
 /// A path q(s), third derivative bounded.
 ///
-/// The parameter s is the arc length with each axis divided by its greatest velocity: the time in
+/// The parameter s is the arc length with each axis and joint divided by its greatest velocity: the time in
 /// seconds that the path would take at full velocity. Near the tip of a near reversal, where an arc
 /// length would make the derivatives infinite, it goes on a little faster than the length does.
 #[derive(Clone, Debug)]
@@ -51,16 +51,31 @@ pub(crate) struct ExecutedPath {
     samples: Vec<PathSample>,
     /// When the machine was there, s from the start.
     time: Vec<f64>,
-    /// Greatest velocity of each axis.
-    velocity: [f64; AXES],
+    /// Greatest velocity of each coordinate.
+    velocity: Coordinates,
 }
 
 /// dq/ds and the next two derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slope {
-    pub first: [f64; AXES],
-    pub second: [f64; AXES],
-    pub third: [f64; AXES],
+    pub first: Coordinates,
+    pub second: Coordinates,
+    pub third: Coordinates,
+}
+
+impl PathSample {
+    /// `joints` where they have limits of their own.
+    pub(crate) fn new(axes: &[f64; AXES], joints: Option<&[f64; AXES]>, cap: SpeedCap) -> Self {
+        PathSample {
+            position: coordinates(axes, joints.unwrap_or(&[0.0; AXES])),
+            cap,
+        }
+    }
+
+    /// Where the axes are.
+    pub(crate) fn axes(&self) -> [f64; AXES] {
+        from_fn(|axis| self.position[axis])
+    }
 }
 
 impl ExecutedPath {
@@ -69,7 +84,7 @@ impl ExecutedPath {
     pub(crate) fn new(
         samples: &[PathSample],
         period: f64,
-        velocity: &[f64; AXES],
+        velocity: &Coordinates,
     ) -> Option<ExecutedPath> {
         let floors = tip_floors(samples, period, velocity);
         let length: f64 = samples
@@ -81,14 +96,14 @@ impl ExecutedPath {
         if kept.len() < STENCIL {
             return None;
         }
-        let chords: Vec<[f64; AXES]> = kept
+        let chords: Vec<Coordinates> = kept
             .windows(2)
             .map(|pair| chord(&samples[pair[0]], &samples[pair[1]], velocity))
             .collect();
         let mut parameter = vec![0.0];
         let mut at = 0.0;
         for (k, pair) in kept.windows(2).enumerate() {
-            let turn = |other: Option<&[f64; AXES]>| {
+            let turn = |other: Option<&Coordinates>| {
                 other.map_or(0.0, |other| angle(&chords[k], other).min(0.3))
             };
             let before = turn(k.checked_sub(1).and_then(|k| chords.get(k)));
@@ -138,7 +153,7 @@ impl ExecutedPath {
         let weights = weights(s, &points);
         // Differences from the middle: the rounding of large coordinates counts less.
         let origin = self.samples[middle].position;
-        let derivative = |order: usize| -> [f64; AXES] {
+        let derivative = |order: usize| -> Coordinates {
             from_fn(|axis| {
                 let values = self.samples[from..].iter();
                 let sum = values.zip(&weights[order]);
@@ -201,13 +216,13 @@ impl ExecutedPath {
 /// by less in turns and at tips; first and last always.
 fn kept(
     samples: &[PathSample],
-    velocity: &[f64; AXES],
+    velocity: &Coordinates,
     floors: &[f64],
     period: f64,
     least: f64,
 ) -> Vec<usize> {
     let mut kept: Vec<usize> = vec![0];
-    let mut last_chord = [0.0; AXES];
+    let mut last_chord = [0.0; COORDINATES];
     let end = samples.len().saturating_sub(1);
     for k in 1..samples.len() {
         let last = kept[kept.len() - 1];
@@ -231,7 +246,7 @@ fn kept(
 
 /// Where a path has to be cut since nobody can pass without a standstill: a corner, as far as the
 /// positions tell, at which the machine stood. Indices of the samples.
-pub(crate) fn corners(samples: &[PathSample], velocity: &[f64; AXES]) -> Vec<usize> {
+pub(crate) fn corners(samples: &[PathSample], velocity: &Coordinates) -> Vec<usize> {
     let step = |k: usize| norm(&chord(&samples[k], &samples[k + 1], velocity));
     let mut corners = Vec::new();
     let mut k = 1;
@@ -259,7 +274,7 @@ pub(crate) fn corners(samples: &[PathSample], velocity: &[f64; AXES]) -> Vec<usi
 
 /// How fast the parameter goes on at least, by the time between sample k and the next; 0 away from
 /// the tips of near reversals.
-fn tip_floors(samples: &[PathSample], period: f64, velocity: &[f64; AXES]) -> Vec<f64> {
+fn tip_floors(samples: &[PathSample], period: f64, velocity: &Coordinates) -> Vec<f64> {
     let mut squares = vec![0.0; samples.len()];
     let reach = (TIP_REACH / period).round().max(1.0) as usize;
     for (tip, acceleration) in tips(samples, period, velocity) {
@@ -275,14 +290,14 @@ fn tip_floors(samples: &[PathSample], period: f64, velocity: &[f64; AXES]) -> Ve
 }
 
 /// The tips of near reversals: the index of the slowest sample of each, and the acceleration there.
-fn tips(samples: &[PathSample], period: f64, velocity: &[f64; AXES]) -> Vec<(usize, f64)> {
+fn tips(samples: &[PathSample], period: f64, velocity: &Coordinates) -> Vec<(usize, f64)> {
     let mut tips: Vec<(usize, f64)> = Vec::new();
     let mut last_turn = None;
     let mut slowest = f64::INFINITY;
     for k in 1..samples.len().saturating_sub(1) {
         let before = chord(&samples[k - 1], &samples[k], velocity);
         let after = chord(&samples[k], &samples[k + 1], velocity);
-        let change: [f64; AXES] = from_fn(|axis| after[axis] - before[axis]);
+        let change: Coordinates = from_fn(|axis| after[axis] - before[axis]);
         let acceleration = norm(&change) / (period * period);
         // A standstill with next to no acceleration is no tip, whatever rounding says of its
         // direction.
@@ -304,7 +319,7 @@ fn tips(samples: &[PathSample], period: f64, velocity: &[f64; AXES]) -> Vec<(usi
     tips
 }
 
-fn chord(from: &PathSample, to: &PathSample, velocity: &[f64; AXES]) -> [f64; AXES] {
+fn chord(from: &PathSample, to: &PathSample, velocity: &Coordinates) -> Coordinates {
     let travel = from_fn(|axis| to.position[axis] - from.position[axis]);
     over(&travel, velocity)
 }

@@ -1,7 +1,7 @@
 //! The nodes of the optimisation, and the shape of the path at them.
 
 use super::executed_path::{ExecutedPath, Slope};
-use super::limits::{AXES, AxisLimits};
+use super::limits::{Coordinates, PathLimits};
 
 /// The motion at an end of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Grid {
     /// or as it can come from a rest.
     pub(crate) fn new(
         path: &ExecutedPath,
-        limits: &AxisLimits,
+        limits: &PathLimits,
         (from, to): (f64, f64),
         (start, end): (Boundary, Boundary),
         spacing: f64,
@@ -115,7 +115,7 @@ struct Steps {
 impl Steps {
     fn new(
         path: &ExecutedPath,
-        limits: &AxisLimits,
+        limits: &PathLimits,
         (from, to): (f64, f64),
         (start, end): (Boundary, Boundary),
         spacing: f64,
@@ -222,9 +222,9 @@ struct Start {
 }
 
 impl Start {
-    fn new(path: &ExecutedPath, limits: &AxisLimits, end: f64, spacing: f64) -> Start {
+    fn new(path: &ExecutedPath, limits: &PathLimits, end: f64, spacing: f64) -> Start {
         let first = path.slope(end).first;
-        let along = |limits: &[f64; AXES]| {
+        let along = |limits: &Coordinates| {
             let axes = limits.iter().zip(&first);
             axes.map(|(limit, first)| limit / first.abs().max(1e-300))
                 .fold(f64::INFINITY, f64::min)

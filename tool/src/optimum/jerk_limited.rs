@@ -14,7 +14,7 @@
 //! fulfils the conditions of a local minimum of the problem itself.
 
 use super::grid::{Boundary, Grid};
-use super::limits::{AXES, AxisLimits};
+use super::limits::{COORDINATES, PathLimits};
 use super::spline::{Interval, Row, sum, value};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
@@ -61,7 +61,7 @@ pub(crate) enum NoOptimum {
 }
 
 /// Least time on the grid.
-pub(crate) fn least_time(grid: &Grid, limits: &AxisLimits) -> Result<Optimum, NoOptimum> {
+pub(crate) fn least_time(grid: &Grid, limits: &PathLimits) -> Result<Optimum, NoOptimum> {
     let problem = Problem::new(grid, limits);
     let mut coefficients = problem.first_guess();
     let mut time = problem.time(&coefficients);
@@ -132,7 +132,7 @@ struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    fn new(grid: &'a Grid, limits: &AxisLimits) -> Self {
+    fn new(grid: &'a Grid, limits: &PathLimits) -> Self {
         let count = grid.intervals();
         let intervals: Vec<Interval> = (0..count).map(|k| Interval::new(grid, k)).collect();
         let mut accelerations = Vec::new();
@@ -146,20 +146,20 @@ impl<'a> Problem<'a> {
             };
             let interval = &intervals[k];
             let slope = &grid.at_nodes[node];
-            for axis in 0..AXES {
+            for axis in 0..COORDINATES {
                 let (first, second) = (slope.first[axis], slope.second[axis]);
                 let limit = limits.acceleration[axis];
                 let row = sum(&[
                     (first / limit, interval.acceleration[side]),
                     (second / limit, interval.squared[side]),
                 ]);
-                if first != 0.0 || second != 0.0 {
+                if limit.is_finite() && (first != 0.0 || second != 0.0) {
                     accelerations.push(Share { row, interval: k });
                 }
             }
         }
         for (k, (interval, slope)) in intervals.iter().zip(&grid.at_middles).enumerate() {
-            for axis in 0..AXES {
+            for axis in 0..COORDINATES {
                 let limit = limits.jerk[axis];
                 let parts = [slope.first[axis], slope.second[axis], slope.third[axis]];
                 if !limit.is_finite() || parts == [0.0; 3] {

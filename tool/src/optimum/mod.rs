@@ -14,6 +14,6 @@ mod topp_ra;
 pub(crate) use executed_path::{ExecutedPath, PathSample, corners};
 pub(crate) use grid::{Boundary, Grid, spacing};
 pub(crate) use jerk_limited::least_time;
-pub(crate) use limits::{AxisLimits, SpeedCap};
+pub(crate) use limits::{PathLimits, SpeedCap};
 pub(crate) use stop::shortest_stop;
 pub(crate) use topp_ra::topp_ra;

@@ -3,7 +3,7 @@
 use super::executed_path::ExecutedPath;
 use super::grid::{Boundary, Grid};
 use super::jerk_limited::least_time;
-use super::limits::AxisLimits;
+use super::limits::PathLimits;
 
 /// Time between two nodes, s.
 const SPACING: f64 = 3e-3;
@@ -31,7 +31,7 @@ pub(crate) type Start = (f64, f64, f64);
 /// jerk the shortest stop brakes as hard as it can everywhere.
 pub(crate) fn shortest_stop(
     path: &ExecutedPath,
-    limits: &AxisLimits,
+    limits: &PathLimits,
     (start, squared, acceleration): Start,
     least: f64,
     stopped: f64,
@@ -46,7 +46,7 @@ pub(crate) fn shortest_stop(
         acceleration,
     };
     let solve = |distance: f64, wider: f64, like: Option<&Profile>| -> Option<(f64, Profile)> {
-        let limits = AxisLimits {
+        let limits = PathLimits {
             velocity: limits.velocity.map(|limit| limit * 2.0),
             acceleration: limits.acceleration.map(|limit| limit * wider),
             jerk: limits.jerk.map(|limit| limit * wider),
@@ -116,7 +116,7 @@ const STEPS: usize = 500;
 /// are `wider` by this factor. `None` if they leave none, or it takes much longer than the machine.
 fn hardest_braking(
     path: &ExecutedPath,
-    limits: &AxisLimits,
+    limits: &PathLimits,
     (start, squared): (f64, f64),
     stopped: f64,
     wider: f64,
@@ -179,14 +179,14 @@ impl Profile {
 #[cfg(test)]
 mod tests {
     use super::super::executed_path::PathSample;
-    use super::super::limits::{AXES, SpeedCap};
+    use super::super::limits::{AXES, COORDINATES, SpeedCap};
     use super::*;
 
     const PERIOD: f64 = 1e-3;
-    const LIMITS: AxisLimits = AxisLimits {
-        velocity: [100.0; AXES],
-        acceleration: [1000.0; AXES],
-        jerk: [20_000.0; AXES],
+    const LIMITS: PathLimits = PathLimits {
+        velocity: [100.0; COORDINATES],
+        acceleration: [1000.0; COORDINATES],
+        jerk: [20_000.0; COORDINATES],
     };
 
     /// Distances, mm, after each period of a stop from `speed`: jerk for the first number of periods,
@@ -257,10 +257,7 @@ mod tests {
             .map(|&d| {
                 let mut position = [0.0; AXES];
                 position[..2].copy_from_slice(&path(d));
-                PathSample {
-                    position,
-                    cap: SpeedCap::None,
-                }
+                PathSample::new(&position, None, SpeedCap::None)
             })
             .collect();
         let path = ExecutedPath::new(&samples, PERIOD, &LIMITS.velocity).expect("a path");
@@ -301,17 +298,14 @@ mod tests {
                 at += speed * PERIOD;
                 let mut position = [0.0; AXES];
                 position[..2].copy_from_slice(&path(at));
-                PathSample {
-                    position,
-                    cap: SpeedCap::None,
-                }
+                PathSample::new(&position, None, SpeedCap::None)
             })
             .collect();
         let path = ExecutedPath::new(&samples, PERIOD, &LIMITS.velocity).expect("a path");
         let rest = path.parameter_at((RUN_IN + periods) as f64 * PERIOD);
         let state = path.state(RUN_IN as f64 * PERIOD).expect("in motion");
-        let limits = AxisLimits {
-            jerk: [f64::INFINITY; AXES],
+        let limits = PathLimits {
+            jerk: [f64::INFINITY; COORDINATES],
             ..LIMITS
         };
         shortest_stop(&path, &limits, state, 0.0, rest - state.0).expect("a stop")

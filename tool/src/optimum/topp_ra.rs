@@ -5,13 +5,13 @@
 //! from which the end can be reached, then forward the greatest acceleration that stays below them.
 
 use super::grid::{Boundary, Grid};
-use super::limits::AxisLimits;
+use super::limits::PathLimits;
 
 /// Least time, s; `None` if the motion at the ends is not possible.
 ///
 /// The rows of the accelerations are held in the middle of each interval, with the acceleration of
 /// that interval: the error falls with the square of its length.
-pub(crate) fn topp_ra(grid: &Grid, limits: &AxisLimits) -> Option<f64> {
+pub(crate) fn topp_ra(grid: &Grid, limits: &PathLimits) -> Option<f64> {
     let squared = |boundary: Boundary| match boundary {
         Boundary::Rest => 0.0,
         Boundary::Moving { squared, .. } => squared,
@@ -59,7 +59,7 @@ pub(crate) fn topp_ra(grid: &Grid, limits: &AxisLimits) -> Option<f64> {
 /// An interval; b is the square of ds/dt, and its slope over 2 the acceleration.
 struct Step<'a> {
     grid: &'a Grid,
-    limits: &'a AxisLimits,
+    limits: &'a PathLimits,
     length: f64,
     nodes: (usize, usize),
 }

@@ -69,6 +69,42 @@ pub struct Shown {
     pub cause: Cause,
 }
 
+/// What was seen of a row of axes, or of joints.
+#[derive(Clone, Debug)]
+pub struct Seen {
+    /// Velocity, acceleration and jerk of each, shape (9, 3).
+    pub peaks: [[Peak; 3]; AXIS_COUNT],
+    /// Least and greatest coordinates, machine units.
+    pub low: Position,
+    /// See above.
+    pub high: Position,
+}
+
+impl Seen {
+    fn at(start: Position) -> Self {
+        Seen {
+            peaks: [[Peak::default(); 3]; AXIS_COUNT],
+            low: start,
+            high: start,
+        }
+    }
+
+    fn extend(&mut self, position: &Position) {
+        for (axis, coordinate) in position.iter().enumerate() {
+            self.low[axis] = self.low[axis].min(*coordinate);
+            self.high[axis] = self.high[axis].max(*coordinate);
+        }
+    }
+
+    fn note(&mut self, rates: &Rates, pace: &Pace) {
+        for (order, values) in rates.orders.iter().enumerate() {
+            for (peaks, value) in self.peaks.iter_mut().zip(values) {
+                peaks[order].note(*value, pace.time, pace.line);
+            }
+        }
+    }
+}
+
 /// What the collector has to know of a move that the planner has.
 #[derive(Clone, Copy, Debug)]
 struct Known {
@@ -97,14 +133,12 @@ pub struct Collected {
     pub by_cause: [f64; Cause::COUNT],
     /// Seconds lost against the feed, by cause.
     pub lost_by_cause: [f64; Cause::COUNT],
-    /// Velocity, acceleration and jerk of each axis, shape (9, 3).
-    pub peaks: [[Peak; 3]; AXIS_COUNT],
+    /// Of the axes.
+    pub axes: Seen,
+    /// Of joints that have limits of their own.
+    pub joints: Option<Seen>,
     /// Speed along the path.
     pub speed: Peak,
-    /// Least and greatest coordinates, machine units.
-    pub box_low: Position,
-    /// See above.
-    pub box_high: Position,
     /// Travel in X Y Z, machine units.
     pub length: f64,
     /// Distance from the program.
@@ -147,9 +181,11 @@ impl<'a> Collector<'a> {
         let scaled = |values: &Position| std::array::from_fn(|axis| values[axis] * scale[axis]);
         let start = scaled(&setup.surroundings.start);
         let limits = setup.bounds().each_ref().map(scaled);
-        let joints = setup.joints.planned().map(|joints| {
-            let start = Differences::new(joints.at(&start), setup.period);
-            (start, joints.limits())
+        let limited = setup.joints.limited();
+        let of_joints = limited.map(|joints| joints.at(&start));
+        let joints = limited.zip(of_joints).map(|(joints, start)| {
+            let start = Differences::new(start, setup.period);
+            (start, *joints.limits())
         });
         let fastest = (0..AXIS_COUNT)
             .filter(|axis| setup.axes[*axis])
@@ -178,10 +214,9 @@ impl<'a> Collector<'a> {
                 lost_by_phase: [0.0; Phase::COUNT],
                 by_cause: [0.0; Cause::COUNT],
                 lost_by_cause: [0.0; Cause::COUNT],
-                peaks: [[Peak::default(); 3]; AXIS_COUNT],
+                axes: Seen::at(start),
+                joints: of_joints.map(Seen::at),
                 speed: Peak::default(),
-                box_low: start,
-                box_high: start,
                 length: 0.0,
                 deviation: Deviation::default(),
                 places: Vec::new(),
@@ -222,9 +257,13 @@ impl<'a> Collector<'a> {
             std::array::from_fn(|axis| sample.position[axis] * self.scale[axis]);
         let before = *self.differences.position();
         let rates = self.differences.step(&position);
-        let joints = match (&mut self.joints, self.setup.joints.planned()) {
+        let joints = match (&mut self.joints, self.setup.joints.limited()) {
             (Some((differences, limits)), Some(joints)) => {
-                Some((differences.step(&joints.at(&position)), *limits))
+                let there = joints.at(&position);
+                if let Some(seen) = &mut self.out.joints {
+                    seen.extend(&there);
+                }
+                Some((differences.step(&there), *limits))
             }
             _ => None,
         };
@@ -259,6 +298,9 @@ impl<'a> Collector<'a> {
             cause,
         };
         self.count(&pace, &rates, moves);
+        if let (Some(seen), Some((rates, _))) = (&mut self.out.joints, &joints) {
+            seen.note(rates, &pace);
+        }
         let feed = self.running.and_then(|known| known.cutting_feed);
         self.evenness.note(&pace, feed.filter(|_| moves));
         self.draw(&pace, &rates);
@@ -273,15 +315,9 @@ impl<'a> Collector<'a> {
     }
 
     fn extend_box(&mut self, before: &Position, position: &Position) {
-        let mut square = 0.0;
-        for axis in 0..AXIS_COUNT {
-            self.out.box_low[axis] = self.out.box_low[axis].min(position[axis]);
-            self.out.box_high[axis] = self.out.box_high[axis].max(position[axis]);
-            if axis < 3 {
-                square += (position[axis] - before[axis]).powi(2);
-            }
-        }
-        self.out.length += square.sqrt();
+        self.out.axes.extend(position);
+        let steps = (0..3).map(|axis| position[axis] - before[axis]);
+        self.out.length += steps.map(|step| step * step).sum::<f64>().sqrt();
     }
 
     /// Counts a cycle, standing only between motions.
@@ -313,12 +349,7 @@ impl<'a> Collector<'a> {
             self.standing_cycles = 0;
             self.enter(pace);
         }
-        for axis in 0..AXIS_COUNT {
-            for order in 0..3 {
-                let value = rates.orders[order][axis];
-                self.out.peaks[axis][order].note(value, pace.time, pace.line);
-            }
-        }
+        self.out.axes.note(rates, pace);
         self.out.speed.note(pace.speed, pace.time, pace.line);
     }
 

@@ -3,6 +3,7 @@
 
 use super::arrivals::Arrivals;
 use super::error::{PlanError, refusal, spindle_error};
+use super::joints;
 use super::setup::Setup;
 use super::source::Source;
 use super::spindle::Spindle;
@@ -136,8 +137,8 @@ impl<'a> Drive<'a> {
             acceleration: scaled(&setup.limits.acceleration),
             jerk: scaled(&setup.jerk),
         });
-        if let Some(joints) = setup.joints.planned()
-            && !planner.set_joints(Some(joints.map()))
+        if let Some(joints) = setup.joints.limited()
+            && !planner.set_joints(Some(joints::map(joints)))
         {
             return Err(refused("the limits of joints"));
         }

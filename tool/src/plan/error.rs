@@ -2,6 +2,7 @@
 
 use crate::canon::CanonError;
 use crate::canon::tool_table::ToolTableError;
+use crate::joints::JointsError;
 use crate::machine::IniError;
 use framepath::axes::AXIS_LETTERS;
 use framepath::moves::shape::ShapeError;
@@ -21,6 +22,9 @@ pub enum PlanError {
     /// The tool table cannot be used.
     #[error(transparent)]
     ToolTable(#[from] ToolTableError),
+    /// Limits of joints cannot be used.
+    #[error(transparent)]
+    Joints(#[from] JointsError),
     /// An option cannot be used.
     #[error("{0}")]
     Option(String),

@@ -1,10 +1,11 @@
 //! All figures of a plan, as they are shown and written as JSON. Lengths are machine units.
 
 use super::cause::{Cause, Phase};
-use super::collector::{Collected, Peak};
+use super::collector::{Collected, Peak, Seen};
 use super::deviation::Farthest;
 use super::evenness::{CuttingTime, Found, Stretch};
 use super::findings;
+use super::joints;
 use super::places::Place;
 use super::setup::Setup;
 use crate::path::rates::Quantity;
@@ -44,16 +45,16 @@ pub struct PeakFigure {
     pub line: i32,
 }
 
-/// An axis.
+/// An axis, or a joint.
 #[derive(Clone, Debug, Serialize)]
 pub struct AxisFigures {
-    /// Its letter.
+    /// Its letter, or that of the axis that the joint moves.
     pub letter: char,
-    /// `axis.x`.
+    /// `axis.x`, `joint.0`.
     pub name: String,
     /// `mm`, `in` or `deg`.
     pub unit: &'static str,
-    /// Number of the axis.
+    /// Its number.
     #[serde(skip)]
     pub index: usize,
     /// Where it goes.
@@ -246,6 +247,8 @@ pub struct Figures {
     pub deviation: DeviationFigures,
     /// Axes that move.
     pub axes: Vec<AxisFigures>,
+    /// Joints that move, where they have limits of their own.
+    pub joints: Vec<AxisFigures>,
     /// A sentence for each limit and tolerance that the plan does not keep.
     pub findings: Vec<String>,
 }
@@ -279,15 +282,16 @@ impl Figures {
             })
             .collect();
         limited_by.sort_by(|a, b| b.time.total_cmp(&a.time));
-        let (axes, deviation) = (axes(setup, collected), deviation_figures(setup, collected));
+        let (axes, joints) = (axes(setup, collected), joints(setup, collected));
+        let deviation = deviation_figures(setup, collected);
         let beyond = collected.deviation.beyond.as_ref();
         let beyond = beyond.map(|farthest| distance_figure(setup, farthest));
         Figures {
-            findings: findings::conclude(&axes, beyond, setup.unit),
+            findings: findings::conclude(axes.iter().chain(&joints), beyond, setup.unit),
             program: program.to_owned(),
             machine: setup.machine.clone(),
             limits_from: setup.origin.clone(),
-            limits_of_joints: setup.joints.told(),
+            limits_of_joints: joints::told(&setup.joints),
             length_unit: setup.unit,
             servo_period: setup.period,
             time,
@@ -309,6 +313,7 @@ impl Figures {
             evenness: evenness_figures(&collected.evenness),
             deviation,
             axes,
+            joints,
         }
     }
 }
@@ -389,32 +394,65 @@ const NO_TRAVEL: f64 = 1e-9;
 
 fn axes(setup: &Setup, collected: &Collected) -> Vec<AxisFigures> {
     let limits = setup.bounds();
-    let of_axis = |axis: usize| {
-        let peak = |(order, quantity): (usize, Quantity)| {
-            let Peak { value, time, line } = collected.peaks[axis][order];
-            let limit = limits[order][axis] * setup.scale(axis);
-            let limit = limit.is_finite().then_some(limit);
-            PeakFigure {
-                quantity,
-                peak: value,
-                limit,
-                share: limit.map(|limit| value / limit),
-                time,
-                line,
-            }
-        };
-        AxisFigures {
-            letter: AXIS_LETTERS[axis],
-            name: format!("axis.{}", AXIS_LETTERS[axis].to_ascii_lowercase()),
-            unit: setup.unit_of(axis),
-            index: axis,
-            from: collected.box_low[axis],
-            to: collected.box_high[axis],
-            peaks: Quantity::ALL.into_iter().enumerate().map(peak).collect(),
-        }
+    let seen = &collected.axes;
+    let of_axis = |axis: usize| AxisFigures {
+        letter: AXIS_LETTERS[axis],
+        name: format!("axis.{}", AXIS_LETTERS[axis].to_ascii_lowercase()),
+        unit: setup.unit_of(axis),
+        index: axis,
+        from: seen.low[axis],
+        to: seen.high[axis],
+        peaks: peaks(
+            &seen.peaks[axis],
+            limits.map(|limits| limits[axis] * setup.scale(axis)),
+        ),
     };
     (0..AXIS_COUNT)
-        .filter(|axis| collected.box_high[*axis] - collected.box_low[*axis] > NO_TRAVEL)
+        .filter(|axis| travels(seen, *axis))
         .map(of_axis)
         .collect()
+}
+
+/// Joints that have limits of their own, and move.
+fn joints(setup: &Setup, collected: &Collected) -> Vec<AxisFigures> {
+    let (Some(joints), Some(seen)) = (setup.joints.limited(), &collected.joints) else {
+        return Vec::new();
+    };
+    let of_joint = |joint: usize| {
+        let axis = joints.axis(joint).filter(|_| travels(seen, joint))?;
+        Some(AxisFigures {
+            letter: AXIS_LETTERS[axis],
+            name: format!("joint.{joint}"),
+            unit: setup.unit_of(axis),
+            index: joint,
+            from: seen.low[joint],
+            to: seen.high[joint],
+            peaks: peaks(
+                &seen.peaks[joint],
+                joints.limits().map(|limits| limits[joint]),
+            ),
+        })
+    };
+    (0..AXIS_COUNT).filter_map(of_joint).collect()
+}
+
+fn travels(seen: &Seen, axis: usize) -> bool {
+    seen.high[axis] - seen.low[axis] > NO_TRAVEL
+}
+
+/// Velocity, acceleration and jerk against their limits, infinite where there is none.
+fn peaks(found: &[Peak; 3], limits: [f64; 3]) -> Vec<PeakFigure> {
+    let of_quantity = |((quantity, peak), limit): ((Quantity, &Peak), f64)| {
+        let limit = limit.is_finite().then_some(limit);
+        PeakFigure {
+            quantity,
+            peak: peak.value,
+            limit,
+            share: limit.map(|limit| peak.value / limit),
+            time: peak.time,
+            line: peak.line,
+        }
+    };
+    let found = Quantity::ALL.into_iter().zip(found);
+    found.zip(limits).map(of_quantity).collect()
 }

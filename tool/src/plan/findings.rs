@@ -4,10 +4,15 @@ use super::figures::{AxisFigures, DistanceFigure, PeakFigure};
 use crate::format::{Over, length};
 use crate::path::exceeded::exceeds;
 
-/// A sentence for each. `beyond` is the place farthest beyond its tolerance, `unit` that of lengths.
-pub fn conclude(axes: &[AxisFigures], beyond: Option<DistanceFigure>, unit: &str) -> Vec<String> {
+/// A sentence for each. `movers` are axes and joints, `beyond` is the place farthest beyond its tolerance, `unit` that of
+/// lengths.
+pub fn conclude<'a>(
+    movers: impl IntoIterator<Item = &'a AxisFigures>,
+    beyond: Option<DistanceFigure>,
+    unit: &str,
+) -> Vec<String> {
     let mut findings = Vec::new();
-    for axis in axes {
+    for axis in movers {
         let peaks = axis.peaks.iter();
         let exceeded = |peak: &&PeakFigure| {
             peak.share
@@ -64,6 +69,14 @@ mod tests {
     #[test]
     fn what_exceeds_what_is_promised_is_told() {
         assert!(conclude(&[axis(20_900.0)], None, "mm").is_empty());
+        let joint = AxisFigures {
+            name: "joint.0".to_owned(),
+            ..axis(30_000.0)
+        };
+        assert_eq!(
+            conclude([axis(0.0)].iter().chain(&[joint]), None, "mm"),
+            ["joint.0: jerk is 1.5 times its limit (30000 of 20000 mm/s3) at 0.500 s, line 7"]
+        );
         let beyond = DistanceFigure {
             distance: 0.15,
             tolerance: Some(0.1),

@@ -1,7 +1,7 @@
 //! `framepath plan`: what the planner of blendtp will do with a program, before anything is cut.
 //!
-//! The files in the order of the work: [`setup`] is the machine, with its [`joints`] where these have limits, [`source`] the program as the task
-//! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with a
+//! The files in the order of the work: [`setup`] is the machine, [`source`] the program as the task
+//! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with its [`joints`] where these have limits, a
 //! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
 //! cycle: [`cause`] says what limits the machine, [`places`] where time is lost, [`evenness`] how much of cutting is near the feed,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
@@ -70,6 +70,10 @@ pub struct PlanArguments {
     /// [default: a machine in mm with 100 mm/s, 1000 mm/s2 and 20000 mm/s3 on each axis, 1 ms]
     #[arg(long, value_name = "MACHINE.ini")]
     pub ini: Option<PathBuf>,
+    /// As programs run behind G43.4 or M64 P0: X Y Z are the tool centre point on the table of framekins that the INI file
+    /// names, whose joints have limits
+    #[arg(long, requires = "ini")]
+    pub tool_centre_point: bool,
     /// Limits of the axes in place of those of the machine, mm (degrees) and seconds: V=100,A=1000
     /// for all, XY:V=50 for some, several separated by `;`
     #[arg(long, value_name = "LIMITS")]

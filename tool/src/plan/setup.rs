@@ -2,13 +2,13 @@
 
 use super::PlanArguments;
 use super::error::PlanError;
-use super::joints::{Joints, tool_tilt_axis};
 use super::spindle::SpeedLimits;
 use crate::canon::Surroundings;
 use crate::canon::tool_table::{Tool, read_tool_table};
+use crate::joints::{Joints, tool_tilt_axis};
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
 use crate::machine::ini::Ini;
-use crate::machine::limits::{Jerk, Limits, is_rotary};
+use crate::machine::limits::{Jerk, Limits, infinite_for_none, is_rotary};
 use crate::wiring::joints::JointSettings;
 use framepath::axes::AXIS_COUNT;
 use std::path::{Path, PathBuf};
@@ -55,16 +55,20 @@ impl Setup {
     /// An INI file that is missing or lacks limits, options that make no sense.
     pub fn new(arguments: &PlanArguments) -> Result<Setup, PlanError> {
         let mut setup = match &arguments.ini {
-            Some(file) => from_ini(file)?,
+            Some(file) => from_ini(file, arguments.tool_centre_point)?,
             None => without_ini(),
         };
         let mut changed = Vec::new();
+        if arguments.tool_centre_point {
+            changed.push("--tool-centre-point".to_owned());
+        }
         if let Some(limits) = &arguments.limits {
             setup.limits.apply(limits);
             changed.push(format!("--limits {limits}"));
         }
         if let Some(jerk) = arguments.jerk {
             setup.jerk = jerk.of_axes(&setup.limits).map(infinite_for_none);
+            setup.joints = setup.joints.with_jerk(jerk, 1.0 / setup.millimetres);
             changed.push(format!("--jerk {jerk}"));
         } else if setup.ini.is_none() {
             let jerk = Jerk::Accelerations(DEFAULT_JERK).of_axes(&setup.limits);
@@ -98,7 +102,7 @@ impl Setup {
     /// What holds for the axes: velocity, acceleration, jerk, shape (3, 9), mm (degrees) and seconds. Where joints have limits of
     /// their own, axes keep their velocities alone.
     pub(super) fn bounds(&self) -> [[f64; AXIS_COUNT]; 3] {
-        match self.joints.planned() {
+        match self.joints.limited() {
             None => [self.limits.velocity, self.limits.acceleration, self.jerk],
             Some(_) => [
                 self.limits.velocity,
@@ -126,11 +130,6 @@ impl Setup {
 /// Jerk limits where nothing says otherwise, accelerations per second.
 pub const DEFAULT_JERK: f64 = 20.0;
 
-/// A jerk limit of 0 is none.
-fn infinite_for_none(jerk: f64) -> f64 {
-    if jerk > 0.0 { jerk } else { f64::INFINITY }
-}
-
 fn without_ini() -> Setup {
     Setup {
         origin:
@@ -157,7 +156,7 @@ fn without_ini() -> Setup {
 /// Of the planner, in machine units.
 const DEFAULT_TOLERANCE: f64 = framepath::planner::Blending::DEFAULT_TOLERANCE;
 
-fn from_ini(file: &Path) -> Result<Setup, PlanError> {
+fn from_ini(file: &Path, tool_centre_point: bool) -> Result<Setup, PlanError> {
     let ini = Ini::read(file)?;
     let machine = Machine::from_ini(&ini)?;
     let millimetres = machine.millimetres();
@@ -183,8 +182,9 @@ fn from_ini(file: &Path) -> Result<Setup, PlanError> {
     if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
         setup.velocity_limit = velocity * millimetres;
     }
-    let joints = JointSettings::read(&ini);
-    setup.joints = Joints::from_settings(&joints, &ini, setup.period)?;
+    let mut joints = JointSettings::read(&ini);
+    joints.turned_on = tool_centre_point;
+    setup.joints = Joints::from_settings(&joints, &ini, setup.period, 1.0)?;
     setup.tool_tilt_axis = tool_tilt_axis(&joints);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
     setup.surroundings = surroundings(&ini, file, &machine, millimetres)?;

@@ -179,7 +179,7 @@ fn axes_cross(svg: &mut String, figures: &Figures, collected: &Collected) -> fmt
         )?;
     }
     let extents = [0, 1, 2].map(|k| {
-        let size = collected.box_high[k] - collected.box_low[k];
+        let size = collected.axes.high[k] - collected.axes.low[k];
         significant(size, 5)
     });
     writeln!(

@@ -1,6 +1,6 @@
 //! The plan as text for a terminal: plain ASCII, aligned.
 
-use super::figures::{DistanceFigure, Figures, SurfaceFigures};
+use super::figures::{AxisFigures, DistanceFigure, Figures, SurfaceFigures};
 use crate::format::{
     duration, fixed, greatest_speed, grouped, in_column, length, significant, unit,
 };
@@ -29,7 +29,12 @@ pub fn render(figures: &Figures) -> Result<String, fmt::Error> {
     times(out, figures)?;
     places(out, figures)?;
     evenness(out, figures)?;
-    axes(out, figures)?;
+    peaks(out, "axes", &figures.axes, |axis| axis.letter.to_string())?;
+    if !figures.joints.is_empty() {
+        peaks(out, "joints", &figures.joints, |joint| {
+            joint.index.to_string()
+        })?;
+    }
     for (index, finding) in figures.findings.iter().enumerate() {
         let label = if index == 0 { "\nNot kept\n" } else { "" };
         writeln!(out, "{label}  {finding}")?;
@@ -238,25 +243,31 @@ fn evenness(out: &mut String, figures: &Figures) -> fmt::Result {
     Ok(())
 }
 
-fn axes(out: &mut String, figures: &Figures) -> fmt::Result {
-    writeln!(out, "\nPeaks of the axes")?;
+/// What a row of axes or joints does, each by its `label`.
+fn peaks(
+    out: &mut String,
+    movers: &str,
+    figures: &[AxisFigures],
+    label: fn(&AxisFigures) -> String,
+) -> fmt::Result {
+    writeln!(out, "\nPeaks of the {movers}")?;
     writeln!(
         out,
         "  {:4}{:14}{:>12}{:>12}  {:8}{:>8}{:>11}{:>9}",
         "", "quantity", "peak", "limit", "unit", "share", "at s", "line"
     )?;
-    for axis in &figures.axes {
+    for axis in figures {
         for peak in &axis.peaks {
             let limit = peak.limit.map(|limit| significant(limit, 7));
             let share = peak.share.map(|share| format!("{:.1} %", 100.0 * share));
-            let letter = if peak.quantity == Quantity::Velocity {
-                axis.letter.to_string()
+            let label = if peak.quantity == Quantity::Velocity {
+                label(axis)
             } else {
                 String::new()
             };
             writeln!(
                 out,
-                "  {letter:4}{:14}{:>12}{:>12}  {:8}{:>8}{:>11.3}{:>9}",
+                "  {label:4}{:14}{:>12}{:>12}  {:8}{:>8}{:>11.3}{:>9}",
                 peak.quantity.name(),
                 in_column(peak.peak, 6),
                 limit.as_deref().unwrap_or("-"),

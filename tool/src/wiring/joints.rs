@@ -15,6 +15,8 @@ pub struct JointSettings {
     pub machine: String,
     /// `coordinates=`.
     pub coordinates: String,
+    /// Whether X Y Z are the tool centre point although no pin says so: programs turn it on.
+    pub turned_on: bool,
     state: State,
 }
 
@@ -39,6 +41,7 @@ impl JointSettings {
             kinematics: kinematics.to_owned(),
             machine: given("machine").to_owned(),
             coordinates: given("coordinates").to_owned(),
+            turned_on: false,
             state,
         }
     }
@@ -55,6 +58,11 @@ impl JointSettings {
             "framekins" => ["", "identity"].contains(&self.machine.as_str()),
             _ => false,
         }
+    }
+
+    /// Whether X Y Z are the tool centre point.
+    pub fn tool_centre_point(&self) -> bool {
+        self.turned_on || self.framekins("tool-centre-point") != 0.0
     }
 
     /// What a pin of framekins is set to, 0 where nothing sets it.

@@ -131,6 +131,30 @@ fn what_is_wrong_is_said_with_what_to_write() {
     }
 }
 
+/// Where nobody tells which axis tilts the tool, the tolerance is one of each axis.
+#[test]
+fn a_tolerance_of_rotary_axes_is_none_of_the_tool_axis() {
+    let said = |inner: &str, tolerance: &str| {
+        let lines = format!("inner={inner}\nsetp blendtp.rotary-tolerance {tolerance}");
+        let all = found("inner=trivkins", &lines);
+        let of_axis =
+            |(_, text): &&(String, String)| text.contains("for each rotary axis by itself");
+        all.iter().find(of_axis).cloned()
+    };
+    for (inner, remedy) in [
+        ("5axiskins", "write half of what the tool axis may lean"),
+        ("xyzbc-trt-kins", "the table of framekins (machine=xyzbc)"),
+    ] {
+        let (level, text) = said(inner, "0.05").expect("a finding");
+        assert_eq!(level, "note");
+        for part in [remedy, inner, "is 0.05 degrees", "framepath-sim.hal"] {
+            assert!(text.contains(part), "{part}: {text}");
+        }
+    }
+    assert_eq!(said("5axiskins", "0"), None);
+    assert_eq!(said("trivkins", "0.05"), None);
+}
+
 #[test]
 fn motion_before_the_kinematics_is_found() {
     let motion = "loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS num_aio=16";

@@ -2,6 +2,7 @@
 
 use crate::fields::assert_documented;
 use crate::support::{Bench, STOCK, json};
+use crate::table::table;
 
 /// Short and with rests: G61.1 and G64 with P.
 const PROGRAM: &str = "G21 G61.1 F3000\nG1 X4\nG64 P0.1\nY4\nX8\nM2\n";
@@ -39,5 +40,8 @@ fn fields_are_documented() {
         "--abort",
         "0.4",
     ]);
-    assert_documented("compare", &[modules, optimum, operator]);
+    table(&bench, "mm", 1.0);
+    let ini = bench.path().join("table.ini");
+    let joints = all(&["--ini", ini.to_str().expect("text")]);
+    assert_documented("compare", &[modules, optimum, operator, joints]);
 }

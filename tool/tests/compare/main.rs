@@ -7,6 +7,7 @@ mod canon;
 mod errors;
 #[path = "../common/fields.rs"]
 mod fields;
+mod joints;
 mod json;
 mod measuring;
 mod operator;
@@ -14,3 +15,5 @@ mod optimum;
 mod programs;
 mod stock;
 mod support;
+#[path = "../common/table.rs"]
+mod table;

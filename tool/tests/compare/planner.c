@@ -3,6 +3,8 @@
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#define _GNU_SOURCE
+#include <dlfcn.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +15,7 @@
 #include "hal.h"
 #include "motion.h"
 #include "tp.h"
+#include "kinematics.h"
 
 struct leg { EmcPose end; double velocity; int id, type; };
 #define LEGS 100
@@ -23,7 +26,8 @@ static long cycles, stood;
 static EmcPose here, from;
 static double gone;
 static emcmot_status_t *status;
-static struct { hal_float_t *jerk; } *pins;
+static emcmot_config_t *config;
+static struct { hal_float_t *jerk, *joint[3]; } *pins;
 static void *volatile memory;
 static volatile int *volatile nowhere;
 
@@ -35,6 +39,12 @@ int rtapi_app_main(void)
     pins = hal_malloc(sizeof *pins);
 #ifdef FAULT_TAKES_JERK
     if (hal_pin_float_newf(HAL_IN, &pins->jerk, id, "made-up.axis.%c.max-jerk", 'x'))
+        return -1;
+#endif
+#ifdef FAULT_ASKS
+    if (hal_pin_float_newf(HAL_IN, &pins->joint[0], id, "made-up.joint.0.max-velocity")
+        || hal_pin_float_newf(HAL_IN, &pins->joint[1], id, "made-up.joint.0.max-acceleration")
+        || hal_pin_float_newf(HAL_IN, &pins->joint[2], id, "made-up.joint.0.max-jerk"))
         return -1;
 #endif
 #ifdef FAULT_NO_START
@@ -51,7 +61,7 @@ void tpMotFunctions(void (*a)(int, char), void (*b)(int, double), void (*c)(int,
     (void)a; (void)b; (void)c; (void)d; (void)e; (void)f;
 }
 
-void tpMotData(emcmot_status_t *s, emcmot_config_t *c) { status = s; (void)c; }
+void tpMotData(emcmot_status_t *s, emcmot_config_t *c) { status = s; config = c; }
 int tpCreate(TP_STRUCT * const tp, int size, int id) { (void)tp; (void)size; (void)id; return 0; }
 int tpClear(TP_STRUCT * const tp) { (void)tp; count = 0; return 0; }
 int tpSetCycleTime(TP_STRUCT *tp, double seconds) { (void)tp; cycle_time = seconds; return 0; }
@@ -73,6 +83,27 @@ int tpQueueDepth(TP_STRUCT * const tp) { (void)tp; return count; }
 int tpActiveDepth(TP_STRUCT * const tp) { (void)tp; return count > 0; }
 int tcqFull(TC_QUEUE_STRUCT const * const queue) { (void)queue; return count >= LEGS - 1; }
 
+#ifdef FAULT_ASKS
+/* Refuses the move with what blendtp would find: the first joints there, how they move along Y, the way back, limits. */
+static int say_joints(const EmcPose *end)
+{
+    KINEMATICS_FORWARD_FLAGS forward = 0;
+    KINEMATICS_INVERSE_FLAGS inverse = 0;
+    double joints[EMCMOT_MAX_JOINTS] = {0}, along[27] = {0, 1}, moved[27] = {0};
+    double at[9] = {end->tran.x, end->tran.y, end->tran.z, end->a, end->b, end->c};
+    EmcPose back;
+    int (*jet)(const double *, const double *, double *) = dlsym(RTLD_DEFAULT, "framekinsJet");
+    int (*axis)(int) = dlsym(RTLD_DEFAULT, "framekinsAxisOfJoint");
+    kinematicsInverse(end, joints, &inverse, &forward);
+    kinematicsForward(joints, &back, &forward, &inverse);
+    jet(at, along, moved);
+    rtapi_print_msg(RTAPI_MSG_ERR, "at %.3f %.3f, along %.3f %.3f, back %.3f, axis %d, type %d, joints %d, limits %g %g %g\n",
+                    joints[0], joints[1], moved[0], moved[1], back.tran.x, axis(4), config->kinType, config->numJoints,
+                    *pins->joint[0], *pins->joint[1], *pins->joint[2]);
+    return -9;
+}
+#endif
+
 int tpAddLine(TP_STRUCT * const tp, EmcPose end, int type, double velocity, double most, double acceleration,
               unsigned char enables, char at_speed, int indexer, struct state_tag_t tag)
 {
@@ -82,6 +113,9 @@ int tpAddLine(TP_STRUCT * const tp, EmcPose end, int type, double velocity, doub
         rtapi_print_msg(RTAPI_MSG_ERR, "made-up: no third move\n");
         return -7;
     }
+#endif
+#ifdef FAULT_ASKS
+    return say_joints(&end);
 #endif
 #ifdef FAULT_SKIPS
     if (next_id == 2)

@@ -3,6 +3,7 @@
 use crate::bench::json;
 use crate::fields::assert_documented;
 use crate::support::{Bench, MILL};
+use crate::table::table;
 
 const PROGRAM: &str = "G21 G64 P0.05 F3000\nG1 X20\nX20 Y10 Z3\nG2 X0 Y10 I-10\nM2\n";
 
@@ -198,7 +199,9 @@ fn fields_of_the_json_are_documented() {
     let unlimited = bench.plan(&["exact.ngc", "--jerk", "unlimited", "--json"]);
     bench.write("turned.ngc", "G21 G18 F600\nG96 D900 S100 M3\nG1 X5\nM2\n");
     let turned = bench.plan(&["turned.ngc", "--json"]);
-    let all = [plans, unlimited, turned].map(|plan| json(&plan));
+    table(&bench, "mm", 1.0);
+    let joints = bench.plan(&["exact.ngc", "--ini", "table.ini", "--json"]);
+    let all = [plans, unlimited, turned, joints].map(|plan| json(&plan));
     assert_documented("plan", &all);
 }
 

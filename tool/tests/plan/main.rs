@@ -10,6 +10,7 @@ mod errors;
 mod fields;
 mod figures;
 mod files;
+mod joints;
 mod long_programs;
 mod page;
 #[path = "../common/pages.rs"]
@@ -17,4 +18,6 @@ mod pages;
 mod support;
 #[path = "../common/surface.rs"]
 mod surface;
+#[path = "../common/table.rs"]
+mod table;
 mod text;

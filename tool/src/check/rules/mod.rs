@@ -20,6 +20,7 @@ mod sections;
 mod subroutines;
 mod table;
 mod threads;
+mod tool_axis;
 
 use super::finding::Findings;
 use crate::wiring::installed::LinuxCnc;
@@ -43,6 +44,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
     if subject.has_planner() {
         planner::look(subject, &mut findings);
         joint_limits::look(subject, &mut findings);
+        tool_axis::look(subject, &mut findings);
     }
     if subject.has_planner() || subject.has_frames() {
         threads::look(subject, &mut findings);
