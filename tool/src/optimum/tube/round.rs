@@ -1,0 +1,279 @@
+//! One round: the shortest motion with each knot near its own leg, a convex program.
+//!
+//! With h the duration of a step the positions are linear in the coefficients, velocities over 1/h, accelerations over
+//! 1/h^2, jerks over 1/h^3. A speed F asks for |p'| <= F h, which is a cone. h^2 and h^3 are convex, so that their
+//! tangents at the h of the last round lie below them: what keeps |p''| <= A (tangent) keeps the limit itself. A knot
+//! has to be within the radius of a place on its leg that is free between the ends of the leg. Where the motion before
+//! fulfils all of it this one does, and is no slower; clarabel finds it.
+
+use super::check::Pass;
+use super::course::{Course, Place};
+use super::motion::{
+    ACCELERATION_WEIGHTS, AT_REST, JERK_WEIGHTS, Motion, position_weights, velocity_weights,
+};
+use crate::optimum::limits::AxisLimits;
+use crate::path::pieces::Point;
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus,
+    SupportedConeT,
+};
+
+/// Unknowns of a knot: three coordinates and the place on its leg.
+const OF_A_KNOT: usize = 4;
+
+/// The duration falls in a round to no less than this share.
+const GREATEST_FALL: f64 = 0.75;
+
+/// What it costs to leave the tube by a radius, in durations.
+const OUTSIDE: f64 = 5.0;
+
+/// A place goes no further along its leg in a round, in smallest radii.
+const GREATEST_SHIFT: f64 = 60.0;
+
+/// What a round starts from.
+pub(super) struct Round<'a> {
+    pub course: &'a Course,
+    pub limits: &'a AxisLimits,
+    pub motion: &'a Motion,
+    /// Of the knots.
+    pub places: &'a [Place],
+    /// By how much each knot has to stay further inside, mm.
+    pub margins: &'a [f64],
+    /// Vertices that have to be passed by, and when.
+    pub passes: &'a [(usize, Pass)],
+}
+
+/// Rows of `right - left x`, each at least zero or together in a cone.
+#[derive(Default)]
+struct Rows {
+    lines: Vec<usize>,
+    columns: Vec<usize>,
+    values: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Rows {
+    fn push(&mut self, constant: f64, terms: impl IntoIterator<Item = (usize, f64)>) {
+        let line = self.right.len();
+        for (column, value) in terms {
+            self.lines.push(line);
+            self.columns.push(column);
+            self.values.push(-value);
+        }
+        self.right.push(constant);
+    }
+}
+
+impl Round<'_> {
+    fn free_knots(&self) -> std::ops::Range<usize> {
+        2..self.motion.steps() - 1
+    }
+
+    /// Column of the duration over the one before.
+    fn duration(&self) -> usize {
+        self.free_knots().len() * OF_A_KNOT
+    }
+
+    /// Column of how far the motion leaves the tube at most, in smallest radii.
+    fn outside(&self) -> usize {
+        self.duration() + 1
+    }
+
+    /// A sum of four coefficients in an axis: what it is, and how it changes with the unknowns, all times `scale`.
+    fn sum(
+        &self,
+        step: usize,
+        weights: &[f64; 4],
+        axis: usize,
+        scale: f64,
+    ) -> (f64, Vec<(usize, f64)>) {
+        let before = self.motion.weighted(step, weights)[axis] * scale;
+        let unit = self.course.least_radius() * scale;
+        let free = AT_REST..self.motion.steps();
+        let terms = (step..step + 4)
+            .zip(weights)
+            .filter(|(index, weight)| free.contains(index) && **weight != 0.0)
+            .map(|(index, weight)| ((index - AT_REST) * OF_A_KNOT + axis, weight * unit));
+        (before, terms.collect())
+    }
+
+    /// Both signs of a sum stay within (rate * duration over the one before - less) of what is allowed.
+    fn within(
+        &self,
+        rows: &mut Rows,
+        (step, weights): (usize, &[f64; 4]),
+        (axis, most): (usize, f64),
+        (rate, less): (f64, f64),
+    ) {
+        if !most.is_finite() {
+            return;
+        }
+        let (value, terms) = self.sum(step, weights, axis, 1.0 / most);
+        for sign in [1.0, -1.0] {
+            let terms = terms
+                .iter()
+                .map(|&(column, factor)| (column, -sign * factor));
+            rows.push(-less - sign * value, terms.chain([(self.duration(), rate)]));
+        }
+    }
+
+    fn limits_of_axes(&self, rows: &mut Rows) {
+        let h = self.motion.step;
+        for step in 0..self.motion.steps() {
+            let starts = (step, &velocity_weights(0.0));
+            let fastest = self.speed(step);
+            for axis in 0..3 {
+                let most = self.limits.velocity[axis];
+                if step > 0 && most < fastest {
+                    self.within(rows, starts, (axis, most * h), (1.0, 0.0));
+                }
+                let most = self.limits.acceleration[axis] * h * h;
+                self.within(rows, (step, &ACCELERATION_WEIGHTS), (axis, most), (2.0, 1.0));
+                let most = self.limits.jerk[axis] * h * h * h;
+                self.within(rows, (step, &JERK_WEIGHTS), (axis, most), (3.0, 2.0));
+            }
+        }
+    }
+
+    /// The program's at the start of a step, mm/s.
+    fn speed(&self, step: usize) -> f64 {
+        self.course.legs[self.places[step].leg].speed
+    }
+
+    /// Each place stays on its leg, and none comes before the one of the knot before.
+    fn order(&self, rows: &mut Rows) {
+        let unit = self.course.least_radius();
+        let mut last: Option<(usize, Place)> = None;
+        for knot in self.free_knots() {
+            let (place, column) = (self.places[knot], self.shift(knot));
+            let most = GREATEST_SHIFT;
+            let left = self.course.length(place.leg) - place.along;
+            rows.push((place.along / unit).clamp(0.0, most), [(column, 1.0)]);
+            rows.push((left / unit).clamp(0.0, most), [(column, -1.0)]);
+            if let Some((other, before)) = last
+                && before.leg == place.leg
+            {
+                let gap = (place.along - before.along) / unit;
+                rows.push(gap, [(column, 1.0), (other, -1.0)]);
+            }
+            last = Some((column, place));
+        }
+    }
+
+    /// Column of how far the place of a knot goes along its leg, in smallest radii.
+    fn shift(&self, knot: usize) -> usize {
+        (knot - self.free_knots().start) * OF_A_KNOT + 3
+    }
+
+    fn speeds(&self, rows: &mut Rows) -> usize {
+        let mut count = 0;
+        for step in 1..self.motion.steps() {
+            let speed = self.speed(step);
+            if !speed.is_finite() {
+                continue;
+            }
+            count += 1;
+            rows.push(0.0, [(self.duration(), 1.0)]);
+            for axis in 0..3 {
+                let scale = 1.0 / (speed * self.motion.step);
+                let (value, terms) = self.sum(step, &velocity_weights(0.0), axis, scale);
+                rows.push(value, terms);
+            }
+        }
+        count
+    }
+
+    /// A position within a distance of a point, which may go along a direction by the unknown in a column.
+    fn near(
+        &self,
+        rows: &mut Rows,
+        (step, share): (usize, f64),
+        (point, radius): (Point, f64),
+        along: Option<(usize, Point)>,
+    ) {
+        let unit = self.course.least_radius();
+        rows.push(radius / unit, [(self.outside(), 1.0)]);
+        for axis in 0..3 {
+            let (value, mut terms) = self.sum(step, &position_weights(share), axis, 1.0 / unit);
+            if let Some((column, direction)) = along {
+                terms.push((column, -direction[axis]));
+            }
+            rows.push(value - point[axis] / unit, terms);
+        }
+    }
+
+    fn tube(&self, rows: &mut Rows) -> usize {
+        for knot in self.free_knots() {
+            let place = self.places[knot];
+            let radius = self.course.legs[place.leg].radius - self.margins[knot];
+            let along = (self.shift(knot), self.course.direction(place.leg));
+            self.near(
+                rows,
+                (knot, 0.0),
+                (self.course.point(place), radius),
+                Some(along),
+            );
+        }
+        for (vertex, pass) in self.passes {
+            let point = self.course.legs[*vertex].start;
+            let radius = self.course.radius_at(*vertex);
+            self.near(rows, (pass.step, pass.share), (point, radius), None);
+        }
+        self.free_knots().len() + self.passes.len()
+    }
+
+    /// The shortest motion.
+    pub(super) fn solve(&self) -> Result<Motion, SolverStatus> {
+        let mut rows = Rows::default();
+        self.limits_of_axes(&mut rows);
+        self.order(&mut rows);
+        rows.push(-GREATEST_FALL, [(self.duration(), 1.0)]);
+        rows.push(0.0, [(self.outside(), 1.0)]);
+        let mut cones: Vec<SupportedConeT<f64>> = vec![NonnegativeConeT(rows.right.len())];
+        let count = self.speeds(&mut rows) + self.tube(&mut rows);
+        cones.extend(std::iter::repeat_n(SecondOrderConeT(4), count));
+        let size = self.outside() + 1;
+        let mut cost = vec![0.0; size];
+        cost[self.duration()] = 1.0;
+        cost[self.outside()] = OUTSIDE;
+        let settings = DefaultSettings {
+            verbose: false,
+            max_iter: 100,
+            tol_gap_rel: 1e-6,
+            tol_gap_abs: 1e-6,
+            ..DefaultSettings::default()
+        };
+        let left = CscMatrix::new_from_triplets(
+            rows.right.len(),
+            size,
+            rows.lines,
+            rows.columns,
+            rows.values,
+        );
+        let none = CscMatrix::zeros((size, size));
+        let mut solver = DefaultSolver::new(&none, &cost, &left, &rows.right, &cones, settings)
+            .map_err(|_| SolverStatus::Unsolved)?;
+        solver.solve();
+        match solver.solution.status {
+            SolverStatus::Solved | SolverStatus::AlmostSolved => {
+                Ok(self.moved(&solver.solution.x))
+            }
+            other => Err(other),
+        }
+    }
+
+    /// The motion of a solution.
+    fn moved(&self, solution: &[f64]) -> Motion {
+        let mut motion = self.motion.clone();
+        motion.step *= solution[self.duration()];
+        let unit = self.course.least_radius();
+        let unknowns = solution.chunks_exact(OF_A_KNOT);
+        for (coefficient, change) in motion.coefficients[AT_REST..].iter_mut().zip(unknowns) {
+            for axis in 0..3 {
+                coefficient[axis] += unit * change[axis];
+            }
+        }
+        motion
+    }
+}
