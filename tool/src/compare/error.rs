@@ -8,9 +8,9 @@ use std::path::PathBuf;
 /// Why there is no comparison.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
-    /// --optimum or --holds in a build that has no solver.
+    /// --optimum, --tube or --holds in a build that has no solver.
     #[error(
-        "framepath compare --optimum and --holds: this framepath was built without its feature optimum: \
+        "framepath compare --optimum, --tube and --holds: this framepath was built without its feature optimum: \
          cargo install --locked --path tool --features optimum"
     )]
     NoOptimum,

@@ -108,7 +108,7 @@ fn optimum(piece: &[PathSample], limits: &AxisLimits, period: f64) -> Result<(f6
     Ok((optimum.time, bound))
 }
 
-fn axis_limits(recording: &Recording, job: &Job) -> AxisLimits {
+pub(super) fn axis_limits(recording: &Recording, job: &Job) -> AxisLimits {
     let limit = |limit: f64| if limit > 0.0 { limit } else { f64::INFINITY };
     AxisLimits {
         velocity: job.limits.velocity,

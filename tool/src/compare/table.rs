@@ -1,9 +1,9 @@
 //! The figures as a table for people.
 
-use super::against_optimum::{Holds, LeastTime};
+use super::against_optimum::{Holds, InTheTube, LeastTime};
 use super::distance::Distance;
 use super::figures::{Figures, State};
-use crate::layer::program::Program;
+use super::subjects::Subject;
 use crate::path::exceeded::exceeds;
 use crate::path::rates::Quantity;
 use std::fmt::Write;
@@ -16,6 +16,9 @@ const HEAD: [&str; 18] = [
 /// Beside the time, if the optimum was asked for.
 const OPTIMUM_HEAD: [&str; 3] = ["least s", "/least", "any jerk s"];
 
+/// Beside these, if the tube was asked for.
+const TUBE_HEAD: [&str; 2] = ["tube s", "/tube"];
+
 /// Where these columns stand.
 const AFTER_TIME: usize = 3;
 
@@ -26,6 +29,13 @@ least       least time on the path as the module executed it, within the limits 
 /least      time over it, without what the program waits; S: over the time in which the moves are
             handed over, where that is more
 any jerk    least time without a limit of jerk (TOPP-RA)
+";
+
+/// What the columns of the tube mean.
+pub(crate) const TUBE_LEGEND: &str = "\
+tube        shortest motion that was found within the tolerance of the excerpt, whatever its path, with the same
+            limits: a local optimum, no bound
+/tube       time over it, as over the least time
 ";
 
 /// What the columns mean, for the end of the output.
@@ -41,7 +51,11 @@ heap        calls of the heap in planner calls
 ";
 
 /// One program with the runs of all modules.
-pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
+pub(crate) fn table(subject: &Subject, runs: &[Figures]) -> String {
+    let (name, program) = (&subject.name, &subject.program);
+    if let Some(reason) = &subject.no_excerpt {
+        return format!("{name}: not run, {reason}\n");
+    }
     let length: f64 = program
         .programmed
         .iter()
@@ -50,12 +64,13 @@ pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
     let mut text = format!("{name}: {} moves, {length:.1} mm\n", program.handed.len());
     let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
     rows.extend(runs.iter().map(|run| row(run).to_vec()));
+    if runs.iter().any(|run| run.tube.is_some()) {
+        let cells = runs.iter().map(in_the_tube);
+        add_columns(&mut rows, TUBE_HEAD, cells);
+    }
     if runs.iter().any(|run| run.optimum.is_some()) {
-        let heads = OPTIMUM_HEAD.map(str::to_owned);
         let cells = runs.iter().map(|run| optimum(run.optimum.as_ref()));
-        for (row, cells) in rows.iter_mut().zip(std::iter::once(heads).chain(cells)) {
-            row.splice(AFTER_TIME..AFTER_TIME, cells);
-        }
+        add_columns(&mut rows, OPTIMUM_HEAD, cells);
     }
     let mut widths = vec![0; rows[0].len()];
     for row in &rows {
@@ -84,6 +99,18 @@ pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
         text.push('\n');
     }
     text
+}
+
+/// Puts columns behind the time.
+fn add_columns<const N: usize>(
+    rows: &mut [Vec<String>],
+    heads: [&str; N],
+    cells: impl Iterator<Item = [String; N]>,
+) {
+    let heads = heads.map(str::to_owned);
+    for (row, cells) in rows.iter_mut().zip(std::iter::once(heads).chain(cells)) {
+        row.splice(AFTER_TIME..AFTER_TIME, cells);
+    }
 }
 
 fn row(figures: &Figures) -> [String; HEAD.len()] {
@@ -143,6 +170,15 @@ fn optimum(optimum: Option<&LeastTime>) -> [String; OPTIMUM_HEAD.len()] {
     ]
 }
 
+fn in_the_tube(figures: &Figures) -> [String; TUBE_HEAD.len()] {
+    let tube = figures.tube.as_ref();
+    let found = |value: fn(&InTheTube) -> Option<f64>| {
+        let value = tube.and_then(value);
+        value.map_or("-".to_owned(), |value| format!("{value:.3}"))
+    };
+    [found(|tube| tube.time), found(|tube| tube.ratio)]
+}
+
 fn ratio(quantity: Quantity, value: f64) -> String {
     let mark = if exceeds(quantity, value) { "!" } else { "" };
     format!("{}{mark}", number(value))
@@ -167,11 +203,17 @@ fn note(figures: &Figures) -> Option<String> {
             )
         }
         State::Complete if figures.errors > 0 => figures.first_error.clone(),
+        State::Complete if no_tube(figures).is_some() => no_tube(figures)?.to_owned(),
         State::Complete if figures.holds.all() > 0 => holds(&figures.holds),
         State::Complete => return None,
         state => state.in_words(),
     };
     Some(text)
+}
+
+/// Why there is no least time in the tube.
+fn no_tube(figures: &Figures) -> Option<&str> {
+    figures.tube.as_ref()?.problem.as_deref()
 }
 
 fn holds(holds: &Holds) -> String {

@@ -18,5 +18,4 @@ pub(crate) use jerk_limited::least_time;
 pub(crate) use limits::{AxisLimits, SpeedCap};
 pub(crate) use stop::shortest_stop;
 pub(crate) use topp_ra::topp_ra;
-#[allow(unused_imports)]
-pub(crate) use tube::{InTube, Leg, NoTube, least_time_in_tube};
+pub(crate) use tube::{Leg, least_time_in_tube};

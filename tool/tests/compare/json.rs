@@ -27,6 +27,8 @@ fn fields_are_documented() {
     let with = ["--with", &takes_jerk, "--with", &stands, "--with", &none];
     let modules = all(&[&with[..], &["--jerk", jerk]].concat());
     let optimum = all(&["--optimum", "--holds", "1"]);
+    let rests = bench.write("rests.ngc", "G21 G61.1 F3000\nG1 X4\nM2\n");
+    let tube = all(&["--tube", &rests.display().to_string()]);
     let operator = all(&[
         "--feed-at-least",
         "600",
@@ -39,5 +41,5 @@ fn fields_are_documented() {
         "--abort",
         "0.4",
     ]);
-    assert_documented("compare", &[modules, optimum, operator]);
+    assert_documented("compare", &[modules, optimum, tube, operator]);
 }

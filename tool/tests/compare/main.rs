@@ -14,3 +14,4 @@ mod optimum;
 mod programs;
 mod stock;
 mod support;
+mod tube;

@@ -53,8 +53,7 @@ impl Check {
                 let point = motion.position(step, share);
                 deviation = deviation.max(course.deviation(point, from, to));
                 let speed = speed(motion, step, share, limits);
-                let most = course.legs[from.leg..=to.leg].iter().map(|leg| leg.speed);
-                let along = speed.0 / most.fold(0.0, f64::max);
+                let along = speed.0 / fastest(course, places, step);
                 check.velocity = check.velocity.max(along).max(speed.1);
             }
             check.of_steps.push(deviation);
@@ -78,6 +77,13 @@ impl Check {
         let limits = self.velocity.max(self.acceleration).max(self.jerk);
         limits.max(self.deviation)
     }
+}
+
+/// The greatest speed of the program in a step and those beside it: where it changes, it does so between two knots.
+fn fastest(course: &Course, places: &[Place], step: usize) -> f64 {
+    let (from, to) = (step.saturating_sub(1), (step + 2).min(places.len() - 1));
+    let legs = &course.legs[places[from].leg..=places[to].leg];
+    legs.iter().map(|leg| leg.speed).fold(0.0, f64::max)
 }
 
 /// Speed, mm/s, and the greatest velocity of an axis over its limit.

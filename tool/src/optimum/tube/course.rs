@@ -24,6 +24,32 @@ pub(super) struct Place {
     pub along: f64,
 }
 
+/// The course turns off a [`Line`] by no more than this, as a slope.
+const GREATEST_SLOPE: f64 = 0.3;
+
+/// A straight line through a place, which the course follows for a while.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Line {
+    pub point: Point,
+    /// Unit vector.
+    pub direction: Point,
+    pub ahead: Follows,
+    pub back: Follows,
+    /// The smallest that holds where the course follows, mm.
+    pub radius: f64,
+}
+
+/// How long the course follows a line: exactly first, then it turns off.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Follows {
+    /// mm along the line.
+    pub exactly: f64,
+    /// mm along the line, altogether.
+    pub reach: f64,
+    /// Off the line, over what goes beyond `exactly`, at most.
+    pub slope: f64,
+}
+
 /// The legs one after the other: vertex i lies between leg i - 1 and leg i.
 #[derive(Clone, Debug)]
 pub(super) struct Course {
@@ -62,11 +88,6 @@ impl Course {
         self.lengths.iter().sum()
     }
 
-    /// Unit vector along a leg.
-    pub(super) fn direction(&self, leg: usize) -> Point {
-        self.directions[leg]
-    }
-
     pub(super) fn point(&self, place: Place) -> Point {
         let (start, direction) = (self.legs[place.leg].start, self.directions[place.leg]);
         std::array::from_fn(|axis| start[axis] + place.along * direction[axis])
@@ -100,6 +121,59 @@ impl Course {
         (from.leg..=to.leg).map(ratio).fold(f64::INFINITY, f64::min)
     }
 
+    /// The line along the leg of a place, as far as `most` mm to both sides.
+    pub(super) fn line(&self, place: Place, most: f64) -> Line {
+        let left = self.lengths[place.leg] - place.along;
+        let exactly = (place.along.max(0.0), left.max(0.0));
+        let direction = self.directions[place.leg];
+        self.through(
+            self.point(place),
+            direction,
+            (place.leg, place.leg),
+            exactly,
+            most,
+        )
+    }
+
+    /// The line through a vertex in the middle between its legs, as far as `most` mm to both sides; `None` where the
+    /// course turns by more than such a line follows.
+    pub(super) fn line_at(&self, vertex: usize, most: f64) -> Option<Line> {
+        let (one, other) = (self.directions[vertex - 1], self.directions[vertex]);
+        let sum: Point = std::array::from_fn(|axis| one[axis] + other[axis]);
+        let length = distance(sum, [0.0; 3]);
+        // Half of the turn lies between a leg and the line: half of the sum is its cosine.
+        if 0.5 * length < (1.0 - GREATEST_SLOPE * GREATEST_SLOPE).sqrt() {
+            return None;
+        }
+        let direction = sum.map(|part| part / length);
+        let point = self.legs[vertex].start;
+        Some(self.through(point, direction, (vertex, vertex - 1), (0.0, 0.0), most))
+    }
+
+    /// `first` and `last` leg of those behind and ahead of the point.
+    fn through(
+        &self,
+        point: Point,
+        direction: Point,
+        (ahead, back): (usize, usize),
+        (before, left): (f64, f64),
+        most: f64,
+    ) -> Line {
+        let ends = (ahead..self.legs.len()).map(|leg| (leg, self.legs[leg].end));
+        let (ahead, last) = follows(ends, (point, direction), left, most);
+        let starts = (0..=back).rev().map(|leg| (leg, self.legs[leg].start));
+        let opposite = direction.map(|part| -part);
+        let (behind, first) = follows(starts, (point, opposite), before, most);
+        let radii = self.legs[first.unwrap_or(back)..=last.unwrap_or(back)].iter();
+        Line {
+            point,
+            direction,
+            ahead,
+            back: behind,
+            radius: radii.map(|leg| leg.radius).fold(f64::INFINITY, f64::min),
+        }
+    }
+
     /// Cosine of the turn at a vertex between two legs.
     pub(super) fn cosine(&self, vertex: usize) -> f64 {
         let (one, other) = (self.directions[vertex - 1], self.directions[vertex]);
@@ -110,4 +184,39 @@ impl Course {
     pub(super) fn radius_at(&self, vertex: usize) -> f64 {
         self.legs[vertex - 1].radius.min(self.legs[vertex].radius)
     }
+}
+
+/// How long the vertices, each with its leg, follow a line from a point on; and the last leg that does.
+fn follows(
+    vertices: impl Iterator<Item = (usize, Point)>,
+    (point, direction): (Point, Point),
+    exactly: f64,
+    most: f64,
+) -> (Follows, Option<usize>) {
+    let mut follows = Follows {
+        exactly,
+        reach: exactly,
+        slope: 0.0,
+    };
+    let mut last = None;
+    for (leg, vertex) in vertices {
+        let along: f64 = (0..3)
+            .map(|axis| (vertex[axis] - point[axis]) * direction[axis])
+            .sum();
+        let foot: Point = std::array::from_fn(|axis| point[axis] + along * direction[axis]);
+        let beyond = along - exactly;
+        let slope = if beyond > SHORTEST {
+            distance(vertex, foot) / beyond
+        } else {
+            0.0
+        };
+        if along < follows.reach - SHORTEST || slope > GREATEST_SLOPE || follows.reach >= most {
+            break;
+        }
+        follows.reach = along;
+        follows.slope = follows.slope.max(slope);
+        last = Some(leg);
+    }
+    follows.reach = follows.reach.clamp(0.0, most);
+    (follows, last)
 }

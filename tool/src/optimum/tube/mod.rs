@@ -26,25 +26,37 @@ use matching::places;
 use motion::{LEAST_STEPS, Motion};
 use round::Round;
 
-/// Rounds at most, with each number of steps.
-const MOST_ROUNDS: usize = 14;
+/// Rounds at most, first with longer steps.
+const MOST_ROUNDS: [usize; 2] = [24, 16];
 
-/// The rounds end when one of them gains less than this share of the time: with few steps, and with all.
-const CONVERGED: [f64; 2] = [2e-3, 2e-4];
+/// The rounds end when one of them gains less than this share of the time.
+const CONVERGED: [f64; 2] = [2e-3, 4e-4];
 
-/// The first rounds have steps so much longer, where there are enough.
-const LONGER: usize = 3;
+/// The first rounds have steps so much longer.
+const LONGER: usize = 2;
 
-/// Fewer steps than this are not made longer, twice as many would be.
-const ENOUGH: usize = 100;
+/// The motion has so many steps at most.
+const MOST_STEPS: usize = 3000;
+
+/// In a step the greatest acceleration makes a motion bulge by no more than this share of the smallest radius.
+const BULGE: f64 = 0.1;
+
+/// So many steps at least make the time in which the jerk brings about the acceleration.
+const STEPS_OF_A_RAMP: f64 = 5.0;
+
+/// The longest step without a limit of jerk, where the acceleration still takes a step to change, s.
+const STEP_WITHOUT_RAMPS: f64 = 1.5e-3;
+
+/// No step is longer, s.
+const LONGEST_STEP: f64 = 4e-3;
 
 /// A motion counts if nothing is exceeded by more than this.
 const EXCEEDED: f64 = 1.002;
 
-/// Vertices where the course turns by more than this are looked after in every round; cosine.
-const SHARP: f64 = 0.5;
+/// Vertices where the course turns by more than this are looked after in every round: the cosine of .02 radians.
+const STRAIGHT: f64 = 0.9998;
 
-/// Others where the motion went by at more than this share of the radius.
+/// Others, where the motion went by at more than this share of the radius.
 const MISSED: f64 = 0.98;
 
 /// Knots stay no further inside than this share of the radius.
@@ -53,10 +65,7 @@ const GREATEST_MARGIN: f64 = 0.5;
 /// The shortest motion that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct InTube {
-    /// s.
-    pub time: f64,
-    /// Duration of its steps, s.
-    pub step: f64,
+    motion: Motion,
     /// Convex programs that were solved.
     pub rounds: usize,
     /// Its greatest distance from the program, or of the program from it, over the tolerance.
@@ -65,12 +74,35 @@ pub(crate) struct InTube {
     pub limits: f64,
 }
 
+impl InTube {
+    /// Its duration, s.
+    pub(crate) fn time(&self) -> f64 {
+        self.motion.duration()
+    }
+
+    /// Duration of its steps, s.
+    pub(crate) fn step(&self) -> f64 {
+        self.motion.step
+    }
+}
+
 /// Why there is none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum NoTube {
     /// Nothing to move along.
     #[error("the machine does not move")]
     NoMotion,
+    /// More steps than can be computed.
+    #[error(
+        "the excerpt takes {duration:.1} s, which is more than {MOST_STEPS} steps of {:.2} ms: take fewer moves",
+        step * 1e3
+    )]
+    TooLong {
+        /// Of the executed motion, s.
+        duration: f64,
+        /// s.
+        step: f64,
+    },
     /// No round ended with a motion that keeps everything.
     #[error("no motion was found that keeps the limits and the tolerance")]
     NotFound,
@@ -80,35 +112,50 @@ pub(crate) enum NoTube {
 }
 
 /// The least time along `legs`, from rest to rest, with the limits of X Y Z in `limits`. It is looked for from what a
-/// machine did: its positions, which are `period` seconds apart. `most_steps` (at least 12) bounds the steps, none of
-/// which is shorter than the period.
+/// machine did: its positions, which are `period` seconds apart. No step is shorter than that.
 pub(crate) fn least_time_in_tube(
     legs: &[Leg],
     positions: &[Point],
     period: f64,
     limits: &AxisLimits,
-    most_steps: usize,
 ) -> Result<InTube, NoTube> {
     let course = Course::new(legs).ok_or(NoTube::NoMotion)?;
     if positions.len() < 2 {
         return Err(NoTube::NoMotion);
     }
-    let steps = (positions.len() - 1).clamp(LEAST_STEPS, most_steps.max(LEAST_STEPS));
     let duration = (positions.len() - 1) as f64 * period;
-    let few = steps / LONGER;
+    let steps = steps(&course, limits, duration, period)?;
     let mut search = Search {
         course,
         limits: *limits,
         best: None,
         rounds: 0,
     };
-    let mut motion = Motion::near(positions, duration, steps.min(few.max(ENOUGH)));
-    if motion.steps() < steps {
-        motion = search.rounds(motion, CONVERGED[0])?.resampled(steps);
-        search.best = None;
-    }
-    search.rounds(motion, CONVERGED[1])?;
+    let motion = Motion::near(positions, duration, (steps / LONGER).max(LEAST_STEPS));
+    let motion = search.rounds(motion, 0)?.resampled(steps);
+    search.best = None;
+    search.rounds(motion, 1)?;
     search.best.ok_or(NoTube::NotFound)
+}
+
+/// How many steps a motion of this duration, s, has.
+fn steps(
+    course: &Course,
+    limits: &AxisLimits,
+    duration: f64,
+    period: f64,
+) -> Result<usize, NoTube> {
+    let least = |of: &[f64]| of[..3].iter().copied().fold(f64::INFINITY, f64::min);
+    let most = |of: &[f64]| of[..3].iter().copied().fold(0.0, f64::max);
+    let bulge = (8.0 * BULGE * course.least_radius() / most(&limits.acceleration)).sqrt();
+    let ramp = least(&limits.acceleration) / most(&limits.jerk) / STEPS_OF_A_RAMP;
+    let ramp = if ramp > 0.0 { ramp } else { STEP_WITHOUT_RAMPS };
+    let step = bulge.min(ramp).min(LONGEST_STEP).max(period);
+    let steps = (duration / step).ceil();
+    if steps > MOST_STEPS as f64 {
+        return Err(NoTube::TooLong { duration, step });
+    }
+    Ok((steps as usize).max(LEAST_STEPS))
 }
 
 /// The rounds so far.
@@ -120,54 +167,59 @@ struct Search {
 }
 
 impl Search {
-    /// Rounds from a motion on until they gain less than `converged`; the last motion.
-    fn rounds(&mut self, mut motion: Motion, converged: f64) -> Result<Motion, NoTube> {
+    /// Rounds from a motion on until they gain little, the first or the second ones; the last motion.
+    fn rounds(&mut self, mut motion: Motion, stage: usize) -> Result<Motion, NoTube> {
         let mut places = places(&self.course, &motion.knots());
         let mut found = passes(&motion, &self.course, &places);
         let mut margins = vec![0.0; motion.steps() + 1];
-        let mut sharp: Vec<bool> = (1..self.course.legs.len())
-            .map(|vertex| self.course.cosine(vertex) < SHARP)
-            .collect();
-        for _ in 0..MOST_ROUNDS {
+        let mut turns = self.turns();
+        for _ in 0..MOST_ROUNDS[stage] {
             let round = Round {
                 course: &self.course,
                 limits: &self.limits,
                 motion: &motion,
                 places: &places,
                 margins: &margins,
-                passes: &looked_after(&sharp, &found),
+                passes: &looked_after(&turns, &found),
             };
-            let next = round.solve().map_err(NoTube::Solver)?;
+            let next = match round.solve() {
+                Ok(next) => next,
+                Err(_) if self.best.is_some() => break,
+                Err(status) => return Err(NoTube::Solver(status)),
+            };
             self.rounds += 1;
             let gain = 1.0 - next.duration() / motion.duration();
             motion = next;
-            places = self.places(&motion);
+            places = matching::places(&self.course, &motion.knots());
             let check = Check::of(&motion, &self.course, &places, &self.limits);
             let good = self.note(&motion, &check);
-            self.put_right(&check, &places, &mut margins);
-            for (sharp, pass) in sharp.iter_mut().zip(&check.passes) {
-                *sharp |= pass.deviation > MISSED;
-            }
-            found = check.passes;
-            if good && gain < converged {
+            if (good || stage == 0) && gain.abs() < CONVERGED[stage] {
                 break;
             }
+            self.put_right(&check, &places, &mut margins);
+            for (turns, pass) in turns.iter_mut().zip(&check.passes) {
+                *turns |= pass.deviation > MISSED;
+            }
+            found = check.passes;
         }
         Ok(motion)
     }
 
-    fn places(&self, motion: &Motion) -> Vec<Place> {
-        places(&self.course, &motion.knots())
+    /// Which vertices are looked after from the first round on.
+    fn turns(&self) -> Vec<bool> {
+        let vertices = 1..self.course.legs.len();
+        vertices
+            .map(|vertex| self.course.cosine(vertex) < STRAIGHT)
+            .collect()
     }
 
     /// Keeps the motion if it is the best one so far; whether it keeps everything.
     fn note(&mut self, motion: &Motion, check: &Check) -> bool {
         let good = check.worst() <= EXCEEDED;
-        let time = motion.duration();
-        if good && self.best.as_ref().is_none_or(|best| time < best.time) {
+        let shorter = |best: &InTube| motion.duration() < best.time();
+        if good && self.best.as_ref().is_none_or(shorter) {
             self.best = Some(InTube {
-                time,
-                step: motion.step,
+                motion: motion.clone(),
                 rounds: self.rounds,
                 deviation: check.deviation,
                 limits: check.velocity.max(check.acceleration).max(check.jerk),
@@ -189,9 +241,9 @@ impl Search {
 }
 
 /// The vertices that are looked after, with when they were passed by.
-fn looked_after(sharp: &[bool], passes: &[Pass]) -> Vec<(usize, Pass)> {
-    let vertices = (1..).zip(passes).zip(sharp);
+fn looked_after(turns: &[bool], passes: &[Pass]) -> Vec<(usize, Pass)> {
+    let vertices = (1..).zip(passes).zip(turns);
     vertices
-        .filter_map(|((vertex, pass), sharp)| sharp.then_some((vertex, *pass)))
+        .filter_map(|((vertex, pass), turns)| turns.then_some((vertex, *pass)))
         .collect()
 }

@@ -39,6 +39,10 @@ pub(super) fn velocity_weights(share: f64) -> [f64; 4] {
     ]
 }
 
+/// What the velocity of a step and its neighbours lies between, times the duration: where these keep a limit of speed it
+/// does, between the knots, too.
+pub(super) const VELOCITY_HULL: [f64; 4] = [0.0, -1.0, 1.0, 0.0];
+
 /// The same in the acceleration at the start of a step, times the square of the duration.
 pub(super) const ACCELERATION_WEIGHTS: [f64; 4] = [1.0, -2.0, 1.0, 0.0];
 
@@ -70,11 +74,11 @@ impl Motion {
 
     /// The same in another number of steps.
     pub(super) fn resampled(&self, steps: usize) -> Motion {
-        let index = |knot: usize| knot as f64 / steps as f64 * self.steps() as f64;
         let positions: Vec<Point> = (0..=steps)
             .map(|knot| {
-                let step = (index(knot) as usize).min(self.steps() - 1);
-                self.position(step, index(knot) - step as f64)
+                let index = knot as f64 / steps as f64 * self.steps() as f64;
+                let step = (index as usize).min(self.steps() - 1);
+                self.position(step, index - step as f64)
             })
             .collect();
         Motion::near(&positions, self.duration(), steps)

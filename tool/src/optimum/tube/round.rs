@@ -3,32 +3,38 @@
 //! With h the duration of a step the positions are linear in the coefficients, velocities over 1/h, accelerations over
 //! 1/h^2, jerks over 1/h^3. A speed F asks for |p'| <= F h, which is a cone. h^2 and h^3 are convex, so that their
 //! tangents at the h of the last round lie below them: what keeps |p''| <= A (tangent) keeps the limit itself. A knot
-//! has to be within the radius of a place on its leg that is free between the ends of the leg. Where the motion before
+//! has to be within the radius of a place on a line that the course follows, less what the course is off the line there:
+//! then it is near the course. Where the motion before
 //! fulfils all of it this one does, and is no slower; clarabel finds it.
 
 use super::check::Pass;
-use super::course::{Course, Place};
+use super::course::{Course, Follows, Line, Place};
 use super::motion::{
-    ACCELERATION_WEIGHTS, AT_REST, JERK_WEIGHTS, Motion, position_weights, velocity_weights,
+    ACCELERATION_WEIGHTS, AT_REST, JERK_WEIGHTS, Motion, VELOCITY_HULL, position_weights,
 };
 use crate::optimum::limits::AxisLimits;
-use crate::path::pieces::Point;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus,
     SupportedConeT,
 };
 
-/// Unknowns of a knot: three coordinates and the place on its leg.
-const OF_A_KNOT: usize = 4;
+/// Unknowns of a knot: three coordinates, and those of the line near which it is.
+const OF_A_KNOT: usize = 3 + OF_A_LINE;
+
+/// Unknowns of a line: how far the place goes along it, and how far the course is off it there.
+const OF_A_LINE: usize = 2;
 
 /// The duration falls in a round to no less than this share.
 const GREATEST_FALL: f64 = 0.75;
 
+/// The share of the radius that a knot may use: a little is left for what a motion does between the knots.
+const INSIDE: f64 = 0.996;
+
 /// What it costs to leave the tube by a radius, in durations.
 const OUTSIDE: f64 = 5.0;
 
-/// A place goes no further along its leg in a round, in smallest radii.
+/// A place goes no further along its line in a round, in smallest radii.
 const GREATEST_SHIFT: f64 = 60.0;
 
 /// What a round starts from.
@@ -72,7 +78,7 @@ impl Round<'_> {
 
     /// Column of the duration over the one before.
     fn duration(&self) -> usize {
-        self.free_knots().len() * OF_A_KNOT
+        self.free_knots().len() * OF_A_KNOT + self.passes.len() * OF_A_LINE
     }
 
     /// Column of how far the motion leaves the tube at most, in smallest radii.
@@ -121,36 +127,65 @@ impl Round<'_> {
     fn limits_of_axes(&self, rows: &mut Rows) {
         let h = self.motion.step;
         for step in 0..self.motion.steps() {
-            let starts = (step, &velocity_weights(0.0));
+            let starts = (step, &VELOCITY_HULL);
             let fastest = self.speed(step);
             for axis in 0..3 {
                 let most = self.limits.velocity[axis];
-                if step > 0 && most < fastest {
+                if most < fastest {
                     self.within(rows, starts, (axis, most * h), (1.0, 0.0));
                 }
                 let most = self.limits.acceleration[axis] * h * h;
-                self.within(rows, (step, &ACCELERATION_WEIGHTS), (axis, most), (2.0, 1.0));
+                self.within(
+                    rows,
+                    (step, &ACCELERATION_WEIGHTS),
+                    (axis, most),
+                    (2.0, 1.0),
+                );
                 let most = self.limits.jerk[axis] * h * h * h;
                 self.within(rows, (step, &JERK_WEIGHTS), (axis, most), (3.0, 2.0));
             }
         }
     }
 
-    /// The program's at the start of a step, mm/s.
+    /// The program's in a step, mm/s.
     fn speed(&self, step: usize) -> f64 {
         self.course.legs[self.places[step].leg].speed
     }
 
-    /// Each place stays on its leg, and none comes before the one of the knot before.
+    /// The line of each knot, and the first column of its unknowns.
+    fn lines_of_knots(&self) -> impl Iterator<Item = (usize, usize, Line)> {
+        let most = GREATEST_SHIFT * self.course.least_radius();
+        let knots = self.free_knots().enumerate();
+        knots.map(move |(index, knot)| {
+            let line = self.course.line(self.places[knot], most);
+            (knot, index * OF_A_KNOT + 3, line)
+        })
+    }
+
+    /// The same of the vertices that are passed by.
+    fn lines_of_passes(&self) -> impl Iterator<Item = (&Pass, usize, Line)> {
+        let most = GREATEST_SHIFT * self.course.least_radius();
+        let first = self.free_knots().len() * OF_A_KNOT;
+        let passes = self.passes.iter().enumerate();
+        passes.map(move |(index, (vertex, pass))| {
+            let line = self.course.line_at(*vertex, most).unwrap_or(Line {
+                point: self.course.legs[*vertex].start,
+                direction: [0.0; 3],
+                ahead: Follows::default(),
+                back: Follows::default(),
+                radius: self.course.radius_at(*vertex),
+            });
+            (pass, first + index * OF_A_LINE, line)
+        })
+    }
+
+    /// Each place stays where the course follows its line, and none comes before the one of the knot before.
     fn order(&self, rows: &mut Rows) {
         let unit = self.course.least_radius();
         let mut last: Option<(usize, Place)> = None;
-        for knot in self.free_knots() {
-            let (place, column) = (self.places[knot], self.shift(knot));
-            let most = GREATEST_SHIFT;
-            let left = self.course.length(place.leg) - place.along;
-            rows.push((place.along / unit).clamp(0.0, most), [(column, 1.0)]);
-            rows.push((left / unit).clamp(0.0, most), [(column, -1.0)]);
+        for (knot, column, line) in self.lines_of_knots() {
+            on_the_course(rows, column, &line, unit);
+            let place = self.places[knot];
             if let Some((other, before)) = last
                 && before.leg == place.leg
             {
@@ -159,16 +194,14 @@ impl Round<'_> {
             }
             last = Some((column, place));
         }
-    }
-
-    /// Column of how far the place of a knot goes along its leg, in smallest radii.
-    fn shift(&self, knot: usize) -> usize {
-        (knot - self.free_knots().start) * OF_A_KNOT + 3
+        for (_, column, line) in self.lines_of_passes() {
+            on_the_course(rows, column, &line, unit);
+        }
     }
 
     fn speeds(&self, rows: &mut Rows) -> usize {
         let mut count = 0;
-        for step in 1..self.motion.steps() {
+        for step in 0..self.motion.steps() {
             let speed = self.speed(step);
             if !speed.is_finite() {
                 continue;
@@ -177,48 +210,37 @@ impl Round<'_> {
             rows.push(0.0, [(self.duration(), 1.0)]);
             for axis in 0..3 {
                 let scale = 1.0 / (speed * self.motion.step);
-                let (value, terms) = self.sum(step, &velocity_weights(0.0), axis, scale);
+                let (value, terms) = self.sum(step, &VELOCITY_HULL, axis, scale);
                 rows.push(value, terms);
             }
         }
         count
     }
 
-    /// A position within a distance of a point, which may go along a direction by the unknown in a column.
+    /// A position within the radius of a line, less `margin` and less what the course is off the line.
     fn near(
         &self,
         rows: &mut Rows,
         (step, share): (usize, f64),
-        (point, radius): (Point, f64),
-        along: Option<(usize, Point)>,
+        (column, line): (usize, &Line),
+        margin: f64,
     ) {
         let unit = self.course.least_radius();
-        rows.push(radius / unit, [(self.outside(), 1.0)]);
+        let terms = [(self.outside(), 1.0), (column + 1, -1.0)];
+        rows.push((INSIDE * line.radius - margin) / unit, terms);
         for axis in 0..3 {
             let (value, mut terms) = self.sum(step, &position_weights(share), axis, 1.0 / unit);
-            if let Some((column, direction)) = along {
-                terms.push((column, -direction[axis]));
-            }
-            rows.push(value - point[axis] / unit, terms);
+            terms.push((column, -line.direction[axis]));
+            rows.push(value - line.point[axis] / unit, terms);
         }
     }
 
     fn tube(&self, rows: &mut Rows) -> usize {
-        for knot in self.free_knots() {
-            let place = self.places[knot];
-            let radius = self.course.legs[place.leg].radius - self.margins[knot];
-            let along = (self.shift(knot), self.course.direction(place.leg));
-            self.near(
-                rows,
-                (knot, 0.0),
-                (self.course.point(place), radius),
-                Some(along),
-            );
+        for (knot, column, line) in self.lines_of_knots() {
+            self.near(rows, (knot, 0.0), (column, &line), self.margins[knot]);
         }
-        for (vertex, pass) in self.passes {
-            let point = self.course.legs[*vertex].start;
-            let radius = self.course.radius_at(*vertex);
-            self.near(rows, (pass.step, pass.share), (point, radius), None);
+        for (pass, column, line) in self.lines_of_passes() {
+            self.near(rows, (pass.step, pass.share), (column, &line), 0.0);
         }
         self.free_knots().len() + self.passes.len()
     }
@@ -240,8 +262,9 @@ impl Round<'_> {
         let settings = DefaultSettings {
             verbose: false,
             max_iter: 100,
-            tol_gap_rel: 1e-6,
-            tol_gap_abs: 1e-6,
+            tol_gap_rel: 1e-5,
+            tol_gap_abs: 1e-5,
+            tol_feas: 1e-7,
             ..DefaultSettings::default()
         };
         let left = CscMatrix::new_from_triplets(
@@ -256,9 +279,7 @@ impl Round<'_> {
             .map_err(|_| SolverStatus::Unsolved)?;
         solver.solve();
         match solver.solution.status {
-            SolverStatus::Solved | SolverStatus::AlmostSolved => {
-                Ok(self.moved(&solver.solution.x))
-            }
+            SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(self.moved(&solver.solution.x)),
             other => Err(other),
         }
     }
@@ -269,11 +290,25 @@ impl Round<'_> {
         motion.step *= solution[self.duration()];
         let unit = self.course.least_radius();
         let unknowns = solution.chunks_exact(OF_A_KNOT);
-        for (coefficient, change) in motion.coefficients[AT_REST..].iter_mut().zip(unknowns) {
+        let free = AT_REST..self.motion.steps();
+        for (coefficient, change) in motion.coefficients[free].iter_mut().zip(unknowns) {
             for axis in 0..3 {
                 coefficient[axis] += unit * change[axis];
             }
         }
         motion
+    }
+}
+
+/// Unknowns of a line: the place goes along it no further than the course follows, in units of `unit` mm, and the course
+/// is off it by what its slopes say.
+fn on_the_course(rows: &mut Rows, column: usize, line: &Line, unit: f64) {
+    rows.push(0.0, [(column + 1, 1.0)]);
+    for (sign, follows) in [(1.0, line.ahead), (-1.0, line.back)] {
+        rows.push(follows.reach / unit, [(column, -sign)]);
+        if follows.slope > 0.0 {
+            let off = [(column + 1, 1.0), (column, -sign * follows.slope)];
+            rows.push(follows.slope * follows.exactly / unit, off);
+        }
     }
 }
