@@ -55,7 +55,7 @@ const ROOMS: [(&str, &str); 23] = [
         "layer",
         "canonical calls to what the task controller hands over",
     ),
-    ("optimum", "the least time on a path"),
+    ("optimum", "the least time on a path, and in a tolerance"),
     ("host", "planner modules in processes of their own"),
 ];
 

@@ -29,6 +29,25 @@ pub(crate) struct LeastTime {
     pub problem: Option<String>,
 }
 
+/// The least time in the tolerance of an excerpt; without a problem there is all of it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct InTheTube {
+    /// The shortest motion that was found, s.
+    pub time: Option<f64>,
+    /// Executed, as in [`LeastTime`], over the greater one of that and the supply.
+    pub ratio: Option<f64>,
+    /// Steps of time of that motion, s.
+    pub step: Option<f64>,
+    /// Convex programs that were solved for it.
+    pub rounds: Option<usize>,
+    /// Its greatest distance from the program over the tolerance.
+    pub deviation: Option<f64>,
+    /// Its greatest velocity, acceleration or jerk over the limit.
+    pub limits: Option<f64>,
+    /// Why there is none.
+    pub problem: Option<String>,
+}
+
 /// The holds of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct Holds {

@@ -9,9 +9,9 @@ use std::path::PathBuf;
 /// Why there is no comparison.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
-    /// --optimum or --holds in a build that has no solver.
+    /// --optimum, --tube or --holds in a build that has no solver.
     #[error(
-        "framepath compare --optimum and --holds: this framepath was built without its feature optimum: \
+        "framepath compare --optimum, --tube and --holds: this framepath was built without its feature optimum: \
          cargo install --locked --path tool --features optimum"
     )]
     NoOptimum,
@@ -61,6 +61,12 @@ pub enum CompareError {
     /// Limits of joints cannot be used.
     #[error(transparent)]
     Joints(#[from] JointsError),
+    /// The least time in the tolerance was asked for where joints have limits.
+    #[error(
+        "--tube: the least time in the tolerance is found for the limits of axes, and the INI file sets limits of joints: \
+         take --optimum, or give the limits with --limits and leave out --ini"
+    )]
+    TubeOfJoints,
     /// Something that is not the module's doing.
     #[error("a module cannot be run: {0}")]
     Run(io::Error),

@@ -1,6 +1,6 @@
 //! All figures of one run of a module.
 
-use super::against_optimum::{Holds, LeastTime};
+use super::against_optimum::{Holds, InTheTube, LeastTime};
 use super::cost::Cost;
 use super::distance::{Distance, Path, executed_to_path, path_to_executed};
 #[cfg(feature = "optimum")]
@@ -115,6 +115,9 @@ pub(crate) struct Figures {
     /// Measured when it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimum: Option<LeastTime>,
+    /// Measured of excerpts when it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tube: Option<InTheTube>,
     /// Most moves that were queued at a time.
     pub most_queued: i32,
     /// tpRunCycle while moves are queued.
@@ -247,6 +250,7 @@ impl Figures {
             #[cfg(feature = "optimum")]
             holds: holds_of(recording, job),
             optimum: None,
+            tube: None,
             state,
             motion,
             deviation,
@@ -331,6 +335,7 @@ pub(crate) mod tests {
             rests: Rests::default(),
             holds: Holds::default(),
             optimum: None,
+            tube: None,
             most_queued: 0,
             run: Cost::default(),
             add: Cost::default(),

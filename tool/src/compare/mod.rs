@@ -1,10 +1,10 @@
 //! `framepath compare`: drives planner modules with the same moves, faster than real time, and
 //! tabulates time, peaks over the limits, distance from the program, cost of the calls.
 //!
-//! The files in the order of the work: [`conditions`] says for which machine; [`crate::canon`] reads the program through LinuxCNC's own
-//! interpreter; [`crate::layer`] does with it what the canonical layer does; [`runner`] has
+//! The files in the order of the work: [`conditions`] says for which machine; [`subjects`] has [`crate::canon`] read the program through LinuxCNC's own
+//! interpreter and [`crate::layer`] do with it what the canonical layer does, and cuts an [`excerpt`] out of it if that is asked for; [`runner`] has
 //! [`crate::host`] drive the modules with it; [`kinematics`], [`distance`], [`rests`], [`holds`]
-//! and [`cost`] measure what they recorded, and [`least_time`] if it is asked for; both are
+//! and [`cost`] measure what they recorded, and [`least_time`] and the one in the [`tube`] if they are asked for; these are
 //! figures [`against_optimum`]; [`figures`] holds all of it; [`mod@table`], [`mod@ratios`], [`s_curve`] and [`summary`] show it.
 
 mod against_optimum;
@@ -12,6 +12,7 @@ mod conditions;
 mod cost;
 mod distance;
 mod error;
+mod excerpt;
 mod figures;
 #[cfg(feature = "optimum")]
 mod holds;
@@ -25,21 +26,20 @@ mod runner;
 mod s_curve;
 #[cfg(feature = "optimum")]
 mod shortest_stop;
+mod subjects;
 mod summary;
 mod table;
+#[cfg(feature = "optimum")]
+mod tube;
 
 pub use error::CompareError;
 
-use crate::arguments::{file_name, not_negative, period, positive};
-use crate::canon::{read_program, read_text};
+use crate::arguments::{not_negative, period, positive};
 use crate::format::significant;
-use crate::generated;
 use crate::host;
 use crate::host::operator::{Action, Event, at_time, random_events};
 use crate::joints::{Joints, LimitedJoints};
 use crate::json;
-use crate::layer::program::Program;
-use crate::layer::{LayerSettings, lay};
 use crate::machine::limits::{Jerk, LimitChanges, Limits};
 use crate::path::Position;
 use conditions::{Conditions, NO_VELOCITY_LIMIT};
@@ -51,6 +51,7 @@ use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use subjects::subjects;
 
 /// The options for what the operator does.
 const OPERATOR: [&str; 5] = [
@@ -134,6 +135,12 @@ pub struct CompareArguments {
     /// the least time without the limit of jerk
     #[arg(long, conflicts_with_all = OPERATOR)]
     pub optimum: bool,
+    /// Compare an excerpt of each program in place of the whole, the middle of its longest run of moves with G64 P, of
+    /// so many moves, from rest to rest; with --optimum, and also the least time that the limits allow anywhere in the
+    /// tolerance of the excerpt [default: 200 moves]
+    #[arg(long, value_name = "MOVES", num_args = 0..=1, require_equals = true, default_missing_value = "200",
+          conflicts_with_all = OPERATOR, value_parser = clap::value_parser!(u16).range(1..))]
+    pub tube: Option<u16>,
     /// Run each program once more with so many feed holds at random moments and measure the time to
     /// rest
     #[arg(long, value_name = "N", conflicts_with_all = OPERATOR,
@@ -159,6 +166,13 @@ fn at_least_one(text: &str) -> Result<f64, String> {
     match positive(text) {
         Ok(number) if number >= 1.0 => Ok(number),
         _ => Err("a number from 1 up is needed".to_owned()),
+    }
+}
+
+impl CompareArguments {
+    /// Whether the least time on the path is asked for.
+    fn with_optimum(&self) -> bool {
+        self.optimum || self.tube.is_some()
     }
 }
 
@@ -207,12 +221,16 @@ impl ReportedJoints {
 /// Programs that cannot be read, modules that do not exist; behind the results, programs that a planner
 /// refused or gave up. A module that crashes, hangs or is none is no error but a result.
 pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
-    if cfg!(not(feature = "optimum")) && (arguments.optimum || arguments.holds.is_some()) {
+    let optimum = arguments.with_optimum();
+    if cfg!(not(feature = "optimum")) && (optimum || arguments.holds.is_some()) {
         return Err(CompareError::NoOptimum);
     }
     let conditions = Conditions::new(arguments)?;
+    if arguments.tube.is_some() && conditions.joints.limited().is_some() {
+        return Err(CompareError::TubeOfJoints);
+    }
     let limits = conditions.limits;
-    let programs = programs(arguments, limits)?;
+    let subjects = subjects(arguments, limits)?;
     let events = events(arguments);
     let runner = Runner::new(arguments, &conditions, &events)?;
     let mut output = std::io::stdout().lock();
@@ -220,22 +238,17 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
         writeln!(output, "{}\n", headline(arguments, &conditions)).map_err(CompareError::Write)?;
     }
     let mut all = Vec::new();
-    let progress = Progress::new(programs.len() * runner.runs_of_a_program());
-    for (name, program) in programs {
-        let runs = runner.run(&name, &program, &progress)?;
+    let progress = Progress::new(subjects.len() * runner.runs_of_a_program());
+    for subject in subjects {
+        let runs = runner.run(&subject, &progress)?;
         if !arguments.json {
-            let text = table::table(&name, &program, &runs);
+            let text = table::table(&subject, &runs);
             progress
                 .suspend(|| writeln!(output, "{text}"))
                 .map_err(CompareError::Write)?;
             output.flush().map_err(CompareError::Write)?;
         }
-        all.push(ProgramRuns {
-            program: name,
-            moves: program.handed.len(),
-            axes: moving_axes(&program),
-            runs,
-        });
+        all.push(ProgramRuns::new(subject, runs));
     }
     progress.finish();
     let mut ratios = ratios(&all);
@@ -264,8 +277,11 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
         if conditions.joints.limited().is_some() {
             write!(output, "{}", table::JOINT_LEGEND).map_err(CompareError::Write)?;
         }
-        if arguments.optimum {
+        if optimum {
             write!(output, "{}", table::OPTIMUM_LEGEND).map_err(CompareError::Write)?;
+        }
+        if arguments.tube.is_some() {
+            write!(output, "{}", table::TUBE_LEGEND).map_err(CompareError::Write)?;
         }
     }
     output.flush().map_err(CompareError::Write)?;
@@ -353,66 +369,6 @@ fn headline(arguments: &CompareArguments, conditions: &Conditions) -> String {
         text += &format!("; feed override up to {percent} %");
     }
     text
-}
-
-/// How many axes the program moves.
-fn moving_axes(program: &Program) -> usize {
-    (0..9)
-        .filter(|&axis| {
-            program.handed.iter().any(|piece| {
-                let segment = &piece.segment;
-                segment.start[axis] != segment.end[axis] || (axis < 3 && segment.arc.is_some())
-            })
-        })
-        .count()
-}
-
-/// Reads all programs, so that one that cannot be read is known before anything runs.
-fn programs(
-    arguments: &CompareArguments,
-    limits: Limits,
-) -> Result<Vec<(String, Program)>, CompareError> {
-    let settings = LayerSettings {
-        limits,
-        feed_at_least: arguments.feed_at_least,
-    };
-    let names = generated_names(&arguments.generated)?;
-    if arguments.files.is_empty() && names.is_empty() {
-        return Err(CompareError::NoProgram(generated::names().join(", ")));
-    }
-    let mut programs = Vec::new();
-    for file in &arguments.files {
-        let name = file_name(file);
-        programs.push((name, lay(&read_program(file)?, &settings)));
-    }
-    for name in names {
-        let text = generated::program(&name).unwrap_or_default();
-        programs.push((name.clone(), lay(&read_text(&name, &text)?, &settings)));
-    }
-    for (name, program) in &programs {
-        if program.handed.is_empty() {
-            return Err(CompareError::NoMoves(name.clone()));
-        }
-    }
-    Ok(programs)
-}
-
-fn generated_names(asked: &[String]) -> Result<Vec<String>, CompareError> {
-    let known = generated::names();
-    let mut names = Vec::new();
-    for name in asked {
-        if name == "all" {
-            names.extend(generated::compared().into_iter().map(str::to_owned));
-        } else if known.contains(&name.as_str()) {
-            names.push(name.clone());
-        } else {
-            return Err(CompareError::UnknownProgram {
-                name: name.clone(),
-                known: known.join(", "),
-            });
-        }
-    }
-    Ok(names)
 }
 
 /// What the operator does, in the order of time.

@@ -1,18 +1,39 @@
 //! Times of the modules over that of the first, over all programs.
 
+use super::excerpt::Excerpt;
 use super::figures::Figures;
+use super::subjects::Subject;
 use crate::machine::limits::Jerk;
 use serde::Serialize;
 use std::fmt::Write;
 
 /// The runs of one program: its name, and the figures of every module.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct ProgramRuns {
     pub program: String,
     pub moves: usize,
     /// How many axes move.
     pub axes: usize,
+    /// Where in the program it stands that was run in place of all of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub excerpt: Option<Excerpt>,
+    /// Why there is none, and nothing was run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_excerpt: Option<String>,
     pub runs: Vec<Figures>,
+}
+
+impl ProgramRuns {
+    pub(super) fn new(subject: Subject, runs: Vec<Figures>) -> ProgramRuns {
+        ProgramRuns {
+            moves: subject.program.handed.len(),
+            axes: subject.moving_axes(),
+            program: subject.name,
+            excerpt: subject.excerpt,
+            no_excerpt: subject.no_excerpt,
+            runs,
+        }
+    }
 }
 
 /// A module at a jerk limit against the first module.
@@ -54,15 +75,28 @@ impl Ratio {
     }
 }
 
-/// Time over the least time on the executed path, of all modules for which it was measured.
+/// Time over the least times on the executed path and in the tube, of all modules for which they were measured.
 pub(crate) fn over_the_optimum(programs: &[ProgramRuns]) -> Vec<Ratio> {
+    let on_the_path = |run: &Figures| run.optimum.as_ref().map(|optimum| optimum.ratio);
+    let in_the_tube = |run: &Figures| run.tube.as_ref()?.ratio;
+    let mut ratios = over(programs, "the least time on its path", on_the_path);
+    ratios.extend(over(programs, "the least time in the tube", in_the_tube));
+    ratios
+}
+
+/// What each module has of a ratio to a time that is called `baseline`.
+fn over(
+    programs: &[ProgramRuns],
+    baseline: &str,
+    ratio: impl Fn(&Figures) -> Option<f64>,
+) -> Vec<Ratio> {
     let mut found: Vec<(&Figures, Vec<(f64, &str)>)> = Vec::new();
     for program in programs {
         for run in &program.runs {
-            let Some(optimum) = &run.optimum else {
+            let Some(ratio) = ratio(run) else {
                 continue;
             };
-            let ratio = (optimum.ratio, program.program.as_str());
+            let ratio = (ratio, program.program.as_str());
             let same = |known: &Figures| known.module == run.module && known.jerk == run.jerk;
             match found.iter_mut().find(|(known, _)| same(known)) {
                 Some((_, ratios)) => ratios.push(ratio),
@@ -78,12 +112,7 @@ pub(crate) fn over_the_optimum(programs: &[ProgramRuns]) -> Vec<Ratio> {
             } else {
                 Jerk::Unlimited
             };
-            Ratio::of(
-                run.module.clone(),
-                jerk,
-                "the least time on its path",
-                &ratios,
-            )
+            Ratio::of(run.module.clone(), jerk, baseline, &ratios)
         })
         .collect()
 }
@@ -229,6 +258,7 @@ mod tests {
             moves: 1,
             axes: 3,
             runs: vec![baseline, other],
+            ..ProgramRuns::default()
         }
     }
 

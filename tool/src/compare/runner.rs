@@ -2,13 +2,14 @@
 
 use super::CompareArguments;
 #[cfg(feature = "optimum")]
-use super::against_optimum::LeastTime;
+use super::against_optimum::{InTheTube, LeastTime};
 use super::conditions::Conditions;
 use super::error::CompareError;
 use super::figures::Figures;
 #[cfg(feature = "optimum")]
 use super::holds::holds_of;
 use super::progress::Progress;
+use super::subjects::Subject;
 use crate::arguments::file_name;
 use crate::host::job::Job;
 use crate::host::operator::Event;
@@ -61,17 +62,20 @@ impl<'a> Runner<'a> {
         self.modules.len() * self.arguments.jerk.len() * self.arguments.queue.len().max(1)
     }
 
-    /// All runs of a program.
+    /// All runs of a program: none where there is no excerpt of it.
     pub(super) fn run(
         &self,
-        name: &str,
-        program: &Program,
+        subject: &Subject,
         progress: &Progress,
     ) -> Result<Vec<Figures>, CompareError> {
         let mut runs = Vec::new();
+        if subject.no_excerpt.is_some() {
+            progress.runs_left_out(self.runs_of_a_program());
+            return Ok(runs);
+        }
         for module in self.labelled() {
-            progress.name(&format!("{name}, {}", module.label));
-            runs.extend(self.run_module(&module, program, progress)?);
+            progress.name(&format!("{}, {}", subject.name, module.label));
+            runs.extend(self.run_module(&module, &subject.program, progress)?);
         }
         Ok(runs)
     }
@@ -160,9 +164,12 @@ impl<'a> Runner<'a> {
             return Ok(figures);
         }
         if let Some(range) = figures.motion.range
-            && self.arguments.optimum
+            && self.arguments.with_optimum()
         {
             let optimum = LeastTime::of(recording, program, &job, range, progress);
+            if self.arguments.tube.is_some() {
+                figures.tube = Some(InTheTube::of(recording, program, &job, range, &optimum));
+            }
             figures.optimum = Some(optimum);
         }
         if let Some(count) = self.arguments.holds {

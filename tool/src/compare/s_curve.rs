@@ -71,6 +71,7 @@ mod tests {
             moves: 60,
             axes: 2,
             runs: vec![finished("tpmod.so", 8.5), ours],
+            ..ProgramRuns::default()
         }]
     }
 

@@ -145,6 +145,7 @@ mod tests {
             moves: 1,
             axes,
             runs: vec![run],
+            ..ProgramRuns::default()
         }
     }
 

@@ -1,10 +1,10 @@
 //! The figures as a table for people.
 
-use super::against_optimum::{Holds, LeastTime};
+use super::against_optimum::{Holds, InTheTube, LeastTime};
 use super::distance::Distance;
 use super::figures::{Figures, State};
 use super::kinematics::Peaks;
-use crate::layer::program::Program;
+use super::subjects::Subject;
 use crate::path::exceeded::exceeds;
 use crate::path::rates::Quantity;
 use std::fmt::Write;
@@ -28,6 +28,9 @@ joint       the same of a joint; where joints have limits of their own, axes kee
 /// Beside the time, if the optimum was asked for.
 const OPTIMUM_HEAD: [&str; 3] = ["least s", "/least", "any jerk s"];
 
+/// Beside these, if the tube was asked for.
+const TUBE_HEAD: [&str; 2] = ["tube s", "/tube"];
+
 /// Where these columns stand.
 const AFTER_TIME: usize = 3;
 
@@ -38,6 +41,13 @@ least       least time on the path as the module executed it, within the limits 
 /least      time over it, without what the program waits; S: over the time in which the moves are
             handed over, where that is more
 any jerk    least time without a limit of jerk (TOPP-RA)
+";
+
+/// What the columns of the tube mean.
+pub(crate) const TUBE_LEGEND: &str = "\
+tube        shortest motion that was found within the tolerance of the excerpt, whatever its path, with the same
+            limits: a local optimum, no bound
+/tube       time over it, as over the least time
 ";
 
 /// What the columns mean, for the end of the output.
@@ -53,7 +63,11 @@ heap        calls of the heap in planner calls
 ";
 
 /// One program with the runs of all modules.
-pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
+pub(crate) fn table(subject: &Subject, runs: &[Figures]) -> String {
+    let (name, program) = (&subject.name, &subject.program);
+    if let Some(reason) = &subject.no_excerpt {
+        return format!("{name}: not run, {reason}\n");
+    }
     let length: f64 = program
         .programmed
         .iter()
@@ -62,20 +76,17 @@ pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
     let mut text = format!("{name}: {} moves, {length:.1} mm\n", program.handed.len());
     let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
     rows.extend(runs.iter().map(|run| row(run).to_vec()));
-    let mut insert = |at: usize, heads: [&str; 3], cells: &dyn Fn(&Figures) -> [String; 3]| {
-        let cells = runs.iter().map(cells);
-        let cells = std::iter::once(heads.map(str::to_owned)).chain(cells);
-        for (row, cells) in rows.iter_mut().zip(cells) {
-            row.splice(at..at, cells);
-        }
-    };
     if runs.iter().any(|run| run.motion.joints.is_some()) {
-        insert(AFTER_AXES, JOINT_HEAD, &joints);
+        let cells = runs.iter().map(joints);
+        add_columns(&mut rows, AFTER_AXES, JOINT_HEAD, cells);
+    }
+    if runs.iter().any(|run| run.tube.is_some()) {
+        let cells = runs.iter().map(in_the_tube);
+        add_columns(&mut rows, AFTER_TIME, TUBE_HEAD, cells);
     }
     if runs.iter().any(|run| run.optimum.is_some()) {
-        insert(AFTER_TIME, OPTIMUM_HEAD, &|run| {
-            optimum(run.optimum.as_ref())
-        });
+        let cells = runs.iter().map(|run| optimum(run.optimum.as_ref()));
+        add_columns(&mut rows, AFTER_TIME, OPTIMUM_HEAD, cells);
     }
     let mut widths = vec![0; rows[0].len()];
     for row in &rows {
@@ -104,6 +115,19 @@ pub(crate) fn table(name: &str, program: &Program, runs: &[Figures]) -> String {
         text.push('\n');
     }
     text
+}
+
+/// Puts columns in front of the one of this number.
+fn add_columns<const N: usize>(
+    rows: &mut [Vec<String>],
+    at: usize,
+    heads: [&str; N],
+    cells: impl Iterator<Item = [String; N]>,
+) {
+    let heads = heads.map(str::to_owned);
+    for (row, cells) in rows.iter_mut().zip(std::iter::once(heads).chain(cells)) {
+        row.splice(at..at, cells);
+    }
 }
 
 fn row(figures: &Figures) -> [String; HEAD.len()] {
@@ -184,6 +208,15 @@ fn optimum(optimum: Option<&LeastTime>) -> [String; OPTIMUM_HEAD.len()] {
     ]
 }
 
+fn in_the_tube(figures: &Figures) -> [String; TUBE_HEAD.len()] {
+    let tube = figures.tube.as_ref();
+    let found = |value: fn(&InTheTube) -> Option<f64>| {
+        let value = tube.and_then(value);
+        value.map_or("-".to_owned(), |value| format!("{value:.3}"))
+    };
+    [found(|tube| tube.time), found(|tube| tube.ratio)]
+}
+
 fn ratio(quantity: Quantity, value: f64) -> String {
     let mark = if exceeds(quantity, value) { "!" } else { "" };
     format!("{}{mark}", number(value))
@@ -208,11 +241,17 @@ fn note(figures: &Figures) -> Option<String> {
             )
         }
         State::Complete if figures.errors > 0 => figures.first_error.clone(),
+        State::Complete if no_tube(figures).is_some() => no_tube(figures)?.to_owned(),
         State::Complete if figures.holds.all() > 0 => holds(&figures.holds),
         State::Complete => return None,
         state => state.in_words(),
     };
     Some(text)
+}
+
+/// Why there is no least time in the tube.
+fn no_tube(figures: &Figures) -> Option<&str> {
+    figures.tube.as_ref()?.problem.as_deref()
 }
 
 fn holds(holds: &Holds) -> String {

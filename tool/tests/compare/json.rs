@@ -28,6 +28,8 @@ fn fields_are_documented() {
     let with = ["--with", &takes_jerk, "--with", &stands, "--with", &none];
     let modules = all(&[&with[..], &["--jerk", jerk]].concat());
     let optimum = all(&["--optimum", "--holds", "1"]);
+    let rests = bench.write("rests.ngc", "G21 G61.1 F3000\nG1 X4\nM2\n");
+    let tube = all(&["--tube", &rests.display().to_string()]);
     let operator = all(&[
         "--feed-at-least",
         "600",
@@ -43,5 +45,5 @@ fn fields_are_documented() {
     table(&bench, "mm", 1.0);
     let ini = bench.path().join("table.ini");
     let joints = all(&["--ini", ini.to_str().expect("text")]);
-    assert_documented("compare", &[modules, optimum, operator, joints]);
+    assert_documented("compare", &[modules, optimum, tube, operator, joints]);
 }

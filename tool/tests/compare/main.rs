@@ -17,3 +17,4 @@ mod stock;
 mod support;
 #[path = "../common/table.rs"]
 mod table;
+mod tube;
