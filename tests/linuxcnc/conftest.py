@@ -7,6 +7,8 @@ import unittest
 import pytest
 from _pytest.runner import runtestprotocol
 
+from overload import ATTEMPTS, is_overloaded
+
 #: Files whose tests are marked as busy, the longest first.
 BUSY = ("test_contract_soak", "test_contract_table", "test_faults_table", "test_short_programs", "test_compare",
         "test_preview_speed", "test_plan")
@@ -14,12 +16,6 @@ BUSY = ("test_contract_soak", "test_contract_table", "test_faults_table", "test_
 FIRST = ("test_dialect_examples", "test_spindle", "test_preview", "test_preview_axis", "test_preview_screens",
          "test_look_ahead")
 
-
-#: Processes a processor, the mean of a minute, from which on the computer does not keep time for LinuxCNC. Twelve tests at once
-#: on two processors are below it.
-OVERLOADED = 7.0
-#: How often a test is run at most, where it fails on such a computer. That is said at the end.
-ATTEMPTS = 3
 
 #: What is about the LinuxCNC that is installed, and its modules: left out where the others run in another one.
 OF_THE_INSTALLED = ("test_packages.py", "test_right_module.py")
@@ -54,10 +50,6 @@ def pytest_collection_modifyitems(items):
             item.add_marker(pytest.mark.xdist_group(f"{item.path.stem}.{item.cls.__name__}"))
     # a stable sort: what belongs together stays so
     items.sort(key=place)
-
-
-def is_overloaded():
-    return os.getloadavg()[0] > OVERLOADED * (os.cpu_count() or 1)
 
 
 @pytest.hookimpl(tryfirst=True)
