@@ -179,7 +179,7 @@ impl Coordinates {
             }
             None => None,
         };
-        let count = joints_of(ini);
+        let count = joints_of(ini)?;
         let in_order = AXIS_LETTERS.chars().take(count).collect::<Vec<_>>();
         let (joints, axes) = match (named, ini.text("TRAJ", "COORDINATES")) {
             (Some(named), _) => (named.clone(), named),
@@ -212,15 +212,15 @@ impl Coordinates {
 }
 
 /// `[KINS]JOINTS`, without it as many as have a section.
-fn joints_of(ini: &Ini) -> usize {
-    let said = ini
-        .text("KINS", "JOINTS")
-        .and_then(|text| text.parse().ok());
-    said.unwrap_or_else(|| {
-        (0..AXIS_LETTERS.len())
+fn joints_of(ini: &Ini) -> Result<usize, IniError> {
+    let Some(said) = ini.text("KINS", "JOINTS") else {
+        return Ok((0..AXIS_LETTERS.len())
             .take_while(|number| ini.has_section(&format!("JOINT_{number}")))
-            .count()
-    })
+            .count());
+    };
+    let remedy = "write how many joints the machine has, a whole number";
+    said.parse()
+        .map_err(|_| ini.bad_value("KINS", "JOINTS", remedy))
 }
 
 /// The letters of axes in a text, spaces left out; `None` if there are other ones.
@@ -369,6 +369,8 @@ MAX_ACCELERATION = 1000
             .replace("= X Y c", "= XC")
             .replace("[KINS]", "[KINS]\nJOINTS = 2");
         assert_eq!(letters(&machine_of(&fewer).joints), "XC");
+        let wrong = machine(&fewer.replace("JOINTS = 2", "JOINTS = two")).expect_err("an error");
+        assert!(wrong.to_string().contains("[KINS]JOINTS"), "{wrong}");
         let found = machine_of(&table.replace("= X Y c", "= XC"));
         assert_eq!(
             (letters(&found.axes), letters(&found.joints)),

@@ -395,17 +395,10 @@ const NO_TRAVEL: f64 = 1e-9;
 fn axes(setup: &Setup, collected: &Collected) -> Vec<AxisFigures> {
     let limits = setup.bounds();
     let seen = &collected.axes;
-    let of_axis = |axis: usize| AxisFigures {
-        letter: AXIS_LETTERS[axis],
-        name: format!("axis.{}", AXIS_LETTERS[axis].to_ascii_lowercase()),
-        unit: setup.unit_of(axis),
-        index: axis,
-        from: seen.low[axis],
-        to: seen.high[axis],
-        peaks: peaks(
-            &seen.peaks[axis],
-            limits.map(|limits| limits[axis] * setup.scale(axis)),
-        ),
+    let of_axis = |axis: usize| {
+        let name = format!("axis.{}", AXIS_LETTERS[axis].to_ascii_lowercase());
+        let limits = limits.map(|limits| limits[axis] * setup.scale(axis));
+        mover(setup, seen, (axis, axis), name, limits)
     };
     (0..AXIS_COUNT)
         .filter(|axis| travels(seen, *axis))
@@ -420,20 +413,35 @@ fn joints(setup: &Setup, collected: &Collected) -> Vec<AxisFigures> {
     };
     let of_joint = |joint: usize| {
         let axis = joints.axis(joint).filter(|_| travels(seen, joint))?;
-        Some(AxisFigures {
-            letter: AXIS_LETTERS[axis],
-            name: format!("joint.{joint}"),
-            unit: setup.unit_of(axis),
-            index: joint,
-            from: seen.low[joint],
-            to: seen.high[joint],
-            peaks: peaks(
-                &seen.peaks[joint],
-                joints.limits().map(|limits| limits[joint]),
-            ),
-        })
+        let limits = joints.limits().map(|limits| limits[joint]);
+        Some(mover(
+            setup,
+            seen,
+            (joint, axis),
+            format!("joint.{joint}"),
+            limits,
+        ))
     };
     (0..AXIS_COUNT).filter_map(of_joint).collect()
+}
+
+/// What was seen of an axis, or of a joint that moves one: `index` is its own.
+fn mover(
+    setup: &Setup,
+    seen: &Seen,
+    (index, axis): (usize, usize),
+    name: String,
+    limits: [f64; 3],
+) -> AxisFigures {
+    AxisFigures {
+        letter: AXIS_LETTERS[axis],
+        name,
+        unit: setup.unit_of(axis),
+        index,
+        from: seen.low[index],
+        to: seen.high[index],
+        peaks: peaks(&seen.peaks[index], limits),
+    }
 }
 
 fn travels(seen: &Seen, axis: usize) -> bool {
