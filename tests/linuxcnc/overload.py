@@ -2,8 +2,9 @@
 
 import os
 
-#: Processes a processor, the mean of a minute, from which on it has. Twelve tests at once on two processors are below it.
-OVERLOADED = 7.0
+#: Processes a processor, the mean of a minute, from which on it has: eight busy ones on two processors are so many, and a
+#: test of a few seconds then waits for more than a second now and again.
+OVERLOADED = 4.0
 #: How often a test is run at most, where it fails on such a computer. That is said at the end.
 ATTEMPTS = 3
 

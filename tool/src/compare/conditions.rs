@@ -6,6 +6,7 @@ use crate::joints::Joints;
 use crate::machine::configuration::Machine;
 use crate::machine::ini::Ini;
 use crate::machine::limits::Limits;
+use crate::machine::warn_of;
 use crate::wiring::joints::JointSettings;
 use std::path::Path;
 
@@ -72,6 +73,7 @@ impl Conditions {
     fn of_machine(file: &Path, tool_centre_point: bool) -> Result<Conditions, CompareError> {
         let ini = Ini::read(file)?;
         let machine = Machine::from_ini(&ini)?;
+        warn_of(machine.axes.iter().flat_map(|axis| &axis.assumed));
         let period = machine.servo_period;
         let mut joints = JointSettings::read(&ini);
         joints.turned_on = tool_centre_point;

@@ -30,6 +30,9 @@ pub struct Member {
     pub unit: &'static str,
     /// Its limits.
     pub limits: MemberLimits,
+    /// Which of them the file does not give, and what LinuxCNC takes instead: for the user to be told.
+    #[serde(skip)]
+    pub assumed: Vec<String>,
 }
 
 /// Whose positions describe the path of the tool in machine coordinates.
@@ -60,7 +63,6 @@ pub struct Machine {
 }
 
 /// Millimetres in an inch.
-#[cfg(feature = "linuxcnc")]
 const INCH: f64 = 25.4;
 
 impl Machine {
@@ -102,11 +104,14 @@ impl Machine {
             .filter(|l| coordinates.axes.contains(l))
         {
             let section = format!("AXIS_{letter}");
+            let unit = unit_of(letter, length_unit);
+            let (limits, assumed) = limits(ini, &section, unit, None)?;
             axes.push(Member {
                 name: format!("axis.{}", letter.to_ascii_lowercase()),
                 letter,
-                unit: unit_of(letter, length_unit),
-                limits: limits(ini, &section, None)?,
+                unit,
+                limits,
+                assumed,
             });
         }
         let path_source = if coordinates.are_joints {
@@ -131,9 +136,16 @@ fn length_unit(ini: &Ini) -> Result<&'static str, IniError> {
         "LINEAR_UNITS",
         "write LINEAR_UNITS = mm (or inch); without it no number of the report has a unit",
     )?;
+    // LinuxCNC also takes how many units a millimetre has.
+    let is_near = |units: f64| {
+        text.parse::<f64>()
+            .is_ok_and(|number| (number / units - 1.0).abs() < 1e-3)
+    };
     match text.to_ascii_lowercase().as_str() {
         "mm" | "metric" => Ok("mm"),
         "in" | "inch" | "imperial" => Ok("in"),
+        _ if is_near(1.0) => Ok("mm"),
+        _ if is_near(1.0 / INCH) => Ok("in"),
         _ => Err(ini.bad_value("TRAJ", "LINEAR_UNITS", "mm or inch are understood here")),
     }
 }
@@ -248,29 +260,43 @@ fn joint(
     };
     // A joint that moves an axis one to one shares the jerk limit of the axis.
     let axis_jerk = ini.optional_limit(&format!("AXIS_{letter}"), "MAX_JERK")?;
+    let (limits, assumed) = limits(ini, &section, unit, axis_jerk)?;
     Ok(Member {
         name: format!("joint.{number}"),
         letter,
         unit,
-        limits: limits(ini, &section, axis_jerk)?,
+        limits,
+        assumed,
     })
 }
 
-fn limits(ini: &Ini, section: &str, other_jerk: Option<f64>) -> Result<MemberLimits, IniError> {
-    Ok(MemberLimits {
-        velocity: ini.required_positive(
-            section,
-            "MAX_VELOCITY",
-            "write the greatest velocity in units per second, for example MAX_VELOCITY = 100",
-        )?,
-        acceleration: ini.required_positive(
-            section,
-            "MAX_ACCELERATION",
-            "write the greatest acceleration in units per second squared, for example \
-             MAX_ACCELERATION = 1000",
-        )?,
+/// What LinuxCNC takes for a velocity or acceleration of an axis or a joint that the INI file does not give.
+const DEFAULT_LIMIT: f64 = 1.0;
+
+/// The limits of an axis or a joint, and what is said of those that are missing.
+fn limits(
+    ini: &Ini,
+    section: &str,
+    unit: &str,
+    other_jerk: Option<f64>,
+) -> Result<(MemberLimits, Vec<String>), IniError> {
+    let mut assumed = Vec::new();
+    let mut limit = |key: &str, seconds: &str, example: &str| match ini.text(section, key) {
+        Some(_) => ini.required_positive(section, key, ""),
+        None => {
+            let remedy = format!(
+                "LinuxCNC takes {DEFAULT_LIMIT} {unit}/{seconds} then, and so does this: write for example {key} = {example}"
+            );
+            assumed.push(ini.missing(section, key, &remedy).to_string());
+            Ok(DEFAULT_LIMIT)
+        }
+    };
+    let limits = MemberLimits {
+        velocity: limit("MAX_VELOCITY", "s", "100")?,
+        acceleration: limit("MAX_ACCELERATION", "s2", "1000")?,
         jerk: ini.optional_limit(section, "MAX_JERK")?.or(other_jerk),
-    })
+    };
+    Ok((limits, assumed))
 }
 
 #[cfg(test)]
@@ -396,8 +422,53 @@ MAX_ACCELERATION = 1000
         assert!(message("LINEAR_UNITS = mm", "LINEAR_UNITS = furlong").contains("mm or inch"));
         assert!(message("[KINS]", "[KINEMA]").starts_with("mill.ini: [KINS]KINEMATICS"));
         assert!(message("coordinates=XYZ", "coordinates=XYQ").contains("XYZABCUVW"));
-        assert!(message("[AXIS_Y]", "[AXIS_J]").starts_with("mill.ini: [AXIS_Y]MAX_VELOCITY"));
-        assert!(message("[JOINT_2]", "[JOINT_3]").starts_with("mill.ini: [JOINT_2]MAX_VELOCITY"));
+        assert!(message("LINEAR_UNITS = mm", "LINEAR_UNITS = 2.0").contains("mm or inch"));
+        assert!(message("MAX_VELOCITY = 100", "MAX_VELOCITY = 0").contains("above 0"));
         assert!(message("TYPE = LINEAR", "TYPE = LINEA").contains("LINEAR or ANGULAR"));
+    }
+
+    #[test]
+    fn units_may_be_a_number() {
+        let unit = |text: &str| {
+            let text = MILL.replace("LINEAR_UNITS = mm", &format!("LINEAR_UNITS = {text}"));
+            machine(&text).expect("a valid machine").length_unit
+        };
+        assert_eq!(["1", "1.0", "0.03937"].map(unit), ["mm", "mm", "in"]);
+    }
+
+    #[test]
+    fn limits_that_are_missing_are_those_that_linuxcnc_takes_and_told() {
+        let assumed = |machine: &Machine| {
+            let members = machine.joints.iter().chain(&machine.axes);
+            members
+                .flat_map(|member| member.assumed.clone())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            assumed(&machine(MILL).expect("a valid machine")),
+            [""; 0],
+            "nothing is missing"
+        );
+        let text = MILL.replace("[AXIS_Y]", "[AXIS_J]").replace(
+            "[JOINT_2]\nMAX_VELOCITY = 100",
+            "[JOINT_2]\nMAXIMAL_VELOCITY = 100",
+        );
+        let found = machine(&text).expect("a valid machine");
+        let [y, joint] = [&found.axes[1].limits, &found.joints[2].limits];
+        assert_eq!(
+            (y.velocity, y.acceleration, joint.velocity),
+            (1.0, 1.0, 1.0)
+        );
+        assert_eq!(
+            assumed(&found),
+            [
+                "mill.ini: [JOINT_2]MAX_VELOCITY is missing: LinuxCNC takes 1 mm/s then, and so does this: write for \
+                 example MAX_VELOCITY = 100",
+                "mill.ini: [AXIS_Y]MAX_VELOCITY is missing: LinuxCNC takes 1 mm/s then, and so does this: write for \
+                 example MAX_VELOCITY = 100",
+                "mill.ini: [AXIS_Y]MAX_ACCELERATION is missing: LinuxCNC takes 1 mm/s2 then, and so does this: write \
+                 for example MAX_ACCELERATION = 1000",
+            ]
+        );
     }
 }

@@ -12,3 +12,10 @@ pub(crate) mod place;
 pub(crate) mod text_file;
 
 pub use error::IniError;
+
+/// Tells the user what an INI file does not say and what is taken instead.
+pub(crate) fn warn_of<'a>(assumed: impl IntoIterator<Item = &'a String>) {
+    for text in assumed {
+        eprintln!("warning: {text}");
+    }
+}

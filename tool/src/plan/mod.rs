@@ -163,6 +163,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
         )));
     }
     let setup = Setup::new(arguments)?;
+    crate::machine::warn_of(&setup.assumed);
     let mut all = Vec::new();
     for file in &arguments.files {
         all.push(in_a_thread(|| plan(file, &setup, arguments))?);

@@ -48,6 +48,8 @@ pub struct Setup {
     pub default_tolerance: f64,
     /// What the interpreter finds around it.
     pub surroundings: Surroundings,
+    /// What the INI file does not say, and what LinuxCNC takes instead: for the user to be told.
+    pub assumed: Vec<String>,
 }
 
 impl Setup {
@@ -150,6 +152,7 @@ fn without_ini() -> Setup {
         rotary_tolerance: 0.0,
         default_tolerance: DEFAULT_TOLERANCE,
         surroundings: Surroundings::default(),
+        assumed: Vec::new(),
     }
 }
 
@@ -168,6 +171,11 @@ fn from_ini(file: &Path, tool_centre_point: bool) -> Result<Setup, PlanError> {
         millimetres,
         axes: [false; AXIS_COUNT],
         default_tolerance: DEFAULT_TOLERANCE * millimetres,
+        assumed: machine
+            .axes
+            .iter()
+            .flat_map(|axis| axis.assumed.clone())
+            .collect(),
         ..without_ini()
     };
     setup.limits.take_from(&machine);
@@ -187,7 +195,7 @@ fn from_ini(file: &Path, tool_centre_point: bool) -> Result<Setup, PlanError> {
     setup.joints = Joints::from_settings(&joints, &ini, setup.period, 1.0)?;
     setup.tool_tilt_axis = tool_tilt_axis(&joints);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
-    setup.surroundings = surroundings(&ini, file, &machine, millimetres)?;
+    setup.surroundings = surroundings(&ini, file, &machine, millimetres, &mut setup.assumed)?;
     setup.ini.clone_from(&setup.surroundings.ini);
     Ok(setup)
 }
@@ -205,6 +213,7 @@ fn surroundings(
     file: &Path,
     machine: &Machine,
     unit: f64,
+    assumed: &mut Vec<String>,
 ) -> Result<Surroundings, PlanError> {
     let absolute =
         std::fs::canonicalize(file).map_err(|source| crate::machine::IniError::Read {
@@ -226,6 +235,11 @@ fn surroundings(
         return Err(ini.bad_value("EMCIO", "DB_PROGRAM", problem).into());
     }
     let tools = match named("EMCIO", "TOOL_TABLE") {
+        Some(name) if !folder.join(name).exists() => {
+            let problem = "there is no such file: LinuxCNC has no tools then, and so has this";
+            assumed.push(ini.bad_value("EMCIO", "TOOL_TABLE", problem).to_string());
+            Some(Vec::new())
+        }
         Some(name) => Some(read_tool_table(&folder.join(name))?),
         None => None,
     };

@@ -30,6 +30,7 @@ use crate::format::significant;
 use crate::json;
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
 use crate::machine::ini::Ini;
+use crate::machine::warn_of;
 use crate::output::OutputFile;
 use crate::part_program::contour;
 use crate::program::trace::Setup;
@@ -86,6 +87,8 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
         _ => Vec::new(),
     };
     let machine = Machine::from_ini(&Ini::read(&arguments.ini)?)?;
+    let members = machine.joints.iter().chain(&machine.axes);
+    warn_of(members.flat_map(|member| &member.assumed));
     let mut recording = Recording::read(&arguments.recording)?;
     let letter_order = |letter: char| AXIS_LETTERS.find(letter.to_ascii_uppercase());
     recording

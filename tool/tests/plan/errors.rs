@@ -1,7 +1,7 @@
 //! What is refused, and how it is said.
 
 use crate::bench::refusal;
-use crate::support::{Bench, MILL};
+use crate::support::{Bench, MILL, number};
 use std::process::Command;
 
 #[test]
@@ -11,23 +11,10 @@ fn ini_files_that_cannot_be_used() {
     let missing = bench.refused(&["part.ngc", "--ini", "nowhere.ini"]);
     assert!(missing.contains("nowhere.ini: cannot be read"), "{missing}");
     for (taken, named) in [
-        (
-            "MAX_VELOCITY = 50\nMAX_ACCELERATION = 500\nMAX_JERK",
-            "[AXIS_Z]MAX_VELOCITY",
-        ),
-        (
-            "MAX_ACCELERATION = 500\nMAX_JERK",
-            "[AXIS_Z]MAX_ACCELERATION",
-        ),
         ("SERVO_PERIOD = 1000000", "[EMCMOT]SERVO_PERIOD"),
         ("LINEAR_UNITS = mm", "[TRAJ]LINEAR_UNITS"),
     ] {
-        let kept = if taken.ends_with("MAX_JERK") {
-            "MAX_JERK"
-        } else {
-            ""
-        };
-        bench.write("mill.ini", &MILL.replace(taken, kept));
+        bench.write("mill.ini", &MILL.replace(taken, ""));
         let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
         assert!(
             error.contains("mill.ini") && error.contains(named),
@@ -39,27 +26,50 @@ fn ini_files_that_cannot_be_used() {
     bench.write("mill.ini", &negative);
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(error.contains("[AXIS_Z]MAX_JERK = -5"), "{error}");
-    let no_table = MILL.to_owned() + "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
-    bench.write("mill.ini", &no_table);
-    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
-    assert!(
-        error.contains("tools.tbl: the tool table cannot be read"),
-        "{error}"
-    );
+    let with_table = MILL.to_owned() + "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
+    bench.write("mill.ini", &with_table);
     bench.write("tools.tbl", "T1 P1\nT2 length 5\n");
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(error.contains("tools.tbl:2: `length`"), "{error}");
-    let database = no_table.replace("TOOL_TABLE = tools.tbl", "DB_PROGRAM = ./tools.py");
+    let database = with_table.replace("TOOL_TABLE = tools.tbl", "DB_PROGRAM = ./tools.py");
     bench.write("mill.ini", &database);
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(error.contains("[EMCIO]DB_PROGRAM"), "{error}");
-    bench.write("mill.ini", &no_table);
+    bench.write("mill.ini", &with_table);
     bench.write("tools.tbl", "T1 P1\nT2 Z20 ;no pocket\n");
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(
         error.contains("tools.tbl:2: LinuxCNC does not find this tool: the line has no P"),
         "{error}"
     );
+}
+
+#[test]
+fn what_an_ini_file_does_not_say_is_as_linuxcnc_has_it_and_told() {
+    let bench = Bench::new();
+    let part = "G21 F6000\nG1 Z2\nM2\n";
+    bench.write("part.ngc", part);
+    let no_table = MILL.to_owned() + "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
+    bench.write("mill.ini", &no_table);
+    let output = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert!(output.status.success(), "{told}");
+    assert!(
+        told.contains("mill.ini:34: [EMCIO]TOOL_TABLE = tools.tbl: there is no such file"),
+        "{told}"
+    );
+    let velocity = "MAX_VELOCITY = 50\nMAX_ACCELERATION = 500\nMAX_JERK";
+    bench.write("mill.ini", &MILL.replace(velocity, "MAX_JERK"));
+    let output = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert!(
+        told.contains("warning: mill.ini: [AXIS_Z]MAX_VELOCITY is missing: LinuxCNC takes 1 mm/s")
+            && told.contains("[AXIS_Z]MAX_ACCELERATION is missing: LinuxCNC takes 1 mm/s2"),
+        "{told}"
+    );
+    let time = number(&bench.figures(part, &["--ini", "mill.ini"])["time"]);
+    // 1 s to a velocity of 1 mm/s, 1 s at it, 1 s to rest; jerk is high
+    assert!((time - 3.0).abs() < 0.01, "{time}");
 }
 
 #[test]
