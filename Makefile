@@ -249,17 +249,21 @@ figures: modules tool
 	$(TOOL) compare $(ALTERNATING) $(COMPARED_JERK) --optimum
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
-# A tilting table with the tool centre point: LinuxCNC's five-axis programs, without the M428 and M429 that switch it there, and a
-# generated one; then with a restless operator.
+# A tilting table with the tool centre point: LinuxCNC's five-axis programs, without the M428 and M429 that switch it there, a
+# generated one and ten random ones; then with a restless operator.
 TABLE_PROGRAMS ?= /usr/share/doc/linuxcnc/examples/sample-configs/sim/axis/vismach/5axis/table-rotary-tilting/demos
 TABLE = --ini hal-component/configs/framepath-xyzac/framepath-xyzac.ini --tool-centre-point --feed-at-least 6000 --jerk 20A
-FIVE_AXES = $(patsubst %,$(TARGET)/five-axes/%-xyzac.ngc,boat impeller-7bl) --generated blade
+RANDOM_SEEDS = 1 2 3 4 5 6 7 8 9 10
+FIVE_AXES = $(patsubst %,$(TARGET)/five-axes/%.ngc,boat-xyzac impeller-7bl-xyzac $(addprefix random-,$(RANDOM_SEEDS))) --generated blade
 
 five-axes: modules tool
 	@mkdir -p $(TARGET)/five-axes
 	for program in boat impeller-7bl; do \
 	    (echo 'G64 P0.05' && sed 's/^%.*//; s/^M42[89].*//' $(TABLE_PROGRAMS)/$$program-xyzac.ngc) \
 	    > $(TARGET)/five-axes/$$program-xyzac.ngc || exit 1; done
+	for seed in $(RANDOM_SEEDS); do \
+	    $(TOOL) generate random-five-axes --seed $$seed \
+	    > $(TARGET)/five-axes/random-$$seed.ngc || exit 1; done
 	$(TOOL) compare $(FIVE_AXES) $(TABLE) --optimum
 	$(TOOL) compare $(FIVE_AXES) $(TABLE) --operator 1
 

@@ -45,9 +45,9 @@ impl Options {
 /// How many of them `all` means.
 const COMPARED: usize = 15;
 
-/// Those that `all` means, and behind them two in which LinuxCNC's planner is no measure: it leaves
-/// the feed, or a G61 line.
-pub(crate) const GENERATORS: [Generator; COMPARED + 2] = [
+/// Those that `all` means, and behind them two in which LinuxCNC's planner is no measure, since it leaves
+/// the feed, or a G61 line, and one for the joints of a table.
+pub(crate) const GENERATORS: [Generator; COMPARED + 3] = [
     Generator {
         name: "zigzag",
         about: "200 legs of 1 mm that turn by 90 degrees to and fro, P .05",
@@ -132,6 +132,11 @@ pub(crate) const GENERATORS: [Generator; COMPARED + 2] = [
         name: "alternating-modes",
         about: "200 lines of 2 mm in G64 P .05 and in G61 in turn",
         write: alternating::modes,
+    },
+    Generator {
+        name: "random-five-axes",
+        about: "300 random lines of X Y Z A C; lengths, turns, tilts and P (.01 to .1) by the seed",
+        write: more_axes::random_five_axes,
     },
 ];
 

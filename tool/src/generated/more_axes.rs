@@ -2,6 +2,7 @@
 
 use super::Options;
 use super::dense::Contour;
+use super::random::Random;
 use super::text::Text;
 use std::f64::consts::TAU;
 
@@ -47,6 +48,47 @@ pub(super) fn blade(options: &Options) -> String {
                 0.9 * point.along + 15.0 * ((0.1 * point.along).cos() - 1.0),
             ),
         ]);
+    }
+    text.end()
+}
+
+/// X Y Z A C at random: how long moves are, how much the direction turns from one to the next, how fast the tool tilts and P
+/// hang on the seed as well.
+pub(super) fn random_five_axes(options: &Options) -> String {
+    const GREATEST_TILT: f64 = 60.0;
+    const HALF_CUBE: f64 = 30.0;
+    let mut random = Random::new(options.seed);
+    let tolerance = (1e3 * random.between_logarithmic(0.01, 0.1)).round() / 1e3;
+    let greatest_length = random.between_logarithmic(0.5, 10.0);
+    let turn = random.between_logarithmic(0.1, 3.0);
+    let greatest_step = random.between_logarithmic(0.5, 10.0);
+    let mut text = Text::start(
+        "random X Y Z A C",
+        options,
+        options.tolerance_or(tolerance),
+        4,
+    );
+    let (mut at, mut direction) = ([0.0f64; 3], random.direction());
+    let (mut tilt, mut table) = (0.0f64, 0.0);
+    for _ in 0..300 {
+        for (part, other) in direction.iter_mut().zip(random.direction()) {
+            *part += turn * other;
+        }
+        let size = direction.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let length = random.between_logarithmic(0.1 * greatest_length, greatest_length);
+        for (coordinate, part) in at.iter_mut().zip(&mut direction) {
+            *part /= size;
+            // what would leave the cube turns back
+            if (*coordinate + length * *part).abs() > HALF_CUBE {
+                *part = -*part;
+            }
+            *coordinate += length * *part;
+        }
+        tilt = (tilt + random.between(-greatest_step, greatest_step))
+            .clamp(-GREATEST_TILT, GREATEST_TILT);
+        table += random.between(-greatest_step, greatest_step);
+        let [x, y, z] = at;
+        text.line(&[('X', x), ('Y', y), ('Z', z), ('A', tilt), ('C', table)]);
     }
     text.end()
 }
