@@ -35,6 +35,8 @@ static void find_joint_jet(void)
 static void say_joint_refusal(int code, struct framepath_joint_limits const *limits)
 {
     static const char *const need = "since a limit of joints is set, it must be positive for each joint: set it with setp from";
+    static const char *const finite = "since a limit of joints is set, it must be positive for each joint, and not infinite: set it "
+                                      "with setp from";
     static const char *const otherwise = "set all blendtp.joint.* to 0, and the axes keep their limits instead";
     int joint = limits->joint;
     switch (code) {
@@ -44,7 +46,7 @@ static void say_joint_refusal(int code, struct framepath_joint_limits const *lim
         break;
     case FRAMEPATH_JOINT_ACCELERATION:
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.joint.%d.max-acceleration is %g: %s [JOINT_%d]MAX_ACCELERATION\n", joint,
-                        limits->value, need, joint);
+                        limits->value, finite, joint);
         break;
     case FRAMEPATH_JOINT_JERK:
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.joint.%d.max-jerk is %g: it must be 0 (not limited) or, in machine units per second "

@@ -73,7 +73,7 @@ pub enum JointsError {
     /// Without this limit blendtp refuses every move.
     #[error(
         "blendtp.joint.{joint}.max-{quantity} is {limit}: since a limit of joints is set, blendtp refuses every move \
-         unless it is positive for each joint: set it with setp from [JOINT_{joint}]MAX_{}",
+         unless it is positive for each joint, and an acceleration not infinite: set it with setp from [JOINT_{joint}]MAX_{}",
         quantity.to_uppercase()
     )]
     NotPositive {
@@ -311,7 +311,8 @@ fn limits(
         };
         let [velocity, acceleration, jerk] = settings.limits.map(|limits| limits[joint]);
         for (limit, quantity) in [(velocity, "velocity"), (acceleration, "acceleration")] {
-            if limit.is_nan() || limit <= 0.0 {
+            let is_endless = quantity == "acceleration" && limit.is_infinite();
+            if limit.is_nan() || limit <= 0.0 || is_endless {
                 return Err(JointsError::NotPositive {
                     joint,
                     quantity,

@@ -72,7 +72,7 @@ pub struct CompareArguments {
     /// tpmod.so, and blendtp.so from the folder FRAMEPATH_MODULES or LinuxCNC's]
     #[arg(long = "with", value_name = "MODULE.so")]
     pub modules: Vec<PathBuf>,
-    /// Program of `framepath generate`; `all` for every one but the alternating ones
+    /// Program of `framepath generate`; `all` for every one but random-five-axes and the alternating ones
     #[arg(long, value_name = "NAME", num_args = 1..)]
     pub generated: Vec<String>,
     /// INI file of a machine: its limits of velocity and acceleration, servo period, greatest velocity along the path

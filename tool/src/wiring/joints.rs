@@ -76,6 +76,10 @@ fn number(state: &State, pin: &str) -> f64 {
     let value = state.settings.get(pin).map_or("", |setting| &setting.value);
     match value.to_ascii_lowercase().as_str() {
         "true" => 1.0,
+        // HAL takes these as well
+        text if text.trim_start().starts_with("inf") => f64::INFINITY,
+        text if text.trim_start().starts_with("-inf") => f64::NEG_INFINITY,
+        text if text.trim_start().starts_with("nan") => f64::NAN,
         text => leading_number(text).unwrap_or(0.0),
     }
 }

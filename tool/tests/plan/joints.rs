@@ -63,3 +63,38 @@ fn the_text_has_a_table_of_joints() {
     let text = String::from_utf8(without.stdout).expect("text");
     assert!(!text.contains("Peaks of the joints"), "{text}");
 }
+
+/// As blendtp refuses every move with them.
+#[test]
+fn limits_that_blendtp_refuses_are_refused() {
+    let bench = Bench::new();
+    table(&bench, "mm", 1.0);
+    bench.write("turn.ngc", TURN);
+    let hal = bench.read("table.hal");
+    for (quantity, value) in [
+        ("velocity", "0"),
+        ("velocity", "-1"),
+        ("acceleration", "0"),
+        ("acceleration", "inf"),
+    ] {
+        let pin = format!("blendtp.joint.2.max-{quantity}");
+        bench.write("table.hal", &format!("{hal}setp {pin} {value}\n"));
+        let error = bench.refused(&["turn.ngc", "--ini", "table.ini"]);
+        let key = quantity.to_uppercase();
+        assert!(
+            error.contains(&format!("{pin} is {value}: "))
+                && error.contains(&format!("[JOINT_2]MAX_{key}")),
+            "{error}"
+        );
+    }
+    bench.write(
+        "table.hal",
+        &format!("{hal}setp blendtp.joint.2.max-velocity inf\n"),
+    );
+    assert!(
+        bench
+            .plan(&["turn.ngc", "--ini", "table.ini"])
+            .status
+            .success()
+    );
+}
