@@ -144,7 +144,7 @@ class FeedHold(Row):
     def check(self, seen):
         first, second, third = seen.kept["held"]
         seen.require(5 < first < 28 and 30 < second < 58, f"held at {seen.kept['held']}")
-        seen.require(third > 70, f"M53 P0 does hold, at {third:.1f}")
+        seen.require(third > 70, f"held in spite of M53 P0, at {third:.1f}")
 
 
 class NegativeAdaptiveFeed(Row):

@@ -1,7 +1,7 @@
 //! The limits of joints that HAL files set for blendtp, and the kinematics behind which these are.
 
 use super::blendtp::{JOINT_LIMITS, LIMITED_JOINTS};
-use super::subject::{leading_number, parameter};
+use super::subject::{leading_float, parameter};
 use crate::hal::{State, read_script};
 use crate::machine::ini::Ini;
 
@@ -76,10 +76,6 @@ fn number(state: &State, pin: &str) -> f64 {
     let value = state.settings.get(pin).map_or("", |setting| &setting.value);
     match value.to_ascii_lowercase().as_str() {
         "true" => 1.0,
-        // HAL takes these as well
-        text if text.trim_start().starts_with("inf") => f64::INFINITY,
-        text if text.trim_start().starts_with("-inf") => f64::NEG_INFINITY,
-        text if text.trim_start().starts_with("nan") => f64::NAN,
-        text => leading_number(text).unwrap_or(0.0),
+        text => leading_float(text).unwrap_or(0.0),
     }
 }

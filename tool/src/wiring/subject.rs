@@ -272,12 +272,17 @@ pub fn parameter<'a>(words: &'a str, name: &str) -> Option<&'a str> {
     parameters.find_map(|(known, value)| (known == name).then_some(value))
 }
 
-/// The number that a text begins with.
+/// The finite number that a text begins with.
 pub fn leading_number(text: &str) -> Option<f64> {
+    leading_float(text).filter(|number| number.is_finite())
+}
+
+/// The number that a text begins with; HAL takes `inf` and `nan` for one as well.
+pub fn leading_float(text: &str) -> Option<f64> {
     let word = text
         .split(|c: char| c.is_whitespace() || ",;#".contains(c))
         .next()?;
-    word.parse().ok().filter(|number: &f64| number.is_finite())
+    word.parse().ok()
 }
 
 fn axes(ini: &Ini) -> Vec<char> {
