@@ -136,7 +136,7 @@ fn length_unit(ini: &Ini) -> Result<&'static str, IniError> {
         "LINEAR_UNITS",
         "write LINEAR_UNITS = mm (or inch); without it no number of the report has a unit",
     )?;
-    // LinuxCNC also takes how many units a millimetre has.
+    // LinuxCNC 2.9 also takes how many units a millimetre has.
     let is_near = |units: f64| {
         text.parse::<f64>()
             .is_ok_and(|number| (number / units - 1.0).abs() < 1e-3)
