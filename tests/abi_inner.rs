@@ -17,6 +17,7 @@ use framepath::abi::kinematics::{
     framepath_kinematics_forward, framepath_kinematics_inverse, framepath_kinematics_switch,
     framepath_kinematics_tilt_axis, framepath_kinematics_update,
 };
+use framepath::abi::kinematics_jet::framepath_kinematics_tool_tilt_axis;
 use framepath::abi::kinematics_words::framepath_kinematics_refusal_text;
 use framepath::abi::linuxcnc::EmcPose;
 
@@ -191,4 +192,26 @@ fn what_passes_between_motion_and_the_other_module() {
     // SAFETY: a structure of the interface.
     assert_eq!(unsafe { framepath_kinematics_switch(33, &pins) }, 0);
     assert_eq!(asked(&pins), (5, (0, 0), 0.0));
+
+    // While it is not known it is asked again at each rest, not while the machine stands.
+    framepath_kinematics_inner_functions(Some(table), Some(forward), Some(switch));
+    assert_eq!(asked(&pins), (5, (0, 0), 0.0));
+    assert_eq!(framepath_kinematics_tool_tilt_axis(), -1);
+    for stands in [0, 1] {
+        pins.in_position = stands;
+        let known = (5 - 5 * stands, (stands, 3 * stands), 0.0);
+        assert_eq!(asked(&pins), known);
+    }
+    assert_eq!(framepath_kinematics_tool_tilt_axis(), 3);
+
+    // Without a frame blendtp is told, too: of another type when the machine stands.
+    pins.inner_type = 0.0;
+    // SAFETY: a structure of the interface.
+    assert_eq!(unsafe { framepath_kinematics_switch(0, &pins) }, 0);
+    pins.in_position = 0;
+    assert_eq!(asked(&pins), (7, (0, 0), 0.0));
+    assert_eq!(framepath_kinematics_tool_tilt_axis(), -1);
+    pins.in_position = 1;
+    assert_eq!(asked(&pins), (7, (0, 0), 0.0));
+    assert_eq!(framepath_kinematics_tool_tilt_axis(), 3);
 }

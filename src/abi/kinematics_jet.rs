@@ -2,9 +2,10 @@
 
 use libc::{c_double, c_int};
 
-use super::kinematics::module;
+use super::kinematics::{Kinematics, module};
 use crate::axes::{AXIS_COUNT, Axes};
-use crate::machine::{JOINT_COUNT, Machine};
+use crate::kinematics::Behind;
+use crate::machine::JOINT_COUNT;
 
 /// Three derivatives of the joints 0 to 8 for a position and its derivatives by the same parameter: nine numbers, three times
 /// nine, and room for three times nine. 0, or -1 where the kinematics behind the frame are another module's.
@@ -50,14 +51,25 @@ pub unsafe extern "C" fn framepath_kinematics_jet(
 }
 
 /// The axis that tilts the tool against the workpiece while C turns it, 3 for A, 4 for B, where the coordinates of the program
-/// are those of its tip; -1 where they are not, or the kinematics are another module's.
+/// are those of its tip; -1 where they are not. Where the kinematics are another module's these are asked how they turn
+/// the tool when the machine stands next: -1 until then, and where they do not tell.
 #[unsafe(no_mangle)]
 pub extern "C" fn framepath_kinematics_tool_tilt_axis() -> c_int {
-    let machine = module()
-        .control
-        .as_ref()
-        .and_then(|control| control.behind().machine());
-    let axis = machine.and_then(Machine::tool_tilt_axis);
+    let Kinematics {
+        control: Some(control),
+        position,
+        joints,
+        inner,
+        normal,
+        ..
+    } = module()
+    else {
+        return -1;
+    };
+    let axis = match control.behind() {
+        Behind::Own(machine) => machine.tool_tilt_axis(),
+        Behind::Inner(_) => normal.tool_tilt_axis(control, position, joints, inner),
+    };
     axis.map_or(-1, |axis| axis as c_int)
 }
 

@@ -19,7 +19,7 @@ pub fn axes_of(pose: &EmcPose) -> Axes {
 }
 
 /// Nine numbers as a pose.
-pub(super) fn pose_of(axes: &Axes) -> EmcPose {
+pub fn pose_of(axes: &Axes) -> EmcPose {
     let [[x, y, z, a, b, c, u, v, w]] = axes.data.0;
     EmcPose {
         tran: PmCartesian { x, y, z },

@@ -18,6 +18,9 @@ const AXIAL_TOLERANCE: f64 = 1e-12;
 /// How far (sine of the angle) a direction may be from what is reached: rounding.
 const REACHED: f64 = 1e-9;
 
+/// How far (of a unit vector) lines may be from upright and square.
+const SQUARE: f64 = 1e-6;
+
 /// A rotary axis as the workpiece sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryAxis {
@@ -44,6 +47,15 @@ pub struct RotaryChain {
 }
 
 impl RotaryChain {
+    /// The axis, 3 for A or 4 for B, that tilts the tool square to Z while C turns what is tilted about Z; `None` where the axes
+    /// are others.
+    pub fn tilt_axis_below_c(&self) -> Option<usize> {
+        let rotary = self.rotary?;
+        let is_upright = rotary.letter == 2 && rotary.line.z.abs() > 1.0 - SQUARE;
+        let is_square = self.tilt.letter < 2 && self.tilt.line.z.abs() < SQUARE;
+        (is_upright && is_square).then_some(3 + self.tilt.letter)
+    }
+
     /// Where the tool points.
     pub fn direction(&self, angles: RotaryAngles) -> Vector3<f64> {
         let tilted = self.tilt.turned(angles.tilt, &Vector3::z());

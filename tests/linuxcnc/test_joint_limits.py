@@ -11,7 +11,7 @@ import unittest
 import harness
 from inner_machine import SELECT, SWITCH, Machine
 from ten_programs import ATTEMPTS
-from test_inner_machines import OWN, TILTING
+from test_inner_machines import OWN, SCARA, TABLE, TILTING
 
 #: what joints may do here: half of what the axes may
 VELOCITY, ACCELERATION, JERK = 100, 1000, 20000
@@ -24,6 +24,10 @@ G1 X60 Y-40 Z0 A20 C-60
 G1 X-40 Y-40 Z5 A10 C-80
 G1 X0 Y0 Z0 A0 C0
 """
+
+#: where a SCARA reaches, its elbow bent and nearly straight
+SWEEPS = "\n".join(["G21 G17 G90 G94 G64 P0.05 F6000", "G1 X300 Y400", "G1 X0 Y540", "G1 X-250 Y300 Z330", "G1 X-100 Y350 Z320",
+                    "G2 X250 Y350 I175 J0", "G1 X417 Y64 Z340", "M2"]) + "\n"
 
 #: next to the pole C goes to and fro
 POLE = "\n".join(["G21 G17 G90 G94 G61 F1200", "G1 X0 A1 C0", "G64 P0.05", *(f"G1 X{k} C{6 * (k % 2)}" for k in range(1, 41)),
@@ -113,22 +117,22 @@ def planned(machine, program, *options):
     return text, figures["programs"][0]
 
 
-def limited(machine):
+def limited(machine, joints=5):
     """The machine with limits of joints in its HAL file."""
-    lines = "".join(" ".join(map(str, step)) + "\n" for step in set_limits(5))
-    return Machine(machine.kinematics, machine.home, machine.letters, machine.hal + lines)
+    lines = "".join(" ".join(map(str, step)) + "\n" for step in set_limits(joints))
+    return Machine(machine.kinematics, machine.home, machine.letters, machine.hal + lines, machine.switches)
 
 
 class Planned(unittest.TestCase):
     """`framepath plan --ini` of a machine whose HAL file sets limits of joints."""
 
-    def test_the_time_is_that_of_linuxcnc(self):
-        machine = limited(OWN)
-        text, figures = planned(machine, TURNS + "M2\n")
+    def check_time(self, machine, program, inner=None):
+        """The plan lasts as long as in LinuxCNC."""
+        text, figures = planned(machine, program)
         # of two ways to blend it takes the slower one where a move comes a period later: ten periods
         tolerance = max(3, 0.003 * figures["cycles"])
         for _ in range(ATTEMPTS):
-            result = machine.run([["run", "PROGRAMS/turns.ngc"]], {"turns.ngc": TURNS + "M2\n"})
+            result = machine.run([["run", "PROGRAMS/part.ngc"]], {"part.ngc": program}, inner=inner)
             self.assertIsNone(result.failure, result.log)
             self.assertEqual(result.errors, [], result.log)
             cycles = len(machine.way(result))
@@ -137,19 +141,65 @@ class Planned(unittest.TestCase):
             if cycles <= figures["cycles"] + tolerance:
                 break
         self.assertLessEqual(abs(figures["cycles"] - cycles), tolerance)
-        self.assertIn("with the tool centre point", text)
         causes = [share["name"] for share in figures["limited_by"]]
         self.assertTrue(any("of joint" in cause for cause in causes), causes)
+        return text, figures
+
+    def test_the_time_is_that_of_linuxcnc(self):
+        text, figures = self.check_time(limited(OWN), TURNS + "M2\n")
+        self.assertIn("with the tool centre point", text)
         # without them another time
         free = planned(OWN, TURNS + "M2\n")[1]
         self.assertIsNone(free["limits_of_joints"])
         self.assertLess(free["time"], 0.95 * figures["time"])
 
+    def test_the_time_behind_a_module_of_linuxcnc(self):
+        """The command loads it, with its parameters and what HAL sets its pins to: nearly the same as behind our own table,
+        whose jets take less time, which is planned with."""
+        text, figures = self.check_time(limited(TILTING), TURNS + "M2\n")
+        self.assertIn("behind xyzac-trt-kins", text)
+        own = planned(limited(OWN), TURNS + "M2\n")[1]
+        self.assertLessEqual(abs(own["cycles"] - figures["cycles"]), 0.005 * own["cycles"])
+
+    def test_the_time_of_a_robot_that_does_not_begin_at_zero(self):
+        figures = self.check_time(limited(SCARA, 6), SWEEPS)[1]
+        joints = {joint["name"]: joint for joint in figures["joints"]}
+        self.assertAlmostEqual(joints["joint.1"]["from"], -90, delta=40)
+        for joint in joints.values():
+            velocity, acceleration, jerk = (peak["share"] for peak in joint["peaks"])
+            self.assertLessEqual(velocity, 1.001)
+            self.assertLessEqual(acceleration, 1.001)
+            self.assertLessEqual(jerk, 1.05)
+
+    def test_a_type_of_the_kinematics(self):
+        switched = Machine(TABLE.kinematics, TABLE.home, TABLE.letters, TABLE.hal, switches=True)
+        program = "M428\n" + TURNS + "M429\nM2\n"
+        figures = planned(limited(switched), program, "--kinematics-type", "1")[1]
+        own = planned(limited(OWN), TURNS + "M2\n")[1]
+        self.assertLessEqual(abs(own["cycles"] - figures["cycles"]), 0.005 * own["cycles"])
+        refused = [([], "part.ngc:3: a move with kinematics of another type"),
+                   (["--kinematics-type", "9"], "--kinematics-type 9: it has no type 9")]
+        for options, words in refused:
+            with self.assertRaisesRegex(RuntimeError, words):
+                planned(limited(switched), program, *options)
+        with self.assertRaisesRegex(RuntimeError, "--kinematics-type: the HAL files of .* set no limits of joints"):
+            planned(OWN, program, "--kinematics-type", "1")
+
+    def test_what_blendtp_refuses_is_refused(self):
+        straight = Machine("scarakins", (45, 0, 150, 0, 0, 0), "XYZABC", SCARA.hal)
+        refused = [(limited(straight, 6), "scarakins, with which blendtp refuses every move: .*singular"),
+                   (limited(Machine("genserkins", (10, -40, -20, 20, 50, 30), "XYZABC"), 6), "genserkins.*2 us at most")]
+        for machine, words in refused:
+            with self.assertRaisesRegex(RuntimeError, words):
+                planned(machine, "G1 X1 F100\nM2\n")
+        with self.assertRaisesRegex(RuntimeError, "part.ngc:1: .*scarakins has no joints for where it ends"):
+            planned(limited(SCARA, 6), "G1 X5000 F1000\nM2\n")
+
     def test_kinematics_that_are_not_known_are_named(self):
-        named = Machine("xyzac-trt-kins coordinates=XYZAC", TILTING.home, TILTING.letters, TILTING.hal)
+        named = Machine("nokins coordinates=XYZAC", TILTING.home, TILTING.letters, TILTING.hal)
         text, figures = planned(limited(named), TURNS + "M2\n")
         self.assertIn("NOT planned", text)
-        self.assertIn("behind xyzac-trt-kins", figures["limits_of_joints"])
+        self.assertIn("behind nokins (", figures["limits_of_joints"])
 
 
 class Compared(unittest.TestCase):
@@ -178,10 +228,10 @@ class Compared(unittest.TestCase):
 class ToolAxis(unittest.TestCase):
     """Next to the pole C may leave the program by more than the tool axis, where framekins says what tilts the tool."""
 
-    def run_with(self, machine):
+    def run_with(self, machine, inner=None):
         """X, A and C in each period of motion."""
         steps = [["setp", "blendtp.rotary-tolerance", TOLERANCE], ["run", "PROGRAMS/pole.ngc"]]
-        result = machine.run(steps, {"pole.ngc": POLE})
+        result = machine.run(steps, {"pole.ngc": POLE}, inner=inner)
         self.assertIsNone(result.failure, result.log)
         self.assertEqual(result.errors, [], result.log)
         rows = result.columns("axis.x", "axis.a", "axis.c")
@@ -206,6 +256,15 @@ class ToolAxis(unittest.TestCase):
         figures = planned(OWN, POLE, "--rotary-tolerance", str(TOLERANCE))[1]
         self.assertLessEqual(abs(figures["cycles"] - len(told)), max(3, 0.003 * len(told)))
         self.assertEqual(figures["findings"], [])
+
+    def test_behind_another_module_as_well(self):
+        """framekins asks it how it turns the tool; alone, nobody does."""
+        told = self.run_with(TILTING, inner="inner=xyzac-trt-kins tool_types=0")
+        without = self.run_with(TILTING)
+        leans = max(self.leans(row) for row in told if row[0] > 0)
+        print(f"{len(told)} periods, {len(without)} without framekins; the tool axis leans by {leans} degrees")
+        self.assertLess(len(told), 0.93 * len(without))
+        self.assertLessEqual(leans, 1.005 * TOLERANCE)
 
 
 class Refusals(unittest.TestCase):

@@ -95,6 +95,7 @@ fn compile_interpreter(include: &[String], output: &Path) {
             folder.join("main.cc"),
             folder.join("calls.cc"),
             folder.join("answers.cc"),
+            folder.join("hal_pins.cc"),
             folder.join("settings.cc"),
         ])
         .args(["-rdynamic", "-lrs274", "-lpyplugin"])

@@ -44,9 +44,10 @@ const UNSURE: f64 = 0.1;
 
 /// What asking the kinematics is like.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Measured {
-    /// Nanoseconds for one answer, and for how joints move at a place.
+pub struct Measured {
+    /// Nanoseconds for one answer ..
     pub call: f64,
+    /// .. and for how joints move at a place.
     pub jet: f64,
     /// What an answer may be wrong by, of each joint.
     pub noise: Joints,
@@ -55,7 +56,8 @@ pub(super) struct Measured {
 }
 
 /// The kinematics, and where the machine is.
-pub(super) struct JointKinematics {
+#[derive(Debug)]
+pub struct JointKinematics {
     module: KinematicsModule,
     exact: ExactJet,
     /// The joints that answers begin from, and the flags of their arm.
@@ -71,13 +73,8 @@ struct JointMemory(UnsafeCell<JointKinematics>);
 // SAFETY: LinuxCNC calls the planner from one thread at a time, see [`super`].
 unsafe impl Sync for JointMemory {}
 
-static MEMORY: JointMemory = JointMemory(UnsafeCell::new(JointKinematics {
-    module: KinematicsModule::NONE,
-    exact: None,
-    near: [0.0; JOINT_COUNT],
-    flags: 0,
-    measured: None,
-}));
+static MEMORY: JointMemory =
+    JointMemory(UnsafeCell::new(JointKinematics::of(KinematicsModule::NONE)));
 
 /// The kinematics, to be changed. Not while the planner is at work.
 pub(super) fn kinematics() -> &'static mut JointKinematics {
@@ -134,6 +131,17 @@ fn clock() -> f64 {
 }
 
 impl JointKinematics {
+    /// This module, which has not been asked yet.
+    pub const fn of(module: KinematicsModule) -> Self {
+        Self {
+            module,
+            exact: None,
+            near: [0.0; JOINT_COUNT],
+            flags: 0,
+            measured: None,
+        }
+    }
+
     /// Who says in closed form how joints move, if anyone does.
     pub(super) fn set_exact(&mut self, exact: ExactJet) {
         self.exact = exact;
@@ -149,12 +157,14 @@ impl JointKinematics {
     }
 
     /// The machine is at `position`, shape (9), with these joints.
-    pub(super) fn follow(&mut self, position: &Axes, joints: &Joints) {
+    pub fn follow(&mut self, position: &Axes, joints: &Joints) {
         self.near = *joints;
         self.flags = self.module.arm(position, joints);
     }
 
-    fn joints(&self, position: &Axes, near: &Joints) -> Option<Joints> {
+    /// The joints for a position, shape (9), with the arm that the machine had last, from those of before; `None` if there are
+    /// none.
+    pub fn joints(&self, position: &Axes, near: &Joints) -> Option<Joints> {
         self.module.joints(position, near, self.flags)
     }
 
@@ -173,7 +183,13 @@ impl JointKinematics {
         (result == 0).then(|| joints.map(Axes::from))
     }
 
-    fn by_numbers(&self, position: &Axes, derivatives: &[Axes; 3], shares: &[Axes; 3]) -> Estimate {
+    /// How joints move at a position, see [`numerical_estimate`]: not a number where there are no joints.
+    pub fn by_numbers(
+        &self,
+        position: &Axes,
+        derivatives: &[Axes; 3],
+        shares: &[Axes; 3],
+    ) -> Estimate {
         let joints = |position: &Axes| match self.joints(position, &self.near) {
             Some(joints) => first_of(&joints),
             None => Axes::repeat(f64::NAN),
@@ -183,7 +199,7 @@ impl JointKinematics {
 
     /// Whether joints move without end at `position` for a small way along an axis X Y Z. `shares` as of a
     /// [`JointMap`](crate::machine_map::JointMap).
-    pub(super) fn is_singular(&self, position: &Axes, shares: &[Axes; 3]) -> bool {
+    pub fn is_singular(&self, position: &Axes, shares: &[Axes; 3]) -> bool {
         let still = Axes::zeros();
         let along = [Axes::x(), Axes::y(), Axes::z()];
         along.iter().any(|way| {
@@ -194,12 +210,7 @@ impl JointKinematics {
 
     /// What asking them is like where the machine stands, with `count` joints. `None` if there are no joints for that
     /// place.
-    pub(super) fn measure(
-        &mut self,
-        position: &Axes,
-        joints: &Joints,
-        count: usize,
-    ) -> Option<Measured> {
+    pub fn measure(&mut self, position: &Axes, joints: &Joints, count: usize) -> Option<Measured> {
         self.measured = None;
         self.module.count = count;
         self.module.begin(position, joints);

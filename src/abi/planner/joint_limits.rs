@@ -69,10 +69,14 @@ pub struct FramepathJointLimits {
 }
 
 /// Why limits are not taken.
-struct Refused {
-    code: c_int,
-    joint: usize,
-    value: f64,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refused {
+    /// One of the codes above.
+    pub code: c_int,
+    /// The joint.
+    pub joint: usize,
+    /// What was measured, or would make sense.
+    pub value: f64,
 }
 
 impl Refused {
@@ -128,7 +132,10 @@ impl FramepathJointLimits {
 
 /// Whether limits can be kept by kinematics that are like that. `fastest`: the greatest velocity of an axis, for joints whose
 /// own has no limit.
-fn check(
+///
+/// # Errors
+/// [`FRAMEPATH_JOINTS_SLOW`], [`FRAMEPATH_JOINTS_ROUGH`].
+pub fn check(
     measured: &Measured,
     limits: &AxisLimits,
     count: usize,

@@ -22,7 +22,8 @@ const CONVERGENCE: f64 = 1e-5;
 const NUDGE: f64 = 1e-3;
 
 /// The kinematics module.
-pub(super) struct KinematicsModule {
+#[derive(Clone, Copy, Debug)]
+pub struct KinematicsModule {
     inverse: Inverse,
     forward: Forward,
     /// What `kinematicsType` says.
@@ -36,7 +37,8 @@ pub(super) struct KinematicsModule {
 }
 
 impl KinematicsModule {
-    pub(super) const NONE: Self = Self {
+    /// No module.
+    pub const NONE: Self = Self {
         inverse: None,
         forward: None,
         kind: KINEMATICS_TYPE::KINEMATICS_IDENTITY,
@@ -46,7 +48,7 @@ impl KinematicsModule {
     };
 
     /// The module's functions, and what `kinematicsType` says.
-    pub(super) fn new(inverse: Inverse, forward: Forward, kind: c_uint) -> Self {
+    pub fn new(inverse: Inverse, forward: Forward, kind: c_uint) -> Self {
         Self {
             inverse,
             forward,
@@ -56,17 +58,17 @@ impl KinematicsModule {
     }
 
     /// Whether the joints are the axes.
-    pub(super) fn is_trivial(&self) -> bool {
+    pub fn is_trivial(&self) -> bool {
         self.kind == KINEMATICS_TYPE::KINEMATICS_IDENTITY
     }
 
     /// Whether there is a module to ask.
-    pub(super) fn is_known(&self) -> bool {
+    pub fn is_known(&self) -> bool {
         self.inverse.is_some()
     }
 
     /// The flags of the arm that the machine has with these joints, 0 where the kinematics have one only.
-    pub(super) fn arm(&self, position: &Axes, joints: &Joints) -> c_ulong {
+    pub fn arm(&self, position: &Axes, joints: &Joints) -> c_ulong {
         if self.chooses_arm {
             self.flags(position, joints, 0)
         } else {
@@ -85,7 +87,7 @@ impl KinematicsModule {
     }
 
     /// The joints for a position with this arm, from those of before.
-    pub(super) fn joints(&self, position: &Axes, near: &Joints, flags: c_ulong) -> Option<Joints> {
+    pub fn joints(&self, position: &Axes, near: &Joints, flags: c_ulong) -> Option<Joints> {
         let inverse = self.inverse?;
         let (pose, mut joints, mut forward_flags) = (pose_of(position), *near, 0);
         // SAFETY: the kinematics module's own function, with as many joints as it may write.

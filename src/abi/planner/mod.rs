@@ -7,9 +7,9 @@
 mod acknowledgement;
 pub mod add;
 mod handle;
-mod joint_kinematics;
+pub mod joint_kinematics;
 pub mod joint_limits;
-mod kinematics_module;
+pub mod kinematics_module;
 mod path_motion;
 pub mod run;
 pub mod settings;

@@ -24,6 +24,9 @@ pub struct Surroundings {
     pub tools: Option<Vec<Tool>>,
     /// Number of the tool that the spindle holds at the start, 0 for none.
     pub held: i32,
+    /// The analog output that switches the kinematics, and the type of those in force, where that matters: moves with another
+    /// type are refused.
+    pub kinematics_switch: Option<(u32, i32)>,
 }
 
 impl Default for Surroundings {
@@ -36,6 +39,7 @@ impl Default for Surroundings {
             startup: String::new(),
             tools: None,
             held: 0,
+            kinematics_switch: None,
         }
     }
 }
@@ -70,6 +74,9 @@ impl Surroundings {
         }
         if self.held != 0 {
             text += &format!("HELD {}\n", self.held);
+        }
+        if let Some((output, kind)) = self.kinematics_switch {
+            text += &format!("SWITCH {output} {kind}\n");
         }
         if let Some(tools) = &self.tools {
             text += "TABLE\n";

@@ -8,10 +8,14 @@ use crate::machine::ini::Ini;
 use crate::machine::limits::Limits;
 use crate::machine::warn_of;
 use crate::wiring::joints::JointSettings;
+use framepath::axes::Axes;
 use std::path::Path;
 
 /// More than any machine has, mm/s.
 pub(super) const NO_VELOCITY_LIMIT: f64 = 1e9;
+
+/// Rounding of kinematics, mm or degrees.
+const NEXT_TO_ZERO: f64 = 1e-6;
 
 /// Lengths are mm, whatever the machine's unit is.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +39,7 @@ impl Conditions {
     /// An INI file, or limits of joints, that cannot be used.
     pub(super) fn new(arguments: &CompareArguments) -> Result<Conditions, CompareError> {
         let mut conditions = match &arguments.ini {
-            Some(file) => Conditions::of_machine(file, arguments.tool_centre_point)?,
+            Some(file) => Conditions::of_machine(file, arguments)?,
             None => Conditions::without_machine(),
         };
         if let Some(changes) = &arguments.limits {
@@ -70,16 +74,22 @@ impl Conditions {
         }
     }
 
-    fn of_machine(file: &Path, tool_centre_point: bool) -> Result<Conditions, CompareError> {
+    fn of_machine(file: &Path, arguments: &CompareArguments) -> Result<Conditions, CompareError> {
         let ini = Ini::read(file)?;
         let machine = Machine::from_ini(&ini)?;
         warn_of(machine.axes.iter().flat_map(|axis| &axis.assumed));
         let period = machine.servo_period;
         let mut joints = JointSettings::read(&ini);
-        joints.turned_on = tool_centre_point;
+        joints.turned_on = arguments.tool_centre_point;
+        joints.kinematics_type = arguments.kinematics_type;
         let mut conditions = Conditions {
             limits_from: format!("limits of {}", file.display()),
-            joints: Joints::from_settings(&joints, &ini, period, machine.millimetres())?,
+            joints: from_zero(Joints::from_settings(
+                &joints,
+                &ini,
+                period,
+                machine.millimetres(),
+            )?),
             period,
             ..Conditions::without_machine()
         };
@@ -92,5 +102,19 @@ impl Conditions {
             conditions.max_feed_override = scale.max(1.0);
         }
         Ok(conditions)
+    }
+}
+
+/// Programs begin at zero here: joints of machines that cannot are not known.
+fn from_zero(joints: Joints) -> Joints {
+    let begins_elsewhere = |home: Axes| home.amax() > NEXT_TO_ZERO;
+    match joints {
+        Joints::Limited(joints) if joints.home().is_some_and(begins_elsewhere) => {
+            let name = joints.told();
+            Joints::Unknown(format!(
+                "{name} (programs begin at zero here, and with its joints at [JOINT_n]HOME the machine is elsewhere)"
+            ))
+        }
+        others => others,
     }
 }

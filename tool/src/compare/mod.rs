@@ -83,6 +83,10 @@ pub struct CompareArguments {
     /// names, whose joints have limits
     #[arg(long, requires = "ini")]
     pub tool_centre_point: bool,
+    /// As programs run behind a switch of the kinematics to this type (M428, M429, M430): of the kinematics module that the
+    /// INI file names, or HAL files with inner=, whose joints have limits
+    #[arg(long, requires = "ini", value_name = "TYPE", value_parser = clap::value_parser!(i32).range(0..16))]
+    pub kinematics_type: Option<i32>,
     /// Limits of the axes, mm (degrees) and seconds: V=100,A=1000 for all, XY:V=50 for some, several
     /// separated by `;` [default: V=100,A=1000]
     #[arg(long, value_name = "LIMITS")]

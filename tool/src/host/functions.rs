@@ -107,13 +107,14 @@ pub(super) use add_move;
 
 /// A module that was loaded; it stays loaded.
 #[derive(Clone, Copy)]
-struct Module(*mut libc::c_void);
+pub(super) struct Module(*mut libc::c_void);
 
 impl Module {
-    fn open(file: &str) -> Result<Module, String> {
+    /// With flags of dlopen for whom its functions are there.
+    pub(super) fn open(file: &str, flags: c_int) -> Result<Module, String> {
         let path = CString::new(file).map_err(|error| error.to_string())?;
-        // SAFETY: a string that ends with 0; the flags are those of LinuxCNC's rtapi_app.
-        let handle = unsafe { libc::dlopen(path.as_ptr(), libc::RTLD_NOW | libc::RTLD_GLOBAL) };
+        // SAFETY: a string that ends with 0.
+        let handle = unsafe { libc::dlopen(path.as_ptr(), libc::RTLD_NOW | flags) };
         if handle.is_null() {
             // SAFETY: after a failure there is a text that ends with 0.
             let text = unsafe { CStr::from_ptr(libc::dlerror()) };
@@ -122,7 +123,8 @@ impl Module {
         Ok(Module(handle))
     }
 
-    fn symbol(self, name: &str) -> Option<*mut libc::c_void> {
+    /// The name ends with 0.
+    pub(super) fn symbol(self, name: &str) -> Option<*mut libc::c_void> {
         let name = CStr::from_bytes_with_nul(name.as_bytes()).ok()?;
         // SAFETY: a module that is loaded, a string that ends with 0.
         let address = unsafe { libc::dlsym(self.0, name.as_ptr()) };
@@ -132,7 +134,8 @@ impl Module {
 
 /// Loads a module and starts it as LinuxCNC does.
 pub(super) fn load(file: &str) -> Result<Functions, String> {
-    let module = Module::open(file)?;
+    // as LinuxCNC's rtapi_app
+    let module = Module::open(file, libc::RTLD_GLOBAL)?;
     let functions = Functions::find(module)?;
     if let Some(start) = module.symbol("rtapi_app_main\0") {
         // SAFETY: every module has this function with this type.

@@ -1,10 +1,9 @@
 //! The kinematics of the process that drives a module: those of framekins, where joints have limits of their own.
 
-use super::machine::pose;
 use super::stubs::HostKinematics;
 use crate::joints::LimitedJoints;
 use framepath::abi::linuxcnc::EmcPose;
-use framepath::abi::pose::axes_of;
+use framepath::abi::pose::{axes_of, pose_of};
 use framepath::axes::{AXIS_COUNT, Axes};
 use framepath::machine::JOINT_COUNT;
 use std::ffi::c_int;
@@ -36,8 +35,12 @@ unsafe extern "C" fn forward(joints: *const f64, world: *mut EmcPose) -> c_int {
     ) else {
         return -1;
     };
-    *world = pose(&machine.position(joints).into());
-    0
+    let position = machine.position(joints, &axes_of(world));
+    *world = pose_of(&position);
+    match position.iter().all(|value| value.is_finite()) {
+        true => 0,
+        false => -1,
+    }
 }
 
 unsafe extern "C" fn inverse(world: *const EmcPose, joints: *mut f64) -> c_int {
@@ -49,8 +52,10 @@ unsafe extern "C" fn inverse(world: *const EmcPose, joints: *mut f64) -> c_int {
     else {
         return -1;
     };
-    machine.move_to(&axes_of(world), joints);
-    0
+    match machine.move_to(&axes_of(world), joints) {
+        true => 0,
+        false => -1,
+    }
 }
 
 unsafe extern "C" fn jet(position: *const f64, derivatives: *const f64, joints: *mut f64) -> c_int {
@@ -64,7 +69,9 @@ unsafe extern "C" fn jet(position: *const f64, derivatives: *const f64, joints: 
         return -1;
     };
     let derivatives = derivatives.map(Axes::from);
-    let found = machine.derivatives(&Axes::from(*position), &derivatives);
+    let Some(found) = machine.exact_derivatives(&Axes::from(*position), &derivatives) else {
+        return -1;
+    };
     *joints = found.map(<[f64; AXIS_COUNT]>::from);
     0
 }

@@ -271,6 +271,12 @@ static int put_named(const char *name, double value)
     return 0;
 }
 
+/* Gives the pin or parameter of this name a value; -EINVAL if there is none. */
+EXPORTED int framepath_host_put(const char *name, double value)
+{
+    return put_named(name, value);
+}
+
 /* Gives a value to every pin and parameter whose name, after that of the component, is `ending`; says how many there are. */
 EXPORTED int framepath_host_set(const char *ending, double value)
 {

@@ -28,6 +28,7 @@ pub(super) struct Stubs {
     errors: Count,
     set_period: SetNumber,
     set: SetNamed,
+    put: SetNamed,
     set_kinematics: SetKinematics,
     run_functions: Run,
 }
@@ -54,6 +55,7 @@ impl Stubs {
             errors: find!(c"framepath_host_errors" as Count),
             set_period: find!(c"framepath_host_set_period" as SetNumber),
             set: find!(c"framepath_host_set" as SetNamed),
+            put: find!(c"framepath_host_put" as SetNamed),
             set_kinematics: find!(c"framepath_host_set_kinematics" as SetKinematics),
             run_functions: find!(c"framepath_host_run_functions" as Run),
         })
@@ -92,6 +94,14 @@ impl Stubs {
         };
         // SAFETY: a string that ends with 0.
         unsafe { (self.set)(ending.as_ptr(), value) }
+    }
+
+    /// Sets the pin of this name, if there is one.
+    pub(super) fn put(&self, name: &str, value: f64) {
+        if let Ok(name) = CString::new(name) {
+            // SAFETY: a string that ends with 0.
+            unsafe { (self.put)(name.as_ptr(), value) };
+        }
     }
 
     /// From here on these are the kinematics that modules find.

@@ -12,7 +12,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// `stubs.c` as a shared object, compiled by the build script.
-const STUBS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/stubs.so"));
+pub(super) const STUBS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/stubs.so"));
 
 /// Hidden command of this program that a driven process runs.
 pub(crate) const HOST_COMMAND: &str = "compare-host";

@@ -327,6 +327,14 @@ impl<'a> Drive<'a> {
         self.planner
             .set_id(i32::try_from(a_move.index + 1).unwrap_or(i32::MAX));
         let end = Axes::from_fn(|axis, _| a_move.end[axis] * self.setup.scale(axis));
+        if let Some(joints) = self.setup.joints.limited()
+            && !joints.reaches(&end)
+        {
+            return Err(self.move_refused(
+                a_move.line,
+                format!("{} has no joints for where it ends", joints.told()),
+            ));
+        }
         let vector = |values: [f64; 3]| Vector3::from(values);
         let added = match a_move.shape {
             Shape::Line => self.planner.add_line(&end, &request),
@@ -351,11 +359,17 @@ impl<'a> Drive<'a> {
                 self.planner.add_rigid_tap(&end, 1.0, &request)
             }
         };
-        added.map(|_| ()).map_err(|error| PlanError::MoveRefused {
+        added
+            .map(|_| ())
+            .map_err(|error| self.move_refused(a_move.line, refusal(&error)))
+    }
+
+    fn move_refused(&self, line: i32, reason: String) -> PlanError {
+        PlanError::MoveRefused {
             file: self.file.to_owned(),
-            line: a_move.line,
-            reason: refusal(&error),
-        })
+            line,
+            reason,
+        }
     }
 
     /// Where the last move that was handed over ends, mm and degrees.

@@ -48,8 +48,9 @@ pub struct PeakFigure {
 /// An axis, or a joint.
 #[derive(Clone, Debug, Serialize)]
 pub struct AxisFigures {
-    /// Its letter, or that of the axis that the joint moves.
-    pub letter: char,
+    /// Its letter, or that of the axis that the joint moves; `None` where it moves several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub letter: Option<char>,
     /// `axis.x`, `joint.0`.
     pub name: String,
     /// `mm`, `in` or `deg`.
@@ -398,7 +399,8 @@ fn axes(setup: &Setup, collected: &Collected) -> Vec<AxisFigures> {
     let of_axis = |axis: usize| {
         let name = format!("axis.{}", AXIS_LETTERS[axis].to_ascii_lowercase());
         let limits = limits.map(|limits| limits[axis] * setup.scale(axis));
-        mover(setup, seen, (axis, axis), name, limits)
+        let unit = setup.unit_of(axis);
+        mover(seen, (axis, Some(axis)), name, unit, limits)
     };
     (0..AXIS_COUNT)
         .filter(|axis| travels(seen, *axis))
@@ -412,31 +414,33 @@ fn joints(setup: &Setup, collected: &Collected) -> Vec<AxisFigures> {
         return Vec::new();
     };
     let of_joint = |joint: usize| {
-        let axis = joints.axis(joint).filter(|_| travels(seen, joint))?;
         let limits = joints.limits().map(|limits| limits[joint]);
-        Some(mover(
-            setup,
-            seen,
-            (joint, axis),
-            format!("joint.{joint}"),
-            limits,
-        ))
+        let unit = if joints.is_rotary(joint) {
+            "deg"
+        } else {
+            setup.unit
+        };
+        let (axis, name) = (joints.axis(joint), format!("joint.{joint}"));
+        mover(seen, (joint, axis), name, unit, limits)
     };
-    (0..AXIS_COUNT).filter_map(of_joint).collect()
+    (0..joints.count().min(AXIS_COUNT))
+        .filter(|joint| travels(seen, *joint))
+        .map(of_joint)
+        .collect()
 }
 
-/// What was seen of an axis, or of a joint that moves one: `index` is its own.
+/// What was seen of an axis, or of a joint: `index` is its own, beside the axis that it moves.
 fn mover(
-    setup: &Setup,
     seen: &Seen,
-    (index, axis): (usize, usize),
+    (index, axis): (usize, Option<usize>),
     name: String,
+    unit: &'static str,
     limits: [f64; 3],
 ) -> AxisFigures {
     AxisFigures {
-        letter: AXIS_LETTERS[axis],
+        letter: axis.map(|axis| AXIS_LETTERS[axis]),
         name,
-        unit: setup.unit_of(axis),
+        unit,
         index,
         from: seen.low[index],
         to: seen.high[index],

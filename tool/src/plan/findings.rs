@@ -49,7 +49,7 @@ mod tests {
 
     fn axis(peak: f64) -> AxisFigures {
         AxisFigures {
-            letter: 'X',
+            letter: Some('X'),
             name: "axis.x".to_owned(),
             unit: "mm",
             index: 0,

@@ -5,9 +5,6 @@ use framepath::axes::{Axes, AxisLimits};
 use framepath::machine_map::JointMap;
 use std::cell::RefCell;
 
-/// What a jet of our tables takes, nanoseconds: blendtp measures it, and plans about as far in a servo period.
-const JET: f64 = 100.0;
-
 thread_local! {
     /// The joints of the planner of this thread, for their jets.
     static JOINTS: RefCell<Option<LimitedJoints>> = const { RefCell::new(None) };
@@ -22,12 +19,12 @@ pub fn map(joints: &LimitedJoints) -> JointMap {
         acceleration,
         jerk,
     };
-    JointMap::new(jet, &limits, JET)
+    JointMap::new(jet, &limits, joints.nanoseconds())
 }
 
-fn jet(position: &Axes, derivatives: &[Axes; 3], _: &[Axes; 3]) -> [Axes; 3] {
+fn jet(position: &Axes, derivatives: &[Axes; 3], shares: &[Axes; 3]) -> [Axes; 3] {
     JOINTS.with_borrow(|joints| match joints {
-        Some(joints) => joints.derivatives(position, derivatives),
+        Some(joints) => joints.derivatives(position, derivatives, shares),
         None => [Axes::repeat(f64::NAN); 3],
     })
 }
@@ -37,7 +34,7 @@ pub fn told(joints: &Joints) -> Option<String> {
     match joints {
         Joints::Axes => None,
         Joints::Unknown(kinematics) => Some(format!(
-            "NOT planned: HAL files set limits of joints (blendtp.joint.*) behind {kinematics}, which is not known here; \
+            "NOT planned: HAL files set limits of joints (blendtp.joint.*) behind {kinematics}; \
              all times and limits are those of the axes"
         )),
         Joints::Limited(joints) => Some(format!(

@@ -57,12 +57,15 @@ impl Setup {
     /// An INI file that is missing or lacks limits, options that make no sense.
     pub fn new(arguments: &PlanArguments) -> Result<Setup, PlanError> {
         let mut setup = match &arguments.ini {
-            Some(file) => from_ini(file, arguments.tool_centre_point)?,
+            Some(file) => from_ini(file, arguments)?,
             None => without_ini(),
         };
         let mut changed = Vec::new();
         if arguments.tool_centre_point {
             changed.push("--tool-centre-point".to_owned());
+        }
+        if let Some(kind) = arguments.kinematics_type {
+            changed.push(format!("--kinematics-type {kind}"));
         }
         if let Some(limits) = &arguments.limits {
             setup.limits.apply(limits);
@@ -159,7 +162,7 @@ fn without_ini() -> Setup {
 /// Of the planner, in machine units.
 const DEFAULT_TOLERANCE: f64 = framepath::planner::Blending::DEFAULT_TOLERANCE;
 
-fn from_ini(file: &Path, tool_centre_point: bool) -> Result<Setup, PlanError> {
+fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> {
     let ini = Ini::read(file)?;
     let machine = Machine::from_ini(&ini)?;
     let millimetres = machine.millimetres();
@@ -191,11 +194,18 @@ fn from_ini(file: &Path, tool_centre_point: bool) -> Result<Setup, PlanError> {
         setup.velocity_limit = velocity * millimetres;
     }
     let mut joints = JointSettings::read(&ini);
-    joints.turned_on = tool_centre_point;
+    joints.turned_on = arguments.tool_centre_point;
+    joints.kinematics_type = arguments.kinematics_type;
     setup.joints = Joints::from_settings(&joints, &ini, setup.period, 1.0)?;
-    setup.tool_tilt_axis = tool_tilt_axis(&joints);
+    setup.tool_tilt_axis = tool_tilt_axis(&joints, &ini);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
     setup.surroundings = surroundings(&ini, file, &machine, millimetres, &mut setup.assumed)?;
+    if let Some(home) = setup.joints.limited().and_then(|joints| joints.home()) {
+        setup.surroundings.start = std::array::from_fn(|axis| home[axis] / setup.scale(axis));
+        let output = joints.switch_output();
+        setup.surroundings.kinematics_switch =
+            output.map(|output| (output, joints.kinematics_type.unwrap_or(0)));
+    }
     setup.ini.clone_from(&setup.surroundings.ini);
     Ok(setup)
 }
@@ -255,6 +265,7 @@ fn surroundings(
             .as_deref()
             .filter(|_| random)
             .map_or(0, in_the_spindle),
+        kinematics_switch: None,
         tools,
         ini: Some(absolute),
     })

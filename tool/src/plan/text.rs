@@ -29,7 +29,9 @@ pub fn render(figures: &Figures) -> Result<String, fmt::Error> {
     times(out, figures)?;
     places(out, figures)?;
     evenness(out, figures)?;
-    peaks(out, "axes", &figures.axes, |axis| axis.letter.to_string())?;
+    peaks(out, "axes", &figures.axes, |axis| {
+        axis.letter.map_or(axis.name.clone(), String::from)
+    })?;
     if !figures.joints.is_empty() {
         peaks(out, "joints", &figures.joints, |joint| {
             joint.index.to_string()

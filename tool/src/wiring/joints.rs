@@ -17,6 +17,12 @@ pub struct JointSettings {
     pub coordinates: String,
     /// Whether X Y Z are the tool centre point although no pin says so: programs turn it on.
     pub turned_on: bool,
+    /// The type that programs switch the kinematics to before they move, 0 if none is given.
+    pub kinematics_type: Option<i32>,
+    /// Whether the kinematics are behind framekins: `inner=`.
+    pub is_behind_framekins: bool,
+    /// The words behind the name of the module in `[KINS]KINEMATICS`.
+    in_ini: String,
     state: State,
 }
 
@@ -42,6 +48,9 @@ impl JointSettings {
             machine: given("machine").to_owned(),
             coordinates: given("coordinates").to_owned(),
             turned_on: false,
+            kinematics_type: None,
+            is_behind_framekins: !given("inner").is_empty(),
+            in_ini: words.to_owned(),
             state,
         }
     }
@@ -63,6 +72,33 @@ impl JointSettings {
     /// Whether X Y Z are the tool centre point.
     pub fn tool_centre_point(&self) -> bool {
         self.turned_on || self.framekins("tool-centre-point") != 0.0
+    }
+
+    /// What the module of the kinematics is loaded with.
+    pub fn kinematics_parameters(&self) -> Vec<(String, String)> {
+        if let Some(module) = self.state.module(&self.kinematics) {
+            return module.parameters.clone();
+        }
+        let words = self.in_ini.split_whitespace().skip(1);
+        let parameters = words.filter_map(|word| word.split_once('='));
+        parameters
+            .map(|(name, value)| (name.to_owned(), value.to_owned()))
+            .collect()
+    }
+
+    /// The analog output of motion that switches the kinematics to another type.
+    pub fn switch_output(&self) -> Option<u32> {
+        let switches = ["framekins.inner-type", "motion.switchkins-type"];
+        let mut beside = switches.iter().flat_map(|pin| self.state.beside(pin));
+        beside.find_map(|(pin, _)| pin.strip_prefix("motion.analog-out-")?.parse().ok())
+    }
+
+    /// What HAL files set pins to.
+    pub fn pins(&self) -> Vec<(String, f64)> {
+        let names = self.state.settings.keys();
+        names
+            .map(|name| (name.clone(), number(&self.state, name)))
+            .collect()
     }
 
     /// What a pin of framekins is set to, 0 where nothing sets it.

@@ -98,8 +98,15 @@ static void numbers(const double *values, int count)
         fprintf(output, " %.17g", values[i]);
 }
 
+static void check_kinematics()
+{
+    if (now.kinematics_type != machine.kinematics_type)
+        refused = "a move with kinematics of another type than --kinematics-type says (0 where it is not given)";
+}
+
 static void move(const char *call, int line, const Pose &end)
 {
+    check_kinematics();
     fprintf(output, "%s %d", call, line);
     numbers(end.at, AXES);
     fputc('\n', output);
@@ -165,6 +172,7 @@ void ARC_FEED(int line, double first_end, double second_end, double first_axis, 
     end = to_machine(end);
     centre = to_machine(centre);
     rotate(normal[0], normal[1], now.rotation);
+    check_kinematics();
     fprintf(output, "ARC %d", line);
     numbers(end.at, AXES);
     numbers(centre.at, 3);
@@ -369,14 +377,21 @@ void TURN_PROBE_ON() { waits(); }
 void TURN_PROBE_OFF() { waits(); }
 void SET_AUX_OUTPUT_BIT(int) { waits(); }
 void CLEAR_AUX_OUTPUT_BIT(int) { waits(); }
-void SET_AUX_OUTPUT_VALUE(int, double) { waits(); }
+
+static void note_output(int output, double value)
+{
+    if (output == machine.switch_output)
+        now.kinematics_type = value;
+}
+
+void SET_AUX_OUTPUT_VALUE(int output, double value) { note_output(output, value); waits(); }
 int WAIT(int, int, int, double) { waits(); return 0; }
 void ENABLE_ADAPTIVE_FEED() { waits(); }
 void DISABLE_ADAPTIVE_FEED() { waits(); }
 
 void SET_MOTION_OUTPUT_BIT(int) { flush(); }
 void CLEAR_MOTION_OUTPUT_BIT(int) { flush(); }
-void SET_MOTION_OUTPUT_VALUE(int, double) { flush(); }
+void SET_MOTION_OUTPUT_VALUE(int output, double value) { note_output(output, value); flush(); }
 void ENABLE_FEED_OVERRIDE() { now.feed_override = true; flush(); }
 void DISABLE_FEED_OVERRIDE() { now.feed_override = false; flush(); }
 void ENABLE_FEED_HOLD() { flush(); }

@@ -5,6 +5,7 @@
  *   STARTUP code                 runs before the program ([RS274NGC]RS274NGC_STARTUP_CODE)
  *   TABLE                        the tools that follow are all there are
  *   TOOL number pocket offset(9) diameter front back orientation     machine units
+ *   SWITCH output type           the analog output that switches the kinematics, and the type for which moves are supported
  *   HELD number                  the tool that the spindle holds at the start
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
@@ -47,6 +48,9 @@ static bool read_setting(const std::string &line)
         machine.tools[0].toolno = -1;
     } else if (name == "TOOL") {
         return read_tool(words);
+    } else if (name == "SWITCH") {
+        words >> machine.switch_output >> machine.kinematics_type;
+        now.kinematics_type = machine.kinematics_type;
     } else if (name == "HELD") {
         words >> now.tool_number;
     } else {

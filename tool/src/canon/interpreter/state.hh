@@ -30,6 +30,7 @@ struct Where {
     int turning[EMCMOT_MAX_SPINDLES] = {};
     int selected_tool = 0, tool_number = 0;
     int flood = 0, mist = 0;
+    double kinematics_type = 0;
 };
 
 extern Where now;
@@ -40,6 +41,8 @@ struct Machine {
     std::string startup;
     bool has_table = false;
     std::vector<CANON_TOOL_TABLE> tools;
+    int switch_output = -1;         /* the analog output that switches the kinematics, -1: none that matters */
+    int kinematics_type = 0;        /* the type with which programs move */
 };
 
 extern Machine machine;

@@ -1,0 +1,35 @@
+/* Pins of HAL as programs see them by #<_hal[..]>: those that tell the type of the kinematics, of which remaps make sure before
+ * they switch them. Others are those of the HAL that runs, if one does.
+ *
+ * SPDX-License-Identifier: GPL-2.0-or-later
+ */
+#define ULAPI
+#include <cstring>
+#include <dlfcn.h>
+#include <hal.h>
+#include "state.hh"
+
+static const char *const type_pins[] = {"motion.switchkins-type", "framekins.inner-type"};
+
+static bool is_type(const char *name)
+{
+    for (const char *pin : type_pins)
+        if (machine.switch_output >= 0 && !strcmp(name, pin))
+            return true;
+    return false;
+}
+
+/* In the place of liblinuxcnchal's. */
+extern "C" int hal_get_pin_value_by_name(const char *name, hal_type_t *type, hal_data_u **data, bool *connected)
+{
+    static hal_data_u value;
+    if (is_type(name)) {
+        value.s = now.kinematics_type;
+        *type = HAL_S32;
+        *data = &value;
+        *connected = true;
+        return 0;
+    }
+    auto others = reinterpret_cast<decltype(&hal_get_pin_value_by_name)>(dlsym(RTLD_NEXT, "hal_get_pin_value_by_name"));
+    return others ? others(name, type, data, connected) : -1;
+}
