@@ -71,7 +71,7 @@ help:
 	@echo 'make five-axes  both planners on a table with the tool centre point: peaks of its joints, and the distance from the least time'
 	@echo 'make tuning     what each constant that tunes the planner does to the times of programs: docs/tuning.md'
 	@echo 'make book       docs, DESIGN and CONTRIBUTING as a book (mdbook)'
-	@echo 'make screens    each sample in AXIS, one with its panel in gmoccapy and qtdragon, without a monitor: pictures in target/screens'
+	@echo 'make screens    each sample in AXIS, two with their panels in gmoccapy, one in qtdragon, without a monitor: pictures in target/screens'
 	@echo 'make header     write include/framepath.h anew from the Rust side of the interface'
 
 prerequisites:
@@ -275,7 +275,7 @@ tuning: modules tool
 book:
 	mdbook build
 
-# Pictures of each sample in AXIS, of one in gmoccapy and qtdragon, and of two simulated machines of LinuxCNC in a frame, on an
+# Pictures of each sample in AXIS, of two in gmoccapy and one in qtdragon, and of two simulated machines of LinuxCNC in a frame, on an
 # X server without a monitor: target/screens.
 screens: modules
 	@./prerequisites screen

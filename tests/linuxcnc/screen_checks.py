@@ -52,6 +52,12 @@ PANELS: dict[str, dict[tuple[str, str], str | None]] = {
                  ("DISPLAY", "EMBED_TAB_LOCATION"): "ntb_preview", ("DISPLAY", "EMBED_TAB_COMMAND"): TAB},
     "qtvcp": {("DISPLAY", "PYVCP"): None, ("HAL", "POSTGUI_HALFILE"): "../../panel/panel_window.hal"}}
 
+#: The same tab on a machine with A and C, which has lamps of these axes.
+TAB_OF_A_TABLE = TAB.replace("panel.hal", "panel_ui_xyzac.hal")
+
+
+#: The sample with a tilting table, and what it takes.
+TABLE = {"sample": "framepath-xyzac", "joints": 5, "axes": "xyzac"}
 
 #: Screens read a program that somebody else has opened.
 START = [["open", "PROGRAMS/part.ngc"], ["sleep", 2], ["start_to_pause", "PROGRAMS/part.ngc"]]
@@ -180,7 +186,7 @@ class Trail(unittest.TestCase):
 class TrailOnATable(Trail):
     """The same on a machine with a tilting table; and the tool centre point, with the table turned."""
 
-    machine: ClassVar[dict] = {"sample": "framepath-xyzac", "joints": 5, "axes": "xyzac"}
+    machine = TABLE
     more = ("o<frame_off> call", "T2 M6", "G43.4 H2", "G1 X10 Y5 Z25 F3000", "G4 P0.1", "A20 C30", "X30 Y10 Z26", "M0")
     looks = (["resume"], ["wait_moving"], ["wait_paused"], ["ask", "centre", "trail"], ["ask", "relative", "display", 1],
              ["ask", "machine", "display", 0], ["note", "place"])

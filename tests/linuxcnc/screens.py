@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Each sample in AXIS without a monitor, one in gmoccapy and qtdragon with their panels, homed, a program with frames run,
-and two simulated machines of LinuxCNC in a frame: screens.py FOLDER [NAME ...], which gets the pictures."""
+"""Each sample in AXIS without a monitor, one in gmoccapy and qtdragon with their panels, the one with a table in gmoccapy;
+homed, a program with frames run; and two simulated machines of LinuxCNC in a frame: screens.py FOLDER [NAME ...], which gets
+the pictures."""
 
 import base64
 import os
@@ -27,6 +28,12 @@ PROGRAM = program(
 
 #: other screens than AXIS, on the sample of a mill
 SCREENS = {"gmoccapy": GMOCCAPY, "qtdragon": QTDRAGON}
+
+#: the sample with a table, in gmoccapy: while its picture is taken C turns
+TABLE = "gmoccapy-xyzac"
+TURNS = program("G0 Z10", "o<trans> call [20] [30] [5]", "o<arot> call [0] [0] [30]", "G1 X0 Y0 Z0 A-20 F3000", "M0", "G0 C720")
+TURNS_STEPS = [["wait_paused"], ["ask", "shown", "panel"], ["sleep", 1], ["resume"], ["expect", "pyvcp.limit.c", "TRUE"],
+               ["sleep", 0.5], ["picture", "picture"], ["finish"]]
 
 #: how a picture is taken, and the end of the program
 PICTURE = [["wait_paused"], ["sleep", 1], ["picture", "picture"]]
@@ -86,6 +93,10 @@ def main(folder, names):
         steps = [["ask", "drawn", "open", "PROGRAMS/part.ngc"], *screen_checks.START, *PICTURE, ["ask", "shown", "panel"],
                  ["sleep", 1], ["picture", "panel"], *END]
         keep(folder, name, screen.watch(steps, PROGRAM, record=False, timeout=180))
+    if not names or TABLE in names:
+        steps = [["ask", "drawn", "open", "PROGRAMS/part.ngc"], *screen_checks.START, *TURNS_STEPS]
+        tab = {("DISPLAY", "EMBED_TAB_COMMAND"): screen_checks.TAB_OF_A_TABLE}
+        keep(folder, TABLE, GMOCCAPY.watch(steps, TURNS, record=False, timeout=180, ini=tab, **screen_checks.TABLE))
 
 
 if __name__ == "__main__":

@@ -42,7 +42,8 @@ class Install(unittest.TestCase):
                          "usr/share/framepath/configs/framepath-gantry/sheet.ngc",
                          "usr/share/framepath/configs/framepath-inch/plate.ngc",
                          *(f"usr/share/framepath/panel/{name}" for name in ("time_table.py", "planner.xml", "frame.xml",
-                                                                            "panel.ui", "panel_window.hal"))):
+                                                                            "panel.ui", "panel_window.hal",
+                                                                            "panel_ui_xyzac.hal"))):
                 self.assertIn(name, there)
             with open(os.path.join(folder, "usr/share/zsh/vendor-completions/_framepath"), encoding="utf-8") as file:
                 self.assertEqual(file.readline(), "#compdef framepath\n")

@@ -2,10 +2,11 @@
 
 import unittest
 
+import harness
 import screen_checks
 from test_preview import program
 
-GMOCCAPY = screen_checks.Screen(["gmoccapy"], "probe_gmoccapy.py", ["gmoccapy_screen.py"])
+GMOCCAPY = screen_checks.Screen(["gmoccapy"], "probe_gmoccapy.py", ["gmoccapy_screen.py", "probe_panel.py"])
 QTDRAGON = screen_checks.Screen(["qtvcp", "qtdragon"], "probe_qtvcp.py", ["qtvcp_screen.py"], (screen_checks.READS_IN_AUTO,))
 
 
@@ -21,6 +22,43 @@ class Qtdragon(screen_checks.OnTheScreen):
 class QtdragonTrail(screen_checks.Trail):
     # it knows no machine with A and C
     screen = QTDRAGON
+
+
+class RotaryLamps(unittest.TestCase):
+    """The panel of gladevcp has lamps of A and C where the machine has these axes."""
+
+    #: gladevcp with what says which lamps are shown
+    PROBE = "gladevcp -u ./probe_panel.py"
+    #: each axis turns alone for seconds, as fast as it may
+    PROGRAM = program("G0 A-100", "M0", "G0 A100", "M0", "G0 C360")
+
+    def test_in_a_tab_of_gmoccapy_they_say_which_axis_limits(self):
+        steps = [["wait_pin", "pyvcp.rotary"], ["ask", "drawn", "open", "PROGRAMS/part.ngc"], *screen_checks.START]
+        for turns, rests in (("a", "c"), ("c", "a")):
+            steps += [["wait_paused"], ["resume"], ["expect", f"pyvcp.limit.{turns}", "TRUE"],
+                      ["getp", f"{rests} rests", f"pyvcp.limit.{rests}"], ["getp", f"{turns} shown", f"pyvcp.shown.limit.{turns}"]]
+        tab = screen_checks.TAB_OF_A_TABLE.replace("gladevcp", self.PROBE)
+        result = GMOCCAPY.watch([*steps, ["finish"]], self.PROGRAM, record=False, timeout=180, **screen_checks.TABLE,
+                                ini={("DISPLAY", "EMBED_TAB_COMMAND"): tab})
+        screen_checks.good(self, result)
+        for axis in "ac":
+            self.assertEqual([result.answers[f"{axis} rests"], result.answers[f"{axis} shown"]], ["FALSE", "TRUE"])
+
+    def windows(self, *steps):
+        """Without a screen."""
+        result = harness.run([["monitor"], *steps, ["expect", "pyvcp.frame.guarded", "TRUE"]], display="screen_driver.py",
+                             files=("screen_driver.py", "probe_panel.py"), record=False, timeout=180, **screen_checks.TABLE)
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [])
+
+    def test_a_window_of_that_machine(self):
+        self.windows(["halcmd", "source", "../../panel/panel_window_xyzac.hal"], ["expect", "pyvcp.rotary", "TRUE"])
+
+    def test_elsewhere_they_are_not_there(self):
+        command = screen_checks.TAB.replace("gladevcp -x {XID}", self.PROBE)
+        self.windows(["halcmd", "loadusr", "-Wn", "pyvcp", *command.split()],
+                     *(["expect", f"pyvcp.hidden.limit.{axis}", "TRUE"] for axis in "ac"))
+
 
 class Told(unittest.TestCase):
     """What has no place in a preview is told."""

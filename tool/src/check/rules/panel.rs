@@ -7,11 +7,34 @@ use std::path::{Path, PathBuf};
 
 /// How the pins of a panel of pyvcp begin that a screen makes.
 const PINS: &str = "pyvcp.";
-/// The panel of gladevcp, and what links either.
+/// The panel of gladevcp.
 const PANEL: &str = "panel.ui";
-const NETS: &str = "panel.hal";
-/// The same as a window of its own.
-const WINDOW: &str = "panel_window.hal";
+
+/// What it wants of its folder on a machine.
+struct Files {
+    /// What links it.
+    nets: &'static str,
+    /// What shows it as a window of its own.
+    window: &'static str,
+}
+
+const OF_A_MILL: Files = Files {
+    nets: "panel.hal",
+    window: "panel_window.hal",
+};
+
+/// With lamps of A and C.
+const OF_A_TABLE: Files = Files {
+    nets: "panel_ui_xyzac.hal",
+    window: "panel_window_xyzac.hal",
+};
+
+fn files(subject: &Subject) -> &'static Files {
+    match ['A', 'C'].iter().all(|axis| subject.axes.contains(axis)) {
+        true => &OF_A_TABLE,
+        false => &OF_A_MILL,
+    }
+}
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     look_for_pins(subject, findings);
@@ -50,11 +73,11 @@ fn instead(screen: &str, subject: &Subject) -> String {
         "gmoccapy" => format!(
             "remove this line and [DISPLAY]PYVCP; in gmoccapy [DISPLAY]EMBED_TAB_NAME = Frames, EMBED_TAB_LOCATION = ntb_preview \
              and EMBED_TAB_COMMAND = {} show the panel",
-            tab(&folder)
+            tab(&folder, subject)
         ),
         "qtvcp" => format!(
             "remove [DISPLAY]PYVCP, and write POSTGUI_HALFILE = {} in place of this line, which shows the panel as a window",
-            folder.join(WINDOW).display()
+            folder.join(files(subject).window).display()
         ),
         _ => "remove this line and [DISPLAY]PYVCP, or set DISPLAY = axis with PYVCP".to_owned(),
     }
@@ -66,8 +89,8 @@ fn panel_folder(subject: &Subject) -> PathBuf {
 }
 
 /// The command that puts the panel of this folder into a screen.
-fn tab(folder: &Path) -> String {
-    let [nets, panel] = [NETS, PANEL].map(|file| folder.join(file));
+fn tab(folder: &Path, subject: &Subject) -> String {
+    let [nets, panel] = [files(subject).nets, PANEL].map(|file| folder.join(file));
     format!(
         "gladevcp -x {{XID}} -c pyvcp -H {} {}",
         nets.display(),
@@ -91,10 +114,13 @@ fn look_at_tab(subject: &Subject, entry: &Entry, findings: &mut Findings) {
         words.get(place + 1).copied()
     };
     let folder = Path::new(panel).parent().unwrap_or(Path::new(""));
-    let mut refuse = |found: String| findings.warning(&entry.place, found, replace(line(folder)));
+    let expected = files(subject).nets;
+    let mut refuse = |found: String| {
+        findings.warning(&entry.place, found, replace(line(folder, subject)));
+    };
     if behind("-c") != Some("pyvcp") {
         refuse(format!(
-            "{panel} without -c pyvcp: {NETS} finds no pins to link"
+            "{panel} without -c pyvcp: {expected} finds no pins to link"
         ));
     }
     match behind("-H") {
@@ -106,14 +132,25 @@ fn look_at_tab(subject: &Subject, entry: &Entry, findings: &mut Findings) {
                 "{nets} is not there: nothing links the panel, which does not come up"
             ));
         }
+        Some(nets) if is_of_a_mill(nets) && expected == OF_A_TABLE.nets => {
+            let found = format!("{panel} linked by {nets}: it has no lamps of A and C then");
+            findings.note(&entry.place, found, replace(line(folder, subject)));
+        }
         Some(_) => {}
     }
     if !subject.path(panel).is_file() {
         let found = format!("{panel} is not there: the tab stays empty");
-        findings.warning(&entry.place, found, replace(line(&panel_folder(subject))));
+        let mend = replace(line(&panel_folder(subject), subject));
+        findings.warning(&entry.place, found, mend);
     }
 }
 
-fn line(folder: &Path) -> String {
-    format!("EMBED_TAB_COMMAND = {}", tab(folder))
+/// Whether these nets are those of a mill.
+fn is_of_a_mill(nets: &str) -> bool {
+    let name = Path::new(nets).file_name();
+    name.is_some_and(|name| name == OF_A_MILL.nets)
+}
+
+fn line(folder: &Path, subject: &Subject) -> String {
+    format!("EMBED_TAB_COMMAND = {}", tab(folder, subject))
 }
