@@ -11,9 +11,10 @@ import unittest
 
 import harness
 
-PROGRAM = """G21 G90 G64 P0.05 F3000
-G0 X10 Y5
-G1 X40
+#: Its first move takes seconds, in which all others up to the dwell are queued, so that a busy computer rounds the same corners.
+PROGRAM = """G21 G90 G64 P0.05 F300
+G1 X10 Y5
+G1 X40 F3000
 G3 X50 Y15 J10
 G1 Y40 Z-5
 G4 P1

@@ -263,7 +263,8 @@ class Dead(Case):
     def test_others_never_wait_for_it(self):
         # killed with HAL's lock, it would leave halcmd, screens and LinuxCNC's own end waiting for ever
         result = watched([["start", "PROGRAMS/long.ngc"], ON, ["stop_guard_often", 1200], ["abort"], OFF], self.LONG)
-        self.fine(result)
+        # a busy computer may keep it silent for so long that the machine is held, and says so
+        self.assertIsNone(result.failure, result.log)
 
     def test_stopped_and_resumed(self):
         result = watched([["start", "PROGRAMS/long.ngc"], ON, ["wait_place", 0, 30], ["forget"], ["guard", "STOP"],
