@@ -114,6 +114,12 @@ impl<'a> Path<'a> {
         self.pieces.is_empty() || self.ranges.is_empty()
     }
 
+    /// First and last piece of the move that the module says it runs.
+    fn pieces_of(&self, sample: &Sample) -> Option<(usize, usize)> {
+        let index = usize::try_from(sample.id).ok()?.checked_sub(1)?;
+        self.ranges.get(index).copied()
+    }
+
     /// Near a piece its own tolerance holds, at its start that of the one before.
     fn tolerance(&self, index: usize) -> Tolerance {
         let own = &self.pieces[index];
@@ -267,8 +273,8 @@ pub(crate) fn path_to_executed(path: &Path, matched: &Matched) -> Distance {
     distance
 }
 
-/// First sample that belongs to each piece or a later one, last that belongs to it or an earlier
-/// one; length executed up to each sample, and the longest step.
+/// First sample that may belong to each piece or a later one, last that may belong to it or an
+/// earlier one; length executed up to each sample, and the longest step.
 fn extents(path: &Path, matched: &Matched) -> (Vec<usize>, Vec<usize>, Vec<f64>, f64) {
     let samples = matched.samples;
     let count = path.pieces.len();
@@ -277,8 +283,12 @@ fn extents(path: &Path, matched: &Matched) -> (Vec<usize>, Vec<usize>, Vec<f64>,
     let mut travelled = Vec::with_capacity(samples.len());
     let (mut length, mut longest) = (0.0, 0.0);
     for (k, &piece) in matched.pieces.iter().enumerate() {
-        first[piece] = first[piece].min(k);
-        last[piece] = last[piece].max(k);
+        // Where a path runs back over itself, what runs there is as near to the pieces on the way out, and those on the way
+        // back may have no sample: the move that the module says it runs counts as well.
+        let (earliest, latest) = path.pieces_of(&samples[k]).unwrap_or((piece, piece));
+        let (earliest, latest) = (earliest.min(piece), latest.max(piece));
+        first[latest] = first[latest].min(k);
+        last[earliest] = last[earliest].max(k);
         let travel = largest_difference(&step(samples, k), &[0.0; 9]);
         longest = f64::max(longest, travel);
         length += travel;

@@ -70,6 +70,22 @@ fn what_is_left_out_is_missed() {
     assert!(number(&figures["deviation"]["largest"]) > 4.9);
 }
 
+/// As a V-carved corner is written: up out of the groove and back over the same points. What runs back is
+/// as near to the way out, and the way back was taken for missed.
+#[test]
+fn what_runs_back_over_itself_is_not_missed() {
+    let bench = Bench::new();
+    let mut program = String::from("G21 G90 G64 P0.1 Q0 F6000\n");
+    for x in (1..=8).chain((0..8).rev()) {
+        program += &format!("G1 X{x} Z{}\n", 0.5 * f64::from(x));
+    }
+    program += "Y10\nM2\n";
+    let figures = bench.measure(&program, &bench.module(""), &[]);
+    assert_eq!(figures["add"]["calls"], 17);
+    assert_near(&figures["missed"]["largest"], 0.0, 1e-9);
+    assert_near(&figures["deviation"]["largest"], 0.0, 1e-9);
+}
+
 #[test]
 fn without_a_tolerance_there_is_no_ratio() {
     let bench = Bench::new();
