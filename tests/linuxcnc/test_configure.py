@@ -30,32 +30,50 @@ M2
 """
 
 
-def configured(*options, kinematics=None):
-    """A folder with axis_mm-framepath.ini and what belongs to it."""
+#: a lathe in inches, whose HAL file is one in Tcl of LinuxCNC's
+LATHE = """G20 G90 G18 G7 G61.1
+o<trans> call [0.5] [0] [-0.25]
+G1 X0.5 Z1 F30
+o<frame_off> call
+M2
+"""
+
+
+def stock(ini, *edits):
+    """A folder with a sample of LinuxCNC and the files beside it, changed by (from, to)."""
+    source = os.path.join(STOCK, ini)
     folder = tempfile.mkdtemp(prefix="framepath-configure.")
-    with open(os.path.join(STOCK, "axis_mm.ini"), encoding="utf-8") as file:
+    for entry in os.scandir(os.path.dirname(source)):
+        if entry.is_file():
+            shutil.copy(entry.path, folder)
+    remaps = os.path.join(os.path.dirname(source), "remap_subs")
+    if os.path.isdir(remaps):
+        shutil.copytree(remaps, os.path.join(folder, "remap_subs"))
+    with open(source, encoding="utf-8") as file:
         text = file.read()
-    for line in NEED_A_SCREEN:
+    for line, changed in edits:
         assert line in text, line
-        text = text.replace(line, "")
-    if kinematics:
-        text = harness.edit_ini(text, {("KINS", "KINEMATICS"): kinematics})
-    with open(os.path.join(folder, "axis_mm.ini"), "w", encoding="utf-8") as file:
+        text = text.replace(line, changed)
+    with open(os.path.join(folder, os.path.basename(ini)), "w", encoding="utf-8") as file:
         file.write(text)
-    shutil.copy(os.path.join(STOCK, "sim_mm.tbl"), folder)
-    # since LinuxCNC 2.9.4
-    cooling = os.path.join(STOCK, "cooling.hal")
-    if os.path.exists(cooling):
-        shutil.copy(cooling, folder)
-    subprocess.run([harness.TOOL, "configure", "axis_mm.ini", *options], cwd=folder, check=True, capture_output=True)
     return folder
+
+
+def run_configured(test, ini, folder, steps, programs, *options):
+    """Runs steps on it, configured with these options, and takes the folder away."""
+    test.addCleanup(shutil.rmtree, folder)
+    name = os.path.basename(ini)
+    subprocess.run([harness.TOOL, "configure", name, *options], cwd=folder, check=True, capture_output=True)
+    sample = name.replace(".ini", "-framepath")
+    return harness.run(steps, programs, sample=sample, configuration=folder, record=False)
 
 
 class Configure(unittest.TestCase):
     def run_configured(self, steps, programs, *options, kinematics=None):
-        folder = configured(*options, kinematics=kinematics)
-        self.addCleanup(shutil.rmtree, folder)
-        return harness.run(steps, programs, sample="axis_mm-framepath", configuration=folder, record=False)
+        edits = [(line, "") for line in NEED_A_SCREEN]
+        if kinematics:
+            edits.append(("KINEMATICS = trivkins", f"KINEMATICS = {kinematics}"))
+        return run_configured(self, "axis_mm.ini", stock("axis_mm.ini", *edits), steps, programs, *options)
 
     def test_blendtp_runs_a_program(self):
         result = self.run_configured([["getp", "version", "blendtp.version"], ["getp", "jerk", "blendtp.axis.x.max-jerk"],
@@ -81,6 +99,41 @@ class Configure(unittest.TestCase):
         self.assertIsNone(result.failure, result.log)
         self.assertEqual((result.errors, result.status), ([], 0))
         for joint, place in enumerate((40, 20)):
+            self.assertAlmostEqual(result.answers["end"]["joints"][joint], place, places=4)
+
+
+#: what those with a HAL file in Tcl name that wants a screen
+TCL_NEEDS_A_SCREEN = (("HALUI = halui\n", "\n"), ("LIB:basic_sim.tcl", "LIB:basic_sim.tcl -no_use_hal_manualtoolchange"))
+
+
+class Tcl(unittest.TestCase):
+    """HAL files in Tcl are LinuxCNC's own affair: what is needed comes before and behind them."""
+
+    def run_stock(self, ini, edits, steps, programs, *options):
+        folder = stock(ini, *TCL_NEEDS_A_SCREEN, *edits)
+        return run_configured(self, ini, folder, steps, programs, *options)
+
+    def test_frames_on_a_lathe(self):
+        postgui = ("POSTGUI_HALFILE = lathe_postgui.hal\n", "")
+        result = self.run_stock("lathe.ini", [postgui], [["getp", "jerk", "blendtp.axis.x.max-jerk"], ["run", "PROGRAMS/part.ngc"],
+                                                         ["note", "end"]], {"part.ngc": LATHE},
+                                "--frames", "--subroutines", SUBROUTINES)
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual((result.errors, result.status), ([], 0))
+        self.assertEqual(float(result.answers["jerk"]), 400)
+        for joint, place in enumerate((0.75, 0.75)):
+            self.assertAlmostEqual(result.answers["end"]["joints"][joint], place, places=5)
+
+    def test_frames_before_a_tilting_table(self):
+        without = [("HALCMD = loadusr -W xyzac-trt-gui\n", ""), ("POSTGUI_HALFILE = switchkins_postgui.hal\n", "")]
+        pictures = [(f" xyzac-trt-gui.{pin}\n", "\n") for pin in ("table-x", "saddle-y", "spindle-z", "tilt-a", "rotate-c",
+                                                                  "tool-offset", "y-offset", "z-offset")]
+        result = self.run_stock("vismach/5axis/table-rotary-tilting/xyzac-trt.ini", without + pictures,
+                                [["run", "PROGRAMS/part.ngc"], ["note", "end"]], {"part.ngc": FRAMES},
+                                "--frames", "--subroutines", SUBROUTINES)
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual((result.errors, result.status), ([], 0))
+        for joint, place in enumerate((30, 10)):
             self.assertAlmostEqual(result.answers["end"]["joints"][joint], place, places=4)
 
 

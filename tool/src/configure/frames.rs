@@ -3,7 +3,8 @@
 
 use super::ConfigureArguments;
 use super::edits::Edits;
-use super::inner;
+use super::{inner, unread};
+use crate::hal::Stock;
 use crate::wiring::codes::{CODES, Remap};
 use crate::wiring::framekins::{
     ADD_FUNCTION, MOST_OUTPUTS, MOTION_TYPE, NETS, OUTPUTS, SAMPLE_OUTPUTS, Source,
@@ -23,7 +24,7 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
         );
     }
     readable(subject, edits);
-    if subject.kinematics() == "trivkins" {
+    if subject.kinematics() == "trivkins" && !needs_trivkins(subject) {
         trivial_kinematics(subject, edits);
     } else {
         inner::write(subject, edits);
@@ -49,11 +50,7 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
 
 /// What is linked and loaded has to be known.
 fn readable(subject: &Subject, edits: &mut Edits) {
-    for unread in &subject.script.unread {
-        let found = format!("{}: {}", unread.name, unread.reason);
-        let help = "frames need to know what it loads and links: write it as a HAL file, or do without --frames";
-        edits.refuse(&unread.place, found, help);
-    }
+    unread::refuse(subject, edits);
     if subject.text("HAL", "TWOPASS").is_some() {
         let place = subject.place_of("HAL", "TWOPASS");
         edits.refuse(
@@ -70,6 +67,11 @@ fn readable(subject: &Subject, edits: &mut Edits) {
             "LINEAR_UNITS = mm under [TRAJ]",
         );
     }
+}
+
+/// LinuxCNC's HAL file for a pendant has it jog joints where the kinematics are trivkins, by their name.
+fn needs_trivkins(subject: &Subject) -> bool {
+    subject.script.stock.contains(&Stock::Pendant)
 }
 
 /// framekins takes their place.
@@ -140,10 +142,6 @@ fn first_output(subject: &Subject) -> Option<u32> {
 /// motmod with enough analog outputs: its parameters may stand behind its name in the INI file.
 fn motion(subject: &Subject, first: u32, edits: &mut Edits) {
     let Some(motion) = subject.motion() else {
-        if !subject.script.unread.is_empty() {
-            // Refused already: it may be loaded there.
-            return;
-        }
         let place = subject.place_of("EMCMOT", "EMCMOT");
         return edits.refuse(
             &place,

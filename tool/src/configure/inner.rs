@@ -22,7 +22,7 @@ pub fn write(subject: &Subject, edits: &mut Edits) {
         let help = "KINEMATICS = trivkins coordinates=XYZ under [KINS]";
         return edits.refuse(&place, "[KINS]KINEMATICS names no module", help);
     }
-    if subject.state.module(module).is_none() && subject.script.unread.is_empty() {
+    if subject.state.module(module).is_none() {
         let help = "loadrt [KINS]KINEMATICS in a HAL file, before motmod";
         return edits.refuse(&place, format!("no HAL file loads {module}"), help);
     }

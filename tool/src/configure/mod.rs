@@ -8,6 +8,7 @@ mod error;
 mod frames;
 mod inner;
 mod planner;
+mod unread;
 
 pub use error::{ConfigureError, Refusal};
 

@@ -1,20 +1,24 @@
 //! HAL files as `halcmd` and the script `linuxcnc` run them, read and not run.
 //!
 //! In the order of the work: [`script`] finds the files that an INI file names, [`line`] cuts their lines into
-//! words, with what [`variables`] puts in for `[SECTION]KEY` and `$NAME`; [`model`] has what is loaded, added,
-//! set and linked when all of them have run.
+//! words, with what [`variables`] puts in for `[SECTION]KEY` and `$NAME`; [`tcl`] tells what files of LinuxCNC's in
+//! Tcl do; [`model`] has what is loaded, added, set and linked when all of them have run.
 
+mod basic_sim;
 mod commands;
 mod line;
 mod model;
 mod script;
+mod tcl;
 mod variables;
 
 pub use model::{Added, Module, Program, Setting, State};
 pub use script::{Script, read_script};
+pub use tcl::Stock;
 pub use variables::HALLIB;
 
 use crate::machine::place::Place;
+use std::path::PathBuf;
 
 /// A word of a statement.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,4 +81,6 @@ pub struct Unread {
     pub name: String,
     /// Why.
     pub reason: String,
+    /// The file, if it is one in Tcl.
+    pub tcl: Option<PathBuf>,
 }

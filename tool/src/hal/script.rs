@@ -2,8 +2,9 @@
 
 use super::commands::is_known;
 use super::line::{Reason, Refusal, joined, statement};
+use super::tcl::Stock;
 use super::variables::{HALLIB, Missing};
-use super::{Fix, Problem, Statement, Unread, Word};
+use super::{Fix, Problem, State, Statement, Unread, Word};
 use crate::machine::ini::{Entry, Ini};
 use crate::machine::place::Place;
 use crate::machine::text_file;
@@ -27,6 +28,8 @@ pub struct Script {
     pub unread: Vec<Unread>,
     /// The files that were read, in their order.
     pub files: Vec<PathBuf>,
+    /// LinuxCNC's own in Tcl among them, whose statements stand where they are named.
+    pub stock: Vec<Stock>,
 }
 
 /// Reads the HAL files of `[HAL]`, its commands, and what the screen runs behind them. `folders` are looked
@@ -77,6 +80,7 @@ impl Reader<'_> {
             place: place.clone(),
             name: name.to_owned(),
             reason: reason.to_owned(),
+            tcl: None,
         });
     }
 
@@ -101,10 +105,54 @@ impl Reader<'_> {
                 return self.refuse(place, found, remedy);
             }
         };
-        if path.extension().is_some_and(|ending| ending == "tcl") {
-            return self.leave(place, name, "it is written in Tcl");
+        match Stock::in_file(&path) {
+            Some(stock) => self.take_stock(entry, stock, path),
+            None if path.extension().is_some_and(|ending| ending == "tcl") => {
+                self.script.unread.push(Unread {
+                    place: place.clone(),
+                    name: name.to_owned(),
+                    reason: "it is written in Tcl".to_owned(),
+                    tcl: Some(path),
+                });
+            }
+            None => self.take_file(place, &path, 0),
         }
-        self.take_file(place, &path, 0);
+    }
+
+    /// One of LinuxCNC's in Tcl; all that it does stands at the line that names it.
+    fn take_stock(&mut self, entry: &Entry, stock: Stock, path: PathBuf) {
+        let place = &entry.place;
+        let missing = |(section, key): &&(&str, &str)| self.ini.text(section, key).is_none();
+        if let Some((section, key)) = stock.keys().iter().find(missing) {
+            return self.script.problems.push(Problem {
+                place: place.clone(),
+                found: format!("{} needs [{section}]{key}", entry.value),
+                remedy: Fix::Key {
+                    section: (*section).to_owned(),
+                    key: (*key).to_owned(),
+                },
+            });
+        }
+        self.script.files.push(path);
+        self.script.stock.push(stock);
+        let options: Vec<&str> = entry.raw.split_whitespace().skip(1).collect();
+        let before = State::run(&self.script.statements);
+        for line in joined(&stock.lines(self.ini, &options, &before)) {
+            match statement(&place.file, &line, self.ini) {
+                Ok(Some(mut statement)) => {
+                    for word in &mut statement.words {
+                        word.place = place.clone();
+                    }
+                    statement.place = place.clone();
+                    self.script.statements.push(statement);
+                }
+                Ok(None) => {}
+                Err(refusal) => self.tell(Refusal {
+                    place: place.clone(),
+                    ..refusal
+                }),
+            }
+        }
     }
 
     /// Where the script `linuxcnc` finds a HALFILE.

@@ -210,6 +210,92 @@ fn what_chooses_a_type_of_the_kinematics_goes_to_framekins() {
     assert!(written.contains(lines), "{written}{}", text(&output.stderr));
 }
 
+/// A sample of LinuxCNC's whose only HAL file is in Tcl, configured with frames: the folder, and what configure says.
+fn tcl(name: &str) -> (tempfile::TempDir, Output) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ini = fs::read_to_string(Path::new(STOCK).join(name)).expect("a text");
+    fs::write(folder.path().join("axis_mm.ini"), ini).expect("written");
+    for beside in ["lathe.tbl", "lathe_postgui.hal", "sim.tbl"] {
+        fs::copy(Path::new(STOCK).join(beside), folder.path().join(beside)).expect("copied");
+    }
+    let arguments = [
+        "configure",
+        "axis_mm.ini",
+        "--frames",
+        "--subroutines",
+        &subroutines(),
+    ];
+    let output = framepath(folder.path(), &arguments);
+    (folder, output)
+}
+
+#[test]
+fn hal_files_of_linuxcncs_in_tcl_are_followed() {
+    let (folder, output) = tcl("lathe.ini");
+    let written = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for lines in [
+        "+KINEMATICS = framekins coordinates=XZ\n",
+        "+EMCMOT = motmod num_aio=16\n",
+        "+net sample:enable => framekins.enabled\n",
+        "+net motion-in-position motion.in-position => framekins.in-position\n",
+    ] {
+        assert!(written.contains(lines), "{lines} in {written}");
+    }
+    let found = findings(folder.path()).to_string();
+    assert!(
+        !found.contains("framekins") && !found.contains("Tcl"),
+        "{found}"
+    );
+}
+
+#[test]
+fn a_pendant_that_asks_for_trivkins_keeps_them() {
+    let pendant = "HALFILE = LIB:xhc-hb04.tcl\nHALUI = halui";
+    let options = ["--frames", "--subroutines", &subroutines()];
+    let (folder, output) = changed("HALUI = halui", pendant, &options);
+    let written = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(
+        written.contains("+loadrt framekins inner=trivkins\n"),
+        "{written}"
+    );
+    assert!(!written.contains("+KINEMATICS"), "{written}");
+    assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
+}
+
+#[test]
+fn a_users_own_file_in_tcl_stays_where_it_names_nothing_of_motion() {
+    let folder = stock();
+    let file = folder.path().join("axis_mm.ini");
+    let ini = fs::read_to_string(&file).expect("a text");
+    let named = "HALFILE = simulated_home.hal\nHALFILE = own.tcl";
+    fs::write(&file, ini.replace("HALFILE = simulated_home.hal", named)).expect("written");
+    let own = folder.path().join("own.tcl");
+    let run = |text: &str| {
+        fs::write(&own, text).expect("written");
+        framepath(
+            folder.path(),
+            &["configure", "axis_mm.ini", "--frames", "--force"],
+        )
+    };
+    let output = run("# what motion.enable waits for\nloadrt or2\naddf or2.0 servo-thread\n");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let output = run("set pin motion.enable\nnet ready $pin\n");
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    let line = 1 + ini
+        .replace("HALFILE = simulated_home.hal", named)
+        .lines()
+        .position(|line| line == "HALFILE = own.tcl")
+        .expect("there");
+    let refusal = format!(
+        "axis_mm.ini:{line}:1: error: own.tcl: it is written in Tcl, and line 1 of own.tcl names motion.\n  help: "
+    );
+    assert!(said.contains(&refusal), "{said}");
+    assert!(said.contains("halcmd save all"), "{said}");
+}
+
 #[test]
 fn other_screens_get_files_of_their_own_and_a_file_of_the_users_stays() {
     for (screen, line) in [
@@ -283,7 +369,7 @@ fn files_that_are_there_are_replaced_by_force_only() {
 
 /// A change of axis_mm, options, and the line that refuses it.
 /// From, to, options, and what is said: LINE is that of the first line of what was written, another one in each LinuxCNC.
-const REFUSED: [(&str, &str, &[&str], &str); 9] = [
+const REFUSED: [(&str, &str, &[&str], &str); 8] = [
     (
         "KINEMATICS = trivkins",
         "KINEMATICS =",
@@ -295,12 +381,6 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "KINEMATICS = trivkins colour=red",
         &["--frames"],
         "axis_mm.ini:LINE:1: error: framekins does not know `colour=red`",
-    ),
-    (
-        "HALFILE = core_sim.hal",
-        "HALFILE = LIB:basic_sim.tcl",
-        &["--frames"],
-        "axis_mm.ini:LINE:1: error: LIB:basic_sim.tcl: it is written in Tcl",
     ),
     (
         "PARAMETER_FILE = sim_mm.var",
