@@ -250,7 +250,11 @@ fn surroundings(
             assumed.push(ini.bad_value("EMCIO", "TOOL_TABLE", problem).to_string());
             Some(Vec::new())
         }
-        Some(name) => Some(read_tool_table(&folder.join(name))?),
+        Some(name) => {
+            let table = read_tool_table(&folder.join(name))?;
+            assumed.extend(table.warnings);
+            Some(table.tools)
+        }
         None => None,
     };
     let random = ini.number("EMCIO", "RANDOM_TOOLCHANGER")?.unwrap_or(0.0) != 0.0;

@@ -28,9 +28,9 @@ fn ini_files_that_cannot_be_used() {
     assert!(error.contains("[AXIS_Z]MAX_JERK = -5"), "{error}");
     let with_table = MILL.to_owned() + "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
     bench.write("mill.ini", &with_table);
-    bench.write("tools.tbl", "T1 P1\nT2 length 5\n");
+    bench.write("tools.tbl", "T1 P1\nT2 P2 Znan\n");
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
-    assert!(error.contains("tools.tbl:2: `length`"), "{error}");
+    assert!(error.contains("tools.tbl:2: `Znan`"), "{error}");
     let database = with_table.replace("TOOL_TABLE = tools.tbl", "DB_PROGRAM = ./tools.py");
     bench.write("mill.ini", &database);
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
@@ -40,6 +40,35 @@ fn ini_files_that_cannot_be_used() {
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(
         error.contains("tools.tbl:2: LinuxCNC does not find this tool: the line has no P"),
+        "{error}"
+    );
+}
+
+/// A table with columns, which LinuxCNC took before there were letters: it skips its lines, and has no tools.
+#[test]
+fn lines_of_a_tool_table_that_linuxcnc_skips_are_told() {
+    let bench = Bench::new();
+    let table =
+        "TOOLNO POCKET  LENGTH  DIAMETER  COMMENT\n\n  1  1  +0.511000  0.125000  1/8 end mill\n";
+    bench.write("tools.tbl", table);
+    bench.write(
+        "mill.ini",
+        &(MILL.to_owned() + "[EMCIO]\nTOOL_TABLE = tools.tbl\n"),
+    );
+    bench.write("part.ngc", "G21 F6000\nG1 X2\nM2\n");
+    let output = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert!(output.status.success(), "{told}");
+    assert!(
+        told.contains(
+            "tools.tbl:1: LinuxCNC skips this line, and line 3: `TOOLNO` is no word of a tool table"
+        ),
+        "{told}"
+    );
+    bench.write("part.ngc", "G21 F6000\nT1 M6\nG1 X2\nM2\n");
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.contains("tool 1 not found in the tool table"),
         "{error}"
     );
 }
