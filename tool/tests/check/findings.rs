@@ -31,7 +31,7 @@ const fn case(
     }
 }
 
-const CASES: [Case; 43] = [
+const CASES: [Case; 44] = [
     case(
         ("ini", "DISPLAY = axis", "DISPLAY = gmoccapy"),
         "warning",
@@ -358,6 +358,15 @@ const CASES: [Case; 43] = [
         "is not there",
         "mkdir",
     ),
+    Case {
+        sample: "framepath-xyzac",
+        ..case(
+            ("ini", "JOINTS = 5", "JOINTS = 10"),
+            "error",
+            "limits of joints are set, and there are 10 joints: with more than 9 blendtp refuses every move",
+            "set none of blendtp.joint.*",
+        )
+    },
 ];
 
 #[test]

@@ -1,16 +1,22 @@
 //! blendtp's limits of joints: if one is set, all of them are.
 
-use crate::check::finding::{Findings, add, if_missing};
+use crate::check::finding::{Findings, add, advice, if_missing};
 use crate::hal::Setting;
 use crate::wiring::blendtp::{JOINT_LIMITS, JointLimit, LIMITED_JOINTS};
 use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
-    let joints = subject.number("KINS", "JOINTS").unwrap_or(0.0) as usize;
-    let joints = joints.min(LIMITED_JOINTS);
-    let Some(first) = first_setting(subject, joints) else {
+    let joints = of_kinematics(subject);
+    let Some(first) = first_setting(subject, joints.min(LIMITED_JOINTS)) else {
         return;
     };
+    if joints > LIMITED_JOINTS && !is_trivial(subject) {
+        let found = format!(
+            "limits of joints are set, and there are {joints} joints: with more than {LIMITED_JOINTS} blendtp refuses every move"
+        );
+        let remedy = advice("set none of blendtp.joint.*: the axes keep their limits instead");
+        return findings.error(&first.statement.place, found, remedy);
+    }
     for joint in 0..joints {
         for limit in &JOINT_LIMITS {
             let pin = limit.pin(joint);
@@ -27,6 +33,21 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
             findings.add(level, &first.statement.place, found, remedy);
         }
     }
+}
+
+/// Whether the joints are the axes, whose limits hold then.
+fn is_trivial(subject: &Subject) -> bool {
+    !subject.joints.is_empty() && subject.inner().is_none() && subject.tilt().is_none()
+}
+
+/// How many joints the kinematics move: not those that motmod has beside them.
+fn of_kinematics(subject: &Subject) -> usize {
+    let beside = subject
+        .motion()
+        .and_then(|motion| motion.parameter("num_extrajoints")?.parse().ok())
+        .unwrap_or(0);
+    let joints = subject.number("KINS", "JOINTS").unwrap_or(0.0) as usize;
+    joints.saturating_sub(beside)
 }
 
 fn has(subject: &Subject, pin: &str) -> bool {
