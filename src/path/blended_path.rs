@@ -5,7 +5,8 @@ use nalgebra::ArrayStorage;
 use super::chain::Chain;
 use super::curve;
 use super::error::BlendError;
-use super::jump::PointSum;
+use super::jump::{LinearSum, PointSum, WholeSum};
+use super::kernel::Side;
 use super::leg::{Leg, ProgrammedMove};
 use super::line_merger::LineMerger;
 use super::metric::Metric;
@@ -13,6 +14,7 @@ use super::settings::BlendSettings;
 use super::views::{LegView, MoveProgress, VertexView};
 use super::width_optimizer::WidthOptimizer;
 use crate::axes::{AXIS_COUNT, Axes};
+use crate::lanes::lesser;
 use crate::moves::shape::measure::LEAST_DISTANCE;
 use crate::moves::shape::{PathPoint, Shape};
 
@@ -238,22 +240,34 @@ impl BlendedPath {
         }
     }
 
-    #[inline]
     fn point_of_leg(&self, number: u64, s: f64) -> PathPoint {
         let leg = self.chain.leg(number);
         let s = s.max(leg.start).min(leg.end());
+        let mut point = leg.point(s);
+        if self.chain.is_linear() {
+            let sum: LinearSum = self.jumps(number, s);
+            sum.add_to(&mut point);
+        } else {
+            let sum: WholeSum = self.jumps(number, s);
+            sum.add_to(&mut point);
+        }
+        point
+    }
+
+    /// What all vertices that reach into a leg add to it at `s`.
+    #[inline(always)]
+    fn jumps<const N: usize>(&self, number: u64, s: f64) -> PointSum<N> {
+        let leg = self.chain.leg(number);
         let mut sum = PointSum::ZERO;
         for k in 0..u64::from(leg.reached_from_left) {
-            let vertex = self.chain.vertex(number.saturating_sub(k));
-            vertex.add_to(&mut sum, s - vertex.s);
+            let vertex = self.chain.vertex(number.wrapping_sub(k));
+            vertex.add_to(&mut sum, s - vertex.s, Side::Right);
         }
         for k in 1..=u64::from(leg.reached_from_right) {
-            let vertex = self.chain.vertex(number.saturating_add(k));
-            vertex.add_to(&mut sum, -(vertex.s - s));
+            let vertex = self.chain.vertex(number.wrapping_add(k));
+            vertex.add_to(&mut sum, vertex.s - s, Side::Left);
         }
-        let mut point = leg.point(s);
-        sum.add_to(&mut point);
-        point
+        sum
     }
 
     /// The places behind `from` and before `to` where the third derivative or its slope may jump, both sides of a jump of the
@@ -269,15 +283,12 @@ impl BlendedPath {
         let mut room = places.iter_mut();
         let mut count = 0;
         for number in first..=end.saturating_add(right) {
-            for place in self.chain.vertex(number).breakpoints() {
-                if from < place
-                    && place < to
-                    && let Some(free) = room.next()
-                {
+            self.chain.vertex(number).breakpoints(from, to, |place| {
+                if let Some(free) = room.next() {
                     *free = place;
                     count += 1;
                 }
-            }
+            });
         }
         count
     }
@@ -285,6 +296,24 @@ impl BlendedPath {
     /// The leg at `s`, the later one where two meet; `None` if there is none at all.
     pub fn leg(&self, s: f64) -> Option<LegView> {
         (!self.chain.is_empty()).then(|| self.leg_view(self.chain.locate(s)))
+    }
+
+    /// The least programmed speed of the legs within `near` of `s`, and the least that no override may exceed; infinite
+    /// where there is none. `near` is shorter than any leg.
+    pub fn speeds_near(&self, s: f64, near: f64) -> [f64; 2] {
+        if self.chain.is_empty() {
+            return [f64::INFINITY; 2];
+        }
+        let before = self.chain.leg(self.chain.locate(s - near));
+        let after = if s + near < before.end() {
+            before
+        } else {
+            self.chain.leg(self.chain.locate(s + near))
+        };
+        [
+            lesser(before.speed, after.speed),
+            lesser(before.greatest_speed, after.greatest_speed),
+        ]
     }
 
     /// The leg that `s` lies in, the earlier one where two meet; `None` if there is none or not
@@ -390,6 +419,7 @@ impl BlendedPath {
             reach,
             core: vertex.stored().core(),
             stop: vertex.stop,
+            curvature_jumps: vertex.curvature_jump_size > 0.0,
             speed_changes: number > self.chain.first() && {
                 let (before, after) = (self.chain.leg(number - 1), self.chain.leg(number));
                 before.speed != after.speed || before.greatest_speed != after.greatest_speed

@@ -31,6 +31,8 @@ pub(super) struct Chain {
     next: u64,
     /// Number of the leg that the path began with.
     begin: u64,
+    /// Whether nothing but XYZ has jumped at a vertex since the path began.
+    linear: bool,
     /// Number of the leg that was found last: the next one asked for is mostly near it.
     found: Cell<u64>,
 }
@@ -43,6 +45,7 @@ impl Chain {
             first: 0,
             next: 0,
             begin: 0,
+            linear: true,
             found: Cell::new(0),
         }
     }
@@ -50,6 +53,13 @@ impl Chain {
     pub fn clear(&mut self) {
         self.first = self.next;
         self.begin = self.next;
+        self.linear = true;
+    }
+
+    /// Whether nothing but XYZ jumps at any vertex.
+    #[inline]
+    pub fn is_linear(&self) -> bool {
+        self.linear
     }
 
     /// Number of the oldest leg.
@@ -133,6 +143,7 @@ impl Chain {
                 vertex
             }
         };
+        self.linear &= vertex.tangent_jump.is_linear() && vertex.curvature_jump.is_linear();
         *self.leg_mut(self.next) = leg;
         *self.vertex_mut(self.next) = vertex;
         self.next = self.next.wrapping_add(1);
@@ -209,6 +220,32 @@ impl Chain {
             })
     }
 
+    /// Forgets of a leg that nothing changes any more the vertices that reached into it on trial only.
+    pub fn settle(&mut self, number: u64) {
+        let leg = self.leg(number);
+        let (start, end) = (leg.start, leg.end());
+        // As the path is evaluated.
+        let mut left = leg.reached_from_left;
+        while left > 0 {
+            let vertex = self.vertex(number.wrapping_sub(u64::from(left - 1)));
+            if start - vertex.s < vertex.stored().reach() {
+                break;
+            }
+            left -= 1;
+        }
+        let mut right = leg.reached_from_right;
+        while right > 0 {
+            let vertex = self.vertex(number.wrapping_add(u64::from(right)));
+            if vertex.s - end < vertex.stored().reach() {
+                break;
+            }
+            right -= 1;
+        }
+        let leg = self.leg_mut(number);
+        leg.reached_from_left = left;
+        leg.reached_from_right = right;
+    }
+
     /// Takes note that a vertex reaches `reach` to both sides on trial, or did: its legs have to be
     /// checked, and evaluation has to look for it there. Answers the number of legs visited.
     pub fn touch(&mut self, number: u64, reach: f64, next: u64) -> usize {
@@ -243,6 +280,7 @@ impl Chain {
 #[cfg(test)]
 mod tests {
     use super::super::settings::Allowance;
+    use super::super::vertex::Widths;
     use super::*;
 
     /// A chain of legs of length 1; it is too large for the stack of a test.
@@ -336,6 +374,26 @@ mod tests {
             assert_eq!(chain.leg(9).reached_from_right, 1);
             assert_eq!(chain.leg(10).reached_from_left, 1);
             assert_eq!(chain.leg(12).reached_from_left, 3);
+        });
+    }
+
+    #[test]
+    fn what_reached_a_leg_on_trial_only_is_forgotten() {
+        with_chain(20, |chain| {
+            chain.touch(10, 2.5, 20);
+            chain.touch(11, 1.5, 20);
+            chain.vertex_mut(11).set_trial(Widths {
+                kernel: 1.5,
+                ..Widths::NONE
+            });
+            chain.vertex_mut(11).store_trial();
+            (0..20).for_each(|leg| chain.settle(leg));
+            let reached = |leg| {
+                let leg = chain.leg(leg);
+                (leg.reached_from_left, leg.reached_from_right)
+            };
+            let legs = [8, 9, 10, 11, 12, 13].map(reached);
+            assert_eq!(legs, [(0, 0), (0, 2), (0, 1), (1, 0), (2, 0), (0, 0)]);
         });
     }
 }

@@ -11,9 +11,8 @@
 //! programmed one and back.
 
 use super::chain::{Chain, NEIGHBOURS};
-use super::jump::JumpSum;
 use super::metric::Metric;
-use super::vertex::Vertex;
+use super::reaching::Reaching;
 
 /// Deviations evaluated for one leg at most; more count as a violation.
 const HALVINGS: u32 = 24;
@@ -33,103 +32,35 @@ pub(super) struct DeviationVerdict {
     pub cost: usize,
 }
 
-/// The vertices that reach into a leg with those of their trial widths that count.
-struct Reaching<'a> {
-    left: [Option<&'a Vertex>; NEIGHBOURS as usize],
-    right: [Option<&'a Vertex>; NEIGHBOURS as usize],
-    count: usize,
-}
-
-impl<'a> Reaching<'a> {
-    fn new(chain: &'a Chain, leg: u64, next: u64) -> Self {
-        let mut left = [None; NEIGHBOURS as usize];
-        let mut right = [None; NEIGHBOURS as usize];
-        let (start, end) = (chain.leg(leg).start, chain.leg(leg).end());
-        let mut count = 0;
-        let from_left = chain
-            .left_of(leg)
-            .filter(|(_, vertex)| vertex.s + vertex.counted.reach() > start);
-        for (place, (_, vertex)) in left.iter_mut().zip(from_left) {
-            *place = Some(vertex);
-            count += 1;
-        }
-        let from_right = chain
-            .right_of(leg, next)
-            .filter(|(_, vertex)| vertex.s - vertex.counted.reach() < end);
-        for (place, (_, vertex)) in right.iter_mut().zip(from_right) {
-            *place = Some(vertex);
-            count += 1;
-        }
-        Self { left, right, count }
-    }
-
-    fn left(&self) -> impl Iterator<Item = &Vertex> {
-        self.left.iter().map_while(|vertex| *vertex)
-    }
-
-    fn right(&self) -> impl Iterator<Item = &Vertex> {
-        self.right.iter().map_while(|vertex| *vertex)
-    }
-
-    fn deviation(&self, s: f64, metric: &Metric, turn_share: f64) -> f64 {
-        let mut sum = JumpSum::ZERO;
-        for vertex in self.left().chain(self.right()) {
-            vertex.add_deviation(&vertex.counted, s - vertex.s, &mut sum);
-        }
-        metric.deviation(&sum.axes(), turn_share)
-    }
-
-    /// A bound of the second derivative of the deviation between `from` and `to`.
-    fn bend_bound(&self, from: f64, to: f64) -> f64 {
-        let left = self
-            .left()
-            .map(|vertex| vertex.bend_bound(&vertex.counted, (from - vertex.s).max(0.0)));
-        let right = self
-            .right()
-            .map(|vertex| vertex.bend_bound(&vertex.counted, (vertex.s - to).max(0.0)));
-        left.chain(right).sum()
-    }
-}
-
 /// Checks that the trial widths keep `share` of the tolerance everywhere on a leg. Vertices from
-/// `next` on do not count.
+/// `next` on do not count. `reaching` is filled for it.
 pub(super) fn check(
     chain: &Chain,
     number: u64,
     share: f64,
     next: u64,
     metric: &Metric,
+    reaching: &mut Reaching,
 ) -> DeviationVerdict {
-    let leg = chain.leg(number);
-    let reaching = Reaching::new(chain, number, next);
-    let mut search = Search {
-        reaching: &reaching,
-        metric,
-        tolerance: leg.tolerance() * share,
-        turn_share: leg.turn_share,
-        halvings: 0,
-        cost: 1 + reaching.count,
-    };
-    if reaching.count == 0 {
+    reaching.collect(chain, number, next);
+    if reaching.count() == 0 {
         return DeviationVerdict {
             violation: None,
             cost: 1,
         };
     }
+    let leg = chain.leg(number);
+    let mut search = Search {
+        chain,
+        reaching,
+        metric,
+        tolerance: leg.tolerance() * share,
+        turn_share: leg.turn_share,
+        halvings: 0,
+        cost: 1 + reaching.count(),
+    };
     let (start, end) = (leg.start, leg.end());
-    // Up to where the vertices on the left reach, and from where those on the right do.
-    let from_left = reaching
-        .left()
-        .fold(start, |far, vertex| {
-            far.max(vertex.s + vertex.counted.reach())
-        })
-        .min(end);
-    let from_right = reaching
-        .right()
-        .fold(end, |near, vertex| {
-            near.min(vertex.s - vertex.counted.reach())
-        })
-        .max(start);
+    let [from_left, from_right] = reaching.ends();
     let violation = if from_left < from_right {
         search
             .first_violation(start, from_left)
@@ -144,7 +75,8 @@ pub(super) fn check(
 }
 
 struct Search<'a> {
-    reaching: &'a Reaching<'a>,
+    chain: &'a Chain,
+    reaching: &'a Reaching,
     metric: &'a Metric,
     tolerance: f64,
     turn_share: f64,
@@ -154,8 +86,9 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn deviation(&mut self, s: f64) -> f64 {
-        self.cost += self.reaching.count;
-        self.reaching.deviation(s, self.metric, self.turn_share)
+        self.cost += self.reaching.count();
+        self.reaching
+            .deviation(self.chain, s, self.metric, self.turn_share)
     }
 
     /// Goes from left to right, each time over the largest half of halves that the bound allows.
@@ -177,9 +110,9 @@ impl Search<'_> {
                 return Some(right);
             }
             let length = right - left;
-            self.cost += self.reaching.count;
+            self.cost += self.reaching.count();
             let bound = at_left.max(at_right)
-                + 0.125 * length * length * self.reaching.bend_bound(left, right);
+                + 0.125 * length * length * self.reaching.bend_bound(self.chain, left, right);
             if bound <= self.tolerance {
                 depth = depth.checked_sub(1)?;
                 (left, at_left) = (right, at_right);

@@ -9,6 +9,7 @@
 use super::chain::Chain;
 use super::deviation;
 use super::metric::Metric;
+use super::reaching::Reaching;
 use super::vertex::Widths;
 use super::window::Window;
 use super::{easement, kernel};
@@ -31,6 +32,7 @@ pub(super) fn harden(
     attempt: usize,
     window: &Window,
     metric: &Metric,
+    reaching: &mut Reaching,
 ) -> (bool, usize) {
     let clip = window.clip(chain, number);
     let share = SHARES.get(attempt).copied().unwrap_or(0.01);
@@ -68,7 +70,7 @@ pub(super) fn harden(
     let mut cost = chain.touch(number, reach, window.next);
     let mut holds = true;
     for leg in [number.saturating_sub(1), number] {
-        let verdict = deviation::check(chain, leg, 1.0, window.next, metric);
+        let verdict = deviation::check(chain, leg, 1.0, window.next, metric, reaching);
         cost += verdict.cost;
         holds &= verdict.violation.is_none();
     }
@@ -144,6 +146,8 @@ pub(super) mod tests {
                 first.add_deviation(&wide, second.s - first.s, &mut deviation);
                 let tolerance = metric.norm(&deviation.axes()) / 0.97;
                 chain.vertex_mut(1).set_trial(wide);
+                let next = chain.next();
+                chain.touch(1, wide.reach(), next);
                 chain.vertex_mut(2).tolerance = tolerance;
                 chain.leg_mut(2).allowance = Allowance::Tolerance(tolerance);
                 let window = Window {
@@ -151,7 +155,10 @@ pub(super) mod tests {
                     end: chain.end(),
                     ..Window::EMPTY
                 };
-                [0, ATTEMPTS - 1].map(|attempt| harden(&mut chain, 2, attempt, &window, &metric).0)
+                let mut reaching = Reaching::NONE;
+                [0, ATTEMPTS - 1].map(|attempt| {
+                    harden(&mut chain, 2, attempt, &window, &metric, &mut reaching).0
+                })
             })
             .expect("a thread")
             .join()
@@ -182,14 +189,15 @@ pub(super) mod tests {
                     let mut chain = Chain::new();
                     lines(&displacements, &settings, &mut chain);
                     let window = Window { next: chain.next(), end: chain.end(), ..Window::EMPTY };
+                    let mut reaching = Reaching::NONE;
                     for number in chain.first()..chain.next() {
                         let held = (attempt..ATTEMPTS).any(|attempt| {
-                            harden(&mut chain, number, attempt, &window, &metric).0
+                            harden(&mut chain, number, attempt, &window, &metric, &mut reaching).0
                         });
                         assert!(held, "vertex {number}");
                     }
                     (chain.first()..chain.next()).find(|leg| {
-                        deviation::check(&chain, *leg, 1.0, window.next, &metric)
+                        deviation::check(&chain, *leg, 1.0, window.next, &metric, &mut reaching)
                             .violation
                             .is_some()
                     })

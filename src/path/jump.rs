@@ -4,15 +4,16 @@
 //! part: dozens of kernels may overlap at a place of dense code.
 
 use nalgebra::ArrayStorage;
+use wide::f64x2;
 
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::moves::shape::PathPoint;
 
 /// XYZ, ABC and UVW.
-const GROUPS: usize = 3;
+pub(super) const GROUPS: usize = 3;
 
 /// Axes in each.
-const GROUP_SIZE: usize = 3;
+pub(super) const GROUP_SIZE: usize = 3;
 
 /// A jump of a derivative of the path, which knows the axes that take part in it.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +39,17 @@ impl Jump {
         }
     }
 
+    /// XYZ, ABC and UVW.
+    pub fn groups(&self) -> &[[f64; GROUP_SIZE]; GROUPS] {
+        &self.groups
+    }
+
+    /// Whether nothing but XYZ jumps.
+    pub fn is_linear(&self) -> bool {
+        let [_, others @ ..] = self.present;
+        others == [false; GROUPS - 1]
+    }
+
     /// Of all axes, shape (9).
     pub fn axes(&self) -> Axes {
         let [[x, y, z], [a, b, c], [u, v, w]] = self.groups;
@@ -45,14 +57,13 @@ impl Jump {
     }
 }
 
-/// What of a jump is added to a point of the path and its derivatives. In pairs, since processors
-/// calculate in pairs.
+/// What of a jump is added to a point of the path and its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Factors {
     /// To the position and the second derivative.
-    pub even: [f64; 2],
+    pub even: f64x2,
     /// To the first and the third derivative.
-    pub odd: [f64; 2],
+    pub odd: f64x2,
 }
 
 /// A sum of jumps, each times so many factors.
@@ -79,7 +90,7 @@ impl<const N: usize> JumpSum<N> {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn add_group<const N: usize>(
     sums: &mut [[f64; N]; GROUP_SIZE],
     group: &[f64; GROUP_SIZE],
@@ -93,6 +104,15 @@ fn add_group<const N: usize>(
 }
 
 impl JumpSum<1> {
+    /// What the first groups add up to, others none.
+    pub fn of_groups(first: &[[f64; GROUP_SIZE]]) -> Self {
+        let mut sum = Self::ZERO;
+        for (sums, group) in sum.groups.iter_mut().zip(first) {
+            *sums = group.map(|axis| [axis]);
+        }
+        sum
+    }
+
     /// For all axes, shape (9).
     pub fn axes(&self) -> Axes {
         let [[[x], [y], [z]], [[a], [b], [c]], [[u], [v], [w]]] = self.groups;
@@ -100,28 +120,55 @@ impl JumpSum<1> {
     }
 }
 
-/// What all jumps add to a point of the path and its derivatives.
+/// What all jumps add to a point of the path and its derivatives, of the first so many groups: that of one fits into the
+/// registers of a processor.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PointSum {
-    even: JumpSum<2>,
-    odd: JumpSum<2>,
+pub(super) struct PointSum<const N: usize> {
+    groups: [GroupSum; N],
 }
 
-impl PointSum {
+/// The sum of XYZ, where nothing else jumps.
+pub(super) type LinearSum = PointSum<1>;
+
+/// The sum of all axes.
+pub(super) type WholeSum = PointSum<GROUPS>;
+
+/// The same of one group, by axis.
+#[derive(Clone, Copy, Debug)]
+struct GroupSum {
+    even: [f64x2; GROUP_SIZE],
+    odd: [f64x2; GROUP_SIZE],
+}
+
+impl GroupSum {
+    const ZERO: Self = Self {
+        even: [f64x2::ZERO; GROUP_SIZE],
+        odd: [f64x2::ZERO; GROUP_SIZE],
+    };
+
+    #[inline(always)]
+    fn add(&mut self, group: &[f64; GROUP_SIZE], factors: &Factors) {
+        let sums = self.even.iter_mut().zip(&mut self.odd);
+        for ((even, odd), axis) in sums.zip(group) {
+            let axis = f64x2::splat(*axis);
+            *even += axis * factors.even;
+            *odd += axis * factors.odd;
+        }
+    }
+}
+
+impl<const N: usize> PointSum<N> {
     pub const ZERO: Self = Self {
-        even: JumpSum::ZERO,
-        odd: JumpSum::ZERO,
+        groups: [GroupSum::ZERO; N],
     };
 
     /// Adds a jump times its factors.
     #[inline(always)]
-    pub fn add(&mut self, jump: &Jump, Factors { even, odd }: &Factors) {
-        let sums = self.even.groups.iter_mut().zip(&mut self.odd.groups);
-        let groups = sums.zip(&jump.groups).zip(&jump.present);
-        for (((even_sums, odd_sums), group), present) in groups {
-            if *present {
-                add_group(even_sums, group, even);
-                add_group(odd_sums, group, odd);
+    pub fn add(&mut self, jump: &Jump, factors: &Factors) {
+        let groups = self.groups.iter_mut().zip(&jump.groups);
+        for ((sum, group), present) in groups.zip(jump.present) {
+            if N == 1 || present {
+                sum.add(group, factors);
             }
         }
     }
@@ -129,15 +176,21 @@ impl PointSum {
     /// Adds the sum to a point of the path.
     #[inline]
     pub fn add_to(&self, point: &mut PathPoint) {
-        let even = point.position.iter_mut().zip(point.second.iter_mut());
-        for ((position, second), sum) in even.zip(self.even.groups.iter().flatten()) {
-            *position += sum[0];
-            *second += sum[1];
-        }
-        let odd = point.first.iter_mut().zip(point.third.iter_mut());
-        for ((first, third), sum) in odd.zip(self.odd.groups.iter().flatten()) {
-            *first += sum[0];
-            *third += sum[1];
+        // Arrays, since iterators of the linear algebra step by a stride.
+        let [position] = &mut point.position.data.0;
+        let [first] = &mut point.first.data.0;
+        let [second] = &mut point.second.data.0;
+        let [third] = &mut point.third.data.0;
+        for (number, sum) in self.groups.iter().enumerate() {
+            for of_group in 0..GROUP_SIZE {
+                let axis = GROUP_SIZE * number + of_group;
+                let [place, bend] = sum.even[of_group].to_array();
+                let [slope, twist] = sum.odd[of_group].to_array();
+                position[axis] += place;
+                first[axis] += slope;
+                second[axis] += bend;
+                third[axis] += twist;
+            }
         }
     }
 }
@@ -163,15 +216,15 @@ mod tests {
             one.add(&jump, &[2.0]);
             one.add(&jump, &[-0.5]);
             assert_eq!(one.axes(), axes * 1.5);
-            let mut sum = PointSum::ZERO;
+            let mut sum = WholeSum::ZERO;
             let factors = Factors {
-                even: [1.0, 3.0],
-                odd: [2.0, 4.0],
+                even: f64x2::new([1.0, 3.0]),
+                odd: f64x2::new([2.0, 4.0]),
             };
             sum.add(&jump, &factors);
             let once = Factors {
-                even: [1.0; 2],
-                odd: [1.0; 2],
+                even: f64x2::splat(1.0),
+                odd: f64x2::splat(1.0),
             };
             sum.add(&Jump::new(&all), &once);
             let mut point = PathPoint {

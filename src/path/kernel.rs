@@ -23,7 +23,10 @@
 //!
 //! Between these kernels the mix is linear.
 
+use wide::f64x2;
+
 use super::jump::Factors;
+use crate::lanes::greater;
 
 /// phi2 in the middle.
 pub(super) const PEAK_SECOND_ORDER: f64 = 5.0 / 32.0;
@@ -110,6 +113,35 @@ pub(super) fn value(x: f64, mix: f64) -> f64 {
     second_order + share * (other - second_order) - 0.5 * x
 }
 
+/// phi at two places `x`, for two mixes that are not below 0.
+#[inline(always)]
+pub(super) fn values(x: f64x2, mix: f64x2) -> f64x2 {
+    let y = x * x;
+    let even = |[c0, c1, c2, c3, c4]: [f64; POWERS]| c0 + y * (c1 + y * (c2 + y * (c3 + y * c4)));
+    let second_order = even(SECOND_ORDER);
+    second_order + mix * (even(FOURTH_ORDER) - second_order) - x * 0.5
+}
+
+/// Where a place is as seen from a jump.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Side {
+    /// Before it.
+    Left,
+    /// At it or behind it.
+    Right,
+}
+
+impl Side {
+    /// Of a distance, to the right.
+    #[inline(always)]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Left => -1.0,
+            Self::Right => 1.0,
+        }
+    }
+}
+
 /// phi of a width and a mix, prepared to be evaluated with its derivatives.
 ///
 /// Without their term `-x / 2` phi2 and phi4 are polynomials of `y = x^2`, and so are their
@@ -121,8 +153,8 @@ pub(super) struct Kernel {
     /// Coefficients of y^0 to y^4 for the value and the second derivative by distance. Side by
     /// side, since processors calculate in pairs.
     even: [[f64; 2]; POWERS],
-    /// The same for the first and the third.
-    odd: [[f64; 2]; POWERS],
+    /// Of y^0 to y^3 for the first and the third.
+    odd: [[f64; 2]; POWERS - 1],
 }
 
 impl Kernel {
@@ -131,7 +163,7 @@ impl Kernel {
         inverse_width: 0.0,
         mix: 0.0,
         even: [[0.0; 2]; POWERS],
-        odd: [[0.0; 2]; POWERS],
+        odd: [[0.0; 2]; POWERS - 1],
     };
 
     /// `width`: positive, or 0 for [`Self::NONE`].
@@ -162,31 +194,30 @@ impl Kernel {
                 [4.0 * c2, 120.0 * c3 * square],
                 [6.0 * c3, 336.0 * c4 * square],
                 [8.0 * c4, 0.0],
-                [0.0; 2],
             ],
         }
     }
 
-    /// What of a jump of dp/ds is to be added to the path at a signed `distance` from it, within the
-    /// width. A distance of -0 is to the left of the jump.
-    #[inline]
-    pub fn factors(&self, distance: f64) -> Factors {
+    /// What of a jump of dp/ds is to be added to the path at a `distance` from it, 0 to the width, on
+    /// this `side`.
+    #[inline(always)]
+    pub fn factors(&self, distance: f64, side: Side) -> Factors {
         if self.mix < 0.0 {
-            return self.flat_factors(distance);
+            return self.flat_factors(side.sign() * distance);
         }
-        let x = distance * self.inverse_width;
-        let y = x * x;
+        let x = side.sign() * distance * self.inverse_width;
+        let y = f64x2::splat(x * x);
         let even = polynomial(&self.even, y);
         let odd = polynomial(&self.odd, y);
-        let corner = [-0.5 * distance.abs(), 0.0];
-        let slope = [(-0.5f64).copysign(-distance), 0.0];
+        let corner = f64x2::new([-0.5 * distance, 0.0]);
+        let slope = f64x2::new([-0.5 * side.sign(), 0.0]);
         Factors {
-            even: core::array::from_fn(|k| even[k] + corner[k]),
-            odd: core::array::from_fn(|k| odd[k] * x + slope[k]),
+            even: even + corner,
+            odd: odd * f64x2::splat(x) + slope,
         }
     }
 
-    /// The same with a share of K8. Corners with such a kernel stand alone.
+    /// The same at a signed distance with a share of K8; -0 is to the left. Corners with such a kernel stand alone.
     #[inline(never)]
     fn flat_factors(&self, distance: f64) -> Factors {
         let inverse = self.inverse_width;
@@ -204,20 +235,23 @@ impl Kernel {
         let second = mixed(0.9375 * rest * rest, FLAT * flat_rest * flat_rest);
         let third = mixed(-3.75 * x * rest, -16.0 * FLAT * y * y * y * x * flat_rest);
         Factors {
-            even: [value(x, self.mix) / inverse, second * inverse],
-            odd: [side * first, side * third * inverse * inverse],
+            even: f64x2::new([value(x, self.mix) / inverse, second * inverse]),
+            odd: f64x2::new([side * first, side * third * inverse * inverse]),
         }
     }
 }
 
 /// Two polynomials of y, by the coefficients of its powers.
-#[inline]
-fn polynomial([c0, c1, c2, c3, c4]: &[[f64; 2]; POWERS], y: f64) -> [f64; 2] {
-    let mut sum = *c4;
-    for coefficients in [c3, c2, c1, c0] {
-        for (sum, coefficient) in sum.iter_mut().zip(coefficients) {
-            *sum = *sum * y + coefficient;
-        }
+#[inline(always)]
+fn polynomial<const N: usize>(powers: &[[f64; 2]; N], y: f64x2) -> f64x2 {
+    let mut sum = f64x2::ZERO;
+    for (from_highest, coefficients) in powers.iter().rev().enumerate() {
+        let coefficients = f64x2::new(*coefficients);
+        sum = if from_highest == 0 {
+            coefficients
+        } else {
+            sum * y + coefficients
+        };
     }
     sum
 }
@@ -232,7 +266,17 @@ pub(super) fn majorant(x: f64, mix: f64) -> f64 {
         let flat = 1.0 - y * y * y * y;
         return (1.0 + mix) * second_order - mix * FLAT * flat * flat;
     }
-    let fourth_order = (1.640625 * rest * (1.0 - 3.0 * y)).max(DIP_FOURTH_ORDER);
+    let fourth_order = greater(DIP_FOURTH_ORDER, 1.640625 * rest * (1.0 - 3.0 * y));
+    (1.0 - mix).abs() * second_order + mix * fourth_order
+}
+
+/// The same at two places for two mixes that are not below 0.
+#[inline(always)]
+pub(super) fn majorants(x: f64x2, mix: f64x2) -> f64x2 {
+    let y = x * x;
+    let rest = (1.0 - y) * (1.0 - y);
+    let second_order = rest * 0.9375;
+    let fourth_order = (rest * 1.640625 * (1.0 - y * 3.0)).fast_max(f64x2::splat(DIP_FOURTH_ORDER));
     (1.0 - mix).abs() * second_order + mix * fourth_order
 }
 
@@ -250,10 +294,8 @@ mod tests {
     }
 
     fn derivatives(x: f64, mix: f64) -> KernelDerivatives {
-        let Factors {
-            even: [value, second],
-            odd: [first, third],
-        } = Kernel::new(1.0, mix).factors(x);
+        let Factors { even, odd } = Kernel::new(1.0, mix).factors(x, Side::Right);
+        let ([value, second], [first, third]) = (even.to_array(), odd.to_array());
         KernelDerivatives {
             value,
             first,
@@ -357,18 +399,33 @@ mod tests {
                 assert!((unit.value - value(x, mix)).abs() < 1e-15);
                 let even = [unit.value * width, unit.second / width];
                 let odd = [unit.first, unit.third / (width * width)];
-                let right = kernel.factors(x * width);
-                let left = kernel.factors(-x * width);
+                let right = kernel.factors(x * width, Side::Right);
+                let left = kernel.factors(x * width, Side::Left);
+                let [right, left] =
+                    [right, left].map(|side| [side.even, side.odd].map(f64x2::to_array));
                 for i in 0..2 {
                     for (is, expected) in [
-                        (right.even[i], even[i]),
-                        (left.even[i], even[i]),
-                        (right.odd[i], odd[i]),
-                        (left.odd[i], -odd[i]),
+                        (right[0][i], even[i]),
+                        (left[0][i], even[i]),
+                        (right[1][i], odd[i]),
+                        (left[1][i], -odd[i]),
                     ] {
                         assert!((is - expected).abs() < 1e-12, "{mix} {x}: {is} {expected}");
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn two_at_a_time_are_as_one_by_one() {
+        for mix in [[0.0, 0.1], [GREATEST_PEAKED, 1.0], [1.15, 0.4]] {
+            for k in 0..=100 {
+                let x = [0.01 * f64::from(k), 1.0 - 0.01 * f64::from(k)];
+                let (places, mixes) = (f64x2::new(x), f64x2::new(mix));
+                let one_by_one = |of: fn(f64, f64) -> f64| [0, 1].map(|i| of(x[i], mix[i]));
+                assert_eq!(values(places, mixes).to_array(), one_by_one(value));
+                assert_eq!(majorants(places, mixes).to_array(), one_by_one(majorant));
             }
         }
     }

@@ -202,8 +202,17 @@ impl Leg {
     /// distance.
     #[inline]
     pub fn point(&self, s: f64) -> PathPoint {
-        let mut point = self.shape.point(self.measured(s));
-        let rate = self.measure_rate;
+        let (at, rate) = (self.measured(s), self.measure_rate);
+        let mut point = match &self.shape {
+            Shape::Line(line) => {
+                return PathPoint {
+                    position: line.position(at),
+                    first: line.direction() * rate,
+                    ..PathPoint::ZERO
+                };
+            }
+            Shape::Arc(arc) => arc.point(at),
+        };
         point.first *= rate;
         point.second *= rate * rate;
         point.third *= rate * rate * rate;

@@ -48,6 +48,7 @@ mod leg;
 mod line_merger;
 mod metric;
 mod orientation;
+mod reaching;
 mod settings;
 mod vertex;
 mod views;

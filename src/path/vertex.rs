@@ -1,11 +1,14 @@
 //! A vertex of the programmed path: where two legs meet.
 
+use wide::f64x2;
+
 use super::jump::{Factors, Jump, JumpSum, PointSum};
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Side};
 use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
 use super::{easement, kernel};
+use crate::lanes::greater;
 
 /// A turn of the direction below this is rounding.
 const NO_TANGENT_JUMP: f64 = 1e-9;
@@ -73,7 +76,7 @@ impl Widths {
     /// How far the blended path is changed on both sides.
     #[inline]
     pub fn reach(&self) -> f64 {
-        self.kernel.max(self.easement)
+        greater(self.kernel, self.easement)
     }
 }
 
@@ -433,55 +436,57 @@ impl Vertex {
         self.stored_factor
     }
 
-    /// Where the third derivative of the path or its slope may jump: both sides of a jump.
-    pub fn breakpoints(&self) -> impl Iterator<Item = f64> {
+    /// Where between two places the third derivative of the path or its slope may jump: both sides of a jump.
+    #[inline]
+    pub fn breakpoints(&self, from: f64, to: f64, mut take: impl FnMut(f64)) {
         let Widths {
             kernel, easement, ..
         } = self.stored;
-        // The kernel itself has no edge in the middle.
-        let curving = easement > 0.0 || self.curvature_jump_size > NO_CURVATURE_JUMP;
-        let places = [
-            (self.s - kernel, kernel > 0.0),
-            (self.s - easement, easement > 0.0),
-            (self.s.next_down(), curving),
-            (self.s, curving),
-            (self.s + easement, easement > 0.0),
-            (self.s + kernel, kernel > 0.0),
-        ];
-        places
-            .into_iter()
-            .filter(|(_, is_there)| *is_there)
-            .map(|(place, _)| place)
-    }
-
-    /// Adds what it contributes in force to a point of the path, at a signed `distance` from it; -0
-    /// is to its left.
-    #[inline]
-    pub fn add_to(&self, sum: &mut PointSum, distance: f64) {
-        let x = distance.abs();
-        if x < self.stored.kernel {
-            self.add_kernel_to(sum, distance);
-        }
-        if x < self.stored.easement {
-            self.add_easement_to(sum, distance);
-        }
-    }
-
-    // Not where they are called: most vertices that are looked at do not reach the place.
-    #[inline(never)]
-    fn add_kernel_to(&self, sum: &mut PointSum, distance: f64) {
-        sum.add(&self.tangent_jump, &self.kernel.factors(distance));
-    }
-
-    #[inline(never)]
-    fn add_easement_to(&self, sum: &mut PointSum, distance: f64) {
-        let width = self.stored.easement;
-        let side = 1.0f64.copysign(distance);
-        let f = easement::derivatives(distance.abs() / width);
-        let factors = Factors {
-            even: [side * width * width * f.value, side * f.second],
-            odd: [width * f.first, f.third / width],
+        let mut look = |place: f64| {
+            if from < place && place < to {
+                take(place);
+            }
         };
-        sum.add(&self.curvature_jump, &factors);
+        if kernel > 0.0 {
+            look(self.s - kernel);
+        }
+        if easement > 0.0 {
+            look(self.s - easement);
+        }
+        // The kernel itself has no edge in the middle.
+        if easement > 0.0 || self.curvature_jump_size > NO_CURVATURE_JUMP {
+            look(self.s.next_down());
+            look(self.s);
+        }
+        if easement > 0.0 {
+            look(self.s + easement);
+        }
+        if kernel > 0.0 {
+            look(self.s + kernel);
+        }
+    }
+
+    /// Adds what it contributes in force to a point of the path at a `distance` from it, 0 and above, on this
+    /// `side`.
+    #[inline(always)]
+    pub fn add_to<const N: usize>(&self, sum: &mut PointSum<N>, distance: f64, side: Side) {
+        if distance < self.stored.kernel {
+            sum.add(&self.tangent_jump, &self.kernel.factors(distance, side));
+        }
+        if distance < self.stored.easement {
+            sum.add(&self.curvature_jump, &self.easement_factors(distance, side));
+        }
+    }
+
+    // Not where it is called: few vertices have an easement.
+    #[inline(never)]
+    fn easement_factors(&self, distance: f64, side: Side) -> Factors {
+        let width = self.stored.easement;
+        let side = side.sign();
+        let f = easement::derivatives(distance / width);
+        Factors {
+            even: f64x2::new([side * width * width * f.value, side * f.second]),
+            odd: f64x2::new([width * f.first, f.third / width]),
+        }
     }
 }

@@ -54,6 +54,8 @@ pub struct VertexView {
     pub core: f64,
     /// Whether the machine comes to rest there: the direction may jump.
     pub stop: bool,
+    /// Whether the curvature of the program jumps there: then the third derivative of the path may jump as well.
+    pub curvature_jumps: bool,
     /// Whether the speeds of the legs differ that meet there.
     pub speed_changes: bool,
 }

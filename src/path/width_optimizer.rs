@@ -14,6 +14,7 @@ use super::chain::{Chain, NEIGHBOURS};
 use super::deviation::{self, GREATEST_COST};
 use super::hardening::{self, ATTEMPTS};
 use super::metric::Metric;
+use super::reaching::Reaching;
 use super::settings::BlendSettings;
 use super::vertex::Widths;
 use super::window::Window;
@@ -86,6 +87,10 @@ pub(super) struct WidthOptimizer {
     narrowed: bool,
     /// Of all final vertices.
     greatest_reach: f64,
+    /// Number of the first leg that has not been [settled](Chain::settle).
+    unsettled: u64,
+    /// Of the leg that is checked.
+    reaching: Reaching,
 }
 
 impl WidthOptimizer {
@@ -100,20 +105,24 @@ impl WidthOptimizer {
             violated: false,
             narrowed: false,
             greatest_reach: 0.0,
+            unsettled: 0,
+            reaching: Reaching::NONE,
         }
     }
 
     /// Begins anew with an empty chain.
     pub fn restart(&mut self, chain: &Chain) {
-        *self = Self {
-            stored_next: chain.next(),
-            window: Window {
-                open: chain.next(),
-                next: chain.next(),
-                ..Window::EMPTY
-            },
-            ..Self::new()
+        let next = chain.next();
+        self.window = Window {
+            open: next,
+            next,
+            ..Window::EMPTY
         };
+        self.phase = OptimizerPhase::Idle;
+        self.stored_next = next;
+        self.unsettled = next;
+        self.stored_end = 0.0;
+        self.greatest_reach = 0.0;
     }
 
     /// Up to where the path is within its tolerance, path distance.
@@ -320,8 +329,14 @@ impl WidthOptimizer {
         if !chain.leg(leg).unchecked {
             return 1;
         }
-        let DeviationVerdict { violation, cost } =
-            deviation::check(chain, leg, TRIAL_SHARE, self.window.next, metric);
+        let DeviationVerdict { violation, cost } = deviation::check(
+            chain,
+            leg,
+            TRIAL_SHARE,
+            self.window.next,
+            metric,
+            &mut self.reaching,
+        );
         let marking = match violation {
             None => {
                 chain.leg_mut(leg).unchecked = false;
@@ -398,7 +413,9 @@ impl WidthOptimizer {
         if vertex >= self.window.next {
             return self.accept(chain, settings);
         }
-        let (holds, cost) = hardening::harden(chain, vertex, attempt, &self.window, metric);
+        let reaching = &mut self.reaching;
+        let (holds, cost) =
+            hardening::harden(chain, vertex, attempt, &self.window, metric, reaching);
         self.phase = if holds || attempt + 1 >= ATTEMPTS {
             OptimizerPhase::Harden {
                 vertex: vertex + 1,
@@ -422,6 +439,13 @@ impl WidthOptimizer {
         self.stored_end = self.window.end;
         self.phase = OptimizerPhase::Idle;
         self.advance(chain, settings);
+        self.unsettled = self.unsettled.max(chain.first());
+        while self.unsettled < self.window.open
+            && chain.leg(self.unsettled).end() <= self.window.frozen
+        {
+            chain.settle(self.unsettled);
+            self.unsettled += 1;
+        }
         2 * NEIGHBOURS as usize
     }
 

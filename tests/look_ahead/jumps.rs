@@ -35,6 +35,7 @@ fn vertex(position: f64) -> RouteVertex {
         reach: 1.2,
         core: 0.0,
         cap_changes: false,
+        may_jump: true,
     }
 }
 

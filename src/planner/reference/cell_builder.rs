@@ -1,8 +1,9 @@
 //! One servo period of the reference, put together from stretches of segments.
 
 use super::reference_segment::{ReferenceSegment, SegmentMotion};
-use crate::axes::Axes;
+use crate::axes::{AXIS_COUNT, Axes};
 use crate::cycle::Cell;
+use crate::lanes::{greater, lesser};
 use crate::machine_map::MachineMap;
 use crate::moves::MoveQueue;
 use crate::moves::shape::PathPoint;
@@ -19,9 +20,21 @@ const BESIDE: f64 = 1e-6;
 #[derive(Debug)]
 pub(super) struct CellBuilder {
     cell: Option<Cell>,
+    /// Where the stretch before ended, as it was seen there.
+    end: Option<StretchEnd>,
     /// Path velocity at its start, in path distance.
     start_velocity: f64,
     filled: f64,
+}
+
+/// The end of a stretch where the path goes on as smooth as it came: the next stretch begins with it.
+#[derive(Clone, Copy, Debug)]
+struct StretchEnd {
+    /// Path distance.
+    s: f64,
+    /// By how much another place may be off that is the same but for rounding.
+    beside: f64,
+    point: PathPoint,
 }
 
 /// What lies under a cell.
@@ -36,6 +49,7 @@ impl CellBuilder {
     pub const fn new() -> Self {
         Self {
             cell: None,
+            end: None,
             start_velocity: 0.0,
             filled: 0.0,
         }
@@ -73,14 +87,20 @@ impl CellBuilder {
     /// Adds a stretch without jumps of acceleration or jerk.
     fn add_phase(&mut self, segment: &ReferenceSegment, ground: &Ground, from: f64, to: f64) {
         let middle = 0.5 * (from + to);
-        let at = |t, back| {
-            MotionDerivatives::at(segment, ground.path, t, middle, back).behind(ground.map)
+        let [start, inside, end] = [from, middle, to].map(|t| segment.state(t, middle));
+        let seen = |along: &ProfileState, point: &PathPoint| {
+            MotionDerivatives::of(ground.path, point, along).behind(ground.map)
         };
-        let first = at(from, 0.0);
-        let second = at(middle, 0.0);
-        // Where the stretch ends with a leg, the third derivative of the path may jump.
-        let back = BESIDE * (second.along.distance - first.along.distance);
-        let third = at(to, back);
+        let first = seen(
+            &start,
+            &self.start_point(segment, ground.path, start.distance),
+        );
+        let second = seen(&inside, &segment.point(ground.path, inside.distance));
+        let back = BESIDE * (inside.distance - start.distance);
+        let third = seen(
+            &end,
+            &self.end_point(segment, ground.path, end.distance, back),
+        );
         let start_velocity = &mut self.start_velocity;
         let cell = self.cell.get_or_insert_with(|| {
             *start_velocity = first.along.velocity;
@@ -107,6 +127,43 @@ impl CellBuilder {
             cell.feed_ratio = cell.feed_ratio.max(end.slope * share);
         }
     }
+
+    /// The path where a stretch begins.
+    fn start_point(
+        &mut self,
+        segment: &ReferenceSegment,
+        path: &BlendedPath,
+        distance: f64,
+    ) -> PathPoint {
+        match self.end.take() {
+            Some(end) if segment.is_run() && (distance - end.s).abs() <= end.beside => end.point,
+            _ => segment.point(path, distance),
+        }
+    }
+
+    /// The path where a stretch ends. Where it ends with a leg, the third derivative of the path may jump: it is looked
+    /// at `back` before.
+    fn end_point(
+        &mut self,
+        segment: &ReferenceSegment,
+        path: &BlendedPath,
+        distance: f64,
+        back: f64,
+    ) -> PathPoint {
+        let leg = path.leg(distance);
+        let is_inside =
+            leg.is_some_and(|leg| leg.start < distance - back && distance + back < leg.end);
+        if !(segment.is_run() && is_inside) {
+            return segment.point(path, distance - back);
+        }
+        let point = segment.point(path, distance);
+        self.end = Some(StretchEnd {
+            s: distance,
+            beside: back,
+            point,
+        });
+        point
+    }
 }
 
 /// Makes the bounds of a cell hold for two values, each give or take its margin.
@@ -117,14 +174,14 @@ fn widen(
     jerk: &Axes,
     jerk_margin: &Axes,
 ) {
-    cell.acceleration_min = cell
-        .acceleration_min
-        .inf(&(acceleration - acceleration_margin));
-    cell.acceleration_max = cell
-        .acceleration_max
-        .sup(&(acceleration + acceleration_margin));
-    cell.jerk_min = cell.jerk_min.inf(&(jerk - jerk_margin));
-    cell.jerk_max = cell.jerk_max.sup(&(jerk + jerk_margin));
+    for axis in 0..AXIS_COUNT {
+        let [value, margin] = [acceleration[axis], acceleration_margin[axis]];
+        cell.acceleration_min[axis] = lesser(cell.acceleration_min[axis], value - margin);
+        cell.acceleration_max[axis] = greater(cell.acceleration_max[axis], value + margin);
+        let [value, margin] = [jerk[axis], jerk_margin[axis]];
+        cell.jerk_min[axis] = lesser(cell.jerk_min[axis], value - margin);
+        cell.jerk_max[axis] = greater(cell.jerk_max[axis], value + margin);
+    }
 }
 
 /// Derivatives of a reference by its time.
@@ -139,23 +196,22 @@ struct MotionDerivatives {
 }
 
 impl MotionDerivatives {
-    /// At time `t` of a segment, in the phase at `within`; the path is taken `back` before.
-    fn at(segment: &ReferenceSegment, path: &BlendedPath, t: f64, within: f64, back: f64) -> Self {
-        let along = segment.state(t, within);
+    /// Where the path has this `point` and the motion along it this state.
+    fn of(path: &BlendedPath, point: &PathPoint, along: &ProfileState) -> Self {
         let PathPoint {
             position,
             first,
             second,
             third,
-        } = segment.point(path, along.distance - back);
+        } = point;
         let (v, a, j) = (along.velocity, along.acceleration, along.jerk);
         Self {
-            position,
+            position: *position,
             velocity: first * v,
             acceleration: first * a + second * (v * v),
             jerk: first * j + second * (3.0 * v * a) + third * (v * v * v),
-            slope: path.distance(&first),
-            along,
+            slope: path.distance(first),
+            along: *along,
         }
     }
 
@@ -281,7 +337,8 @@ mod tests {
                 prop_assert!((builder.filled() - (finish - begin)).abs() < 1e-15);
                 let cell = builder.take().expect("a cell");
                 let t = begin + inside * (finish - begin);
-                let here = MotionDerivatives::at(&segment, path, t, t, 0.0);
+                let along = segment.state(t, t);
+                let here = MotionDerivatives::of(path, &segment.point(path, along.distance), &along);
                 for axis in 0..9 {
                     // A parabola stands for the curve: a thousandth of the limits is left to it.
                     let (a, j) = (here.acceleration[axis], here.jerk[axis]);

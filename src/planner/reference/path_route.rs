@@ -59,24 +59,12 @@ impl Route for PathRoute<'_> {
 
 /// The speed cap at path distance `s`, see [`Route::speed_cap`].
 pub(super) fn speed_cap(path: &BlendedPath, s: f64, first: &Axes) -> SpeedCap {
-    let mut cap = SpeedCap {
-        programmed: f64::INFINITY,
-        greatest: f64::INFINITY,
-    };
-    let mut lower = |place: f64| {
-        if let Some(leg) = path.leg(place) {
-            cap.programmed = cap.programmed.min(leg.speed);
-            cap.greatest = cap.greatest.min(leg.greatest_speed);
-        }
-    };
-    let near = ON_CHANGE * (1.0 + s.abs());
-    lower(s - near);
-    lower(s + near);
+    let [programmed, greatest] = path.speeds_near(s, ON_CHANGE * (1.0 + s.abs()));
     // Where a corner is rounded the path is shorter than what s counts.
     let slope = path.distance(first);
     SpeedCap {
-        programmed: cap.programmed / slope,
-        greatest: cap.greatest / slope,
+        programmed: programmed / slope,
+        greatest: greatest / slope,
     }
 }
 
@@ -87,5 +75,6 @@ pub(super) fn vertex(view: VertexView) -> RouteVertex {
         reach: view.reach,
         core: view.core,
         cap_changes: view.speed_changes && !view.stop,
+        may_jump: view.curvature_jumps,
     }
 }

@@ -94,6 +94,11 @@ impl ReferenceSegment {
         }
     }
 
+    /// Whether it is of a plan of the look-ahead, on along the path.
+    pub fn is_run(&self) -> bool {
+        matches!(self.motion, SegmentMotion::Run(_))
+    }
+
     /// The path distance where the distance of this segment is `distance`.
     pub fn path_distance(&self, distance: f64) -> f64 {
         match &self.motion {

@@ -6,12 +6,13 @@
 //! `|q' u + 3 q'' a + q''' b| <= J / sqrt(b)`; the right side is convex in b, which would make the
 //! barrier's second derivatives indefinite, so that one term of them is left out.
 
-use super::departure::Departure;
+use wide::{f32x4, f64x4};
+
 use super::interval::Parabola;
 use super::interval_samples::IntervalSamples;
 use super::rows::{AxisRows, THIRD};
-use super::sample::Sample;
-use crate::lanes::{QUAD_LANES, QUADS, Quad, quad};
+use super::sample::MovingAxes;
+use crate::lanes::{QUAD_LANES, QUADS, quad};
 
 /// Derivatives by the three coefficients that an interval depends on.
 #[derive(Clone, Copy, Debug)]
@@ -22,19 +23,26 @@ pub(super) struct BarrierDerivatives {
     pub hessian: [f64; 6],
 }
 
-/// Derivatives by b, a and u at a place, second ones symmetric.
+/// Derivatives by b, a and u, second ones symmetric; of one place, or of [`PLACES`] by lanes.
 #[derive(Clone, Copy, Default)]
-struct Local {
-    b: f64,
-    a: f64,
-    u: f64,
-    bb: f64,
-    ba: f64,
-    bu: f64,
-    aa: f64,
-    au: f64,
-    uu: f64,
+struct Local<T> {
+    b: T,
+    a: T,
+    u: T,
+    bb: T,
+    ba: T,
+    bu: T,
+    aa: T,
+    au: T,
+    uu: T,
 }
+
+/// Where in an interval, shares of its length: a lane each. The last one only fills the register, and weighs nothing.
+const PLACES: [f64; 4] = [0.0, 0.5, 1.0, 1.0];
+/// What each of them stands for in the barrier ..
+const PARTS: [f64; 4] = [0.25, 0.5, 0.25, 0.0];
+/// .. and in the duration, by Simpson's rule.
+const SIMPSON: [f64; 4] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0, 0.0];
 
 /// What the barrier is to be assembled with.
 #[derive(Clone, Copy, Debug)]
@@ -59,195 +67,223 @@ impl Barrier {
         let h = parabola.length;
         let (b_middle, _) = parabola.at(0.5 * h);
         let weight = self.weight * h / b_middle.sqrt();
-        let mut sum = Local::default();
-        let places = [(0.0, 0.25, 1.0), (0.5, 0.5, 4.0), (1.0, 0.25, 1.0)];
-        for ((share, part, simpson), sample) in places.into_iter().zip(interval.places()) {
-            let x = share * h;
-            let (b, a) = parabola.at(x);
-            let place = BarrierPlace {
-                b,
-                a,
-                u: parabola.u,
-                inverse: 1.0 / b,
-                root: b.sqrt(),
-            };
-            let mut local = place.duration(h * (simpson / 6.0));
-            self.add_limits(
-                &mut local,
-                rows,
-                &place,
-                sample,
-                &interval.departure,
-                weight * part,
-            );
-            sum.add_at(&local, x);
-        }
-        sum.by_coefficients(lengths)
+        let x = f64x4::new(PLACES) * h;
+        let places = BarrierPlaces::of(parabola, x);
+        let mut local = places.duration(f64x4::new(SIMPSON) * h);
+        self.add_limits(
+            &mut local,
+            rows,
+            &places,
+            interval,
+            f64x4::new(PARTS) * weight,
+        );
+        local.by_start(x).by_coefficients(lengths)
     }
 
-    /// Adds the barrier at a place.
+    /// Adds the barrier at all places.
+    #[inline]
     fn add_limits(
         &self,
-        sum: &mut Local,
+        sum: &mut Local<f64x4>,
         rows: &AxisRows,
-        place: &BarrierPlace,
-        sample: &Sample,
-        departure: &Departure,
-        weight: f64,
+        places: &BarrierPlaces,
+        interval: &IntervalSamples,
+        weight: f64x4,
     ) {
-        let BarrierPlace {
-            b, a, u, inverse, ..
-        } = *place;
-        let left = sample.cap.raised(self.raise_squared) - b;
-        if left > 0.0 {
-            let inverse = 1.0 / left;
-            sum.b += weight * inverse;
-            sum.bb += weight * inverse * inverse;
-        }
+        let BarrierPlaces {
+            b,
+            a,
+            u,
+            root,
+            inverse,
+        } = *places;
+        let samples = interval.places();
+        let left = by_place(samples.map(|sample| sample.cap.raised(self.raise_squared))) - b;
+        let inverse_left = (f64x4::ONE / left) & left.simd_gt(f64x4::ZERO);
+        let rise = weight * inverse_left;
+        sum.b += rise;
+        sum.bb += rise * inverse_left;
         // The bound of the jerk rows and its derivative by b.
-        let third = f64::from(departure.third);
-        let whole = self.margin * place.root * inverse;
-        let bound = whole - third * b;
-        let bound_slope = -0.5 * whole * inverse - third;
+        let third = f64::from(interval.departure.third);
+        let whole = root * self.margin * inverse;
+        let bound = whole - b * third;
+        let bound_slope = whole * -0.5 * inverse - third;
         // The departure takes so little of the acceleration that how it changes with b does not matter.
-        let margin = self.margin - f64::from(departure.second) * b;
+        let margin = self.margin - b * f64::from(interval.departure.second);
+        let factors = [b, a, f64x4::splat(u), bound, bound_slope, margin].map(to_single);
+        let moving = MovingAxes::at_any(samples);
         let mut limits = BarrierLimits::default();
-        let mut lanes = 0;
-        for number in (0..QUADS).filter(|number| sample.axes.in_quad(*number)) {
-            lanes += QUAD_LANES;
-            limits.add(
-                sample.lanes.each_ref().map(|rows| *quad(rows, number)),
-                quad(&rows.jerk_time_lanes, number),
-                [b, a, u, bound, bound_slope, margin].map(|value| value as f32),
-            );
+        for number in (0..QUADS).filter(|number| moving.in_quad(*number)) {
+            let times = quad(&rows.jerk_time_lanes, number);
+            let [by_u, by_a, by_b] = [0, 1, 2].map(|order| {
+                let [start, middle, end] =
+                    samples.map(|sample| f32x4::new(*quad(&sample.lanes[order], number)));
+                f32x4::transpose([start, middle, end, end])
+            });
+            let by_axis = [0, 1, 2, 3].map(|lane| [by_u[lane], by_a[lane], by_b[lane]]);
+            let first = QUAD_LANES * number;
+            for ((axis, row), time) in (first..).zip(&by_axis).zip(times) {
+                if moving.contains(axis) {
+                    limits.add(row, *time, &factors);
+                }
+            }
         }
-        // Axes that stand still have no row, but the bound of one.
-        let still = f64::from(lanes as u32 - sample.axes.count());
+        // Axes that stand still at a place have no row there, but the bound of one.
+        let still = samples.map(|sample| moving.more_than(sample.axes));
+        let still = by_place(still);
         let jump = 2.0 / bound;
-        let jumps = total(limits.jumps) - still * jump;
-        let even = total(limits.even) - still * 0.5 * jump * jump;
-        sum.u += weight * total(limits.u);
-        sum.a += weight * total(limits.a);
-        sum.b += weight * (total(limits.b) - jumps * bound_slope);
-        sum.uu += weight * total(limits.uu);
-        sum.au += weight * total(limits.au);
-        sum.bu += weight * total(limits.bu);
-        sum.aa += weight * total(limits.aa);
-        sum.ba += weight * total(limits.ba);
-        sum.bb += weight * (total(limits.bb) + even * bound_slope * bound_slope);
+        let jumps = to_double(limits.jumps) - still * jump;
+        let even = to_double(limits.even) - still * 0.5 * jump * jump;
+        sum.u += weight * to_double(limits.u);
+        sum.a += weight * to_double(limits.a);
+        sum.b += weight * (to_double(limits.b) - jumps * bound_slope);
+        sum.uu += weight * to_double(limits.uu);
+        sum.au += weight * to_double(limits.au);
+        sum.bu += weight * to_double(limits.bu);
+        sum.aa += weight * to_double(limits.aa);
+        sum.ba += weight * to_double(limits.ba);
+        sum.bb += weight * (to_double(limits.bb) + even * bound_slope * bound_slope);
     }
 }
 
-/// What the limits of the axes add, by lanes, for a weight of 1.
+/// What belongs to start, middle and end as lanes.
+#[inline(always)]
+fn by_place([start, middle, end]: [f64; 3]) -> f64x4 {
+    f64x4::new([start, middle, end, end])
+}
+
+#[inline(always)]
+fn to_single(values: f64x4) -> f32x4 {
+    f32x4::new(values.to_array().map(|value| value as f32))
+}
+
+#[inline(always)]
+fn to_double(values: f32x4) -> f64x4 {
+    f64x4::new(values.to_array().map(f64::from))
+}
+
+/// What the limits of the axes add at each place, for a weight of 1.
 #[derive(Default)]
 struct BarrierLimits {
-    b: Quad,
-    a: Quad,
-    u: Quad,
-    bb: Quad,
-    ba: Quad,
-    bu: Quad,
-    aa: Quad,
-    au: Quad,
-    uu: Quad,
+    b: f32x4,
+    a: f32x4,
+    u: f32x4,
+    bb: f32x4,
+    ba: f32x4,
+    bu: f32x4,
+    aa: f32x4,
+    au: f32x4,
+    uu: f32x4,
     /// What the slope of the bound of the jerk is to be multiplied by ..
-    jumps: Quad,
+    jumps: f32x4,
     /// .. and its square.
-    even: Quad,
+    even: f32x4,
 }
 
 impl BarrierLimits {
-    /// Adds four axes: their rows by u, a and b, and the times J / A.
+    /// Adds an axis: its rows by u, a and b at each place, and its time J / A.
     ///
     /// `1 / (bound - y) - 1 / (bound + y)` is called slope, the sum of both jumps, that of their
     /// squares even and the difference of the squares odd.
-    #[inline]
+    #[inline(always)]
     fn add(
         &mut self,
-        [by_u, by_a, by_b]: [Quad; 3],
-        times: &Quad,
-        [b, a, u, bound, bound_slope, margin]: [f32; 6],
+        &[by_u, by_a, by_b]: &[f32x4; 3],
+        time: f32,
+        &[b, a, u, bound, bound_slope, margin]: &[f32x4; 6],
     ) {
-        for lane in 0..QUAD_LANES {
-            let (by_u, by_a, by_b) = (by_u[lane], by_a[lane], by_b[lane]);
-            let jerk = by_u * u + by_a * a + by_b * b;
-            let inverse = 2.0 / ((bound - jerk) * (bound + jerk));
-            let (slope, jumps) = (jerk * inverse, bound * inverse);
-            let even = 0.5 * (slope * slope + jumps * jumps);
-            let odd = slope * jumps * bound_slope;
-            let (even_u, across) = (even * by_u, even * by_b - odd);
-            self.jumps[lane] += jumps;
-            self.even[lane] += even;
-            self.u[lane] += slope * by_u;
-            self.uu[lane] += even_u * by_u;
-            self.au[lane] += even_u * by_a;
-            self.bu[lane] += across * by_u;
+        let jerk = by_u * u + by_a * a + by_b * b;
+        let inverse = 2.0 / ((bound - jerk) * (bound + jerk));
+        let (slope, jumps) = (jerk * inverse, bound * inverse);
+        let even = (slope * slope + jumps * jumps) * 0.5;
+        let odd = slope * jumps * bound_slope;
+        let (even_u, across) = (even * by_u, even * by_b - odd);
+        self.jumps += jumps;
+        self.even += even;
+        self.u += slope * by_u;
+        self.uu += even_u * by_u;
+        self.au += even_u * by_a;
+        self.bu += across * by_u;
 
-            let (along, over) = (by_u * times[lane], by_a * (times[lane] * THIRD));
-            let acceleration = along * a + over * b;
-            let inverse = 2.0 / ((margin - acceleration) * (margin + acceleration));
-            let (rise, leaps) = (acceleration * inverse, margin * inverse);
-            let both = 0.5 * (rise * rise + leaps * leaps);
-            self.a[lane] += slope * by_a + rise * along;
-            self.b[lane] += slope * by_b + rise * over;
-            self.aa[lane] += even * by_a * by_a + both * along * along;
-            self.ba[lane] += across * by_a + both * along * over;
-            self.bb[lane] += (across - odd) * by_b + both * over * over;
-        }
+        let (along, over) = (by_u * time, by_a * (time * THIRD));
+        let acceleration = along * a + over * b;
+        let inverse = 2.0 / ((margin - acceleration) * (margin + acceleration));
+        let (rise, leaps) = (acceleration * inverse, margin * inverse);
+        let both = (rise * rise + leaps * leaps) * 0.5;
+        self.a += slope * by_a + rise * along;
+        self.b += slope * by_b + rise * over;
+        self.aa += even * by_a * by_a + both * along * along;
+        self.ba += across * by_a + both * along * over;
+        self.bb += (across - odd) * by_b + both * over * over;
     }
 }
 
-/// The sum of all lanes.
-fn total([first, second, third, fourth]: Quad) -> f64 {
-    f64::from((first + second) + (third + fourth))
-}
-
-/// b, a and u somewhere in an interval.
-struct BarrierPlace {
-    b: f64,
-    a: f64,
+/// The motion at all places.
+struct BarrierPlaces {
+    b: f64x4,
+    a: f64x4,
     u: f64,
-    /// 1 / b.
-    inverse: f64,
     /// sqrt(b).
-    root: f64,
+    root: f64x4,
+    /// 1 / b.
+    inverse: f64x4,
 }
 
-impl BarrierPlace {
+impl BarrierPlaces {
+    /// At `x` from the start.
+    #[inline(always)]
+    fn of(parabola: &Parabola, x: f64x4) -> Self {
+        let change = x * parabola.u;
+        let b = parabola.b + x * (2.0 * parabola.a + change);
+        Self {
+            b,
+            a: parabola.a + change,
+            u: parabola.u,
+            root: b.sqrt(),
+            inverse: f64x4::ONE / b,
+        }
+    }
+
     /// `weight / sqrt(b)`.
-    fn duration(&self, weight: f64) -> Local {
+    #[inline(always)]
+    fn duration(&self, weight: f64x4) -> Local<f64x4> {
         let cubed = weight * self.root * self.inverse * self.inverse;
         Local {
-            b: -0.5 * cubed,
-            bb: 0.75 * cubed * self.inverse,
+            b: cubed * -0.5,
+            bb: cubed * 0.75 * self.inverse,
             ..Local::default()
         }
     }
 }
 
-impl Local {
-    /// Adds what is meant by b, a, u at `x` as seen from the start, where
+impl Local<f64x4> {
+    /// The sum over all places of what is meant by b, a, u at `x` as seen from the start, where
     /// `b = b0 + 2 a0 x + u x^2` and `a = a0 + u x`.
-    fn add_at(&mut self, other: &Self, x: f64) {
-        let two_x = 2.0 * x;
+    #[inline(always)]
+    fn by_start(&self, x: f64x4) -> Local<f64> {
+        let two_x = x * 2.0;
         let xx = x * x;
         // Rows of the second derivatives times the columns of the transformation.
-        let b_a = other.bb * two_x + other.ba;
-        let a_a = other.ba * two_x + other.aa;
-        let b_u = other.bb * xx + other.ba * x + other.bu;
-        let a_u = other.ba * xx + other.aa * x + other.au;
-        let u_u = other.bu * xx + other.au * x + other.uu;
-        self.b += other.b;
-        self.a += other.b * two_x + other.a;
-        self.u += other.b * xx + other.a * x + other.u;
-        self.bb += other.bb;
-        self.ba += b_a;
-        self.bu += b_u;
-        self.aa += two_x * b_a + a_a;
-        self.au += two_x * b_u + a_u;
-        self.uu += xx * b_u + x * a_u + u_u;
+        let b_a = self.bb * two_x + self.ba;
+        let a_a = self.ba * two_x + self.aa;
+        let b_u = self.bb * xx + self.ba * x + self.bu;
+        let a_u = self.ba * xx + self.aa * x + self.au;
+        let u_u = self.bu * xx + self.au * x + self.uu;
+        Local {
+            b: self.b.reduce_add(),
+            a: (self.b * two_x + self.a).reduce_add(),
+            u: (self.b * xx + self.a * x + self.u).reduce_add(),
+            bb: self.bb.reduce_add(),
+            ba: b_a.reduce_add(),
+            bu: b_u.reduce_add(),
+            aa: (two_x * b_a + a_a).reduce_add(),
+            au: (two_x * b_u + a_u).reduce_add(),
+            uu: (xx * b_u + x * a_u + u_u).reduce_add(),
+        }
     }
+}
 
+impl Local<f64> {
     /// The same by the coefficients before, in and behind the interval.
     fn by_coefficients(&self, lengths: [f64; 3]) -> BarrierDerivatives {
         let [before, here, after] = lengths;
@@ -287,6 +323,7 @@ impl Local {
 
 #[cfg(test)]
 mod tests {
+    use super::super::departure::Departure;
     use super::*;
     use crate::axes::{Axes, AxisLimits};
     use crate::machine_map::MachineMap;

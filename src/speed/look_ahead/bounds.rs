@@ -8,6 +8,7 @@ use super::rows::AxisRows;
 use super::sample::MovingAxes;
 use crate::axes::AXIS_COUNT;
 use crate::cube_root::cube_root;
+use crate::lanes::{greater, lesser};
 
 /// Share of the speed cap, so that the barrier of the cap has room.
 const CAP_SHARE: f64 = 0.98;
@@ -66,7 +67,7 @@ impl MovingBounds {
         let moving = MovingAxes::at_any(samples);
         let times = rows.jerk_time();
         let [start, middle, end] = samples;
-        let greatest = |a: f64, b: f64, c: f64| a.abs().max(b.abs()).max(c.abs());
+        let greatest = |a: f64, b: f64, c: f64| greater(greater(a.abs(), b.abs()), c.abs());
         // Filled in place: a copy of all axes costs more than what is in it.
         let mut found = Self {
             axes: [AxisBounds::NONE; AXIS_COUNT],
@@ -92,9 +93,9 @@ impl MovingBounds {
                 };
             }
             found.count += 1;
-            found.curve = f64::max(found.curve, second * time);
-            found.twist = f64::max(found.twist, third);
-            found.steepest = f64::max(found.steepest, second);
+            found.curve = greater(found.curve, second * time);
+            found.twist = greater(found.twist, third);
+            found.steepest = greater(found.steepest, second);
         }
         found.curve = found.curve / 3.0 + departure[0];
         found.twist += departure[1];
@@ -144,12 +145,12 @@ impl MovingBounds {
         let [acceleration, acceleration_at_rest] = accelerations;
         let (mut at_cap, mut at_rest) = (PathBounds::NONE.jerk, PathBounds::NONE.jerk);
         for bounds in self.axes() {
-            let across = (bounds.second * acceleration * v).min(shares.across);
+            let across = lesser(shares.across, bounds.second * acceleration * v);
             let left = margin - (bounds.third + self.departure[1]) * cap * v - across;
             if at_cap * bounds.first > left {
                 at_cap = left / bounds.first;
             }
-            let across = (bounds.second * acceleration_at_rest * v).min(shares.across);
+            let across = lesser(shares.across, bounds.second * acceleration_at_rest * v);
             let left = margin - across;
             if at_rest * bounds.first > left {
                 at_rest = left / bounds.first;
@@ -206,7 +207,7 @@ impl PathBounds {
     ) -> Self {
         let moving = MovingBounds::of(rows, interval);
         let least_cap = CAP_SHARE * interval.least_cap(raise_squared);
-        let cap = moving.lowered_cap(least_cap.min(Self::NONE.cap), shares);
+        let cap = moving.lowered_cap(lesser(Self::NONE.cap, least_cap), shares);
         let accelerations = moving.accelerations(cap, shares.margin);
         let [acceleration, acceleration_at_rest] = accelerations;
         let [jerk, jerk_at_rest] = moving.jerks(cap, shares, accelerations);
@@ -233,14 +234,17 @@ impl PathBounds {
         let fall = self.acceleration_fall;
         // Of what curvature leaves where b has grown by acceleration times distance.
         let most = (self.acceleration_at_rest - fall * b) / (1.0 + fall * distance);
-        most.max(self.acceleration)
+        greater(self.acceleration, most)
     }
 
     /// The greatest change of acceleration with s where v^2 is `b`, greater than 0.
     #[inline]
     pub fn bend(&self, b: f64) -> f64 {
         let inverse = 1.0 / b.sqrt();
-        (self.jerk_at_rest * inverse - self.jerk_fall * b).max(self.jerk * inverse)
+        greater(
+            self.jerk * inverse,
+            self.jerk_at_rest * inverse - self.jerk_fall * b,
+        )
     }
 }
 

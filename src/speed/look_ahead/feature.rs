@@ -3,6 +3,7 @@
 use super::context::PlanContext;
 use super::route::{Route, RouteVertex, before};
 use crate::axes::Axes;
+use crate::lanes::greater;
 
 /// How much the spacing grows with the distance from what asked for a small one. Also the spacing
 /// beside a rest over the length of its arc.
@@ -64,12 +65,13 @@ impl Feature {
         single: true,
     };
 
-    /// Of a vertex, with three evaluations of the path.
+    /// Of a vertex, with up to three evaluations of the path. All features of a `path` are of the same vertex.
     pub fn of<R: Route>(vertex: &RouteVertex, path: &mut Look<R>) -> Self {
         let RouteVertex {
             position,
             reach,
             cap_changes,
+            may_jump,
             ..
         } = *vertex;
         let mut feature = Self {
@@ -80,12 +82,19 @@ impl Feature {
             ..Self::NONE
         };
         if cap_changes {
-            feature.spacing = CAP_TIME * path.at(position).cap_speed;
+            feature.spacing = CAP_TIME * path.at_vertex(position).cap_speed;
         }
         if reach > 0.0 {
             // Curvature is greatest at the centre.
-            let (twisted, center) = (path.at(position + TWIST_AT * reach), path.at(position));
-            let beside = path.at(before(position));
+            let (twisted, center) = (
+                path.at(position + TWIST_AT * reach),
+                path.at_vertex(position),
+            );
+            let beside = if may_jump {
+                path.at(before(position))
+            } else {
+                center
+            };
             let speed = twisted.speed.min(center.speed).min(beside.speed);
             let jump = (center.third - beside.third).amax() * speed * speed;
             feature.jumps = jump * speed > NOTICEABLE_JUMP;
@@ -101,7 +110,7 @@ impl Feature {
     /// feature is at its limit speed.
     pub fn greatest_speed_squared(&self, s: f64, acceleration: f64) -> f64 {
         let core = 0.25 * (self.end - self.start);
-        let beside = ((s - self.center).abs() - core).max(0.0);
+        let beside = greater(0.0, (s - self.center).abs() - core);
         self.speed * self.speed + 2.0 * acceleration * beside
     }
 
@@ -126,9 +135,9 @@ impl Feature {
         if s < self.start {
             // The node after s is nearer to it than s is.
             let grown = (self.spacing + GROWTH * (self.start - s)) / (1.0 + GROWTH);
-            grown.max(self.spacing)
+            greater(self.spacing, grown)
         } else {
-            self.spacing + GROWTH * (s - self.end).max(0.0)
+            self.spacing + GROWTH * greater(0.0, s - self.end)
         }
     }
 }
@@ -152,9 +161,21 @@ pub(super) struct Look<'a, R: Route> {
     pub longest: f64,
     /// The end, which stands for many places.
     pub end: &'a mut Option<RoutePlace>,
+    /// The vertex, which several features may have in common, once it was looked at.
+    pub vertex: Option<RoutePlace>,
 }
 
 impl<R: Route> Look<'_, R> {
+    /// The vertex itself.
+    fn at_vertex(&mut self, s: f64) -> RoutePlace {
+        if let Some(vertex) = self.vertex {
+            return vertex;
+        }
+        let vertex = self.at(s);
+        self.vertex = Some(vertex);
+        vertex
+    }
+
     fn at(&mut self, s: f64) -> RoutePlace {
         if s < self.longest {
             return self.evaluate(s);

@@ -6,6 +6,7 @@
 use super::context::PlanContext;
 use super::feature::{Feature, GROWTH, Look, RoutePlace, TWIST_AT};
 use super::route::{Route, RouteVertex};
+use crate::lanes::lesser;
 use crate::ring::Ring;
 
 /// Room for features.
@@ -139,6 +140,7 @@ impl Features {
             context,
             longest: context.route.known_end(),
             end: &mut self.end,
+            vertex: None,
         };
         // A change of the cap asks for nodes where it is, not all over a wide change of shape there.
         let point = RouteVertex {
@@ -238,19 +240,25 @@ impl Features {
     pub fn spacing(&self, s: f64, most: f64) -> (f64, bool) {
         let (mut least, mut within) = (most, false);
         let mut consider = |feature: &Feature| {
-            least = least.min(feature.spacing_at(s));
-            within |= feature.speed > 0.0 && feature.start <= s && s < feature.end;
+            // Nowhere does one ask for less than within.
+            if feature.spacing < least {
+                least = lesser(least, feature.spacing_at(s));
+            }
+            within = within || feature.speed > 0.0 && feature.start <= s && s < feature.end;
             least
         };
         let mut reached = most;
+        let middle = self.place_behind(s);
         // Features farther away say nothing about less than this.
-        for feature in self.behind(s) {
+        for place in middle..self.next {
+            let feature = self.at(place);
             if GROWTH / (1.0 + GROWTH) * (feature.center - self.before - s) > reached {
                 break;
             }
             reached = consider(feature);
         }
-        for feature in self.before(s) {
+        for place in (self.first..middle).rev() {
+            let feature = self.at(place);
             if GROWTH * (s - feature.center - self.behind) > reached {
                 break;
             }
@@ -344,12 +352,21 @@ impl Features {
     /// none.
     pub fn finest(&self, s: f64, end: f64) -> Option<f64> {
         let beside = 0.1 * (end - s);
-        self.behind(s - beside - self.behind)
-            .take_while(|feature| feature.center - self.before < end + beside)
-            .filter(|feature| feature.speed > 0.0)
-            .filter(|feature| end > feature.start - beside && s < feature.end + beside)
-            .map(|feature| feature.spacing)
-            .reduce(f64::min)
+        let features = self
+            .behind(s - beside - self.behind)
+            .take_while(|feature| feature.center - self.before < end + beside);
+        let mut finest = f64::INFINITY;
+        for feature in features {
+            if feature.spacing < finest
+                && feature.speed > 0.0
+                && end > feature.start - beside
+                && s < feature.end + beside
+            {
+                finest = feature.spacing;
+            }
+        }
+        // A change of shape asks for some spacing.
+        finest.is_finite().then_some(finest)
     }
 
     /// About the most that v^2 can be at `s`, and no more than `most`, with this acceleration
@@ -357,21 +374,28 @@ impl Features {
     pub fn greatest_speed_squared(&self, s: f64, acceleration: f64, most: f64) -> f64 {
         let widest = 0.25 * (self.before + self.behind);
         let mut least = most;
-        for feature in self.behind(s) {
-            if 2.0 * acceleration * (feature.center - s - widest) > least {
+        let mut consider = |feature: &Feature| {
+            // Nowhere does one allow less than in its middle.
+            if feature.speed > 0.0 && feature.speed * feature.speed < least {
+                least = lesser(least, feature.greatest_speed_squared(s, acceleration));
+            }
+            least
+        };
+        let mut reached = most;
+        let middle = self.place_behind(s);
+        for place in middle..self.next {
+            let feature = self.at(place);
+            if 2.0 * acceleration * (feature.center - s - widest) > reached {
                 break;
             }
-            if feature.speed > 0.0 {
-                least = least.min(feature.greatest_speed_squared(s, acceleration));
-            }
+            reached = consider(feature);
         }
-        for feature in self.before(s) {
-            if 2.0 * acceleration * (s - feature.center - widest) > least {
+        for place in (self.first..middle).rev() {
+            let feature = self.at(place);
+            if 2.0 * acceleration * (s - feature.center - widest) > reached {
                 break;
             }
-            if feature.speed > 0.0 {
-                least = least.min(feature.greatest_speed_squared(s, acceleration));
-            }
+            reached = consider(feature);
         }
         least
     }

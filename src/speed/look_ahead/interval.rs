@@ -1,5 +1,7 @@
 //! One interval of the speed spline, and the motion over it in closed form.
 
+use crate::lanes::greater;
+
 /// b = v^2 over an interval: `b + 2 a x + u x^2`, x from 0 to `length`.
 ///
 /// Since d(v^2)/ds = 2 dv/dt, the acceleration along the path is `a + u x`, and the jerk is `u v`.
@@ -65,7 +67,7 @@ impl Parabola {
     /// `r^2 = y = u h^2 / (v0 + v1)^2`, arctan where y < 0.
     pub fn duration(&self) -> f64 {
         let (end, _) = self.at(self.length);
-        let sum = self.b.max(0.0).sqrt() + end.max(0.0).sqrt();
+        let sum = greater(0.0, self.b).sqrt() + greater(0.0, end).sqrt();
         let y = self.u * self.length * self.length / (sum * sum);
         let factor = if y.abs() < SERIES_RANGE {
             let tail = 1.0 / 9.0 + y * (1.0 / 11.0 + y * (1.0 / 13.0 + y / 15.0));
@@ -85,7 +87,7 @@ impl Parabola {
     /// v'' = u v, so v is a hyperbolic or trigonometric function of sqrt|u| t; the power series in
     /// `z = u t^2` serves both. |z| stays below 3 in an interval that is not degenerate.
     pub fn state(&self, t: f64) -> (f64, f64, f64) {
-        let v = self.b.max(0.0).sqrt();
+        let v = greater(0.0, self.b).sqrt();
         let z = self.u * t * t;
         // cosh(r), sinh(r) / r and (cosh(r) - 1) / r^2 with r^2 = z.
         let cosine = series(z, 0.0);

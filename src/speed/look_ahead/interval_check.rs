@@ -4,7 +4,7 @@ use super::interval::Parabola;
 use super::interval_samples::IntervalSamples;
 use super::rows::{AxisRows, THIRD};
 use super::sample::MovingAxes;
-use crate::lanes::{QUAD_LANES, QUADS, Quad, quad};
+use crate::lanes::{QUAD_LANES, QUADS, Quad, greater, quad};
 
 /// Between these places the acceleration may exceed what is allowed there by this share of its
 /// limit ..
@@ -44,7 +44,7 @@ impl AxisRows {
         let places = places.map(|(b, a)| (b as f32, a as f32));
         let speeds = places.map(|(b, _)| b.sqrt());
         let (u, half, margin) = (parabola.u as f32, half as f32, margin as f32);
-        let fastest = b0.max(b1).max(b2) as f32;
+        let fastest = greater(greater(b0 as f32, b1 as f32), b2 as f32);
         let for_acceleration = margin - interval.departure.second * fastest;
         let for_jerk = margin - interval.departure.third * fastest * fastest.sqrt();
         let moving = MovingAxes::at_any(samples);
@@ -177,7 +177,7 @@ fn keeps_jerk_between(parabola: &Parabola, rows: [[&Quad; 3]; 3], most: f32) -> 
 fn halves([start, middle, end]: [f32; 3], [slope0, slope1, slope2]: [f32; 3]) -> f32 {
     let first = half([start, middle], [slope0, slope1]);
     let second = half([middle, end], [slope1, slope2]);
-    first.max(second)
+    greater(first, second)
 }
 
 /// The same of one half.
@@ -186,7 +186,7 @@ fn half([start, end]: [f32; 2], [slope0, slope1]: [f32; 2]) -> f32 {
     let quarter = 0.84375 * start + 0.15625 * end + (0.140625 * slope0 - 0.046875 * slope1);
     let middle = 0.5 * (start + end) + 0.125 * (slope0 - slope1);
     let last = 0.15625 * start + 0.84375 * end + (0.046875 * slope0 - 0.140625 * slope1);
-    quarter.abs().max(middle.abs()).max(last.abs())
+    greater(greater(quarter.abs(), middle.abs()), last.abs())
 }
 
 /// Whether the amounts of three values at start, middle and end are at most `most`, and those of the

@@ -6,6 +6,7 @@ use super::place::{Place, middle};
 use super::route::Route;
 use super::rows::AxisRows;
 use super::sample::{Cap, Sample};
+use crate::lanes::lesser;
 use crate::moves::shape::PathPoint;
 
 /// The samples of an interval, at start and end as they are inside of it: where two legs meet the
@@ -40,7 +41,7 @@ impl IntervalSamples {
         let places = self.places().map(|sample| sample.cap);
         let caps = places.iter().chain(&self.quarters);
         caps.fold(f64::INFINITY, |least, cap| {
-            least.min(cap.raised(raise_squared))
+            lesser(least, cap.raised(raise_squared))
         })
     }
 

@@ -26,6 +26,8 @@ pub struct RouteVertex {
     pub core: f64,
     /// Whether the speed cap differs on both sides.
     pub cap_changes: bool,
+    /// Whether the third derivative may jump there. Where it is known not to, nothing looks for a jump.
+    pub may_jump: bool,
 }
 
 /// How near to a vertex is before it, share of the path distance.

@@ -15,7 +15,7 @@ use super::route::{Route, SpeedCap};
 use super::sample::{Cap, Curving, MovingAxes, Sample};
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
 use crate::cube_root::cube_root;
-use crate::lanes::{Lanes, ZEROS, rounded};
+use crate::lanes::{Lanes, ZEROS, greater, lesser, rounded};
 use crate::machine_map::MachineMap;
 use crate::moves::shape::PathPoint;
 
@@ -205,7 +205,7 @@ impl AxisRows {
         let mut most = 0.0;
         for axis in 0..AXIS_COUNT {
             let row = sample.first[axis] * a + sample.second[axis] * (b / 3.0);
-            most = f64::max(most, (row * self.jerk_time[axis]).abs());
+            most = greater(most, (row * self.jerk_time[axis]).abs());
         }
         most
     }
@@ -214,17 +214,14 @@ impl AxisRows {
 /// The v^2 with which none of these derivatives exceeds its velocity, see [`AxisRows::cap`].
 #[inline]
 fn greatest_square([first, second, third]: &[Axes; 3], velocity: &Axes, beside: f64) -> f64 {
-    let mut most = f64::INFINITY;
-    for axis in 0..AXIS_COUNT {
+    // For all axes at once: one that stands still has a quotient without end.
+    let squares: [f64; AXIS_COUNT] = core::array::from_fn(|axis| {
         // By what q' may exceed both places in between, and 1 / q'^2 the chord between them.
         let slope = first[axis].abs() + third[axis].abs() * (0.125 * beside * beside);
         let change = second[axis] * beside;
-        let square = slope * slope + CHORD * change * change;
-        if square > 0.0 {
-            most = most.min(velocity[axis] * velocity[axis] / square);
-        }
-    }
-    most
+        velocity[axis] * velocity[axis] / (slope * slope + CHORD * change * change)
+    });
+    squares.into_iter().fold(f64::INFINITY, lesser)
 }
 
 /// What |q'| is to be multiplied by for the cap of the speed along the path, see [`AxisRows::cap`].

@@ -88,7 +88,13 @@ impl Cap {
     /// The cap while those of the program are raised by sqrt(`raise_squared`).
     #[inline]
     pub fn raised(&self, raise_squared: f64) -> f64 {
-        (self.programmed * raise_squared).min(self.greatest)
+        let programmed = self.programmed * raise_squared;
+        // A plain compare is one instruction.
+        if programmed < self.greatest {
+            programmed
+        } else {
+            self.greatest
+        }
     }
 }
 
@@ -119,6 +125,17 @@ impl MovingAxes {
     #[inline]
     pub fn in_quad(self, quad: usize) -> bool {
         self.0 >> (QUAD_LANES * quad) & 15 != 0
+    }
+
+    /// How many there are more than some of them.
+    #[inline]
+    pub fn more_than(self, some: Self) -> f64 {
+        // To count takes long, and mostly there is nothing to be counted.
+        if self == some {
+            0.0
+        } else {
+            f64::from(Self(self.0 & !some.0).count())
+        }
     }
 
     /// How many there are.

@@ -7,6 +7,7 @@
 
 use super::bounds::PathBounds;
 use super::interval::GREATEST_BEND;
+use crate::lanes::{greater, lesser};
 
 /// A sweep at one coefficient.
 #[derive(Clone, Copy, Debug)]
@@ -52,19 +53,24 @@ impl Front {
         let c = self.value;
         let free = match self.slope {
             // From the cap on the acceleration grows within half of an interval at first.
-            None => (0.5 * length * bend(here, c, 0.0, length)).min(greatest_change(c, length)),
+            None => lesser(
+                greatest_change(c, length),
+                0.5 * length * bend(here, c, 0.0, length),
+            ),
             Some(slope) => {
-                let fastest = if slope < 0.0 { c.max(before) } else { c };
+                let fastest = if slope < 0.0 { greater(c, before) } else { c };
                 let change = length * bend(here, fastest, slope, length);
-                slope + change.min(greatest_change(c.min(before), length))
+                slope + lesser(greatest_change(lesser(c, before), length), change)
             }
         };
-        let mut slope = free
-            .min(here.acceleration(c, distance))
-            .min(next.acceleration(c, distance));
+        let along = lesser(
+            here.acceleration(c, distance),
+            next.acceleration(c, distance),
+        );
+        let mut slope = lesser(along, free);
         if slope > 0.0 {
-            let across = here.across.min(next.across);
-            let fastest = (c + distance * slope).min(here.cap.min(next.cap)).max(c);
+            let across = lesser(here.across, next.across);
+            let fastest = greater(c, lesser(lesser(here.cap, next.cap), c + distance * slope));
             if slope * slope * fastest > across {
                 slope = (across / fastest).sqrt();
             }
@@ -108,7 +114,7 @@ fn bend(bounds: &PathBounds, b: f64, slope: f64, length: f64) -> f64 {
         return u;
     }
     for _ in 0..3 {
-        u = bounds.bend((b + length * (slope + length * u)).max(b));
+        u = bounds.bend(greater(b, b + length * (slope + length * u)));
     }
     u
 }

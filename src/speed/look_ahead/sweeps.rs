@@ -4,6 +4,7 @@ use super::bounds::PathBounds;
 use super::hull::Hull;
 use super::spline::{CAPACITY, Spline};
 use super::sweep::{Front, Stretch};
+use crate::lanes::{greater, lesser};
 use crate::ring::Ring;
 
 /// Relative differences that are rounding.
@@ -128,7 +129,7 @@ impl Sweeps {
         let next = front.step(before, &self.stretch(spline, k, k - 1));
         self.at_mut(k - 1).backward = next;
         let swept = self.at_mut(k);
-        swept.lower = swept.forward.value.min(swept.backward.value);
+        swept.lower = lesser(swept.forward.value, swept.backward.value);
     }
 
     /// Begins the hull, if the sweeps have met both ends.
@@ -157,7 +158,7 @@ impl Sweeps {
     pub fn append(&mut self, spline: &Spline, k: usize) {
         let before = self.at(k - 1);
         let value = self.at(k).lower;
-        let most = self.at(k - 2).lower.max(before.lower).max(value);
+        let most = greater(greater(self.at(k - 2).lower, before.lower), value);
         let length = spline.at(k - 1).length;
         let fall = length * before.bounds.bend(most);
         let distance = length + spline.at(k).length;
@@ -213,7 +214,7 @@ impl Sweeps {
             return PathBounds::NONE.cap;
         }
         let cap = |k: usize| self.at(k).bounds.cap;
-        let least = cap(k).min(cap(k - 1)).min(cap(k + 1));
+        let least = lesser(lesser(cap(k), cap(k - 1)), cap(k + 1));
         if k == last {
             let [end, _] = end_coefficients(spline);
             return least.max(end);

@@ -95,6 +95,7 @@ impl Polyline {
             reach: self.reaches[i],
             core: 0.0,
             cap_changes: i > 0 && i < self.legs() && self.feeds[i] != self.feeds[i - 1],
+            may_jump: true,
         }
     }
 }
