@@ -71,8 +71,8 @@ class Screen(driver.Operator):
         self.wait_pin("vismach.plotclear")
         self.halcmd("source", hal_file)
 
-    def wait_pin(self, name, timeout=60):
-        """Waits until a pin is there: a screen makes its own when it is up."""
+    def wait_pin(self, name, timeout=180):
+        """Waits until a pin is there: a screen makes its own when it is up, on a busy computer after minutes."""
         def is_there():
             if self.processes[-1].poll() is not None:
                 raise driver.Failure(f"the screen has ended with {self.processes[-1].returncode}")

@@ -51,7 +51,7 @@ def program_of(sample):
 #: samples of LinuxCNC whose machine is drawn; those of the tables want a font of X that Xvfb comes without
 DRAWN = ("5axis", "ldelta")
 
-ON_A_SCREEN = {"display": "screen_driver.py", "files": ("screen_driver.py",), "record": False, "timeout": 180}
+ON_A_SCREEN = {"display": "screen_driver.py", "files": ("screen_driver.py",), "record": False, "timeout": 600}
 
 
 def keep(folder, name, result):
@@ -92,11 +92,11 @@ def main(folder, names):
             continue
         steps = [["ask", "drawn", "open", "PROGRAMS/part.ngc"], *screen_checks.START, *PICTURE, ["ask", "shown", "panel"],
                  ["sleep", 1], ["picture", "panel"], *END]
-        keep(folder, name, screen.watch(steps, PROGRAM, record=False, timeout=180))
+        keep(folder, name, screen.watch(steps, PROGRAM, record=False, timeout=600))
     if not names or TABLE in names:
         steps = [["ask", "drawn", "open", "PROGRAMS/part.ngc"], *screen_checks.START, *TURNS_STEPS]
         tab = {("DISPLAY", "EMBED_TAB_COMMAND"): screen_checks.TAB_OF_A_TABLE}
-        keep(folder, TABLE, GMOCCAPY.watch(steps, TURNS, record=False, timeout=180, ini=tab, **screen_checks.TABLE))
+        keep(folder, TABLE, GMOCCAPY.watch(steps, TURNS, record=False, timeout=600, ini=tab, **screen_checks.TABLE))
 
 
 if __name__ == "__main__":

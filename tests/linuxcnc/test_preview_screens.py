@@ -38,7 +38,7 @@ class RotaryLamps(unittest.TestCase):
             steps += [["wait_paused"], ["resume"], ["expect", f"pyvcp.limit.{turns}", "TRUE"],
                       ["getp", f"{rests} rests", f"pyvcp.limit.{rests}"], ["getp", f"{turns} shown", f"pyvcp.shown.limit.{turns}"]]
         tab = screen_checks.TAB_OF_A_TABLE.replace("gladevcp", self.PROBE)
-        result = GMOCCAPY.watch([*steps, ["finish"]], self.PROGRAM, record=False, timeout=180, **screen_checks.TABLE,
+        result = GMOCCAPY.watch([*steps, ["finish"]], self.PROGRAM, record=False, **screen_checks.TABLE,
                                 ini={("DISPLAY", "EMBED_TAB_COMMAND"): tab})
         screen_checks.good(self, result)
         for axis in "ac":
@@ -47,7 +47,7 @@ class RotaryLamps(unittest.TestCase):
     def windows(self, *steps):
         """Without a screen."""
         result = harness.run([["monitor"], *steps, ["expect", "pyvcp.frame.guarded", "TRUE"]], display="screen_driver.py",
-                             files=("screen_driver.py", "probe_panel.py"), record=False, timeout=180, **screen_checks.TABLE)
+                             files=("screen_driver.py", "probe_panel.py"), record=False, **screen_checks.TABLE)
         self.assertIsNone(result.failure, result.log)
         self.assertEqual(result.errors, [])
 
