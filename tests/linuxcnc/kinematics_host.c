@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,6 +86,27 @@ NEW_PIN(bit)
 NEW_PIN(float)
 NEW_PIN(s32)
 NEW_PIN(u32)
+
+/* What modules of LinuxCNC 2.10 call: pins and parameters are both places of HAL's, which begin with a value. */
+#define NEW_WITH_VALUE(what, kind, type) \
+    int hal_##what##_new_##kind(int component, int direction, void **place, type value, const char *format, ...) \
+    { \
+        (void)direction; (void)component; \
+        va_list arguments; \
+        va_start(arguments, format); \
+        int result = new_pin(place, format, arguments); \
+        va_end(arguments); \
+        memcpy(*place, &value, sizeof value); \
+        return result; \
+    }
+
+NEW_WITH_VALUE(pin, bool, bool)
+NEW_WITH_VALUE(pin, si32, int)
+NEW_WITH_VALUE(pin, ui32, unsigned)
+NEW_WITH_VALUE(pin, sint, long long)
+NEW_WITH_VALUE(pin, uint, unsigned long long)
+NEW_WITH_VALUE(pin, real, double)
+NEW_WITH_VALUE(param, real, double)
 
 int hal_param_float_newf(int direction, double *place, int component, const char *format, ...)
 {
