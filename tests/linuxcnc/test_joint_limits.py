@@ -11,7 +11,7 @@ import unittest
 import harness
 from inner_machine import SELECT, SWITCH, Machine
 from ten_programs import ATTEMPTS
-from test_inner_machines import OWN, SCARA, TABLE, TILTING
+from test_inner_machines import DOUBLE, OWN, SCARA, TABLE, TILTING
 
 #: what joints may do here: half of what the axes may
 VELOCITY, ACCELERATION, JERK = 100, 1000, 20000
@@ -170,6 +170,17 @@ class Planned(unittest.TestCase):
             self.assertLessEqual(velocity, 1.001)
             self.assertLessEqual(acceleration, 1.001)
             self.assertLessEqual(jerk, 1.05)
+
+    def test_a_module_made_by_halcompile(self):
+        """Its pins come when it is asked for its type, and HAL sets them behind that."""
+        without = Machine(DOUBLE.kinematics, DOUBLE.home, DOUBLE.letters)
+        ends = []
+        for machine in (DOUBLE, without):
+            text, figures = planned(limited(machine), "G64 P0.05 F6000\nG1 X30 Y20 Z5 A20 B-30\nM2\n",
+                                    "--kinematics-type", "1")
+            self.assertIn("behind xyzab_tdr_kins", text)
+            ends.append([joint["to"] if abs(joint["to"]) > abs(joint["from"]) else joint["from"] for joint in figures["joints"]])
+        self.assertGreater(max(abs(one - other) for one, other in zip(*ends, strict=True)), 1)
 
     def test_a_type_of_the_kinematics(self):
         switched = Machine(TABLE.kinematics, TABLE.home, TABLE.letters, TABLE.hal, switches=True)

@@ -201,6 +201,9 @@ fn start(settings: &KinematicsSettings) -> Result<LoadedKinematics, KinematicsEr
         };
         return Err(KinematicsError::Start(said));
     }
+    // Those that halcompile made have their pins when this is asked for the first time.
+    // SAFETY: as above.
+    let kind = unsafe { kind() };
     for (pin, value) in &settings.pins {
         stubs.put(pin, *value);
     }
@@ -223,7 +226,7 @@ fn start(settings: &KinematicsSettings) -> Result<LoadedKinematics, KinematicsEr
         LoadedKinematics {
             inverse: std::mem::transmute::<*mut libc::c_void, Inverse>(inverse),
             forward: std::mem::transmute::<*mut libc::c_void, Forward>(forward),
-            kind: kind(),
+            kind,
             home: ([0.0; JOINT_COUNT], Axes::zeros()),
             flags: (0, 0),
         }

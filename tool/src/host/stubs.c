@@ -389,6 +389,29 @@ PARAMETERS_OF_TYPE(float, HAL_FLOAT)
 PARAMETERS_OF_TYPE(u32, HAL_U32)
 PARAMETERS_OF_TYPE(s32, HAL_S32)
 
+/* What modules of LinuxCNC 2.10 call, by their names in the object alone: headers of 2.9 have no such types. Pins and
+ * parameters are alike there. */
+#define WITH_VALUE(what, kind, TYPE, type) \
+    EXPORTED int what##_##kind(int id, int direction, void **place, type value, const char *format, ...) \
+        __asm__("hal_" #what "_new_" #kind); \
+    EXPORTED int what##_##kind(int id, int direction, void **place, type value, const char *format, ...) \
+    { \
+        FORMATTED(name, format); \
+        (void)direction; \
+        (void)id; \
+        int result = add_pin(name, TYPE, place); \
+        return result ? result : put_named(name, value); \
+    }
+
+WITH_VALUE(pin, bool, HAL_BIT, int)
+WITH_VALUE(pin, si32, HAL_S32, int)
+WITH_VALUE(pin, ui32, HAL_U32, unsigned)
+WITH_VALUE(pin, real, HAL_FLOAT, double)
+WITH_VALUE(param, bool, HAL_BIT, int)
+WITH_VALUE(param, si32, HAL_S32, int)
+WITH_VALUE(param, ui32, HAL_U32, unsigned)
+WITH_VALUE(param, real, HAL_FLOAT, double)
+
 EXPORTED int hal_param_bit_set(const char *name, int value) { return put_named(name, value); }
 EXPORTED int hal_param_float_set(const char *name, double value) { return put_named(name, value); }
 EXPORTED int hal_param_u32_set(const char *name, unsigned long value) { return put_named(name, value); }
