@@ -517,6 +517,8 @@ struct framepath_survey {
   double seconds_queued;
 };
 
+
+
 /*
  Chooses the kinematics of another module in place of a machine: `tool_types` is a list of their types that turn the
  tool's length themselves, empty if none do. Returns 0, or an error for `framepath_kinematics_configure_text`.
@@ -641,7 +643,8 @@ int framepath_kinematics_jet(const double *position,
 
 /*
  The axis that tilts the tool against the workpiece while C turns it, 3 for A, 4 for B, where the coordinates of the program
- are those of its tip; -1 where they are not, or the kinematics are another module's.
+ are those of its tip; -1 where they are not. Where the kinematics are another module's these are asked how they turn
+ the tool when the machine stands next: -1 until then, and where they do not tell.
  */
 int framepath_kinematics_tool_tilt_axis(void);
 

@@ -8,7 +8,7 @@ import harness
 
 LIBRARY = os.path.join(os.path.dirname(harness.MODULES), "realtime", "libframepath.a")
 DRIVERS = os.path.join(harness.ROOT, "tests", "abi")
-STUBS = os.path.join(harness.ROOT, "tool", "src", "host", "stubs.c")
+STUBS = os.path.join(harness.ROOT, "tool", "src", "loaded", "stubs.c")
 FLAGS = ["-g", "-O1", "-Wall", "-Wextra", "-Werror", "-DRTAPI", "-DUSPACE", "-D__MODULE__", "-D_GNU_SOURCE",
          "-DHOST_KEEPS_HEAP", "-I", os.path.join(harness.ROOT, "include"), "-I", DRIVERS]
 #: the driver of each module, and what it is compiled with

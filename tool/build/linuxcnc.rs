@@ -1,6 +1,6 @@
 //! Compiles what `framepath plan` and `framepath compare` start in processes of their own and keep in the executable:
 //! the program that runs LinuxCNC's interpreter (C++, src/canon/interpreter), and what stands where
-//! HAL stands for a planner module (C, src/host/stubs.c).
+//! HAL stands for a planner module (C, src/loaded/stubs.c).
 
 use std::env;
 use std::io::Write;
@@ -20,7 +20,7 @@ const SCOPED_PLANES: &str = "#include \"canon.hh\"\nCANON_PLANE plane = CANON_PL
 
 pub fn build() {
     println!("cargo:rerun-if-changed=src/canon/interpreter");
-    println!("cargo:rerun-if-changed=src/host/stubs.c");
+    println!("cargo:rerun-if-changed=src/loaded/stubs.c");
     println!("cargo:rerun-if-changed={LINUXCNC_HAS}");
     println!("cargo:rustc-check-cfg=cfg(linuxcnc_move_jerk)");
     let include = headers("interp_base.hh");
@@ -115,7 +115,7 @@ fn compile_stubs(include: &[String], output: &Path) {
     compiler
         .args(["-shared", "-fPIC", "-DRTAPI", "-DUSPACE"])
         .args(include.iter().flat_map(|folder| ["-isystem", folder]))
-        .arg("src/host/stubs.c")
+        .arg("src/loaded/stubs.c")
         .arg("-o")
         .arg(output);
     finish(

@@ -26,6 +26,8 @@ pub(crate) mod joints;
 pub(crate) mod json;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod layer;
+#[cfg(feature = "linuxcnc")]
+pub(crate) mod loaded;
 pub(crate) mod machine;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod memory_file;

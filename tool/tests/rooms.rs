@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What the commands share, and what each is for.
-const ROOMS: [(&str, &str); 23] = [
+const ROOMS: [(&str, &str); 24] = [
     (
         "arguments",
         "what the commands share in reading their arguments",
@@ -36,9 +36,10 @@ const ROOMS: [(&str, &str); 23] = [
         "segments and pieces of a path, rates of change along it",
     ),
     (
-        "joints",
-        "joints behind kinematics of ours, and their limits",
+        "loaded",
+        "modules of LinuxCNC's in a process that is none of it",
     ),
+    ("joints", "joints behind kinematics, and their limits"),
     ("format", "numbers as text"),
     ("page", "pages with drawings"),
     ("dialects", "the languages of other controls, to blocks"),

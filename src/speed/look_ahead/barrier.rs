@@ -11,7 +11,7 @@ use wide::{f32x4, f64x4};
 use super::interval::Parabola;
 use super::interval_samples::IntervalSamples;
 use super::rows::{AxisRows, THIRD};
-use super::sample::MovingAxes;
+use super::sample::{MovingAxes, Sample};
 use crate::lanes::{QUAD_LANES, QUADS, quad};
 
 /// Derivatives by the three coefficients that an interval depends on.
@@ -112,22 +112,7 @@ impl Barrier {
         let margin = self.margin - b * f64::from(interval.departure.second);
         let factors = [b, a, f64x4::splat(u), bound, bound_slope, margin].map(to_single);
         let moving = MovingAxes::at_any(samples);
-        let mut limits = BarrierLimits::default();
-        for number in (0..QUADS).filter(|number| moving.in_quad(*number)) {
-            let times = quad(&rows.jerk_time_lanes, number);
-            let [by_u, by_a, by_b] = [0, 1, 2].map(|order| {
-                let [start, middle, end] =
-                    samples.map(|sample| f32x4::new(*quad(&sample.lanes[order], number)));
-                f32x4::transpose([start, middle, end, end])
-            });
-            let by_axis = [0, 1, 2, 3].map(|lane| [by_u[lane], by_a[lane], by_b[lane]]);
-            let first = QUAD_LANES * number;
-            for ((axis, row), time) in (first..).zip(&by_axis).zip(times) {
-                if moving.contains(axis) {
-                    limits.add(row, *time, &factors);
-                }
-            }
-        }
+        let limits = of_axes(rows, samples, moving, &factors);
         // Axes that stand still at a place have no row there, but the bound of one.
         let still = samples.map(|sample| moving.more_than(sample.axes));
         let still = by_place(still);
@@ -144,6 +129,33 @@ impl Barrier {
         sum.ba += weight * to_double(limits.ba);
         sum.bb += weight * (to_double(limits.bb) + even * bound_slope * bound_slope);
     }
+}
+
+/// What all rows of the axes that move somewhere in an interval add. `factors`: see [`BarrierLimits::add`].
+#[inline(always)]
+fn of_axes(
+    rows: &AxisRows,
+    samples: [&Sample; 3],
+    moving: MovingAxes,
+    factors: &[f32x4; 6],
+) -> BarrierLimits {
+    let mut limits = BarrierLimits::default();
+    for number in (0..QUADS).filter(|number| moving.in_quad(*number)) {
+        let times = quad(&rows.jerk_time_lanes, number);
+        let [by_u, by_a, by_b] = [0, 1, 2].map(|order| {
+            let [start, middle, end] =
+                samples.map(|sample| f32x4::new(*quad(&sample.lanes[order], number)));
+            f32x4::transpose([start, middle, end, end])
+        });
+        let by_axis = [0, 1, 2, 3].map(|lane| [by_u[lane], by_a[lane], by_b[lane]]);
+        let first = QUAD_LANES * number;
+        for ((axis, row), time) in (first..).zip(&by_axis).zip(times) {
+            if moving.contains(axis) {
+                limits.add(row, *time, factors);
+            }
+        }
+    }
+    limits
 }
 
 /// What belongs to start, middle and end as lanes.

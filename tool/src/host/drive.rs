@@ -11,10 +11,10 @@ use super::recording::{
     ABORTED, DONE, End, Ending, HELD, Recorder, STARVED, Sample, WAITING, moves,
 };
 use super::stop_watch::StopWatch;
-use super::stubs::Stubs;
 use crate::joints::LimitedJoints;
 use crate::layer::program::{MotionType, Operation};
 use crate::layer::spindle::{SpindleCommand, Surface};
+use crate::loaded::stubs::Stubs;
 use crate::path::Position;
 use crate::path::segment::largest_difference;
 use framepath::abi::linuxcnc::{

@@ -1,9 +1,10 @@
 //! The functions of a planner module (LinuxCNC's `tp.h`), found by name as motmod's loader does.
 
+use crate::loaded::module::Module;
 use framepath::abi::linuxcnc::{
     EmcPose, PmCartesian, TC_QUEUE_STRUCT, TP_STRUCT, emcmot_config_t, emcmot_status_t, state_tag_t,
 };
-use std::ffi::{CStr, CString, c_char, c_int, c_long, c_uchar};
+use std::ffi::{c_char, c_int, c_long, c_uchar};
 
 macro_rules! planner_functions {
     ($($(#[$only:meta])* $name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
@@ -104,33 +105,6 @@ macro_rules! add_move {
     }};
 }
 pub(super) use add_move;
-
-/// A module that was loaded; it stays loaded.
-#[derive(Clone, Copy)]
-pub(super) struct Module(*mut libc::c_void);
-
-impl Module {
-    /// With flags of dlopen for whom its functions are there.
-    pub(super) fn open(file: &str, flags: c_int) -> Result<Module, String> {
-        let path = CString::new(file).map_err(|error| error.to_string())?;
-        // SAFETY: a string that ends with 0.
-        let handle = unsafe { libc::dlopen(path.as_ptr(), libc::RTLD_NOW | flags) };
-        if handle.is_null() {
-            // SAFETY: after a failure there is a text that ends with 0.
-            let text = unsafe { CStr::from_ptr(libc::dlerror()) };
-            return Err(text.to_string_lossy().into_owned());
-        }
-        Ok(Module(handle))
-    }
-
-    /// The name ends with 0.
-    pub(super) fn symbol(self, name: &str) -> Option<*mut libc::c_void> {
-        let name = CStr::from_bytes_with_nul(name.as_bytes()).ok()?;
-        // SAFETY: a module that is loaded, a string that ends with 0.
-        let address = unsafe { libc::dlsym(self.0, name.as_ptr()) };
-        (!address.is_null()).then_some(address)
-    }
-}
 
 /// Loads a module and starts it as LinuxCNC does.
 pub(super) fn load(file: &str) -> Result<Functions, String> {

@@ -1,7 +1,7 @@
 //! The kinematics of the process that drives a module: those of framekins, where joints have limits of their own.
 
-use super::stubs::HostKinematics;
 use crate::joints::LimitedJoints;
+use crate::loaded::stubs::HostKinematics;
 use framepath::abi::linuxcnc::EmcPose;
 use framepath::abi::pose::{axes_of, pose_of};
 use framepath::axes::{AXIS_COUNT, Axes};

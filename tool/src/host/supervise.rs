@@ -4,15 +4,13 @@ use super::drive::PROGRESS_VARIABLE;
 use super::job::Job;
 use super::progress::Watch;
 use super::recording::{Ending, Recording};
+use crate::loaded::stubs::STUBS;
 use crate::memory_file::MemoryFile;
 use std::io::{self, Read, Write};
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
-
-/// `stubs.c` as a shared object, compiled by the build script.
-pub(super) const STUBS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/stubs.so"));
 
 /// Hidden command of this program that a driven process runs.
 pub(crate) const HOST_COMMAND: &str = "compare-host";

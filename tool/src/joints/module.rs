@@ -1,6 +1,6 @@
 //! Joints behind a kinematics module of LinuxCNC's, or one of a user's own, as the planner asks them here.
 
-use crate::host::kinematics_module::{KinematicsError, KinematicsSettings, LoadedKinematics};
+use crate::loaded::kinematics::{KinematicsError, KinematicsSettings, LoadedKinematics};
 use crate::machine::ini::Ini;
 use crate::machine::limits::is_rotary;
 use crate::path::Position;

@@ -5,12 +5,15 @@ use std::ffi::{CStr, CString, c_char, c_int, c_long, c_ulong};
 
 /// `struct framepath_host_kinematics` of `stubs.c`.
 #[repr(C)]
-pub(super) struct HostKinematics {
+pub(crate) struct HostKinematics {
     pub forward: unsafe extern "C" fn(*const f64, *mut EmcPose) -> c_int,
     pub inverse: unsafe extern "C" fn(*const EmcPose, *mut f64) -> c_int,
     pub jet: unsafe extern "C" fn(*const f64, *const f64, *mut f64) -> c_int,
     pub axis_of_joint: unsafe extern "C" fn(c_int) -> c_int,
 }
+
+/// `stubs.c` as a shared object, compiled by the build script.
+pub(crate) const STUBS: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/stubs.so"));
 
 type SetFlag = unsafe extern "C" fn(c_int);
 type SetNumber = unsafe extern "C" fn(c_long);
@@ -21,7 +24,7 @@ type Run = unsafe extern "C" fn();
 type SetKinematics = unsafe extern "C" fn(*const HostKinematics);
 
 /// What `stubs.c` offers to the driver.
-pub(super) struct Stubs {
+pub(crate) struct Stubs {
     watch_heap: SetFlag,
     heap_calls: Count,
     first_error: Text,
@@ -35,7 +38,7 @@ pub(super) struct Stubs {
 
 impl Stubs {
     /// `None` if `stubs.c` is not loaded.
-    pub(super) fn find() -> Option<Self> {
+    pub(crate) fn find() -> Option<Self> {
         macro_rules! find {
             ($name:literal as $type:ty) => {{
                 // SAFETY: a string that ends with 0; the name stands for this type in stubs.c.
@@ -61,34 +64,34 @@ impl Stubs {
         })
     }
 
-    pub(super) fn watch_heap(&self, on: bool) {
+    pub(crate) fn watch_heap(&self, on: bool) {
         // SAFETY: sets a number.
         unsafe { (self.watch_heap)(c_int::from(on)) };
     }
 
-    pub(super) fn heap_calls(&self) -> u64 {
+    pub(crate) fn heap_calls(&self) -> u64 {
         // SAFETY: reads a number.
         unsafe { (self.heap_calls)() }
     }
 
-    pub(super) fn errors(&self) -> u64 {
+    pub(crate) fn errors(&self) -> u64 {
         // SAFETY: reads a number.
         unsafe { (self.errors)() }
     }
 
-    pub(super) fn first_error(&self) -> String {
+    pub(crate) fn first_error(&self) -> String {
         // SAFETY: a text that ends with 0 and stays where it is.
         let text = unsafe { CStr::from_ptr((self.first_error)()) };
         text.to_string_lossy().trim().to_owned()
     }
 
-    pub(super) fn set_period(&self, nanoseconds: c_long) {
+    pub(crate) fn set_period(&self, nanoseconds: c_long) {
         // SAFETY: sets a number.
         unsafe { (self.set_period)(nanoseconds) };
     }
 
     /// Sets all pins whose name after that of the component is `ending`; how many there are.
-    pub(super) fn set(&self, ending: &str, value: f64) -> c_int {
+    pub(crate) fn set(&self, ending: &str, value: f64) -> c_int {
         let Ok(ending) = CString::new(ending) else {
             return 0;
         };
@@ -97,7 +100,7 @@ impl Stubs {
     }
 
     /// Sets the pin of this name, if there is one.
-    pub(super) fn put(&self, name: &str, value: f64) {
+    pub(crate) fn put(&self, name: &str, value: f64) {
         if let Ok(name) = CString::new(name) {
             // SAFETY: a string that ends with 0.
             unsafe { (self.put)(name.as_ptr(), value) };
@@ -105,12 +108,12 @@ impl Stubs {
     }
 
     /// From here on these are the kinematics that modules find.
-    pub(super) fn set_kinematics(&self, kinematics: &'static HostKinematics) {
+    pub(crate) fn set_kinematics(&self, kinematics: &'static HostKinematics) {
         // SAFETY: keeps an address of what never goes.
         unsafe { (self.set_kinematics)(kinematics) };
     }
 
-    pub(super) fn run_functions(&self) {
+    pub(crate) fn run_functions(&self) {
         // SAFETY: the module exported them for this.
         unsafe { (self.run_functions)() };
     }

@@ -4,9 +4,8 @@
 //! RTAPI and HAL are those of `stubs.c`: in the process that drives a planner module they are there, in others they are
 //! loaded first.
 
-use super::functions::Module;
-use super::stubs::Stubs;
-use super::supervise::STUBS;
+use super::module::Module;
+use super::stubs::{STUBS, Stubs};
 use crate::memory_file::MemoryFile;
 use framepath::abi::linuxcnc::{EmcPose, KINEMATICS_TYPE};
 use framepath::abi::planner::joint_kinematics::JointKinematics;
