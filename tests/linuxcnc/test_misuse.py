@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 import harness
+from overload import is_overloaded
 from test_loading import MOTION, halrun
 
 SAMPLE = "framepath-sim"
@@ -54,6 +55,9 @@ class Threads(Case):
         result = run_with(PROGRAM, (HANDLER + CONTROLLER, CONTROLLER + HANDLER))
         self.assertIsNone(result.failure)
         said = self.said(result, "motion-controller comes before motion-command-handler")
+        if not said and is_overloaded():
+            # a servo thread that is late does not show the order, and counts for nothing
+            self.skipTest("the computer is too busy: the servo thread was late where moves came")
         self.assertEqual(len(said), 1, result.errors)
         self.assertIn("write addf motion-command-handler servo-thread and then addf motion-controller", said[0])
 
