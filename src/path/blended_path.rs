@@ -5,8 +5,7 @@ use nalgebra::ArrayStorage;
 use super::chain::Chain;
 use super::curve;
 use super::error::BlendError;
-use super::jump::{LinearSum, PointSum, WholeSum};
-use super::kernel::Side;
+use super::jump::{LinearSum, WholeSum};
 use super::leg::{Leg, ProgrammedMove};
 use super::line_merger::LineMerger;
 use super::metric::Metric;
@@ -245,29 +244,13 @@ impl BlendedPath {
         let s = s.max(leg.start).min(leg.end());
         let mut point = leg.point(s);
         if self.chain.is_linear() {
-            let sum: LinearSum = self.jumps(number, s);
+            let sum: LinearSum = self.chain.jumps(number, s);
             sum.add_to(&mut point);
         } else {
-            let sum: WholeSum = self.jumps(number, s);
+            let sum: WholeSum = self.chain.jumps(number, s);
             sum.add_to(&mut point);
         }
         point
-    }
-
-    /// What all vertices that reach into a leg add to it at `s`.
-    #[inline(always)]
-    fn jumps<const N: usize>(&self, number: u64, s: f64) -> PointSum<N> {
-        let leg = self.chain.leg(number);
-        let mut sum = PointSum::ZERO;
-        for k in 0..u64::from(leg.reached_from_left) {
-            let vertex = self.chain.vertex(number.wrapping_sub(k));
-            vertex.add_to(&mut sum, s - vertex.s, Side::Right);
-        }
-        for k in 1..=u64::from(leg.reached_from_right) {
-            let vertex = self.chain.vertex(number.wrapping_add(k));
-            vertex.add_to(&mut sum, vertex.s - s, Side::Left);
-        }
-        sum
     }
 
     /// The places behind `from` and before `to` where the third derivative or its slope may jump, both sides of a jump of the

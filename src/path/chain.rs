@@ -2,6 +2,8 @@
 
 use core::cell::Cell;
 
+use super::jump::PointSum;
+use super::kernel::Side;
 use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
@@ -33,6 +35,8 @@ pub(super) struct Chain {
     begin: u64,
     /// Whether nothing but XYZ has jumped at a vertex since the path began.
     linear: bool,
+    /// Number of the first leg that has not been [settled](Self::settle).
+    unsettled: u64,
     /// Number of the leg that was found last: the next one asked for is mostly near it.
     found: Cell<u64>,
 }
@@ -46,6 +50,7 @@ impl Chain {
             next: 0,
             begin: 0,
             linear: true,
+            unsettled: 0,
             found: Cell::new(0),
         }
     }
@@ -54,6 +59,7 @@ impl Chain {
         self.first = self.next;
         self.begin = self.next;
         self.linear = true;
+        self.unsettled = self.next;
     }
 
     /// Whether nothing but XYZ jumps at any vertex.
@@ -220,8 +226,17 @@ impl Chain {
             })
     }
 
-    /// Forgets of a leg that nothing changes any more the vertices that reached into it on trial only.
-    pub fn settle(&mut self, number: u64) {
+    /// Up to `frozen` the path never changes again, and vertices before `open` are final: forgets of the legs there
+    /// the vertices that reached into them on trial only.
+    pub fn settle(&mut self, open: u64, frozen: f64) {
+        self.unsettled = self.unsettled.max(self.first);
+        while self.unsettled < open && self.leg(self.unsettled).end() <= frozen {
+            self.settle_leg(self.unsettled);
+            self.unsettled += 1;
+        }
+    }
+
+    fn settle_leg(&mut self, number: u64) {
         let leg = self.leg(number);
         let (start, end) = (leg.start, leg.end());
         // As the path is evaluated.
@@ -244,6 +259,22 @@ impl Chain {
         let leg = self.leg_mut(number);
         leg.reached_from_left = left;
         leg.reached_from_right = right;
+    }
+
+    /// What all vertices that reach into a leg add to it at path distance `s`, within it.
+    #[inline(always)]
+    pub fn jumps<const N: usize>(&self, number: u64, s: f64) -> PointSum<N> {
+        let leg = self.leg(number);
+        let mut sum = PointSum::ZERO;
+        for k in 0..u64::from(leg.reached_from_left) {
+            let vertex = self.vertex(number.wrapping_sub(k));
+            vertex.add_to(&mut sum, s - vertex.s, Side::Right);
+        }
+        for k in 1..=u64::from(leg.reached_from_right) {
+            let vertex = self.vertex(number.wrapping_add(k));
+            vertex.add_to(&mut sum, vertex.s - s, Side::Left);
+        }
+        sum
     }
 
     /// Takes note that a vertex reaches `reach` to both sides on trial, or did: its legs have to be
@@ -387,7 +418,7 @@ mod tests {
                 ..Widths::NONE
             });
             chain.vertex_mut(11).store_trial();
-            (0..20).for_each(|leg| chain.settle(leg));
+            chain.settle(20, 14.0);
             let reached = |leg| {
                 let leg = chain.leg(leg);
                 (leg.reached_from_left, leg.reached_from_right)

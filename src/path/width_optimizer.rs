@@ -87,8 +87,6 @@ pub(super) struct WidthOptimizer {
     narrowed: bool,
     /// Of all final vertices.
     greatest_reach: f64,
-    /// Number of the first leg that has not been [settled](Chain::settle).
-    unsettled: u64,
     /// Of the leg that is checked.
     reaching: Reaching,
 }
@@ -105,7 +103,6 @@ impl WidthOptimizer {
             violated: false,
             narrowed: false,
             greatest_reach: 0.0,
-            unsettled: 0,
             reaching: Reaching::NONE,
         }
     }
@@ -120,7 +117,6 @@ impl WidthOptimizer {
         };
         self.phase = OptimizerPhase::Idle;
         self.stored_next = next;
-        self.unsettled = next;
         self.stored_end = 0.0;
         self.greatest_reach = 0.0;
     }
@@ -439,13 +435,7 @@ impl WidthOptimizer {
         self.stored_end = self.window.end;
         self.phase = OptimizerPhase::Idle;
         self.advance(chain, settings);
-        self.unsettled = self.unsettled.max(chain.first());
-        while self.unsettled < self.window.open
-            && chain.leg(self.unsettled).end() <= self.window.frozen
-        {
-            chain.settle(self.unsettled);
-            self.unsettled += 1;
-        }
+        chain.settle(self.window.open, self.window.frozen);
         2 * NEIGHBOURS as usize
     }
 
