@@ -13,6 +13,7 @@
 #include <math.h>
 
 #include "framepath.h"
+#include "external_offsets.h"
 #include "first_loaded.h"
 #include "frame_messages.h"
 #include "frame_parameters.h"
@@ -45,6 +46,7 @@ static struct {
     hal_s32_t *releases, *releases_seen;
     hal_u32_t *heartbeat, *version;
     hal_float_t *frame[12], *position[9], *turned_tool[3];
+    hal_float_t *external_offset[9];
     hal_float_t *inner_type;
     hal_s32_t *inner_type_active, *inner_refusal;
     /* What frame_guard looks at. It has these linked to pins of its own, which are read without HAL's lock: a process that is
@@ -57,6 +59,9 @@ static struct {
 
 static int component;
 static int has_table;
+/* The next place that motion asks for is the one that it gives its planner: it does so itself behind a switch that worked,
+ * before anything else asks (handle_kinematicsSwitch). */
+static int is_place_of_planner;
 static const double no_limits[2] = {-HUGE_VAL, HUGE_VAL};
 
 /* What the pins of a tilting table say; nothing and no limits on a machine without one, which has no such pins. */
@@ -184,10 +189,14 @@ static void update(void *argument, long period)
 int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags,
                       KINEMATICS_INVERSE_FLAGS *iflags)
 {
+    int answer;
     this_is_the_servo_thread();
-    if (*inner)
-        return framepath_kinematics_inner_forward(joints, world, fflags, iflags);
-    return framepath_kinematics_forward(joints, world);
+    answer = *inner ? framepath_kinematics_inner_forward(joints, world, fflags, iflags) : framepath_kinematics_forward(joints, world);
+    if (is_place_of_planner) {
+        is_place_of_planner = 0;
+        take_external_offsets_off(world, pins->external_offset);
+    }
+    return answer;
 }
 
 int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMATICS_INVERSE_FLAGS *iflags,
@@ -237,11 +246,14 @@ int kinematicsSwitchable(void)
 int kinematicsSwitch(int type)
 {
     struct framepath_frame_inputs in;
+    int answer;
     /* Modules switch themselves to type 0 while they are loaded. */
     if (*inner && !inner_found.module)
         return 0;
     in = read_pins();
-    return framepath_kinematics_switch(type, &in);
+    answer = framepath_kinematics_switch(type, &in);
+    is_place_of_planner = !answer;
+    return answer;
 }
 
 #include "for_planner.h"
@@ -293,6 +305,8 @@ static int export_position_pins(void)
         error |= hal_pin_float_newf(HAL_OUT, &pins->frame[i], component, "framekins.frame.%s", row_names[i]);
     for (int i = 0; i < 9; i++)
         error |= hal_pin_float_newf(HAL_OUT, &pins->position[i], component, "framekins.position.%c", "xyzabcuvw"[i]);
+    for (int i = 0; i < 9; i++)
+        error |= hal_pin_float_newf(HAL_IN, &pins->external_offset[i], component, "framekins.external-offset.%c", "xyzabcuvw"[i]);
     for (int i = 0; i < 3; i++)
         error |= hal_pin_float_newf(HAL_OUT, &pins->turned_tool[i], component, "framekins.turned-tool.%c", "xyz"[i]);
     return error;

@@ -1,4 +1,4 @@
-"""Pins of framekins with values that nothing can be made of: the operator is told which."""
+"""Pins of framekins: values that nothing can be made of, of which the operator is told which, and external offsets."""
 
 import ctypes
 import math
@@ -62,6 +62,36 @@ class Framekins(unittest.TestCase):
         said = self.new_messages()
         self.assertEqual(len(said), 1, said)
         self.assertIn("framekins.x-rot-point is inf, which is no length of a machine", said[0])
+
+
+@unittest.skipIf(harness.HANDS_OVER_JERK, "LinuxCNC 2.10 takes them off itself")
+class ExternalOffsets(unittest.TestCase):
+    JOINTS = (10.0, 20.0, 30.0)
+
+    def setUp(self):
+        self.module = kinematics_host.Module(os.path.join(harness.MODULES, "framekins.so"), "framekins", coordinates="XYZ")
+        self.module.find("in-position", BIT)
+        for letter in "xyz":
+            self.module.find(f"external-offset.{letter}", FLOAT)
+        self.module.set(**{"in-position": True, "external-offset.y": 2.0, "external-offset.z": -3.0})
+
+    def forward(self):
+        return self.module.forward(self.JOINTS)[:3]
+
+    def test_are_off_the_place_that_follows_a_switch_and_off_no_other(self):
+        self.assertEqual(self.forward(), [10, 20, 30])
+        self.assertEqual(self.module.switch(0), 0)
+        self.assertEqual(self.forward(), [10, 18, 33])
+        self.assertEqual(self.forward(), [10, 20, 30])
+
+    def test_stay_on_behind_a_switch_that_is_refused(self):
+        self.assertNotEqual(self.module.switch(99), 0)
+        self.assertEqual(self.forward(), [10, 20, 30])
+
+    def test_are_none_where_they_are_no_number(self):
+        self.module.set(**{"external-offset.x": math.nan, "external-offset.z": math.inf})
+        self.assertEqual(self.module.switch(0), 0)
+        self.assertEqual(self.forward(), [10, 18, 30])
 
 
 if __name__ == "__main__":

@@ -16,20 +16,20 @@ LINKED = ["command", "value.1", "value.2", "value.3", "work-offset.x", "work-off
 
 
 class Switching(unittest.TestCase):
-    def switch(self, table, **options):
+    def switch(self, table, before=(), ini=None, **options):
+        """before: steps that come before all others."""
         with open(os.path.join(harness.HERE, "switcher.py"), encoding="utf-8") as file:
             programs = {"switcher.py": file.read()}
         number = random.Random(7)
         pins = LINKED + (["tool-offset", "tool-centre-point"] if table else [])
-        steps: list[list] = [["halcmd", "unlinkp", f"framekins.{pin}"] for pin in pins]
+        steps: list[list] = [*before, *(["halcmd", "unlinkp", f"framekins.{pin}"] for pin in pins)]
         for place in range(PLACES):
             words = [f"{axis}{number.uniform(-100, 100):.6f}" for axis in ("XYZAC" if table else "XYZ")]
             arguments = [str(place), str(SWITCHES)] + (["table"] if table else [])
             steps += [["mdi", "G0 " + " ".join(words)], ["sleep", 0.1],
                       ["halcmd", "loadusr", "-w", "/usr/bin/python3", "-B", "PROGRAMS/switcher.py", *arguments],
                       ["sleep", 0.1]]
-        ini = {("EMCMOT", "SERVO_PERIOD"): "500000"}
-        result = harness.run(steps, programs, ini, timeout=280, **options)
+        result = harness.run(steps, programs, {("EMCMOT", "SERVO_PERIOD"): "500000", **(ini or {})}, timeout=280, **options)
         self.assertIsNone(result.failure, result.log[-3000:])
         self.assertEqual(result.log.count(f"switcher: {SWITCHES} took effect"), PLACES, result.log[-3000:])
         seen, worst = self.at_switches(result)
@@ -64,6 +64,16 @@ class Switching(unittest.TestCase):
 
     def test_five_axes_with_a_table(self):
         self.switch(True, sample="framepath-xyzac", joints=5, axes="xyzac")
+
+    def test_five_axes_with_external_offsets(self):
+        # where an axis with such an offset has left its limits, LinuxCNC takes the offset away in one period
+        ini = {(f"AXIS_{axis}", key): value for axis in "XYZ"
+               for key, value in (("MIN_LIMIT", "-1e9"), ("MAX_LIMIT", "1e9"), ("OFFSET_AV_RATIO", "0.5"))}
+        hal = "".join(f"setp axis.{axis}.eoffset-enable 1\nsetp axis.{axis}.eoffset-scale 0.01\n"
+                      f"net external-offset-{axis} axis.{axis}.eoffset => framekins.external-offset.{axis}\n" for axis in "yz")
+        before = [*(["halcmd", "setp", f"axis.{axis}.eoffset-counts", counts] for axis, counts in (("y", "200"), ("z", "-300"))),
+                  ["sleep", 1]]
+        self.switch(True, before, ini, sample="framepath-xyzac", joints=5, axes="xyzac", hal=hal)
 
 
 if __name__ == "__main__":

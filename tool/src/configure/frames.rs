@@ -41,6 +41,9 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
     motion(subject, first, edits);
     edits.add_hal(ADD_FUNCTION);
     nets(subject, first, edits);
+    for letter in subject.external_offsets() {
+        edits.add_hal(subject.external_offset_line(letter));
+    }
     edits.add_hal(guard_line(&arguments.subroutines));
     subroutines(subject, arguments, edits);
     codes(subject, edits);

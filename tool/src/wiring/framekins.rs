@@ -181,6 +181,15 @@ pub const TOOL_CENTRE_POINT: Net = net(
     "M64 P0 does not ask for the tool centre point",
 );
 
+/// How framekins is told of the external offset of this axis, and what it is linked to where it has one: `axis.y.eoffset`.
+pub fn external_offset(letter: char) -> [String; 2] {
+    let letter = letter.to_ascii_lowercase();
+    [
+        format!("framekins.external-offset.{letter}"),
+        format!("axis.{letter}.eoffset"),
+    ]
+}
+
 /// A dimension or a limit of a tilting table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TablePin {
@@ -318,6 +327,18 @@ pub fn needs_inner(pin: &str) -> bool {
         .is_some_and(|name| INNER_ONLY.contains(&name))
 }
 
+/// Pins that are there for each of some axes.
+const OF_AXES: [(&str, &str); 3] = [
+    ("external-offset.", "xyzabcuvw"),
+    ("position.", "xyzabcuvw"),
+    ("turned-tool.", "xyz"),
+];
+
+fn is_of_axis(name: &str, start: &str, letters: &str) -> bool {
+    let axis = name.strip_prefix(start);
+    axis.is_some_and(|axis| axis.len() == 1 && letters.contains(axis))
+}
+
 /// Whether framekins has this pin on some machine.
 pub fn has_pin(pin: &str) -> bool {
     let in_net = |net: &Net| net.pin == pin || matches!(net.source, Pin(name) if name == pin);
@@ -327,6 +348,9 @@ pub fn has_pin(pin: &str) -> bool {
             || RANGES.contains(&name)
             || INNER_ONLY.contains(&name)
             || name.starts_with("guard.work-offset.")
+            || OF_AXES
+                .iter()
+                .any(|(start, letters)| is_of_axis(name, start, letters))
             || name.starts_with("guard.frame-tool-offset.")
             || name
                 .strip_prefix("frame.")

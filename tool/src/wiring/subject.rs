@@ -1,5 +1,6 @@
 //! The machine that is looked at: its INI file, what its HAL files leave behind, and what follows from both.
 
+use super::framekins::external_offset;
 use super::settings;
 use crate::hal::{Module, Script, State, Statement};
 use crate::machine::IniError;
@@ -220,6 +221,31 @@ impl Subject {
         match key.is_some_and(|key| key.takes(text)) {
             true => text.parse().unwrap_or(0),
             false => 0,
+        }
+    }
+
+    /// The axes that HAL files let have an external offset.
+    pub fn external_offsets(&self) -> Vec<char> {
+        let is_on = |letter: &char| {
+            let pin = format!("axis.{}.eoffset-enable", letter.to_ascii_lowercase());
+            let set = self.state.settings.get(&pin);
+            let set = set.is_some_and(|setting| {
+                !["0", "false"].contains(&setting.value.to_ascii_lowercase().as_str())
+            });
+            set || self.state.signal_of(&pin).is_some()
+        };
+        self.axes.iter().copied().filter(is_on).collect()
+    }
+
+    /// The net by which framekins is told of one.
+    pub fn external_offset_line(&self, letter: char) -> String {
+        let [pin, source] = external_offset(letter);
+        match self.state.signal_of(&source) {
+            Some(signal) => format!("net {signal} => {pin}"),
+            None => format!(
+                "net external-offset-{} {source} => {pin}",
+                letter.to_ascii_lowercase()
+            ),
         }
     }
 

@@ -105,7 +105,7 @@ fn signals_and_outputs_that_are_taken_are_kept() {
         ini.replace("EMCMOT = motmod", "EMCMOT = motmod num_dio=8"),
     )
     .expect("written");
-    let own = "net laser motion.analog-out-03\nnet stands motion.in-position\n";
+    let own = "net laser motion.analog-out-03\nnet stands motion.in-position\nsetp axis.y.eoffset-enable TRUE\n";
     fs::write(folder.path().join("own.hal"), own).expect("written");
     let output = framepath(
         folder.path(),
@@ -123,6 +123,7 @@ fn signals_and_outputs_that_are_taken_are_kept() {
     for line in [
         "+net stands => framekins.in-position\n",
         "+net frame-command motion.analog-out-04 => framekins.command\n",
+        "+net external-offset-y axis.y.eoffset => framekins.external-offset.y\n",
         "+ANALOG_OUTPUT = 4\n",
         "+EMCMOT = motmod num_dio=8 num_aio=16\n",
     ] {

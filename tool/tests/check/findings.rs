@@ -31,7 +31,7 @@ const fn case(
     }
 }
 
-const CASES: [Case; 44] = [
+const CASES: [Case; 45] = [
     case(
         ("ini", "DISPLAY = axis", "DISPLAY = gmoccapy"),
         "warning",
@@ -357,6 +357,16 @@ const CASES: [Case; 44] = [
         "warning",
         "is not there",
         "mkdir",
+    ),
+    case(
+        (
+            "hal",
+            "addf framekins servo-thread",
+            "addf framekins servo-thread\nsetp axis.z.eoffset-enable 1\nnet off axis.z.eoffset",
+        ),
+        "warning",
+        "axis.z.eoffset is an external offset that framekins is not told of",
+        "net off => framekins.external-offset.z",
     ),
     Case {
         sample: "framepath-xyzac",

@@ -1,5 +1,6 @@
 //! What a configuration has to be like, one concern to a file.
 
+mod external_offsets;
 mod files;
 mod filters;
 mod folders;
@@ -51,6 +52,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
     }
     if subject.has_frames() {
         frame_nets::look(subject, &mut findings);
+        external_offsets::look(subject, linuxcnc, &mut findings);
         table::look(subject, &mut findings);
         guard::look(subject, &mut findings);
         subroutines::look(subject, &mut findings);
