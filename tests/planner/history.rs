@@ -89,3 +89,18 @@ fn what_ran_before_has_no_influence() {
 fn nor_where_the_program_stops_within() {
     runs_as_alone(&curve(200), &[100]);
 }
+
+/// Each is given when the last one has ended, as steps and lines of MDI are: no sign of a queue that takes no more than one.
+#[test]
+fn nor_have_single_moves() {
+    let program = corners(3, 2);
+    let alone = run(&[&program], &[]);
+    let single = [1.0, 3.0, 4.0, 7.0, 9.0, 14.0, 15.0, 19.0, 0.0].map(|x| {
+        let mut point = Axes::zeros();
+        point[0] = x;
+        point
+    });
+    let mut programs: Vec<&[Axes]> = single.chunks(1).collect();
+    programs.push(&program);
+    assert_eq!(run(&programs, &[]), alone);
+}

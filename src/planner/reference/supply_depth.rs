@@ -58,11 +58,13 @@ impl SupplyDepth {
         }
     }
 
-    /// Looks at the queue, once in each servo period: the serial number of its first move, and how many there are.
+    /// Looks at the queue, once in each servo period in which there is a path: the serial number of its first move, and how
+    /// many there are.
     pub fn look(&mut self, first: u64, length: usize) {
         let next = first + length as u64;
         let (left, came) = (first != self.first, next != self.next);
-        if length == 0 {
+        // Where all have left that were there, it was empty: single moves, one given when another has ended, are no short queue.
+        if length == 0 || first >= self.next {
             *self = Self::new();
         }
         (self.first, self.next) = (first, next);
@@ -147,6 +149,17 @@ mod tests {
             seen.iter()
                 .all(|seen| *seen == (Expected::Anything, Expected::Anything))
         );
+    }
+
+    #[test]
+    fn single_moves_are_no_sign_of_it() {
+        let mut depth = SupplyDepth::new();
+        for (first, time) in UNEVEN.into_iter().enumerate() {
+            for _ in 0..time {
+                depth.look(first as u64, 1);
+                assert_eq!(depth.expected(), Expected::Anything);
+            }
+        }
     }
 
     #[test]
