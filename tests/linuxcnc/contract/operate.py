@@ -22,6 +22,9 @@ LAST_PATIENCE = 120
 class RowOperator(Operator):
     """Adds to the Operator what the rows need, above all a way back to the same state after each of them."""
 
+    #: the first line of a program
+    header = HEADER
+
     def __init__(self):
         super().__init__()
         self.component = hal.component("operator")
@@ -63,11 +66,11 @@ class RowOperator(Operator):
         """Servo periods so far."""
         return hal.get_value("threadtest.0.count")
 
-    def write(self, lines, header=HEADER):
+    def write(self, lines):
         self.programs += 1
         path = os.path.join(os.environ["KEEP"], "programs", f"part-{self.programs}.ngc")
         with open(path, "w", encoding="utf-8") as file:
-            file.write("\n".join([header, *lines, "M2"]) + "\n")
+            file.write("\n".join([self.header, *lines, "M2"]) + "\n")
         return path
 
     def go(self, *lines):
@@ -141,7 +144,7 @@ class RowOperator(Operator):
         self.stopped()
         self.mode(linuxcnc.MODE_MDI)
         self.command.wait_complete(1)
-        self.say("o<reset> call")
+        self.mdi("o<reset> call", PATIENCE)
         at = self.place()
         if any(abs(value) > 1e-6 for value in at):
             raise Failure(f"recovered at {at}")

@@ -29,6 +29,8 @@ class Row:
     interrupted = False
     #: axes that leave their limits by themselves in this row, such as by an external offset
     unchecked = ""
+    #: between what of session.SETTINGS and the planner it is operated
+    behind: tuple[str, ...] = ("plain", "framekins", "frame")
 
     def operate(self, op):
         raise NotImplementedError
@@ -48,17 +50,20 @@ class Row:
 
 #: in the order of the table
 MODULES = ("rows_identity", "rows_status", "rows_outputs", "rows_spindle", "rows_threads", "rows_operator", "rows_feed",
-           "rows_modes")
+           "rows_modes", "rows_frames")
+
+#: For rows without a frame: their machine's axes are looked at, or a program would have to go on otherwise with one.
+WITHOUT_A_FRAME = ("plain", "framekins")
 
 
-def all_rows():
-    """Every row, in the order of the table."""
+def all_rows(behind=None):
+    """Every row, or those of a setting, in the order of the table."""
     rows = []
     for name in MODULES:
         module = importlib.import_module(name)
         rows += [value for value in vars(module).values()
                  if isinstance(value, type) and issubclass(value, Row) and value.__module__ == name]
-    return rows
+    return [row for row in rows if behind is None or behind in row.behind]
 
 
 def difference(values):

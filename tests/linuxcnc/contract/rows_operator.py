@@ -3,7 +3,7 @@
 import math
 from itertools import pairwise
 
-from row import MICROMETRE, Broken, Row, difference, from_route
+from row import MICROMETRE, WITHOUT_A_FRAME, Broken, Row, difference, from_route
 
 SECTION = "Operator"
 ZIGZAG = [(0.0, 0.0)] + [(8.0 * n, 10.0 * (n % 2)) for n in range(1, 9)]
@@ -144,6 +144,7 @@ class ModesAndJogs(Row):
     """Manual mode, a jog of an axis, and the next program starts from where the jog ended"""
 
     section = SECTION
+    behind = WITHOUT_A_FRAME
     unchecked = "y"
 
     def operate(self, op):
@@ -180,6 +181,7 @@ class SoftLimitBetweenTheEnds(Row):
     """A move that leaves the soft limits between its ends is refused before it begins"""
 
     section = SECTION
+    behind = WITHOUT_A_FRAME
     errors_expected = True
 
     def operate(self, op):
@@ -208,7 +210,8 @@ class LimitsChangedLive(Row):
         op.finish(40)
 
     def check(self, seen):
-        back = seen.during(5).top_speed("x")
+        # with a frame X of the machine
+        back = seen.during(5).top_speed("machine_x" if "machine_x" in seen.header else "x")
         seen.require(back < 40.1, f"the move behind the change runs at {back:.0f} mm/s for 40")
         return f"{back:.1f} mm/s for 40"
 
@@ -240,6 +243,7 @@ class Probing(Row):
     """G38.2 to G38.5: the stop is on the line, the touch is kept, and no neighbour is blended"""
 
     section = "Probing"
+    behind = WITHOUT_A_FRAME
 
     def operate(self, op):
         op.pin("wall.in0", 20)
@@ -266,6 +270,7 @@ class ProbeInOtherMoves(Row):
     """A touch in a move that does not probe stops it, with LinuxCNC's error"""
 
     section = "Probing"
+    behind = WITHOUT_A_FRAME
     errors_expected = True
 
     def operate(self, op):
@@ -286,6 +291,7 @@ class ExternalOffsets(Row):
     """External offsets add to a blended program and are taken away again"""
 
     section = SECTION
+    behind = WITHOUT_A_FRAME
 
     def operate(self, op):
         op.pin("axis.y.eoffset-enable", 1)

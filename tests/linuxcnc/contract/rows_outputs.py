@@ -2,7 +2,7 @@
 
 from itertools import pairwise
 
-from row import Row
+from row import WITHOUT_A_FRAME, Row
 
 SECTION = "Outputs"
 
@@ -96,6 +96,7 @@ class Indexer(Row):
     """A locking indexer: rest, unlock, wait, move, lock, wait; no blend into it or out of it"""
 
     section = "Indexer"
+    behind = WITHOUT_A_FRAME
 
     def operate(self, op):
         op.go("G64 P1", "G1 X10", "G0 A30", "G1 X20", "G0 A10", "G0 A20", "G1 X10")
@@ -117,6 +118,7 @@ class IndexerAborted(Row):
     """An abort while the indexer unlocks or moves leaves it locked, and the next move works"""
 
     section = "Indexer"
+    behind = WITHOUT_A_FRAME
 
     def operate(self, op):
         places = []

@@ -3,7 +3,7 @@
 import math
 from itertools import pairwise
 
-from row import MICROMETRE, PERIOD, Row, from_route
+from row import MICROMETRE, PERIOD, WITHOUT_A_FRAME, Row, from_route
 
 SECTION = "Status"
 
@@ -134,6 +134,7 @@ class QueueBusters(Row):
     """M66, M6, G4, M0 and a changed offset end the look-ahead at rest, exactly; what follows goes on from there"""
 
     section = SECTION
+    behind = WITHOUT_A_FRAME
 
     def operate(self, op):
         op.begin("G64 P1", "G1 X5", "G1 Y5", "M66 P0 L0", "G1 X10", "G1 Y10", "G4 P0.05", "G1 X15", "G1 Y15", "T1 M6",
@@ -192,6 +193,7 @@ class OffsetsInProgram(Row):
     """Offsets that change in the program are met exactly, with G64 on both sides"""
 
     section = SECTION
+    behind = WITHOUT_A_FRAME
 
     def operate(self, op):
         op.go("G64 P0.3", "G1 X5 Y5", "G92 X0 Y0", "G1 X5 Y0", "G92.1", "G1 X0 Y10", "G43.1 Z3", "G1 Z1", "G49",

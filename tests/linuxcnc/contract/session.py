@@ -1,13 +1,18 @@
 """Runs rows of the outcome table in a real LinuxCNC with one planner, and says what came of each."""
 
+import dataclasses
 import os
 import re
+import shutil
 import sys
+import tempfile
+from collections.abc import Callable
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 sys.path.insert(0, HERE)
 
+import framed  # noqa: E402
 import harness  # noqa: E402
 from delays import DISTURBED  # noqa: E402
 from row import ACCELERATION, JERK, PERIOD, VELOCITY, Broken, Seen, all_rows, peaks  # noqa: E402
@@ -39,35 +44,84 @@ ATTEMPTS = {"tpmod": 2, "blendtp": 3}
 class Recorder:
     """What harness.run records in every servo period."""
 
-    header = ("time", *(name for name, _, _ in FLOATS), *(name for name, _ in INTEGERS), *(name for name, _ in BITS))
+    floats: tuple[tuple[str, str, float], ...] = FLOATS
+    bits: tuple[tuple[str, str], ...] = BITS
+
+    def __init__(self):
+        self.signals = dict(SIGNALS)
+        self.recorded = self.header = ("time", *(name for name, *_ in (*self.floats, *INTEGERS, *self.bits)))
 
     def hal(self):
-        count = len(FLOATS)
+        count = len(self.floats)
         lines = [f"loadrt scale count={count}",
-                 f"loadrt sampler depth=16000 cfg={'f' * count}{'s' * len(INTEGERS)}{'b' * len(BITS)}", "newsig row s32"]
-        for n, (name, pin, gain) in enumerate(FLOATS):
+                 f"loadrt sampler depth=16000 cfg={'f' * count}{'s' * len(INTEGERS)}{'b' * len(self.bits)}", "newsig row s32"]
+        for n, (name, pin, gain) in enumerate(self.floats):
             lines += [f"setp scale.{n}.gain {gain:.0f}", f"net scaled-{name} scale.{n}.out => sampler.0.pin.{n}",
-                      f"net {SIGNALS.get(pin, f'recorded-{name}')} {'' if pin in SIGNALS else pin} => scale.{n}.in",
-                      f"addf scale.{n} servo-thread"]
-        for n, (name, source) in enumerate(INTEGERS + BITS, count):
-            signal = SIGNALS.get(source, f"recorded-{name}") if source else name
-            lines.append(f"net {signal} {'' if source in SIGNALS else source or ''} => sampler.0.pin.{n}")
+                      f"net {self.linked(name, pin)} => scale.{n}.in", f"addf scale.{n} servo-thread"]
+        for n, (name, source) in enumerate(INTEGERS + self.bits, count):
+            lines.append(f"net {self.linked(name, source) if source else name} => sampler.0.pin.{n}")
         return "\n".join([*lines, "addf sampler.0 servo-thread"]) + "\n"
 
+    def linked(self, name, pin):
+        """The signal of a pin, and the pin where it is on none yet."""
+        return self.signals.get(pin) or f"recorded-{name} {pin}"
+
     def read(self, path, _ini):
-        scales = [1 / gain for _, _, gain in FLOATS]
+        scales = [1 / gain for _, _, gain in self.floats]
         rows, first = [], None
         with open(path, encoding="utf-8") as file:
             for line in file:
                 words = line.split()
                 if "overrun" in words:
                     raise RuntimeError("the recorder lost samples")
-                if len(words) != len(self.header):
+                if len(words) != len(self.recorded):
                     continue  # cut off in the middle of a line
                 first = int(words[0]) if first is None else first
                 floats = [float(word) * scale for word, scale in zip(words[1:], scales, strict=False)]
                 rows.append([(int(words[0]) - first) * PERIOD, *floats, *(int(word) for word in words[1 + len(floats):])])
         return rows
+
+
+class FramedRecorder(Recorder):
+    """The same in the coordinates of the frame, also where it is off: positions jump at no switch. The sampler takes 21
+    pins: those of the joints stand in place of what is seen of the indexer."""
+
+    floats = (*(row for row in FLOATS if row[0] not in ("a", "joint_z")), ("machine_x", "joint.0.motor-pos-cmd", 1e6),
+              ("machine_y", "joint.1.motor-pos-cmd", 1e6), ("machine_z", "joint.2.motor-pos-cmd", 1e6))
+    bits = (*(row for row in BITS if "unlock" not in row[0]), ("framed", "framekins.active"))
+    #: Joints come some periods after the axes of the frame that is active, mm.
+    LATE = 1.0
+    #: Both agree so far where the machine stands, mm.
+    ROUNDED = 5e-6
+
+    def __init__(self):
+        super().__init__()
+        self.signals |= {f"joint.{n}.motor-pos-cmd": f"joint-{n}" for n in range(3)}
+        self.signals["motion.in-position"] = "motion-in-position"
+        self.header = (*self.recorded, "joint_z")
+
+    def read(self, path, _ini):
+        rows = super().read(path, _ini)
+        at = self.recorded.index
+        place, machine, active = slice(at("x"), at("z") + 1), slice(at("machine_x"), at("machine_z") + 1), at("framed")
+        #: what is seen of joints and of axes at the last period in which the axes counted
+        joints = axes = [0.0, 0.0, 0.0]
+        for row in rows:
+            behind = framed.in_frame(row[machine])
+            row.append(behind[2])
+            if row[active] and max_difference(row[place], behind) < self.LATE:
+                row[place] = [round(value, 9) for value in row[place]]
+                axes, joints = row[place], behind
+            else:
+                # from the joints, whose last digit is rounded: where these stand the place stays the same
+                row[place] = [round(a + (b - j), 9) for a, b, j in zip(axes, behind, joints, strict=True)]
+                if max_difference(row[place], behind) > self.ROUNDED:
+                    row[place] = axes = joints = behind
+        return rows
+
+
+def max_difference(some, others):
+    return max(abs(a - b) for a, b in zip(some, others, strict=True))
 
 
 #: pins that are on a signal of the machine already
@@ -87,25 +141,58 @@ def behind_framekins(hal):
     return f"loadrt framekins inner=trivkins\n{hal}{FRAMEKINS}"
 
 
-def run(planner, names=None, verbose=False, framekins=False):
-    """{name of the row: Outcome} with this [TRAJ]TPMOD; `names` picks rows. framekins: before the kinematics of the machine."""
-    rows = {row.name(): row for row in all_rows() if not names or row.name() in names}
+@dataclasses.dataclass(frozen=True)
+class Setting:
+    """What is between the planner and the joints, and who operates."""
+
+    ini: dict = dataclasses.field(default_factory=dict)
+    edit_hal: Callable[[str], str] | None = None
+    recorder: type[Recorder] = Recorder
+    display: str = "operate.py"
+    #: subroutines beside those of the machine
+    subroutines: dict = dataclasses.field(default_factory=dict)
+    #: The axes whose limits hold; with a frame blendtp keeps those of the joints, LinuxCNC's planner those of the frame's axes.
+    limited: dict = dataclasses.field(default_factory=lambda: dict.fromkeys(("tpmod", "blendtp"), ("x", "y", "z", "a", "b")))
+
+
+SETTINGS = {
+    "plain": Setting(),
+    "framekins": Setting(edit_hal=behind_framekins),
+    "frame": Setting(framed.INI, lambda hal: hal + framed.HAL, FramedRecorder, "framed_operate.py", framed.SUBROUTINES,
+                     {"tpmod": ("x", "y", "z", "b"), "blendtp": ("machine_x", "machine_y", "machine_z", "b")}),
+}
+
+
+def configuration(setting, folder):
+    """The machine in a folder of its own, with the subroutines of the setting."""
+    shutil.copytree(os.path.join(HERE, "machine"), folder, dirs_exist_ok=True)
+    for name, text in setting.subroutines.items():
+        with open(os.path.join(folder, "subroutines", name), "w", encoding="utf-8") as file:
+            file.write(text)
+    return folder
+
+
+def run(planner, names=None, verbose=False, behind="plain"):
+    """{name of the row: Outcome} with this [TRAJ]TPMOD; `names` picks rows. behind: which of SETTINGS."""
+    setting = SETTINGS[behind]
+    rows = {row.name(): row for row in all_rows(behind) if not names or row.name() in names}
     left, outcomes, attempts = list(rows), {}, dict.fromkeys(rows, 0)
     files = ["contract/" + name for name in sorted(os.listdir(HERE))
-             if re.fullmatch(r"(row|rows_\w+|operate|delays)\.py", name)]
+             if re.fullmatch(r"(row|rows_\w+|operate|framed|framed_operate|delays)\.py", name)]
     for _ in range(MOST_SESSIONS):
         if not left:
             break
-        result = harness.run([["rows", left]], sample="machine", configuration=os.path.join(HERE, "machine"),
-                             ini={("TRAJ", "TPMOD"): planner}, hal=JERK_LIMITS if planner == "blendtp" else "",
-                             recorder=Recorder(), files=files, edit_hal=behind_framekins if framekins else None,
-                             display="operate.py", timeout=60 + 30 * len(left))
+        with tempfile.TemporaryDirectory(prefix="framepath-contract.") as folder:
+            result = harness.run([["rows", left]], sample="machine", configuration=configuration(setting, folder),
+                                 ini={**setting.ini, ("TRAJ", "TPMOD"): planner},
+                                 hal=JERK_LIMITS if planner == "blendtp" else "", recorder=setting.recorder(), files=files,
+                                 edit_hal=setting.edit_hal, display=setting.display, timeout=60 + 30 * len(left))
         if verbose:
             print(result.log)
         if result.failure:
             raise RuntimeError(f"{planner}: {result.failure}\n{result.log}")
         for name, outcome in result.answers["rows"].items():
-            outcomes[name] = judge(rows[name](), outcome, result)
+            outcomes[name] = judge(rows[name](), outcome, result, setting.limited[planner])
             attempts[name] += 1
             spoilt = outcome["delay"] > DISTURBED and not outcomes[name].works
             if not spoilt or attempts[name] >= ATTEMPTS.get(planner, 1):
@@ -117,7 +204,7 @@ def run(planner, names=None, verbose=False, framekins=False):
     return outcomes
 
 
-def judge(row, outcome, result):
+def judge(row, outcome, result, limited):
     index = result.header.index("row")
     rows = [line for line in result.rows if line[index] == outcome["number"]]
     seen = Seen(result.header, rows, outcome["kept"], outcome["errors"])
@@ -128,7 +215,7 @@ def judge(row, outcome, result):
             raise Broken(f"LinuxCNC says: {outcome['errors'][0]}")
         answer = row.check(seen) or ""
         if not row.interrupted:
-            check_limits(seen, row.unchecked)
+            check_limits(seen, [axis for axis in limited if axis not in row.unchecked])
         text, figure = answer if isinstance(answer, tuple) else (answer, None)
         return Outcome(True, text, figure)
     except (ArithmeticError, LookupError, ValueError) as error:
@@ -139,11 +226,9 @@ def judge(row, outcome, result):
         return Outcome(False, f"{broken} ({said})" if said else str(broken))
 
 
-def check_limits(seen, unchecked):
+def check_limits(seen, limited):
     """Velocity and acceleration of each axis; jerk is what a planner may or may not limit."""
-    for axis in "xyzab":
-        if axis in unchecked:
-            continue
+    for axis in limited:
         velocity, acceleration, jerk = peaks(seen.column(axis))
         share = 0.9 if axis == "y" else 1.0
         seen.require(velocity < share * VELOCITY * 1.002, f"{axis.upper()} at {velocity:.4g} units/s")

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """The outcome table: every promise, with LinuxCNC's own planner and with blendtp.
 
-table.py [--verbose] [--markdown] [--framekins] [ROW ...]. With --framekins both run behind framekins, without a frame."""
+table.py [--verbose] [--markdown] [--framekins|--frame] [ROW ...]. With --framekins both run behind framekins, without a frame;
+with --frame in a turned frame."""
 
 import concurrent.futures
 import os
@@ -13,19 +14,19 @@ import session
 from row import all_rows
 
 STOCK, OURS = "tpmod", "blendtp"
-SECTIONS = ("Identity", "Status", "Path modes", "Feed", "Operator", "Outputs", "Probing", "Indexer", "Spindle", "Threads")
+SECTIONS = ("Identity", "Status", "Path modes", "Feed", "Operator", "Outputs", "Probing", "Indexer", "Spindle", "Threads", "Frames")
 #: LinuxCNCs for each planner
 AT_A_TIME = 4
 #: share of what stock leaves below which ours is better, not the same
 BETTER = 0.8
 
 
-def outcomes(names=None, verbose=False, framekins=False):
-    """{planner: {row: Outcome}} for both planners, in some LinuxCNCs side by side, which mostly wait."""
-    names = names or [row.name() for row in all_rows()]
-    found: dict = {STOCK: {}, OURS: {}}
-    with concurrent.futures.ThreadPoolExecutor(2 * AT_A_TIME) as pool:
-        running = [(planner, pool.submit(session.run, planner, names[part::AT_A_TIME], verbose, framekins))
+def outcomes(names=None, verbose=False, behind="plain", planners=(STOCK, OURS)):
+    """{planner: {row: Outcome}} for these planners, in some LinuxCNCs side by side, which mostly wait."""
+    names = names or [row.name() for row in all_rows(behind)]
+    found: dict = {planner: {} for planner in planners}
+    with concurrent.futures.ThreadPoolExecutor(AT_A_TIME * len(planners)) as pool:
+        running = [(planner, pool.submit(session.run, planner, names[part::AT_A_TIME], verbose, behind))
                    for planner in found for part in range(AT_A_TIME) if names[part::AT_A_TIME]]
         for planner, future in running:
             found[planner].update(future.result())
@@ -42,12 +43,15 @@ def verdict(stock, ours):
     return "works"
 
 
-def lines(found, names=None):
+def of(found):
+    """The rows of the table that were operated, in its order."""
+    return sorted((row for row in all_rows() if row.name() in found[STOCK]), key=lambda row: SECTIONS.index(row.section))
+
+
+def lines(found):
     """The table as text: section, promise, outcome, and what was seen of each."""
     section = None
-    for row in sorted(all_rows(), key=lambda row: SECTIONS.index(row.section)):
-        if names and row.name() not in names:
-            continue
+    for row in of(found):
         stock, ours = found[STOCK][row.name()], found[OURS][row.name()]
         if row.section != section:
             section = row.section
@@ -62,9 +66,7 @@ def markdown(found):
     """The same for docs/promises.md."""
     yield "| | with blendtp | LinuxCNC's own planner |\n|---|---|---|"
     section = None
-    for row in sorted(all_rows(), key=lambda row: SECTIONS.index(row.section)):
-        if row.name() not in found[STOCK]:
-            continue
+    for row in of(found):
         stock, ours = found[STOCK][row.name()], found[OURS][row.name()]
         if row.section != section:
             section = row.section
@@ -78,13 +80,14 @@ def markdown(found):
 
 
 def main():
-    options = {"--verbose", "--markdown", "--framekins"}
+    options = {"--verbose", "--markdown", "--framekins", "--frame"}
+    behind = next((name for name in session.SETTINGS if f"--{name}" in sys.argv), "plain")
     names = [argument for argument in sys.argv[1:] if argument not in options]
-    unknown = set(names) - {row.name() for row in all_rows()}
+    unknown = set(names) - {row.name() for row in all_rows(behind)}
     if unknown:
-        sys.exit(f"no such row: {', '.join(sorted(unknown))}")
-    found = outcomes(names, "--verbose" in sys.argv, "--framekins" in sys.argv)
-    print("\n".join(markdown(found) if "--markdown" in sys.argv else lines(found, names)))
+        sys.exit(f"no such row of this table: {', '.join(sorted(unknown))}")
+    found = outcomes(names, "--verbose" in sys.argv, behind)
+    print("\n".join(markdown(found) if "--markdown" in sys.argv else lines(found)))
 
 
 if __name__ == "__main__":
