@@ -16,6 +16,13 @@ const EXTENSION: f64 = 64.0;
 /// it does: arcspiral takes 2 to 13 % longer without.
 const EXTENSION_LENGTHS: u32 = 3;
 
+/// Intervals by which an extension leaves the plan earlier than it wants to, behind one that was refused; twice as many
+/// behind each more. A plan that comes to its end as fast as it may is at times too fast for whatever goes on behind
+/// that: there no length helps.
+const EARLIER: usize = 8;
+/// It was doubled so often at most: that is all of a plan.
+const MOST_DOUBLINGS: u32 = 8;
+
 /// An extension by fewer intervals than this waits for more, but no longer than [`PATIENCE`].
 const WORTHWHILE: f64 = 8.0;
 /// Slices.
@@ -56,6 +63,14 @@ impl Extensions {
     /// Seconds behind the frozen part at which a candidate leaves the plan at the earliest.
     pub fn lead(&self) -> f64 {
         self.lead
+    }
+
+    /// How many intervals earlier than it wants to a candidate leaves the plan.
+    pub fn earlier(&self) -> usize {
+        match self.failures.checked_sub(1) {
+            Some(more) => EARLIER << more.min(MOST_DOUBLINGS),
+            None => 0,
+        }
     }
 
     /// A slice begins.
@@ -151,6 +166,19 @@ mod tests {
             extensions.pass_slice();
         }
         assert!(extensions.is_wanted(1e3, true) && extensions.is_wanted(little, false));
+    }
+
+    #[test]
+    fn what_was_refused_leaves_the_plan_earlier() {
+        let mut extensions = adopted();
+        for earlier in [0, 1, 2, 4] {
+            assert_eq!(extensions.earlier(), earlier * EARLIER);
+            extensions.note_refusal();
+        }
+        (0..100).for_each(|_| extensions.note_refusal());
+        assert_eq!(extensions.earlier(), EARLIER << MOST_DOUBLINGS);
+        extensions.note_adopted(SPACING);
+        assert_eq!(extensions.earlier(), 0);
     }
 
     #[test]

@@ -231,10 +231,11 @@ impl LookAhead {
         let behind = self
             .frozen
             .interval_behind(&self.plan, self.extensions.lead());
-        // It is left at what was refined last: the plan keeps all of that.
+        // It is left at what was refined last: the plan keeps all of that, unless it cannot be continued from there.
         let latest = self
             .refinement
             .refined()
+            .saturating_sub(self.extensions.earlier())
             .min(self.plan.last.saturating_sub(4));
         let base = latest
             .max(behind.min(self.braking.start()))

@@ -90,8 +90,10 @@ pub(super) struct CandidatePlan {
     attempt: usize,
     /// How often it was made slower.
     slowed: usize,
-    /// Intervals that it adds at most.
+    /// Intervals that it adds at most ..
     most: usize,
+    /// .. and those that it is ended behind if it grew longer.
+    enough: usize,
     /// Cost of an evaluation of the path.
     evaluation: u32,
     phase: CandidatePhase,
@@ -112,6 +114,7 @@ impl CandidatePlan {
         attempt: 0,
         slowed: 0,
         most: MOST_INTERVALS,
+        enough: enough(MOST_INTERVALS),
         evaluation: 0,
         phase: CandidatePhase::Finished(CandidateStep::Refused(PlanRefusal::NotFound)),
         grid: Grid::new(),
@@ -125,6 +128,7 @@ impl CandidatePlan {
         self.evaluation = context.evaluation(end);
         self.first = true;
         self.most = MOST_INTERVALS;
+        self.enough = enough(self.most);
         self.grid.forget();
         self.base = 1;
         self.cut = 1;
@@ -156,6 +160,7 @@ impl CandidatePlan {
         self.evaluation = context.evaluation(end);
         self.first = false;
         self.most = most;
+        self.enough = enough(self.most);
         self.attempt = 0;
         // Intervals that are short only for the old rest are made anew.
         let mut cut = plan.last;
@@ -247,6 +252,11 @@ impl CandidatePlan {
         let count = self.spline.last + 1 - self.cut;
         (self.spline.end - self.spline.at(self.cut).start) / count.max(1) as f64
     }
+}
+
+/// Intervals that a candidate which came to be longer than `most` is ended behind: the others lead to its rest.
+const fn enough(most: usize) -> usize {
+    most - most / 4
 }
 
 fn refused(refusal: PlanRefusal) -> CandidatePhase {

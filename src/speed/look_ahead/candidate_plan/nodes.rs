@@ -16,6 +16,9 @@ const NODES_BEFORE_REST: f64 = 6.0;
 /// How many times its length the start of the last interval that is kept is away from the arc at least.
 const ROOM_BEFORE_ARC: f64 = 3.0;
 
+/// Room for the intervals before the rest of a candidate that grew too long, of that before.
+const MORE_ROOM: usize = 2;
+
 /// Nodes that the sweeps need.
 const LEAST_NODES: usize = 3;
 
@@ -167,21 +170,18 @@ impl CandidatePlan {
         }
     }
 
-    /// Intervals that a candidate which grew too long is ended behind.
-    pub(super) fn enough(&self) -> usize {
-        self.most - self.most / 4
-    }
-
-    /// Ends the candidate where the grid has come to.
+    /// Ends the candidate where the grid has come to, and leaves more room for the intervals before its rest. With the
+    /// same room one that has a short arc at its end came to be a little shorter each time, and was given up.
     pub(super) fn shorten<R: Route>(&mut self, context: &PlanContext<R>) -> CandidatePhase {
         if let Some(refused) = self.again() {
             return refused;
         }
-        let end = self.spline.at(self.cut + self.enough()).start;
+        let end = self.spline.at(self.cut + self.enough).start;
         self.spline.end = end;
         let total = end - self.spline.at(self.cut).start;
         self.most_end = free_length(context.route, end, total);
-        self.keep_nodes(self.enough());
+        self.keep_nodes(self.enough);
+        self.most = self.enough + MORE_ROOM * (self.most - self.enough);
         self.bounded = false;
         self.search_end(context)
     }
