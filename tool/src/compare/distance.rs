@@ -10,6 +10,9 @@ use serde::Serialize;
 /// Moves on each side of the one that runs in which the path is looked for.
 const NEIGHBOURS: usize = 2;
 
+/// Pieces on each side whose merging counts.
+const BESIDE: usize = 3;
+
 /// Pieces on each side, at most.
 const MOST_PIECES: usize = 20_000;
 
@@ -132,8 +135,10 @@ impl<'a> Path<'a> {
         if unbounded(own) || unbounded(before) {
             return Tolerance::None;
         }
-        let merged = own.merged_within.max(before.merged_within);
-        Tolerance::Given(own.tolerance.max(before.tolerance) + merged)
+        // A corner reaches over several moves, and the piece that is nearest need not be one that was merged.
+        let beside = index.saturating_sub(BESIDE)..(index + BESIDE + 1).min(self.pieces.len());
+        let merged = self.pieces[beside].iter().map(|piece| piece.merged_within);
+        Tolerance::Given(own.tolerance.max(before.tolerance) + merged.fold(0.0, f64::max))
     }
 
     /// Pieces near a move: its neighbours, and as far as `reach` goes.

@@ -38,7 +38,7 @@ impl Farthest {
         if distance > self.distance || self.line == 0 {
             *self = Farthest {
                 distance,
-                tolerance: piece.tolerance,
+                tolerance: piece.allowed(),
                 line: piece.piece.line,
             };
         }
@@ -46,7 +46,7 @@ impl Farthest {
 
     /// The same for the largest share of the tolerance.
     fn note_share(&mut self, distance: f64, piece: &Tracked) {
-        let Some(tolerance) = piece.tolerance.filter(|tolerance| *tolerance > 0.0) else {
+        let Some(tolerance) = piece.allowed().filter(|tolerance| *tolerance > 0.0) else {
             return;
         };
         let share = |distance: f64, tolerance: f64| distance / tolerance;
@@ -88,8 +88,22 @@ struct Tracked {
     turn_share: f64,
     /// Distance of its end from the planned path so far.
     end_missed: f64,
-    /// P of this piece and the one before, with what merging adds; `None` without P.
+    /// P of this piece and the one before; `None` without P.
     tolerance: Option<f64>,
+    /// How far merging may have taken the moves from this piece and those beside it, mm: a corner reaches over several, and the
+    /// nearest to the machine need not be one that was merged.
+    merged: f64,
+}
+
+impl Tracked {
+    /// How far the planned path may be off here: `Some(0)` in exact modes.
+    fn allowed(&self) -> Option<f64> {
+        let with_merging = |tolerance: f64| match tolerance > 0.0 {
+            true => tolerance + self.merged,
+            false => 0.0,
+        };
+        self.tolerance.map(with_merging)
+    }
 }
 
 /// Follows the machine along the program.
@@ -111,11 +125,11 @@ pub struct Follower {
     last: Option<Position>,
 }
 
-/// The tolerance on its own: `Some(0)` in exact modes.
+/// P of a piece: `Some(0)` in exact modes.
 fn tolerance(piece: &Piece) -> Option<f64> {
     match piece.mode {
         PathMode::Continuous if piece.tolerance <= 0.0 => None,
-        PathMode::Continuous => Some(piece.tolerance + piece.merged_within),
+        PathMode::Continuous => Some(piece.tolerance),
         _ => Some(0.0),
     }
 }
@@ -158,6 +172,11 @@ impl Follower {
                 let ends = [piece.segment.start, piece.segment.end].map(Axes::from);
                 orientation.share(&ends[0], &ends[1])
             });
+            let mut merged = piece.merged_within;
+            for beside in self.pieces.iter_mut().rev().take(NEAR) {
+                merged = merged.max(beside.piece.merged_within);
+                beside.merged = beside.merged.max(piece.merged_within);
+            }
             self.pieces.push_back(Tracked {
                 piece: *piece,
                 counted: Segment {
@@ -168,19 +187,22 @@ impl Follower {
                 turn_share,
                 end_missed: f64::INFINITY,
                 tolerance: own.zip(before).map(|(own, before)| own.max(before)),
+                merged,
             });
         }
     }
 
     /// A servo cycle in which the machine moves, and the number of the move that runs.
     pub fn step(&mut self, position: &Position, running: Option<usize>) {
+        let came_from = self.near;
         self.go_on_to(running.unwrap_or(self.running));
         let Some((near, distance)) = self.nearest(position) else {
             return;
         };
         let before = self.last.unwrap_or(*position);
         let [first, last] = self.own;
-        let from = first.min(near).saturating_sub(NEAR);
+        // A cycle may pass many short pieces, and the move that runs may be the next one at its end.
+        let from = first.min(near).min(came_from).saturating_sub(NEAR);
         let to = (last.max(near) + NEAR + 1).min(self.pieces.len());
         for tracked in self.pieces.range_mut(from..to) {
             let turn_share = tracked.turn_share;
@@ -200,7 +222,7 @@ impl Follower {
             if tracked.tolerance == Some(0.0) {
                 self.found.exact.note(distance, tracked);
             }
-            let (tolerance, line) = (tracked.tolerance, tracked.piece.line);
+            let (tolerance, line) = (tracked.allowed(), tracked.piece.line);
             self.note_beyond(distance, tolerance, line);
         }
         while self.near.min(self.own[0]) > KEPT {
@@ -272,7 +294,7 @@ impl Follower {
             if judged.tolerance == Some(0.0) {
                 self.found.exact.note(judged.end_missed, &judged);
             }
-            self.note_beyond(judged.end_missed, judged.tolerance, judged.piece.line);
+            self.note_beyond(judged.end_missed, judged.allowed(), judged.piece.line);
         }
     }
 
@@ -301,8 +323,10 @@ impl Follower {
         let first = self.near.saturating_sub(NEAR);
         let mut best = (first, away(first)?);
         let mut index = first;
-        // On as long as that leads nearer, and a little farther.
-        while index < best.0.max(self.near) + NEAR && index < self.near + FAR {
+        // On as long as that leads nearer and over all that merging made the move that runs of, which may turn back on the way,
+        // and a little farther.
+        let at_least = self.near.max(self.own[1]);
+        while index < best.0.max(at_least) + NEAR && index < self.near + FAR {
             index += 1;
             match away(index) {
                 Some(distance) if self.is_better((index, distance), best) => {
@@ -330,88 +354,4 @@ impl Follower {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::canon::call::Tag;
-    use crate::layer::program::{MotionType, Move, Shape};
-
-    /// In X and Z, mm, through these places, each move with a line of its own.
-    fn moves(places: &[[f64; 2]]) -> Vec<Handed> {
-        let at = |[x, z]: [f64; 2]| [x, 0.0, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let ends = places.windows(2).enumerate();
-        let handed = ends.map(|(index, ends)| {
-            let line = index as i32 + 1;
-            let piece = Piece {
-                segment: Segment::line(at(ends[0]), at(ends[1])),
-                line,
-                move_index: index,
-                mode: PathMode::Continuous,
-                tolerance: 0.01,
-                merged_within: 0.0,
-                stops: false,
-            };
-            let a_move = Move {
-                index,
-                line,
-                shape: Shape::Line,
-                end: at(ends[1]),
-                motion_type: MotionType::Feed,
-                velocity: 1.0,
-                greatest_velocity: 1.0,
-                acceleration: 1.0,
-                at_speed: false,
-                tag: Tag::default(),
-            };
-            let pieces = vec![piece];
-            Handed { a_move, pieces }
-        });
-        handed.collect()
-    }
-
-    /// Follows a machine that is exactly on the program, but off by `off` in X on the move with this number.
-    fn followed(moves: &[Handed], (wrong, off): (usize, f64)) -> Deviation {
-        let mut follower = Follower::new(0.0, None);
-        for handed in moves {
-            follower.add(handed);
-        }
-        for handed in moves {
-            for n in 0..50 {
-                let mut place = handed.pieces[0].segment.point(f64::from(n) / 50.0);
-                let index = handed.a_move.index;
-                place[0] += if index == wrong { off } else { 0.0 };
-                follower.step(&place, Some(index));
-            }
-        }
-        let end = moves.last().expect("moves").a_move.end;
-        follower.step(&end, Some(moves.len() - 1));
-        follower.finish()
-    }
-
-    /// A cycle for threads whose last passes are as deep as each other, and the way off.
-    fn thread() -> Vec<Handed> {
-        let mut places = vec![[20.0, 5.0]];
-        for depth in [0.5, 0.8, 1.0, 1.0, 1.0] {
-            let inside = 11.0 - depth;
-            places.extend([[11.0, 6.0], [inside, 6.0], [inside, -15.0], [11.0, -15.0]]);
-        }
-        places.push([20.0, 5.0]);
-        moves(&places)
-    }
-
-    #[test]
-    fn passes_along_each_other_are_no_deviation() {
-        let found = followed(&thread(), (usize::MAX, 0.0));
-        assert!(found.planned.distance < 1e-9, "{found:?}");
-        assert!(found.programmed.distance < 1e-9, "{found:?}");
-        assert!(found.beyond.is_none());
-    }
-
-    #[test]
-    fn a_pass_beside_its_place_is_found_with_its_line() {
-        // the second pass, to the outside
-        let found = followed(&thread(), (6, 0.1));
-        let beyond = found.beyond.expect("a deviation");
-        assert!((beyond.distance - 0.1).abs() < 1e-9, "{beyond:?}");
-        assert_eq!(beyond.line, 7);
-    }
-}
+mod tests;
