@@ -38,6 +38,7 @@ regressions! {
     a_short_arc_between_wide_easements_keeps_the_jerk
     a_short_narrow_arc_within_wide_corners_keeps_the_jerk
     a_shorter_arc_between_wider_easements_keeps_the_jerk
+    a_plan_that_is_late_does_not_end_the_path
     a_plan_too_fast_for_a_slow_move_behind_it_is_left_earlier
     a_rest_within_a_corner_is_left_along_it
     a_slow_stretch_of_nanometres_is_left_again

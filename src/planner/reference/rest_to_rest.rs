@@ -176,6 +176,12 @@ impl RestToRest {
         self.signed(self.speed.end())
     }
 
+    /// Up to where there is a plan, or where it is to begin; `None` if there is no run.
+    pub fn planned(&self) -> Option<f64> {
+        let start = self.start?;
+        Some(if self.is_ready() { self.end() } else { start })
+    }
+
     /// Goes on with the sum of how long the plan takes. Once in each servo period.
     pub fn sum_time(&mut self) {
         if self.is_begun() {

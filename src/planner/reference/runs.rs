@@ -33,6 +33,9 @@ const LAST_CALL: f64 = 0.08;
 /// of the last move is better than one in the middle of it.
 const LAST_MOMENT: f64 = 0.04;
 
+/// A path that is final up to its end within this share of the path distance is final up to there: rounding.
+const ROUNDING: f64 = 1e-8;
+
 /// Servo periods before a rest in which the next run is planned at the latest.
 const PERIODS_BEFORE_REST: f64 = 4.0;
 
@@ -88,6 +91,7 @@ impl Reference {
         } else {
             self.current()
         };
+        let waits = self.lacks_path_behind(last.planned().unwrap_or(self.rest));
         let last_moment =
             self.feeder.is_late(LAST_MOMENT) && last.is_ready() && last.brakes_within(LAST_MOMENT);
         if self.feeder.is_barred() {
@@ -98,9 +102,9 @@ impl Reference {
                 self.path.finish();
             }
             Expected::NothingBeforeOneLeaves | Expected::OneAtOnce => {}
-            Expected::Anything if last_moment => self.path.finish(),
+            Expected::Anything if last_moment && waits => self.path.finish(),
             Expected::Anything if self.feeder.is_silent() => {
-                if last.brakes_within(LAST_CALL) {
+                if waits && last.brakes_within(LAST_CALL) {
                     self.path.finish();
                 } else {
                     self.path.flush();
@@ -108,6 +112,14 @@ impl Reference {
             }
             Expected::Anything => {}
         }
+    }
+
+    /// Whether it is the path that a plan up to the path distance `planned` waits for: not more of it is final behind that
+    /// than would become final if it ended. A plan may be short of time or be refused as well, however long the path is.
+    /// To end the path then would bring the machine to rest there later, with all moves known.
+    fn lacks_path_behind(&self, planned: f64) -> bool {
+        let (known, end) = (self.path.final_end(), self.path.programmed_end());
+        known - planned <= end - known + ROUNDING * (1.0 + end)
     }
 
     /// Whether no move would leave the queue before the machine rests, so that whoever waits for that would wait for ever.
