@@ -17,6 +17,8 @@ fn line(serial: u64, from: &Axes, to: &Axes) -> ProgrammedMove {
         termination: TerminationCondition::Continuous { tolerance: 0.01 },
         stop_before: false,
         separate: false,
+        may_swing_out: true,
+        ends_at_limit: false,
     }
 }
 

@@ -53,6 +53,7 @@ const VACANT: Move = Move {
     synchronisation: None,
     indexer_joint: None,
     termination: TerminationCondition::Stop,
+    ends_at_limit: false,
     outputs: SynchronisedOutputs::NONE,
 };
 
@@ -175,6 +176,14 @@ impl MoveQueue {
     /// Allows the moves before `serial` to run.
     pub fn release(&mut self, serial: u64) {
         self.released = self.released.max(serial.min(self.next));
+    }
+
+    /// Allows the move with this serial number to run as well, the next one in turn, whose end is near a soft limit.
+    pub fn release_at_limit(&mut self, serial: u64) {
+        if self.get(serial).is_some() {
+            self.slots.at_mut(serial).ends_at_limit = true;
+        }
+        self.release(serial + 1);
     }
 
     /// Allows all moves to run that have come.

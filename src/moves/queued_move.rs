@@ -38,6 +38,8 @@ pub struct Move {
     pub indexer_joint: Option<i32>,
     /// How the move meets the next one.
     pub termination: TerminationCondition,
+    /// Whether a joint may be so near to a soft limit at its end that the path must not leave the program there.
+    pub ends_at_limit: bool,
     /// What M62, M63 and M67 asked for since the move before: written once, when the move starts.
     pub outputs: SynchronisedOutputs,
 }

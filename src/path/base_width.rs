@@ -3,10 +3,11 @@
 
 use super::chain::Chain;
 use super::jump::JumpSum;
-use super::kernel;
+use super::lone_corner::OUTER_REACH;
 use super::metric::Metric;
 use super::settings::BlendSettings;
 use super::vertex::{KERNEL_SHARE, Vertex};
+use super::widths::Widths;
 use super::window::Window;
 
 /// Ratio of one width tried to the one before.
@@ -14,6 +15,12 @@ const GROWTH: f64 = 1.25;
 
 /// Two jumps of the tangent are of the same kind if the cosine between them exceeds this.
 const SAME_KIND: f64 = 0.25;
+
+/// Beside a corner only those are corners that turn by more than this share of what it does.
+const ANOTHER_CORNER: f64 = 0.5;
+
+/// Vertices to one side of a corner that are looked at for another one.
+const LOOKED_AT: usize = 8;
 
 /// A scan that ends below so many corner widths gains nothing over a plain corner.
 const WORTHWHILE: f64 = 1.65;
@@ -27,9 +34,10 @@ pub(super) fn widen(
     settings: &BlendSettings,
     metric: &Metric,
 ) -> (bool, usize) {
+    let looked = keep_clear(chain, number, window);
     let vertex = chain.vertex(number);
     if vertex.scan_done || vertex.wall || vertex.tangent_jump_size <= 0.0 {
-        return (false, 1);
+        return (false, looked);
     }
     let width =
         (vertex.scanned * GROWTH).min(greatest_width(chain, number, window, settings, metric));
@@ -40,7 +48,7 @@ pub(super) fn widen(
     } else {
         number.saturating_add(1) < window.next
     };
-    let mut cost = 1;
+    let mut cost = looked;
     let mut goes_on = false;
     let mut too_wide = false;
     if wider && width <= window.clip(chain, number) {
@@ -56,18 +64,69 @@ pub(super) fn widen(
     }
     vertex.scan_done = too_wide;
     vertex.searched = searched;
-    let alone = if vertex.free_limit > 0.0 {
-        vertex.width_alone()
-    } else {
-        vertex.biweight_width.min(vertex.half_leg)
-    };
-    let overlaps = vertex.scanned > vertex.half_leg * 1.01 && vertex.scanned >= WORTHWHILE * alone;
-    vertex.base.kernel = if overlaps {
-        vertex.scanned
-    } else {
-        vertex.width_alone()
-    };
+    choose(vertex);
     (goes_on, cost)
+}
+
+/// Looks how far the next corner is from a vertex that may swing out. Answers the kernel terms that it took.
+fn keep_clear(chain: &mut Chain, number: u64, window: &Window) -> usize {
+    let vertex = chain.vertex(number);
+    if !vertex.corner.may_swing_out {
+        return 1;
+    }
+    let left = distance_of_corner(vertex, chain.left_of(number).skip(1), 2.0 * vertex.half_leg);
+    let right = distance_of_corner(
+        vertex,
+        chain.right_of(number, window.next),
+        window.end - vertex.s,
+    );
+    let vertex = chain.vertex_mut(number);
+    vertex.corner.clear = left.min(right);
+    if vertex.scan_done {
+        choose(vertex);
+    }
+    LOOKED_AT / 2
+}
+
+/// Base widths as wide as was found, or those of a corner by itself.
+fn choose(vertex: &mut Vertex) {
+    let plain = if vertex.free_limit > 0.0 {
+        vertex.width_alone()
+    } else {
+        vertex.corner.biweight_width.min(vertex.half_leg)
+    };
+    let alone = vertex.widths_alone();
+    let beyond = 1.01 * vertex.half_leg.max(alone.outer);
+    let overlaps = vertex.scanned > beyond && vertex.scanned >= WORTHWHILE * plain;
+    vertex.base = if overlaps {
+        Widths {
+            kernel: vertex.scanned,
+            easement: vertex.base.easement,
+            ..Widths::NONE
+        }
+    } else {
+        alone
+    };
+}
+
+/// How far the nearest of the `others` is that turns as a corner does beside `vertex`; at least as far as the last one that is
+/// looked at, or `end` if they end before. Where no corner may swing out, none reaches farther.
+fn distance_of_corner<'a>(
+    vertex: &Vertex,
+    others: impl Iterator<Item = (u64, &'a Vertex)>,
+    end: f64,
+) -> f64 {
+    let least = ANOTHER_CORNER * vertex.tangent_jump_size;
+    for (looked, (_, other)) in others.enumerate() {
+        let distance = (other.s - vertex.s).abs();
+        if other.at_limit {
+            return distance / OUTER_REACH;
+        }
+        if other.wall || other.tangent_jump_size > least || looked + 1 >= LOOKED_AT {
+            return distance;
+        }
+    }
+    end
 }
 
 /// What a width is raised to at most: where neighbours turn the same way, as on a coarse curve,
@@ -116,18 +175,24 @@ fn deviation_at_equal_widths(
         .take_while(|(_, vertex)| vertex.s - here < width);
     for (_, vertex) in left.chain(right) {
         terms += 1;
-        let (kernel_width, mix) = if vertex.wall || vertex.is_free() {
+        let widths = if vertex.wall || vertex.is_free() {
             continue;
-        } else if vertex.isolated {
-            (vertex.base.kernel.min(width), vertex.corner_mix)
+        } else if !vertex.isolated {
+            Widths {
+                kernel: width,
+                mix: vertex.overlapping_mix(width),
+                ..Widths::NONE
+            }
+        } else if vertex.base.outer > 0.0 {
+            vertex.base
         } else {
-            (width, vertex.overlapping_mix(width))
+            Widths {
+                kernel: vertex.base.kernel.min(width),
+                ..vertex.base
+            }
         };
-        let distance = (here - vertex.s).abs();
-        if distance < kernel_width {
-            let value = kernel_width * kernel::value(distance / kernel_width, mix);
-            sum.add(&vertex.tangent_jump, &[value]);
-        }
+        let value = widths.deviation((here - vertex.s).abs());
+        sum.add(&vertex.tangent_jump, &[value]);
     }
     let share = chain.vertex(number).turn_share;
     (metric.deviation(&sum.axes(), share), terms)

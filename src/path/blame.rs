@@ -63,7 +63,7 @@ fn reaches(vertex: &Vertex, s: f64) -> bool {
 mod tests {
     use super::super::hardening::tests::lines;
     use super::super::settings::BlendSettings;
-    use super::super::vertex::Widths;
+    use super::super::widths::Widths;
     use super::*;
 
     /// Which of the first and the second corner of a bend are marked for the deviation at the second, with

@@ -311,7 +311,7 @@ impl Chain {
 #[cfg(test)]
 mod tests {
     use super::super::settings::Allowance;
-    use super::super::vertex::Widths;
+    use super::super::widths::Widths;
     use super::*;
 
     /// A chain of legs of length 1; it is too large for the stack of a test.

@@ -12,7 +12,7 @@
 
 use super::chain::{Chain, NEIGHBOURS};
 use super::metric::Metric;
-use super::reaching::Reaching;
+use super::reaching::{KERNELS, Reaching};
 
 /// Deviations evaluated for one leg at most; more count as a violation.
 const HALVINGS: u32 = 24;
@@ -21,7 +21,8 @@ const HALVINGS: u32 = 24;
 const DEPTH: usize = 32;
 
 /// The most kernel terms that the check of a leg takes.
-pub(super) const GREATEST_COST: usize = 2 * NEIGHBOURS as usize * (3 * HALVINGS as usize + 7);
+pub(super) const GREATEST_COST: usize =
+    KERNELS * 2 * NEIGHBOURS as usize * (3 * HALVINGS as usize + 7);
 
 /// The answer of a check.
 #[derive(Clone, Copy, Debug)]

@@ -10,7 +10,7 @@ use super::chain::Chain;
 use super::deviation;
 use super::metric::Metric;
 use super::reaching::Reaching;
-use super::vertex::Widths;
+use super::widths::Widths;
 use super::window::Window;
 use super::{easement, kernel};
 
@@ -44,7 +44,7 @@ pub(super) fn harden(
     let room = vertex.half_leg.min(clip);
     let tolerance = TOLERANCE_SHARE * vertex.tolerance;
     let kernel = if vertex.tangent_jump_size > 0.0 {
-        (tolerance / (kernel::peak(vertex.corner_mix) * vertex.tangent_jump_size)).min(room)
+        (tolerance / (kernel::peak(vertex.corner.mix) * vertex.tangent_jump_size)).min(room)
     } else {
         0.0
     };
@@ -60,8 +60,9 @@ pub(super) fn harden(
     let free_easement = vertex.free_easement.min(clip);
     vertex.set_trial(Widths {
         kernel: free.max(share * kernel),
-        mix: vertex.corner_mix,
+        mix: vertex.corner.mix,
         easement: free_easement.max(share * easement),
+        ..Widths::NONE
     });
     if vertex.base.kernel > 0.0 {
         vertex.factor = (vertex.trial.kernel / vertex.base.kernel).min(1.0);
@@ -115,6 +116,8 @@ pub(super) mod tests {
                 },
                 stop_before: false,
                 separate: false,
+                may_swing_out: true,
+                ends_at_limit: false,
             };
             chain.push(Leg::new(&programmed, settings, &metric), settings, &metric);
             at = end;
@@ -138,8 +141,7 @@ pub(super) mod tests {
                 // The first corner alone uses 97 % of the tolerance at the second.
                 let wide = Widths {
                     kernel: 5.0,
-                    mix: 0.0,
-                    easement: 0.0,
+                    ..Widths::NONE
                 };
                 let (first, second) = (*chain.vertex(1), *chain.vertex(2));
                 let mut deviation = JumpSum::ZERO;

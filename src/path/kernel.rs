@@ -150,6 +150,8 @@ impl Side {
 pub(super) struct Kernel {
     inverse_width: f64,
     mix: f64,
+    /// How many times the kernel is taken.
+    times: f64,
     /// Coefficients of y^0 to y^4 for the value and the second derivative by distance. Side by
     /// side, since processors calculate in pairs.
     even: [[f64; 2]; POWERS],
@@ -162,12 +164,13 @@ impl Kernel {
     pub const NONE: Self = Self {
         inverse_width: 0.0,
         mix: 0.0,
+        times: 0.0,
         even: [[0.0; 2]; POWERS],
         odd: [[0.0; 2]; POWERS - 1],
     };
 
-    /// `width`: positive, or 0 for [`Self::NONE`].
-    pub fn new(width: f64, mix: f64) -> Self {
+    /// `width`: positive, or 0 for [`Self::NONE`]. `times`: what phi is multiplied by.
+    pub fn new(width: f64, mix: f64, times: f64) -> Self {
         if width <= 0.0 {
             return Self::NONE;
         }
@@ -175,13 +178,14 @@ impl Kernel {
         let mut phi = [0.0; POWERS];
         let orders = SECOND_ORDER.iter().zip(&FOURTH_ORDER);
         for (coefficient, (second, fourth)) in phi.iter_mut().zip(orders) {
-            *coefficient = second + mix * (fourth - second);
+            *coefficient = times * (second + mix * (fourth - second));
         }
         let [c0, c1, c2, c3, c4] = phi;
         let square = inverse * inverse;
         Self {
             inverse_width: inverse,
             mix,
+            times,
             even: [
                 [c0 * width, 2.0 * c1 * inverse],
                 [c1 * width, 12.0 * c2 * inverse],
@@ -209,8 +213,8 @@ impl Kernel {
         let y = f64x2::splat(x * x);
         let even = polynomial(&self.even, y);
         let odd = polynomial(&self.odd, y);
-        let corner = f64x2::new([-0.5 * distance, 0.0]);
-        let slope = f64x2::new([-0.5 * side.sign(), 0.0]);
+        let corner = f64x2::new([-0.5 * self.times * distance, 0.0]);
+        let slope = f64x2::new([-0.5 * self.times * side.sign(), 0.0]);
         Factors {
             even: even + corner,
             odd: odd * f64x2::splat(x) + slope,
@@ -235,8 +239,8 @@ impl Kernel {
         let second = mixed(0.9375 * rest * rest, FLAT * flat_rest * flat_rest);
         let third = mixed(-3.75 * x * rest, -16.0 * FLAT * y * y * y * x * flat_rest);
         Factors {
-            even: f64x2::new([value(x, self.mix) / inverse, second * inverse]),
-            odd: f64x2::new([side * first, side * third * inverse * inverse]),
+            even: f64x2::new([value(x, self.mix) / inverse, second * inverse]) * self.times,
+            odd: f64x2::new([side * first, side * third * inverse * inverse]) * self.times,
         }
     }
 }
@@ -294,7 +298,7 @@ mod tests {
     }
 
     fn derivatives(x: f64, mix: f64) -> KernelDerivatives {
-        let Factors { even, odd } = Kernel::new(1.0, mix).factors(x, Side::Right);
+        let Factors { even, odd } = Kernel::new(1.0, mix, 1.0).factors(x, Side::Right);
         let ([value, second], [first, third]) = (even.to_array(), odd.to_array());
         KernelDerivatives {
             value,
@@ -392,7 +396,7 @@ mod tests {
     fn width_and_side_scale_the_derivatives() {
         let width = 0.25;
         for mix in MIXES {
-            let kernel = Kernel::new(width, mix);
+            let kernel = Kernel::new(width, mix, 1.0);
             for k in 0..100 {
                 let x = 0.01 * f64::from(k);
                 let unit = derivatives(x, mix);

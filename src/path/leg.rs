@@ -32,6 +32,11 @@ pub struct ProgrammedMove {
     /// Whether it must not be merged with the lines before it: something happens when it starts
     /// (outputs), or other overrides apply.
     pub separate: bool,
+    /// Whether corners at its ends may [swing out](super::lone_corner): not on a thread, which would be off its groove far from
+    /// them.
+    pub may_swing_out: bool,
+    /// Whether its end is so near to a soft limit that no corner may swing out there.
+    pub ends_at_limit: bool,
 }
 
 /// A leg of the programmed path.
@@ -64,6 +69,10 @@ pub(super) struct Leg {
     pub design_width: f64,
     pub stop_before: bool,
     pub stop_after: bool,
+    /// Whether corners at its ends may [swing out](super::lone_corner).
+    pub may_swing_out: bool,
+    /// Whether none may swing out where it ends.
+    pub ends_at_limit: bool,
     /// Whether a trial assignment of widths has yet to be checked on it.
     pub unchecked: bool,
     /// How many vertices to the left, its own start included, reach into it at most.
@@ -89,6 +98,8 @@ impl Leg {
         design_width: 0.0,
         stop_before: false,
         stop_after: false,
+        may_swing_out: false,
+        ends_at_limit: false,
         unchecked: false,
         reached_from_left: 0,
         reached_from_right: 0,
@@ -123,6 +134,8 @@ impl Leg {
             turn_share: turn_share(&programmed.shape, &allowance, settings),
             design_width: settings.design_width(speed),
             stop_before: programmed.stop_before,
+            may_swing_out: programmed.may_swing_out,
+            ends_at_limit: programmed.ends_at_limit,
             stop_after: programmed.termination == TerminationCondition::Stop,
             ..Self::VACANT
         }
@@ -156,8 +169,8 @@ impl Leg {
     }
 
     /// How far before its end the path may still change when the next leg comes: as far as a corner
-    /// with the next leg may want to reach, and where it may be one of the chords of a curve, two of
-    /// them. `tangent_jump_size` is that of the vertex at its start.
+    /// with the next leg may want to reach, which swings out over all of this one, and where it may be
+    /// one of the chords of a curve, two of them. `tangent_jump_size` is that of the vertex at its start.
     pub fn reserve(&self, settings: &BlendSettings, tangent_jump_size: f64) -> f64 {
         let widest = if self.allows_half_legs() {
             settings.greatest_free_width()
@@ -168,10 +181,15 @@ impl Leg {
         if self.is_exact() {
             reserve
         } else {
+            let swing = if self.may_swing_out && !self.allows_half_legs() {
+                settings.greatest_swing(self.length)
+            } else {
+                0.0
+            };
             let on_curve = tangent_jump_size < CHORD_JUMP;
             let chords = if on_curve { 2.0 * self.length } else { 0.0 };
             let chords = chords.min(settings.greatest_design_width());
-            reserve.max(self.design_width).max(chords)
+            reserve.max(swing).max(self.design_width).max(chords)
         }
     }
 

@@ -17,7 +17,8 @@
 //! What may be changed depends on the mode:
 //!
 //! - G64 P: everything within P. A corner that stands alone uses all of it, with a kernel that is
-//!   flat where acceleration limits the speed in it and peaked where jerk does.
+//!   flat where acceleration limits the speed in it and peaked where jerk does, and swings out to use
+//!   it on the outer side as well.
 //! - G64 without P: every move is touched. A corner is rounded as wide as its slower feed needs,
 //!   by acceleration and jerk, up to half of the shorter move (on an arc up to a radian), without
 //!   a tolerance. Where that is not enough to keep the feed, as in dense code, kernels may be wider
@@ -29,7 +30,8 @@
 //!
 //! The order of the parts: a move becomes a `leg`, short lines after the `line_merger` has joined
 //! them; legs meet in a `vertex` and lie in a `chain`; the `optimizer` gives the vertices of a
-//! `window` their widths, beginning with the `base_width`, on a `curve` for what it allows; the
+//! `window` their `widths`, beginning with the `base_width`, on a `curve` for what it allows, and a
+//! `lone_corner` swings out; the
 //! `deviation` is checked, what is to `blame` is narrowed, and `hardening` stands behind it all.
 //! [`BlendedPath`] is what the rest of the planner sees.
 
@@ -46,6 +48,7 @@ mod jump;
 mod kernel;
 mod leg;
 mod line_merger;
+mod lone_corner;
 mod metric;
 mod orientation;
 mod reaching;
@@ -53,6 +56,7 @@ mod settings;
 mod vertex;
 mod views;
 mod width_optimizer;
+mod widths;
 mod window;
 
 pub use blended_path::BlendedPath;

@@ -12,10 +12,13 @@ use super::vertex::Vertex;
 /// The most vertices that reach into a leg.
 const MOST: usize = 2 * NEIGHBOURS as usize;
 
-/// Vertices in a register.
+/// Kernels in a register.
 const LANES: usize = 2;
 
-/// The kernels of two vertices, none of them with a share of K8.
+/// The most kernels of a vertex.
+pub(super) const KERNELS: usize = 2;
+
+/// Two kernels of vertices, none of them with a share of K8.
 #[derive(Clone, Copy, Debug)]
 struct KernelPair {
     s: [f64; LANES],
@@ -36,27 +39,35 @@ impl KernelPair {
         jump: [[[0.0; LANES]; GROUP_SIZE]; GROUPS],
     };
 
-    /// Whether a vertex has nothing but such a kernel.
+    /// Whether a vertex has nothing but such kernels.
     #[inline(always)]
     fn suits(vertex: &Vertex) -> bool {
         vertex.counted.mix >= 0.0 && vertex.counted.easement <= 0.0
     }
 
-    /// Puts a vertex in, of which `G` groups of axes jump. Beside the first one there is no other yet.
+    /// Puts a kernel of a vertex in, so many times, of which `G` groups of axes jump. Beside the first one there is no
+    /// other yet.
     #[inline(always)]
-    fn set<const G: usize>(&mut self, is_second: bool, vertex: &Vertex) {
+    fn set<const G: usize>(
+        &mut self,
+        is_second: bool,
+        vertex: &Vertex,
+        width: f64,
+        mix: f64,
+        times: f64,
+    ) {
         let lane = usize::from(is_second);
         if !is_second {
             self.width = [0.0; LANES];
         }
         self.s[lane] = vertex.s;
-        self.width[lane] = vertex.counted.kernel;
-        self.mix[lane] = vertex.counted.mix;
-        self.size[lane] = vertex.tangent_jump_size;
+        self.width[lane] = width;
+        self.mix[lane] = mix;
+        self.size[lane] = times.abs() * vertex.tangent_jump_size;
         let groups = self.jump.iter_mut().zip(vertex.tangent_jump.groups());
         for (axes, group) in groups.take(G) {
             for (lanes, axis) in axes.iter_mut().zip(group) {
-                lanes[lane] = *axis;
+                lanes[lane] = times * axis;
             }
         }
     }
@@ -89,23 +100,23 @@ impl KernelPair {
 /// The vertices that reach into a leg. Kept, since it takes as long to clear as to fill.
 #[derive(Debug)]
 pub(super) struct Reaching {
-    pairs: [KernelPair; MOST / LANES],
+    pairs: [KernelPair; KERNELS * MOST / LANES],
     /// How many kernels there are in these.
     in_pairs: usize,
     /// The numbers of those with an easement or a share of K8.
     others: [u64; MOST],
-    /// How many vertices there are in all.
-    count: usize,
+    /// How many of those there are.
+    in_others: usize,
     /// Up to where those on the left reach, and from where on those on the right do, within the leg.
     ends: [f64; 2],
 }
 
 impl Reaching {
     pub const NONE: Self = Self {
-        pairs: [KernelPair::NONE; MOST / LANES],
+        pairs: [KernelPair::NONE; KERNELS * MOST / LANES],
         in_pairs: 0,
         others: [0; MOST],
-        count: 0,
+        in_others: 0,
         ends: [0.0; 2],
     };
 
@@ -123,7 +134,7 @@ impl Reaching {
         let leg = chain.leg(number);
         let (start, end) = (leg.start, leg.end());
         self.in_pairs = 0;
-        self.count = 0;
+        self.in_others = 0;
         let (mut from_left, mut from_right) = (start, end);
         for k in 0..u64::from(leg.reached_from_left) {
             let vertex = chain.vertex(number.wrapping_sub(k));
@@ -147,20 +158,31 @@ impl Reaching {
 
     #[inline(always)]
     fn add<const G: usize>(&mut self, number: u64, vertex: &Vertex) {
-        if KernelPair::suits(vertex) {
-            if let Some(pair) = self.pairs.get_mut(self.in_pairs / LANES) {
-                pair.set::<G>(self.in_pairs % LANES == 1, vertex);
-                self.in_pairs += 1;
+        let widths = &vertex.counted;
+        if !KernelPair::suits(vertex) {
+            if let Some(other) = self.others.get_mut(self.in_others) {
+                *other = number;
+                self.in_others += 1;
             }
-        } else if let Some(other) = self.others.get_mut(self.count - self.in_pairs) {
-            *other = number;
+        } else {
+            self.add_kernel::<G>(vertex, widths.kernel, widths.mix, 1.0 + widths.outer_share);
+            if widths.outer > 0.0 {
+                self.add_kernel::<G>(vertex, widths.outer, 0.0, -widths.outer_share);
+            }
         }
-        self.count += 1;
     }
 
-    /// How many there are.
+    #[inline(always)]
+    fn add_kernel<const G: usize>(&mut self, vertex: &Vertex, width: f64, mix: f64, times: f64) {
+        if let Some(pair) = self.pairs.get_mut(self.in_pairs / LANES) {
+            pair.set::<G>(self.in_pairs % LANES == 1, vertex, width, mix, times);
+            self.in_pairs += 1;
+        }
+    }
+
+    /// How many kernels they have; one with an easement or a share of K8 counts as one.
     pub fn count(&self) -> usize {
-        self.count
+        self.in_pairs + self.in_others
     }
 
     /// Up to where those on the left reach, and from where on those on the right do, within the leg; path distances.
@@ -173,7 +195,7 @@ impl Reaching {
     }
 
     fn others<'a>(&self, chain: &'a Chain) -> impl Iterator<Item = &'a Vertex> {
-        let numbers = self.others.iter().take(self.count - self.in_pairs);
+        let numbers = self.others.iter().take(self.in_others);
         numbers.map(|number| chain.vertex(*number))
     }
 
@@ -215,7 +237,7 @@ impl Reaching {
 mod tests {
     use super::super::leg::{Leg, ProgrammedMove};
     use super::super::settings::BlendSettings;
-    use super::super::vertex::Widths;
+    use super::super::widths::Widths;
     use super::*;
     use crate::axes::Axes;
     use crate::moves::TerminationCondition;
@@ -245,6 +267,8 @@ mod tests {
                     termination: TerminationCondition::Continuous { tolerance: 0.1 },
                     stop_before: false,
                     separate: false,
+                    may_swing_out: true,
+                    ends_at_limit: false,
                 };
                 chain.push(
                     Leg::new(&programmed, &settings, &metric),
@@ -258,6 +282,8 @@ mod tests {
                 let widths = Widths {
                     kernel: [7.3, 2.1, 0.0][number as usize % 3],
                     mix: [0.2, 1.1, 0.0, -0.5][number as usize % 4],
+                    outer: [11.0, 0.0, 0.0, 9.2, 0.0][number as usize % 5],
+                    outer_share: [0.3, 0.0, 0.0, 1.4, 0.0][number as usize % 5],
                     easement: if number % 5 == 0 { 1.7 } else { 0.0 },
                 };
                 chain.vertex_mut(number).set_trial(widths);
@@ -317,8 +343,11 @@ mod tests {
                     let reach = vertex.counted.reach();
                     vertex.s + reach > leg.start && vertex.s - reach < leg.end()
                 };
-                let all = (1..chain.next()).filter(|number| reaches(chain.vertex(*number)));
-                (reaching.count(), all.count())
+                let all = (1..chain.next()).map(|number| chain.vertex(number));
+                let kernels = all.filter(|vertex| reaches(vertex)).map(|vertex| {
+                    1 + usize::from(KernelPair::suits(vertex) && vertex.counted.outer > 0.0)
+                });
+                (reaching.count(), kernels.sum::<usize>())
             })
         });
         for (collected, all) in counts {

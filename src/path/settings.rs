@@ -21,6 +21,19 @@ const GREATEST_FREE_WIDTH: f64 = 12.0;
 /// the speed may change in it.
 const FREE_RESERVE: f64 = 1.1;
 
+/// A corner swings out over so many lengths of the shorter leg beside it at most: what it may reach stays open until the next
+/// leg comes, or its shape would depend on when that is.
+const LEGS_OF_A_SWING: f64 = 3.0;
+
+/// A corner limits the speed if its feed needs it so many times as wide.
+const LIMITING: f64 = 1.05;
+
+/// A corner that turns the direction by more, length of the difference of unit vectors, is a sharp one: 134 degrees.
+const SHARP: f64 = 1.84;
+
+/// In which acceleration is built up fewer times than this it gains by swinging out all the same.
+const FEW_RAMPS: f64 = 0.3;
+
 /// Acceleration is built up in this time at least, seconds: unlimited jerk is still a few cycles
 /// long.
 const SHORTEST_RAMP: f64 = 1.0 / 300.0;
@@ -194,20 +207,45 @@ impl BlendSettings {
     /// half of the corner, run through at that acceleration. The lines are fitted to measured times
     /// of squares with legs of 5 mm and random polylines.
     pub(super) fn corner_mix(&self, tangent_jump: &Axes, width: f64, by_tolerance: bool) -> f64 {
-        let size = tangent_jump.abs();
-        let bend = size.component_mul(&self.per_acceleration).max();
-        let twist = size.component_mul(&self.per_jerk).max();
-        if !(bend > 0.0 && width > 0.0) {
+        let Some(ramps) = self.ramps(tangent_jump, width) else {
             return 0.0;
-        }
-        let ramp = (twist / bend).max(SHORTEST_RAMP);
-        let ramps = (kernel::greatest(0.0) * bend * width).sqrt() / ramp;
+        };
         let mix = if by_tolerance {
             kernel::GREATEST_PEAKED - 0.2 * (ramps - 2.0)
         } else {
             -0.22 * ramps
         };
         mix.clamp(-1.0, kernel::GREATEST_PEAKED)
+    }
+
+    /// How far a corner beside a leg of this `length` swings out at most; machine units.
+    pub(super) fn greatest_swing(&self, length: f64) -> f64 {
+        (LEGS_OF_A_SWING * length).min(self.greatest_design_width())
+    }
+
+    /// How often the time of a ramp from 0 to the greatest acceleration fits into half of a corner, with the biweight kernel of
+    /// this `width`; `None` without a limit.
+    fn ramps(&self, tangent_jump: &Axes, width: f64) -> Option<f64> {
+        let size = tangent_jump.abs();
+        let bend = size.component_mul(&self.per_acceleration).max();
+        let twist = size.component_mul(&self.per_jerk).max();
+        let ramp = (twist / bend).max(SHORTEST_RAMP);
+        (bend > 0.0 && width > 0.0).then(|| (kernel::greatest(0.0) * bend * width).sqrt() / ramp)
+    }
+
+    /// Whether a corner that is run through at most at `speed` is faster where it [swings out](super::lone_corner): it limits the
+    /// speed, and it is no sharp one with a jerk that is built up about as fast as it is passed. `width`: of its biweight kernel.
+    pub(super) fn gains_by_swinging_out(
+        &self,
+        tangent_jump: &Axes,
+        width: f64,
+        speed: f64,
+    ) -> bool {
+        let sharp = tangent_jump.norm() > SHARP
+            && self
+                .ramps(tangent_jump, width)
+                .is_none_or(|ramps| ramps > FEW_RAMPS);
+        !sharp && self.free_width(tangent_jump, speed, 0.0) > LIMITING * width
     }
 
     /// What G61 and G61.1 allow.

@@ -5,10 +5,11 @@ use wide::f64x2;
 use super::jump::{Factors, Jump, JumpSum, PointSum};
 use super::kernel::{Kernel, Side};
 use super::leg::Leg;
+use super::lone_corner::LoneCorner;
 use super::metric::Metric;
 use super::settings::BlendSettings;
+use super::widths::Widths;
 use super::{easement, kernel};
-use crate::lanes::greater;
 
 /// A turn of the direction below this is rounding.
 const NO_TANGENT_JUMP: f64 = 1e-9;
@@ -41,44 +42,6 @@ const WIDEST_EASEMENT: f64 = 64.0;
 
 /// A kernel this much narrower than half the shorter leg makes an isolated corner.
 const ISOLATED: f64 = 0.5;
-
-/// Below this share of the wider change the sharper one wants nodes of its own.
-const CORE: f64 = 0.9;
-
-/// How far a vertex is smoothed to both sides.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Widths {
-    /// Of the kernel for the jump of the tangent; 0 without one.
-    pub kernel: f64,
-    /// Mix of the kernels.
-    pub mix: f64,
-    /// Of the easement for the jump of curvature; 0 without one.
-    pub easement: f64,
-}
-
-impl Widths {
-    pub const NONE: Self = Self {
-        kernel: 0.0,
-        mix: 0.0,
-        easement: 0.0,
-    };
-
-    /// How far the sharper one of two changes reaches; 0 if they are of about the same size.
-    pub fn core(&self) -> f64 {
-        let least = self.kernel.min(self.easement);
-        if least < CORE * self.reach() {
-            least
-        } else {
-            0.0
-        }
-    }
-
-    /// How far the blended path is changed on both sides.
-    #[inline]
-    pub fn reach(&self) -> f64 {
-        greater(self.kernel, self.easement)
-    }
-}
 
 /// The start of a leg, where it meets the leg before.
 #[derive(Clone, Copy, Debug)]
@@ -113,12 +76,10 @@ pub(super) struct Vertex {
     pub left_wall: f64,
     /// Where the nearest wall to the right is, infinity where none is known.
     pub right_wall: f64,
-    /// Mix of the kernel where it keeps clear of its neighbours'.
-    pub corner_mix: f64,
-    /// The width for which it would then use its tolerance.
-    pub corner_width: f64,
-    /// The same with the biweight kernel.
-    pub biweight_width: f64,
+    /// No corner may swing out here.
+    pub at_limit: bool,
+    /// What it may be where it keeps clear of its neighbours.
+    pub corner: LoneCorner,
     /// Kernels and easements up to this width need no tolerance: half of the shorter leg under G64
     /// without P, else 0.
     pub free_limit: f64,
@@ -152,6 +113,8 @@ pub(super) struct Vertex {
     stored_factor: f64,
     /// What belongs to the stored widths.
     kernel: Kernel,
+    /// What of it is taken off.
+    outer: Kernel,
     /// Reaches a place that violates the tolerance.
     pub marked: bool,
     /// And that place may change for the better when more is known.
@@ -175,9 +138,8 @@ impl Vertex {
         wall: true,
         left_wall: 0.0,
         right_wall: f64::INFINITY,
-        corner_mix: 0.0,
-        corner_width: 0.0,
-        biweight_width: 0.0,
+        at_limit: false,
+        corner: LoneCorner::NONE,
         free_limit: 0.0,
         free_kernel: 0.0,
         free_easement: 0.0,
@@ -193,6 +155,7 @@ impl Vertex {
         counted: Widths::NONE,
         stored: Widths::NONE,
         kernel: Kernel::NONE,
+        outer: Kernel::NONE,
         stored_factor: 1.0,
         marked: false,
         marked_temporarily: false,
@@ -238,6 +201,7 @@ impl Vertex {
             mean_leg: 0.5 * (before.length + after.length),
             stop,
             wall: stop || exact,
+            at_limit: before.ends_at_limit,
             ..Self::VACANT
         };
         if !vertex.wall {
@@ -258,10 +222,10 @@ impl Vertex {
                 .free_width(&self.tangent_jump.axes(), slower, 0.0)
                 .max(LEAST_ROUNDING * room);
             let within = EXACT_KERNEL_SHARE * self.tolerance / self.tangent_jump_size;
-            self.corner_width = within / kernel::peak(0.0);
-            self.biweight_width = self.corner_width;
+            self.corner.width = within / kernel::peak(0.0);
+            self.corner.biweight_width = self.corner.width;
             self.isolated = true;
-            self.base.kernel = self.corner_width.min(room).min(wanted);
+            self.base.kernel = self.corner.width.min(room).min(wanted);
         }
         if self.curvature_jump_size > 0.0 {
             let within =
@@ -278,7 +242,7 @@ impl Vertex {
         }
         if self.tangent_jump_size > 0.0 {
             let within = KERNEL_SHARE * self.tolerance / self.tolerance_jump_size;
-            self.biweight_width = within / kernel::peak(0.0);
+            let biweight_width = within / kernel::peak(0.0);
             // In the slower leg's half the other's feed does not matter.
             let slower = before.speed.min(after.speed);
             let tangent_jump = self.tangent_jump.axes();
@@ -287,27 +251,37 @@ impl Vertex {
                 let mix = settings.corner_mix(&tangent_jump, width.min(self.free_limit), false);
                 (mix, settings.free_width(&tangent_jump, slower, mix))
             } else {
-                let by_tolerance = self.biweight_width < self.half_leg;
-                let width = self.biweight_width.min(self.half_leg);
+                let by_tolerance = biweight_width < self.half_leg;
+                let width = biweight_width.min(self.half_leg);
                 (settings.corner_mix(&tangent_jump, width, by_tolerance), 0.0)
             };
-            self.corner_mix = mix;
+            self.corner = LoneCorner {
+                mix,
+                width: within / kernel::peak(mix),
+                biweight_width,
+                may_swing_out: before.may_swing_out
+                    && after.may_swing_out
+                    && !self.at_limit
+                    && self.free_limit <= 0.0
+                    && settings.gains_by_swinging_out(&tangent_jump, biweight_width, slower),
+                clear: 2.0 * self.half_leg,
+                greatest_width: settings.greatest_swing(2.0 * self.half_leg),
+            };
             self.free_kernel = free.min(self.free_limit);
-            self.corner_width = within / kernel::peak(mix);
             self.isolated = if self.free_limit > 0.0 {
                 free <= self.free_limit
             } else {
-                self.biweight_width <= ISOLATED * self.half_leg
+                biweight_width <= ISOLATED * self.half_leg
             };
             self.scan_done = self.isolated;
             self.searched = self.isolated;
-            self.scanned = self.half_leg.min(self.biweight_width);
+            self.scanned = self.half_leg.min(biweight_width);
             self.design_width = settings
                 .full_speed_width(self.tangent_jump_size, speed)
                 .min(self.longer_leg)
                 .max(design_width)
                 .min(settings.greatest_design_width());
-            self.base.kernel = self.width_alone();
+            self.base = self.widths_alone();
         }
         if self.curvature_jump_size > 0.0 {
             let within =
@@ -321,12 +295,57 @@ impl Vertex {
         }
     }
 
-    /// The width of the kernel where it keeps clear of its neighbours'.
+    /// The width of the kernel where it keeps clear of its neighbours' and does not swing out.
     pub fn width_alone(&self) -> f64 {
         if self.isolated && self.free_limit > 0.0 {
             self.free_kernel
         } else {
-            self.corner_width.min(self.half_leg).max(self.free_kernel)
+            self.corner.width.min(self.half_leg).max(self.free_kernel)
+        }
+    }
+
+    /// Its base widths where it keeps clear of its neighbours.
+    pub fn widths_alone(&self) -> Widths {
+        let plain = Widths {
+            kernel: self.width_alone(),
+            mix: self.corner.mix,
+            ..Widths::NONE
+        };
+        Widths {
+            easement: self.base.easement,
+            ..self.corner.swinging_out(f64::INFINITY).unwrap_or(plain)
+        }
+    }
+
+    /// What is left of the base widths within `clip`.
+    pub fn widths_within(&self, clip: f64) -> Widths {
+        let narrowed = self.temporary_factor;
+        let swinging_out = if self.base.outer > 0.0 {
+            self.corner.swinging_out(clip / self.factor)
+        } else {
+            None
+        };
+        let kernels = match swinging_out {
+            Some(widths) => widths.scaled(narrowed * self.factor),
+            None => {
+                let base = if self.base.outer > 0.0 {
+                    self.width_alone()
+                } else {
+                    self.base.kernel
+                };
+                let kernel = narrowed * clip.min(base * self.factor);
+                let kernel = kernel.max(self.free_kernel.min(clip));
+                Widths {
+                    kernel,
+                    mix: self.mix(kernel),
+                    ..Widths::NONE
+                }
+            }
+        };
+        let easement = narrowed * clip.min(self.base.easement * self.factor.sqrt());
+        Widths {
+            easement: easement.max(self.free_easement.min(clip)),
+            ..kernels
         }
     }
 
@@ -341,8 +360,8 @@ impl Vertex {
         self.trial = widths;
         self.counted = Widths {
             kernel: counted(widths.kernel),
-            mix: widths.mix,
             easement: counted(widths.easement),
+            ..widths
         };
     }
 
@@ -353,7 +372,7 @@ impl Vertex {
         if width > self.half_leg * 1.001 {
             self.overlapping_mix(width)
         } else {
-            self.corner_mix
+            self.corner.mix
         }
     }
 
@@ -383,7 +402,15 @@ impl Vertex {
                 .max(self.design_width)
                 .max(run.min(settings.greatest_design_width()))
         };
-        kernel.max(self.base.easement).max(self.stored.reach())
+        let outer = if self.corner.may_swing_out {
+            self.corner.greatest_width
+        } else {
+            0.0
+        };
+        kernel
+            .max(outer)
+            .max(self.base.easement)
+            .max(self.stored.reach())
     }
 
     /// Adds what it contributes with `widths` to the deviation of the blended path from the
@@ -391,9 +418,8 @@ impl Vertex {
     #[inline]
     pub fn add_deviation(&self, widths: &Widths, distance: f64, deviation: &mut JumpSum<1>) {
         let x = distance.abs();
-        if x < widths.kernel {
-            let value = widths.kernel * kernel::value(x / widths.kernel, widths.mix);
-            deviation.add(&self.tangent_jump, &[value]);
+        if x < widths.kernel || x < widths.outer {
+            deviation.add(&self.tangent_jump, &[widths.deviation(x)]);
         }
         if x < widths.easement {
             let value = widths.easement * widths.easement * easement::value(x / widths.easement);
@@ -405,11 +431,7 @@ impl Vertex {
     /// it, 0 and above, and everywhere beyond.
     #[inline]
     pub fn bend_bound(&self, widths: &Widths, distance: f64) -> f64 {
-        let mut bound = 0.0;
-        if distance < widths.kernel {
-            let majorant = kernel::majorant(distance / widths.kernel, widths.mix);
-            bound += self.tangent_jump_size / widths.kernel * majorant;
-        }
+        let mut bound = self.tangent_jump_size * widths.bend_bound(distance);
         if distance < widths.easement {
             bound += self.curvature_jump_size * easement::GREATEST_SECOND;
         }
@@ -420,7 +442,15 @@ impl Vertex {
     pub fn store_trial(&mut self) {
         if self.trial != self.stored {
             self.stored = self.trial;
-            self.kernel = Kernel::new(self.stored.kernel, self.stored.mix);
+            let Widths {
+                kernel,
+                mix,
+                outer,
+                outer_share,
+                ..
+            } = self.stored;
+            self.kernel = Kernel::new(kernel, mix, 1.0 + outer_share);
+            self.outer = Kernel::new(outer, 0.0, -outer_share);
         }
         self.stored_factor = self.factor;
     }
@@ -440,13 +470,20 @@ impl Vertex {
     #[inline]
     pub fn breakpoints(&self, from: f64, to: f64, mut take: impl FnMut(f64)) {
         let Widths {
-            kernel, easement, ..
+            kernel,
+            outer,
+            easement,
+            ..
         } = self.stored;
         let mut look = |place: f64| {
             if from < place && place < to {
                 take(place);
             }
         };
+        if outer > 0.0 {
+            look(self.s - outer);
+            look(self.s + outer);
+        }
         if kernel > 0.0 {
             look(self.s - kernel);
         }
@@ -472,6 +509,9 @@ impl Vertex {
     pub fn add_to<const N: usize>(&self, sum: &mut PointSum<N>, distance: f64, side: Side) {
         if distance < self.stored.kernel {
             sum.add(&self.tangent_jump, &self.kernel.factors(distance, side));
+        }
+        if distance < self.stored.outer {
+            sum.add(&self.tangent_jump, &self.outer.factors(distance, side));
         }
         if distance < self.stored.easement {
             sum.add(&self.curvature_jump, &self.easement_factors(distance, side));

@@ -16,7 +16,7 @@ use super::hardening::{self, ATTEMPTS};
 use super::metric::Metric;
 use super::reaching::Reaching;
 use super::settings::BlendSettings;
-use super::vertex::Widths;
+use super::widths::Widths;
 use super::window::Window;
 use super::{base_width, blame, deviation::DeviationVerdict};
 
@@ -279,15 +279,7 @@ impl WidthOptimizer {
         let clip = self.window.clip(chain, number);
         let vertex = chain.vertex_mut(number);
         let widths = if vertex.is_smoothed() {
-            let narrowed = vertex.temporary_factor;
-            let kernel = narrowed * clip.min(vertex.base.kernel * vertex.factor);
-            let easement = narrowed * clip.min(vertex.base.easement * vertex.factor.sqrt());
-            let kernel = kernel.max(vertex.free_kernel.min(clip));
-            Widths {
-                kernel,
-                mix: vertex.mix(kernel),
-                easement: easement.max(vertex.free_easement.min(clip)),
-            }
+            vertex.widths_within(clip)
         } else {
             Widths::NONE
         };
@@ -365,8 +357,8 @@ impl WidthOptimizer {
         let clip = self.window.clip(chain, number);
         let vertex = chain.vertex_mut(number);
         let reach = vertex.trial.reach();
-        let wanted =
-            (vertex.base.kernel * vertex.factor).max(vertex.base.easement * vertex.factor.sqrt());
+        let kernel = vertex.base.kernel.max(vertex.base.outer);
+        let wanted = (kernel * vertex.factor).max(vertex.base.easement * vertex.factor.sqrt());
         // What the surroundings of this moment are to blame for is forgotten with the trial.
         if wanted > clip || vertex.marked_temporarily {
             vertex.temporary_factor *= NARROWING;

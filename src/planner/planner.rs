@@ -289,6 +289,7 @@ impl Planner {
             synchronisation,
             indexer_joint: request.indexer_joint,
             termination: self.next_move.termination,
+            ends_at_limit: false,
             outputs: self.next_move.outputs,
         })
     }

@@ -7,14 +7,22 @@ use framepath::moves::shape::measure::Measure;
 use framepath::moves::shape::{Line9, PathPoint, Shape};
 use framepath::path::{BlendError, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
 
+/// A corner of lines of 10 mm at 90 degrees with P .05, which may swing out or not.
+fn corner(may_swing_out: bool) -> [ProgrammedMove; 2] {
+    let moves = [
+        line(1, (0.0, 0.0), (10.0, 0.0), 0.05),
+        line(2, (10.0, 0.0), (10.0, 10.0), 0.05),
+    ];
+    moves.map(|one| ProgrammedMove {
+        may_swing_out,
+        ..one
+    })
+}
+
 #[test]
 fn a_corner_uses_its_tolerance() {
     with_path(|path| {
-        let moves = [
-            line(1, (0.0, 0.0), (10.0, 0.0), 0.05),
-            line(2, (10.0, 0.0), (10.0, 10.0), 0.05),
-        ];
-        complete(path, &moves);
+        complete(path, &corner(false));
         let corner = path.point(10.0).position;
         let cut = Axes::from([10.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]) - corner;
         assert!((cut.norm() - 0.97 * 0.05).abs() < 1e-12);
@@ -27,6 +35,30 @@ fn a_corner_uses_its_tolerance() {
         assert_eq!(
             path.point(10.0 - vertex.reach).position,
             path.programmed_point(10.0 - vertex.reach).position
+        );
+    });
+}
+
+#[test]
+fn a_corner_that_swings_out_uses_it_on_both_sides() {
+    with_path(|path| {
+        complete(path, &corner(false));
+        let sharp = path.point(10.0).second.amax();
+        path.restart(&settings(), &Axes::zeros());
+        complete(path, &corner(true));
+        // To the inner side in the middle, to the outer side before it and behind it.
+        let middle = path.point(10.0).position;
+        assert!((10.0 - middle[0]).hypot(middle[1]) < 0.97 * 0.05 + 1e-12);
+        let outer = |s: f64| -2f64.sqrt() * path.point(s).position[1];
+        let greatest = (0..1000)
+            .map(|k| outer(0.01 * f64::from(k)))
+            .fold(0.0, f64::max);
+        assert!((0.85..0.97).contains(&(greatest / 0.05)), "{greatest}");
+        assert!(path.point(10.0).second.amax() < 0.55 * sharp);
+        let vertex = path.vertices(5.0).next().expect("the corner");
+        assert!(
+            vertex.reach > 7.9 && vertex.core > 0.4 && vertex.core < 0.6,
+            "{vertex:?}"
         );
     });
 }

@@ -39,6 +39,8 @@ fn lines(places: &[[f64; 3]]) -> Vec<ProgrammedMove> {
             termination: TerminationCondition::Continuous { tolerance: P },
             stop_before: false,
             separate: false,
+            may_swing_out: true,
+            ends_at_limit: false,
         })
         .collect()
 }

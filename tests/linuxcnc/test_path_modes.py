@@ -45,6 +45,19 @@ class PathModes(unittest.TestCase):
                 deepest = min(row[2] for row in rows)
                 self.assertAlmostEqual(deepest, -17.262, places=5)
 
+    def test_corners_swing_out_but_not_beyond_a_soft_limit(self):
+        for limit, swings in ((490, True), (500, False)):
+            program = f"G0 X{limit - 20} Y{limit - 20}\nG64 P0.05\nG1 F3000 X{limit}\nY{limit}\nX{limit - 20}\nM2\n"
+            result = harness.run([RUN], {"part.ngc": program})
+            self.assertIsNone(result.failure, result.log)
+            self.assertEqual(result.errors, [], result.log)
+            rows = result.columns("joint.0", "joint.1")
+            beyond = [max(row[axis] for row in rows) - limit for axis in (0, 1)]
+            if swings:
+                self.assertTrue(all(0.01 < way < 0.05 for way in beyond), beyond)
+            else:
+                self.assertLessEqual(max(beyond), 1e-9)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -343,6 +343,53 @@ fn lines_of_a_machine_that_keeps_them_are_not_looked_into() {
     });
 }
 
+/// How far a corner leads beyond X 10, its place, and the corner behind it beyond Y 5.
+fn beyond(range: &JointRange) -> [f64; 2] {
+    let mut greatest = [0.0f64; 2];
+    let mut solver = Solver::new(16);
+    solver.keeps_lines = true;
+    with_machine(|machine| {
+        machine.planner.wait_for_range_check(true);
+        let tolerance = TerminationCondition::Continuous { tolerance: 0.05 };
+        machine.planner.set_termination(tolerance);
+        for end in [at(10.0, 0.0), at(10.0, 5.0), at(0.0, 5.0)] {
+            machine.line(end, &feed_move(60.0)).expect("a line");
+        }
+        loop {
+            let (status, finding) = cycle(machine, range, &mut solver);
+            assert!(finding.is_none(), "{finding:?}");
+            greatest[0] = greatest[0].max(status.position[0] - 10.0);
+            greatest[1] = greatest[1].max(status.position[1] - 5.0);
+            if status.done {
+                break;
+            }
+        }
+    });
+    greatest
+}
+
+#[test]
+fn a_corner_at_a_limit_does_not_swing_out_beyond_it() {
+    let apart = |x: f64, y: f64| {
+        let mut range = range(100.0);
+        (range.greatest[0], range.greatest[1]) = (x, y);
+        beyond(&range)
+    };
+    let [x, y] = apart(100.0, 100.0);
+    assert!(
+        (0.02..0.05).contains(&x) && (0.02..0.05).contains(&y),
+        "{x} {y}"
+    );
+    // Both corners lie on X 10, one of them on Y 5.
+    let [x, y] = apart(10.0, 100.0);
+    assert!(x <= 0.0 && y <= 0.0, "{x} {y}");
+    let [x, y] = apart(100.0, 5.0);
+    assert!((0.02..0.05).contains(&x) && y <= 0.0, "{x} {y}");
+    // The tolerance fits in between.
+    let [x, y] = apart(10.3, 5.3);
+    assert!(x > 0.02 && y > 0.02, "{x} {y}");
+}
+
 /// The machine stands still for as long as the look takes, and not longer.
 #[test]
 fn the_first_period_of_a_short_look_is_the_first_of_the_move() {

@@ -3,11 +3,15 @@
 use super::joints::{Finding, JointRange, JointSolver, Joints, OutOfRange};
 use super::sweep::{RangeVerdict, Sweep};
 use crate::machine::JOINT_COUNT;
-use crate::moves::MoveQueue;
 use crate::moves::shape::Shape;
+use crate::moves::{Move, MoveQueue, TerminationCondition};
 
 /// Moves that need no look inside are passed over, so many in a servo period.
 const MOVES_A_CYCLE: usize = 16;
+
+/// A joint is near to a limit that is less than this many tolerances of the path away: kinematics may make more of a deviation
+/// than it is.
+const TOLERANCES: f64 = 4.0;
 
 /// How far the queued moves have been looked at.
 #[derive(Debug)]
@@ -81,18 +85,47 @@ impl RangeCheck {
             let Some(verdict) = self.look(&queued.shape, &mut calls, solver) else {
                 break;
             };
-            match verdict {
-                Passed::Stays => {}
+            let at_limit = match verdict {
+                Passed::Stays => self.ends_at_limit(queued, solver),
                 Passed::Leaves(found) => {
                     let (found, id) = (self.with_limit(found), queued.id);
                     return Some(Finding::Leaves { found, id });
                 }
-                Passed::Unknown => finding = Some(Finding::Unknown { id: queued.id }),
+                Passed::Unknown => {
+                    finding = Some(Finding::Unknown { id: queued.id });
+                    true
+                }
+            };
+            if at_limit {
+                queue.release_at_limit(self.next);
+            } else {
+                queue.release(self.next + 1);
             }
             self.next += 1;
-            queue.release(self.next);
         }
         finding
+    }
+
+    /// Whether joints are so near to a limit at the end of a move that a path within its tolerance might pass it.
+    fn ends_at_limit(&self, queued: &Move, solver: &mut impl JointSolver) -> bool {
+        let TerminationCondition::Continuous { tolerance } = queued.termination else {
+            return false;
+        };
+        // What was looked at all along ends with the joints there.
+        let joints = if self.at_start {
+            Some(self.near)
+        } else {
+            solver.solve(&queued.shape.end(), &self.near)
+        };
+        let margin = TOLERANCES * tolerance;
+        let limits = self.range.least.iter().zip(&self.range.greatest);
+        let is_near = |joints: Joints| {
+            let mut limited = joints.iter().zip(limits).take(self.range.count);
+            limited.any(|(joint, (least, greatest))| {
+                !(least + margin < *joint && *joint < greatest - margin)
+            })
+        };
+        joints.is_none_or(is_near)
     }
 
     /// The limit itself, where the move began beyond it.

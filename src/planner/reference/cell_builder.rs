@@ -296,6 +296,8 @@ mod tests {
                 termination: TerminationCondition::Stop,
                 stop_before: false,
                 separate: false,
+                may_swing_out: true,
+                ends_at_limit: false,
             })
             .expect("room");
             path.step(1000);

@@ -210,6 +210,8 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
             termination,
             stop_before: mode < 0.02 * c.stops,
             separate: mode > 0.9,
+            may_swing_out: true,
+            ends_at_limit: false,
         });
         at = shape.end();
     }
@@ -398,6 +400,8 @@ pub fn line(serial: u64, from: (f64, f64), to: (f64, f64), tolerance: f64) -> Pr
         termination: TerminationCondition::Continuous { tolerance },
         stop_before: false,
         separate: false,
+        may_swing_out: true,
+        ends_at_limit: false,
     }
 }
 

@@ -23,7 +23,8 @@ fn a_row_for_each_cycle() {
     assert!((cycles..cycles + 30).contains(&xs.len()));
     assert_eq!(xs.last(), Some(&0.0));
     let greatest = xs.iter().copied().fold(0.0, f64::max);
-    assert!((greatest - 20.0).abs() < 1e-2, "{greatest}");
+    // Corners swing out by P at most.
+    assert!((19.99..20.05).contains(&greatest), "{greatest}");
 }
 
 #[test]
