@@ -78,7 +78,11 @@ fn a_move_from_its_start_to_its_end() {
         !at_feed.stands && at_feed.to_go > 30.0 && at_feed.to_go < 45.0,
         "{at_feed:?}"
     );
-    assert!(at_feed.seconds_ahead > 0.6 && at_feed.seconds_queued >= at_feed.seconds_ahead);
+    // Half of the corner with the next move stays open as long as it may come in time.
+    assert!(
+        at_feed.seconds_ahead > 0.5 && at_feed.seconds_queued >= at_feed.seconds_ahead,
+        "{at_feed:?}"
+    );
     shared.status().feed_scale = 0.5;
     shared.status().net_feed_scale = 0.5;
     assert_eq!(cycles(&shared, 200).limit, FRAMEPATH_LIMIT_OVERRIDE);
