@@ -117,16 +117,20 @@ fn distance_of_corner<'a>(
     end: f64,
 ) -> f64 {
     let least = ANOTHER_CORNER * vertex.tangent_jump_size;
+    let mut corner = None;
     for (looked, (_, other)) in others.enumerate() {
         let distance = (other.s - vertex.s).abs();
+        if corner.is_some_and(|corner| distance >= OUTER_REACH * corner) {
+            break;
+        }
         if other.at_limit {
             return distance / OUTER_REACH;
         }
         if other.wall || other.tangent_jump_size > least || looked + 1 >= LOOKED_AT {
-            return distance;
+            corner = corner.or(Some(distance));
         }
     }
-    end
+    corner.unwrap_or(end)
 }
 
 /// What a width is raised to at most: where neighbours turn the same way, as on a coarse curve,

@@ -49,7 +49,7 @@ pub(super) struct LoneCorner {
     pub may_swing_out: bool,
     /// How far the next corner is, machine units.
     pub clear: f64,
-    /// No kernel is wider than this, machine units.
+    /// How far it swings out at most, machine units.
     pub greatest_width: f64,
 }
 

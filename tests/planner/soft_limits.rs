@@ -390,6 +390,31 @@ fn a_corner_at_a_limit_does_not_swing_out_beyond_it() {
     assert!(x > 0.02 && y > 0.02, "{x} {y}");
 }
 
+#[test]
+fn a_corner_does_not_swing_out_over_the_next_one_to_a_limit() {
+    let mut greatest = 0.0f64;
+    let mut solver = Solver::new(16);
+    solver.keeps_lines = true;
+    let mut range = range(100.0);
+    range.greatest[0] = 7.0;
+    with_machine(|machine| {
+        machine.planner.wait_for_range_check(true);
+        let tolerance = TerminationCondition::Continuous { tolerance: 0.01 };
+        machine.planner.set_termination(tolerance);
+        for end in [at(6.0, 0.0), at(6.0, 4.0), at(7.0, 5.0), at(7.0, 15.0)] {
+            machine.line(end, &feed_move(60.0)).expect("a line");
+        }
+        loop {
+            let (status, _) = cycle(machine, &range, &mut solver);
+            greatest = greatest.max(status.position[0] - 7.0);
+            if status.done {
+                break;
+            }
+        }
+    });
+    assert!(greatest <= 1e-12, "{greatest}");
+}
+
 /// The machine stands still for as long as the look takes, and not longer.
 #[test]
 fn the_first_period_of_a_short_look_is_the_first_of_the_move() {
