@@ -45,8 +45,8 @@ const ROUNDS: u32 = 24;
 const NEAR_END: f64 = 2.0;
 
 /// What is final keeps this factor clear of kernels that are not, so that rounding never carries
-/// them into it.
-const AMPLE: f64 = 1.001;
+/// them into it, and that what they keep clear of it takes nothing from them.
+const AMPLE: f64 = 1.002;
 
 /// Kernel terms that a trial may take in its checks, and half as many in its base widths.
 const GREATEST_TRIAL: usize = 60_000;
@@ -478,7 +478,7 @@ impl WidthOptimizer {
         let coming = if last.stop_after || bare {
             end
         } else {
-            (end - last.reserve(settings, vertex.tangent_jump_size)).max(wall)
+            (end - AMPLE * last.reserve(settings, vertex.tangent_jump_size)).max(wall)
         };
         (open..next)
             .map(|number| chain.vertex(number))

@@ -63,6 +63,49 @@ fn a_corner_that_swings_out_uses_it_on_both_sides() {
     });
 }
 
+/// Where a corner of two lines reaches, and its path and what is final of it, where the second line is known at once or later.
+fn corner_of(angle: f64, tolerance: f64, later: bool) -> (f64, Vec<Axes>, f64) {
+    let (sine, cosine) = angle.to_radians().sin_cos();
+    let end = (30.0 + 40.0 * cosine, 40.0 * sine);
+    let moves = [
+        line(1, (0.0, 0.0), (30.0, 0.0), tolerance),
+        line(2, (30.0, 0.0), end, tolerance),
+    ];
+    with_path(move |path| {
+        for queued in moves {
+            let may_swing_out = true;
+            path.add(&ProgrammedMove {
+                may_swing_out,
+                ..queued
+            })
+            .expect("room");
+            if later || queued.serial == 2 {
+                path.flush();
+                path.step(10_000);
+            }
+        }
+        let corner = path.vertices(5.0).next().expect("the corner");
+        let places = (2100..3900).step_by(10).map(|k| 0.01 * f64::from(k));
+        let positions = places.map(|s| path.point(s).position).collect();
+        (corner.reach, positions, path.final_end())
+    })
+}
+
+#[test]
+fn a_corner_does_not_depend_on_when_its_second_leg_comes() {
+    // One rounded over more than the 8 mm of a swing has what the machine has left of its first leg.
+    let mut swing_out = 0;
+    for angle in [10.0, 20.0, 45.0, 90.0, 120.0, 150.0, 175.0] {
+        for tolerance in [0.01, 0.05, 0.15] {
+            let at_once = corner_of(angle, tolerance, false);
+            let later = corner_of(angle, tolerance, true);
+            assert!(at_once == later, "{angle} degrees, P {tolerance}");
+            swing_out += usize::from(at_once.0 > 7.9);
+        }
+    }
+    assert!(swing_out > 10, "{swing_out}");
+}
+
 /// Each derivative is the slope of the one before, and the third does not jump between `from` and
 /// `to`, seen at steps of `step`.
 fn check_derivatives(path: &BlendedPath, from: f64, to: f64, step: f64) {

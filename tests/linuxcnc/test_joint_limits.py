@@ -217,8 +217,8 @@ class Planned(unittest.TestCase):
 class Compared(unittest.TestCase):
     """`framepath compare --ini` of the same: the module finds the kinematics, the jets and the limits as in LinuxCNC."""
 
-    def check(self, machine, apart):
-        """The time is that of the plan, but for this share: how far blendtp plans depends on how long a jet takes."""
+    def check(self, machine):
+        """The time is that of the plan but for .3 %: how far blendtp plans depends on how long a jet takes."""
         report = asked("compare", machine, TURNS + "M2\n", "--jerk", "20A", "--holds", "5")[1]
         stock, ours = ({name: run["motion"]["joints"][name]["ratio"] for name in ("velocity", "acceleration", "jerk")}
                        for run in report["programs"][0]["runs"])
@@ -231,17 +231,17 @@ class Compared(unittest.TestCase):
         self.assertGreater(ours["velocity"], 0.95)
         run = report["programs"][0]["runs"][1]
         cycles = round(1000 * run["motion"]["time"])
-        planned_cycles = planned(machine, TURNS + "M2\n")[1]["cycles"]
-        self.assertLessEqual(abs(cycles - planned_cycles), max(3, apart * cycles))
+        # with the same limits of the axes, which decide how a corner is rounded
+        planned_cycles = planned(machine, TURNS + "M2\n", "--jerk", "20A")[1]["cycles"]
+        self.assertLessEqual(abs(cycles - planned_cycles), max(3, 0.003 * cycles))
         self.assertGreater(run["holds"]["count"], 0)
         self.assertLess(run["holds"]["mean_ratio"], 1.2)
 
     def test_modules_are_judged_by_their_joints(self):
-        # moves come faster here than the plan has them, and corners swing out where the next one is known in time
-        self.check(limited(OWN), 0.01)
+        self.check(limited(OWN))
 
     def test_behind_a_module_of_linuxcnc(self):
-        self.check(limited(TILTING), 0.01)
+        self.check(limited(TILTING))
 
     def test_a_machine_that_does_not_begin_at_zero(self):
         text = asked("compare", limited(SCARA, 6), "G1 X-1 F600\nM2\n", "--jerk", "20A")[0]

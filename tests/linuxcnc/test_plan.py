@@ -127,8 +127,8 @@ class ConstantSurfaceSpeed(AgainstLinuxCnc):
     """Feed per turn of a spindle that follows the diameter (G96), with offsets of work and tool, in metres and in feet."""
     programs, axes = {"lathe": LATHE}, "xz"
     ini = os.path.join(harness.SAMPLES, "configs", "framepath-lathe", "framepath-lathe.ini")
-    #: A rapid goes on from where the turns of the spindle have taken the machine, which are counted from another angle: one
-    #: that begins 1e-10 mm beside may be planned another way: a corner that swings out is narrowed by another step.
+    #: A rapid goes on from where the turns of the spindle have taken the machine, which are counted from another angle: 1e-13 mm
+    #: beside, on the same plan, the search for the speed of a period may end with another value. It is .0005 mm late at most.
     same = 1e-3
     machine: ClassVar[dict] = {"sample": "framepath-lathe", "joints": 2, "edit_hal": at_once}
 

@@ -48,9 +48,8 @@ class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
     #: motion takes milliseconds. And where a move comes a cycle later than the plan has it, another of two ways may be taken.
     steady = 2
     prompt = 1
-    #: Of moves of nanometres the first and the last cycles are less than what a recording shows. Where corners swing out how far
-    #: they are narrowed may depend on what of the moves was looked at in which period: one of forty is .0005 mm beside.
-    same, same_cycles = 1e-3, 3
+    #: Of moves of nanometres the first and the last cycles are less than what a recording shows.
+    same, same_cycles = 1e-6, 3
     machine: ClassVar[dict] = {"sample": "machine", "configuration": CONTRACT, "ini": CHANGES, "timeout": 600,
                "hal": "".join(f"setp blendtp.axis.{axis}.max-jerk {JERK}\n" for axis in "xyzab")}
 
