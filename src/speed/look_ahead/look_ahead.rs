@@ -236,7 +236,11 @@ impl LookAhead {
             .refinement
             .refined()
             .saturating_sub(self.extensions.earlier())
-            .min(self.plan.last.saturating_sub(4));
+            .min(
+                self.plan
+                    .last
+                    .saturating_sub(candidate_plan::NODES_TO_CONTINUE),
+            );
         let base = latest
             .max(behind.min(self.braking.start()))
             .max(committed + 1);

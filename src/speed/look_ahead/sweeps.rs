@@ -132,6 +132,14 @@ impl Sweeps {
         swept.lower = lesser(swept.forward.value, swept.backward.value);
     }
 
+    /// The first coefficient behind `base` and before `cut` from which on the backward sweep is nowhere slower than the plan.
+    pub fn meeting(&self, plan: &Spline, base: usize, cut: usize) -> Option<usize> {
+        let slower = |k: &usize| self.at(*k).backward.value < plan.at(*k).coefficient;
+        let last = (base..cut).rev().find(slower)?;
+        // A node farther the sweep leads away from the plan, and not onto it.
+        Some(last + 2).filter(|meeting| *meeting < cut)
+    }
+
     /// Begins the hull, if the sweeps have met both ends.
     pub fn begin_hull(&mut self, spline: &Spline) -> Result<(), SweepFault> {
         let last = spline.last;
@@ -246,4 +254,47 @@ fn end_coefficients(spline: &Spline) -> [f64; 2] {
     let length = spline.at(spline.last).length;
     let [beyond, end] = spline.end_arc.coefficients(length);
     [end, beyond]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::boxed::Box;
+
+    use super::*;
+
+    /// Sweeps of ten coefficients, and a plan of 4 all over; backward they come to these values.
+    fn with_backward<R: Send + 'static>(
+        values: [f64; 10],
+        test: impl FnOnce(&mut Sweeps, &Spline) -> R + Send + 'static,
+    ) -> R {
+        let run = move || {
+            let (mut sweeps, mut plan) = (Box::new(Sweeps::NONE), Box::new(Spline::NONE));
+            for (k, value) in values.into_iter().enumerate() {
+                plan.at_mut(k).coefficient = 4.0;
+                sweeps.at_mut(k).backward.value = value;
+            }
+            test(&mut sweeps, &plan)
+        };
+        std::thread::Builder::new()
+            .stack_size(16 << 20)
+            .spawn(run)
+            .expect("a thread")
+            .join()
+            .expect("the test itself")
+    }
+
+    #[test]
+    fn the_plan_is_kept_until_the_sweep_has_come_down_to_it() {
+        let of = |values| with_backward(values, |sweeps, plan| sweeps.meeting(plan, 1, 8));
+        let [slow, fast] = [3.0, 5.0];
+        assert_eq!(of([fast; 10]), None);
+        assert_eq!(of([slow; 10]), None);
+        let mut values = [fast; 10];
+        (values[1], values[2]) = (slow, slow);
+        assert_eq!(of(values), Some(4));
+        values[5] = slow;
+        assert_eq!(of(values), Some(7));
+        values[6] = slow;
+        assert_eq!(of(values), None);
+    }
 }

@@ -39,6 +39,9 @@ pub(super) const MOST_INTERVALS: usize = 128;
 /// The same where the machine is soon to brake: what is short is found soon.
 pub(super) const MOST_URGENT_INTERVALS: usize = 64;
 
+/// Nodes of the plan behind the one where a candidate leaves it, at least.
+pub(super) const NODES_TO_CONTINUE: usize = 4;
+
 /// What has become of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CandidateStep {
@@ -151,7 +154,7 @@ impl CandidatePlan {
     ) {
         let plan = context.plan;
         self.base = base;
-        if base + 4 > plan.last {
+        if base + NODES_TO_CONTINUE > plan.last {
             self.phase = CandidatePhase::Finished(CandidateStep::Refused(PlanRefusal::TooLate));
             return;
         }

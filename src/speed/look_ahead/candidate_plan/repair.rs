@@ -2,13 +2,16 @@
 //!
 //! An arc at rest becomes shorter where the fault has to do with it. A first plan, which leads from rest to rest, is made
 //! slower as a whole where it breaks a limit on the way: what a limit bounds falls with the square or the cube of the speed.
-//! An extension, which has to join the plan, is given up: the next one is shorter and leaves it later (`extensions.rs`).
+//!
+//! An extension has to join the plan, which may be faster where it is left than the more careful bounds of the sweeps allow: then
+//! it keeps more of it. Where that mends nothing it is given up: the next one is shorter and leaves the plan earlier
+//! (`extensions.rs`).
 
 use super::super::context::PlanContext;
 use super::super::refusal::PlanRefusal;
 use super::super::route::Route;
 use super::super::sweeps::SweepFault;
-use super::{CandidateFault, CandidatePhase, CandidatePlan, refused};
+use super::{CandidateFault, CandidatePhase, CandidatePlan, NODES_TO_CONTINUE, refused};
 
 /// Candidates that are tried from one beginning.
 const MOST_ATTEMPTS: usize = 12;
@@ -33,6 +36,8 @@ enum Cause {
     ArcAtEnd,
     /// The candidate as a whole, from rest to rest.
     Speed,
+    /// The plan that is to be continued, which is too fast where it is left.
+    LeftTooEarly,
     /// The plan that is to be continued.
     Plan,
 }
@@ -46,6 +51,7 @@ impl CandidatePlan {
     ) -> CandidatePhase {
         match self.cause(fault) {
             Cause::Plan => refused(PlanRefusal::NotFound),
+            Cause::LeftTooEarly => self.again().unwrap_or_else(|| self.leave_later(context)),
             Cause::Speed => self.slow_down(),
             Cause::ArcAtStart => self.again().unwrap_or_else(|| {
                 self.most_start = SHORTER * self.spline.start_arc.length;
@@ -68,9 +74,22 @@ impl CandidatePlan {
         match fault {
             CandidateFault::Sweep(SweepFault::End) => Cause::ArcAtEnd,
             CandidateFault::Interval(k) if k + BESIDE_ARC >= self.spline.last => Cause::ArcAtEnd,
-            _ if !self.first => Cause::Plan,
-            CandidateFault::Interval(k) if k > self.base + BESIDE_ARC => Cause::Speed,
-            _ => Cause::ArcAtStart,
+            CandidateFault::Interval(k) if self.first && k > self.base + BESIDE_ARC => Cause::Speed,
+            _ if self.first => Cause::ArcAtStart,
+            CandidateFault::Sweep(SweepFault::Base) => Cause::LeftTooEarly,
+            _ => Cause::Plan,
+        }
+    }
+
+    /// Keeps the plan up to where the backward sweep has come down to it.
+    fn leave_later<R: Route>(&mut self, context: &PlanContext<R>) -> CandidatePhase {
+        let PlanContext { plan, .. } = context;
+        match self.sweeps.meeting(plan, self.base, self.cut) {
+            Some(base) if base + NODES_TO_CONTINUE <= plan.last => {
+                self.base = base;
+                self.pin(plan)
+            }
+            _ => refused(PlanRefusal::NotFound),
         }
     }
 
