@@ -54,14 +54,20 @@ pub(super) fn widen(
     if wider && width <= window.clip(chain, number) {
         let (deviation, terms) = deviation_at_equal_widths(chain, number, width, window, metric);
         cost += terms;
-        too_wide = deviation > KERNEL_SHARE * vertex.tolerance;
+        let allowed = KERNEL_SHARE * vertex.tolerance / deviation;
+        too_wide = allowed < 1.0;
         searched = too_wide;
         goes_on = !too_wide;
+        // On a curve the deviation grows with the square of the widths.
+        let found = if too_wide {
+            width * allowed.sqrt()
+        } else {
+            width
+        };
+        let vertex = chain.vertex_mut(number);
+        vertex.scanned = vertex.scanned.max(found);
     }
     let vertex = chain.vertex_mut(number);
-    if goes_on {
-        vertex.scanned = width;
-    }
     vertex.scan_done = too_wide;
     vertex.searched = searched;
     choose(vertex);

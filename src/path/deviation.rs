@@ -24,11 +24,20 @@ const DEPTH: usize = 32;
 pub(super) const GREATEST_COST: usize =
     KERNELS * 2 * NEIGHBOURS as usize * (3 * HALVINGS as usize + 7);
 
+/// Where the tolerance is, or may be, violated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Violation {
+    /// Path distance.
+    pub s: f64,
+    /// What is allowed there over the deviation, 0 to 1; 1 where nothing is known of it.
+    pub allowed: f64,
+}
+
 /// The answer of a check.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DeviationVerdict {
-    /// A place where the tolerance is, or may be, violated.
-    pub violation: Option<f64>,
+    /// `None` where the tolerance is kept.
+    pub violation: Option<Violation>,
     /// Kernel terms that it took.
     pub cost: usize,
 }
@@ -92,8 +101,13 @@ impl Search<'_> {
             .deviation(self.chain, s, self.metric, self.turn_share)
     }
 
+    fn violation(&self, s: f64, deviation: f64) -> Violation {
+        let allowed = self.tolerance / deviation;
+        Violation { s, allowed }
+    }
+
     /// Goes from left to right, each time over the largest half of halves that the bound allows.
-    fn first_violation(&mut self, from: f64, to: f64) -> Option<f64> {
+    fn first_violation(&mut self, from: f64, to: f64) -> Option<Violation> {
         if from >= to {
             return None;
         }
@@ -104,11 +118,11 @@ impl Search<'_> {
         let (mut left, mut at_left) = (from, self.deviation(from));
         let (mut right, mut at_right) = (to, self.deviation(to));
         if exceeds(at_left, self.tolerance) {
-            return Some(left);
+            return Some(self.violation(left, at_left));
         }
         loop {
             if exceeds(at_right, self.tolerance) {
-                return Some(right);
+                return Some(self.violation(right, at_right));
             }
             let length = right - left;
             self.cost += self.reaching.count();
@@ -118,7 +132,7 @@ impl Search<'_> {
                 depth = depth.checked_sub(1)?;
                 (left, at_left) = (right, at_right);
                 let Some(next) = waiting.get(depth) else {
-                    return Some(right);
+                    return Some(self.violation(right, self.tolerance));
                 };
                 (right, at_right) = *next;
                 continue;
@@ -127,7 +141,7 @@ impl Search<'_> {
             self.halvings += 1;
             let place = waiting.get_mut(depth);
             let (Some(place), true) = (place, self.halvings <= HALVINGS) else {
-                return Some(middle);
+                return Some(self.violation(middle, self.tolerance));
             };
             *place = (right, at_right);
             depth += 1;

@@ -115,8 +115,8 @@ pub(super) struct Vertex {
     kernel: Kernel,
     /// What of it is taken off.
     outer: Kernel,
-    /// Reaches a place that violates the tolerance.
-    pub marked: bool,
+    /// What its widths are to be narrowed to, since it is to blame for a place that violates the tolerance; 1 if it is not.
+    pub narrowing: f64,
     /// And that place may change for the better when more is known.
     pub marked_temporarily: bool,
 }
@@ -157,7 +157,7 @@ impl Vertex {
         kernel: Kernel::NONE,
         outer: Kernel::NONE,
         stored_factor: 1.0,
-        marked: false,
+        narrowing: 1.0,
         marked_temporarily: false,
     };
 

@@ -35,9 +35,6 @@ const LAG: f64 = 0.5;
 /// What of the tolerance a trial may use; the rest is for hardened vertices.
 const TRIAL_SHARE: f64 = 0.98;
 
-/// Ratio by which vertices at a violation are narrowed.
-const NARROWING: f64 = 0.85;
-
 /// Checks of the whole window before a trial is given up.
 const ROUNDS: u32 = 24;
 
@@ -263,7 +260,7 @@ impl WidthOptimizer {
         self.phase = OptimizerPhase::Assign(number + 1);
         let vertex = chain.vertex_mut(number);
         vertex.temporary_factor = 1.0;
-        vertex.marked = false;
+        vertex.narrowing = 1.0;
         vertex.marked_temporarily = false;
         self.set_trial(chain, number);
         let vertex = chain.vertex(number);
@@ -330,11 +327,13 @@ impl WidthOptimizer {
                 chain.leg_mut(leg).unchecked = false;
                 0
             }
-            Some(s) => {
+            Some(violation) => {
                 self.violated = true;
                 let last = chain.leg(self.window.next.wrapping_sub(1));
-                let near_end = self.window.is_near_end(s, NEAR_END * last.design_width);
-                blame::mark(chain, leg, s, near_end, &self.window, metric)
+                let near_end = self
+                    .window
+                    .is_near_end(violation.s, NEAR_END * last.design_width);
+                blame::mark(chain, leg, violation, near_end, &self.window, metric)
             }
         };
         self.spent += cost + marking;
@@ -350,7 +349,8 @@ impl WidthOptimizer {
             return 1;
         }
         self.phase = OptimizerPhase::Narrow(number + 1);
-        if !chain.vertex(number).marked {
+        let narrowing = chain.vertex(number).narrowing;
+        if narrowing >= 1.0 {
             return 1;
         }
         self.narrowed = true;
@@ -361,11 +361,11 @@ impl WidthOptimizer {
         let wanted = (kernel * vertex.factor).max(vertex.base.easement * vertex.factor.sqrt());
         // What the surroundings of this moment are to blame for is forgotten with the trial.
         if wanted > clip || vertex.marked_temporarily {
-            vertex.temporary_factor *= NARROWING;
+            vertex.temporary_factor *= narrowing;
         } else {
-            vertex.factor *= NARROWING;
+            vertex.factor *= narrowing;
         }
-        vertex.marked = false;
+        vertex.narrowing = 1.0;
         vertex.marked_temporarily = false;
         self.set_trial(chain, number);
         chain.touch(number, reach, self.window.next)
