@@ -25,6 +25,9 @@ RTAPI_MP_STRING(inner, "In place of coordinates and machine: the kinematics modu
 static char *tool_types = "";
 RTAPI_MP_STRING(tool_types, "Types of the inner kinematics that turn the tool's length themselves: tool_types=0,2");
 
+static char *tool_axes = "";
+RTAPI_MP_STRING(tool_axes, "Axes that turn the tool behind kinematics that cannot be asked, the first carries the second: tool_axes=C,B");
+
 /* Chooses the kinematics of another module, which lies beside the one that `here` is in; 0, or what is wrong has been said. */
 static int configure_inner(const void *here)
 {
@@ -39,8 +42,10 @@ static int configure_inner(const void *here)
     }
     if (check_inner_file(inner, here))
         return -22; /* EINVAL */
-    error = framepath_kinematics_configure_inner(tool_types);
-    if (error)
+    error = framepath_kinematics_configure_inner(tool_types, tool_axes);
+    if (error == FRAMEPATH_UNKNOWN_TOOL_AXES)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_axes=%s: %s\n", tool_axes, framepath_kinematics_configure_text(error));
+    else if (error)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_types=%s: %s\n", tool_types, framepath_kinematics_configure_text(error));
     return error ? -22 : 0; /* EINVAL */
 }

@@ -42,13 +42,15 @@ static struct {
     hal_s32_t *slot, *operations, *refusal, *tilt_axis, *normal_refusal;
     hal_float_t *normal_tilt, *normal_rotary;
     hal_s32_t *normal_tilt_axis, *normal_rotary_axis;
+    hal_s32_t *retract_kind;
+    hal_float_t *retract_way[3], *retract_z;
     hal_bit_t *enabled, *release_on_abort, *release, *releasing, *hold, *guarded;
     hal_s32_t *releases, *releases_seen;
     hal_u32_t *heartbeat, *version;
     hal_float_t *frame[12], *position[9], *turned_tool[3];
     hal_float_t *external_offset[9];
     hal_float_t *inner_type;
-    hal_s32_t *inner_type_active, *inner_refusal;
+    hal_s32_t *inner_type_active, *inner_refusal, *tool_centre_type, *axes_type;
     /* What frame_guard looks at. It has these linked to pins of its own, which are read without HAL's lock: a process that is
        killed while it holds that would stop every other one. Users link the ones of the same names above. */
     struct {
@@ -138,6 +140,10 @@ static void write_pins(const struct framepath_frame_outputs *out)
         *pins->position[i] = out->position[i];
     for (int i = 0; i < 3; i++)
         *pins->turned_tool[i] = out->turned_tool[i];
+    *pins->retract_kind = out->retract_kind;
+    for (int i = 0; i < 3; i++)
+        *pins->retract_way[i] = out->retract_way[i];
+    *pins->retract_z = out->retract_z;
 }
 
 /* What is behind the frame, and why not what the pin asks for; that is told once. */
@@ -150,6 +156,8 @@ static void write_inner_pins(const struct framepath_frame_outputs *out)
                         *pins->inner_type, inner, framepath_kinematics_refusal_text(out->inner_refusal));
     *pins->inner_refusal = out->inner_refusal;
     *pins->inner_type_active = out->inner_type;
+    *pins->tool_centre_type = out->tool_centre_type;
+    *pins->axes_type = out->axes_type;
 }
 
 static void write_guard_pins(const struct framepath_frame_inputs *in, const struct framepath_frame_outputs *out)
@@ -309,6 +317,10 @@ static int export_position_pins(void)
         error |= hal_pin_float_newf(HAL_IN, &pins->external_offset[i], component, "framekins.external-offset.%c", "xyzabcuvw"[i]);
     for (int i = 0; i < 3; i++)
         error |= hal_pin_float_newf(HAL_OUT, &pins->turned_tool[i], component, "framekins.turned-tool.%c", "xyz"[i]);
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->retract_kind, component, "framekins.retract-kind");
+    for (int i = 0; i < 3; i++)
+        error |= hal_pin_float_newf(HAL_OUT, &pins->retract_way[i], component, "framekins.retract-way.%c", "xyz"[i]);
+    error |= hal_pin_float_newf(HAL_OUT, &pins->retract_z, component, "framekins.retract-z");
     return error;
 }
 
@@ -395,6 +407,8 @@ static int export_inner_pins(void)
     error |= hal_pin_float_newf(HAL_IN, &pins->inner_type, component, "framekins.inner-type");
     error |= hal_pin_s32_newf(HAL_OUT, &pins->inner_type_active, component, "framekins.inner-type-active");
     error |= hal_pin_s32_newf(HAL_OUT, &pins->inner_refusal, component, "framekins.inner-refusal");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->tool_centre_type, component, "framekins.tool-centre-type");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->axes_type, component, "framekins.axes-type");
     return error ? error : export_range_pins();
 }
 

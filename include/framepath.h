@@ -61,6 +61,11 @@
 #define FRAMEPATH_UNKNOWN_TOOL_TYPES 7
 
 /*
+ `tool_axes=` names no axes that could turn a tool.
+ */
+#define FRAMEPATH_UNKNOWN_TOOL_AXES 8
+
+/*
  The most moves that motmod may ask room for (it asks for 2000).
  */
 #define FRAMEPATH_QUEUE_CAPACITY 2000
@@ -435,6 +440,27 @@ struct framepath_frame_outputs {
    Why it is not the one that the pin says; 0 if it is.
    */
   int inner_refusal;
+  /*
+   The type of the inner kinematics for the tool centre point; -1 if none is known.
+   */
+  int tool_centre_type;
+  /*
+   Their type with the machine's own axes; -1 if there is none.
+   */
+  int axes_type;
+  /*
+   How the tool is drawn back: 0 by Z without the frame, 1 along `retract_way`, -1 its kinematics are not known, -2 it
+   lies level or points up, -3 the kinematics of another module have not been asked yet.
+   */
+  int retract_kind;
+  /*
+   Where its tip goes, in LinuxCNC's coordinates X Y Z, while the machine's own Z rises by one.
+   */
+  double retract_way[3];
+  /*
+   Where the machine's own Z is.
+   */
+  double retract_z;
 };
 
 /*
@@ -521,12 +547,14 @@ struct framepath_survey {
 
 /*
  Chooses the kinematics of another module in place of a machine: `tool_types` is a list of their types that turn the
- tool's length themselves, empty if none do. Returns 0, or an error for `framepath_kinematics_configure_text`.
+ tool's length themselves, empty if none do; `tool_axes` says how they turn the tool, empty if they are to be asked. Returns
+ 0, or an error for `framepath_kinematics_configure_text`.
 
  # Safety
- The text is a string or null.
+ The texts are strings or null.
  */
-int framepath_kinematics_configure_inner(const char *tool_types);
+int framepath_kinematics_configure_inner(const char *tool_types,
+                                         const char *tool_axes);
 
 /*
  The functions of the other module, which has type 0 now; null for `switch` if it cannot be switched.

@@ -96,14 +96,21 @@ fn joints_of(world: &EmcPose, near: [f64; 16], flags: c_ulong) -> (c_int, [f64; 
 
 fn configure(types: &CStr) -> c_int {
     // SAFETY: a string.
-    unsafe { framepath_kinematics_configure_inner(types.as_ptr()) }
+    unsafe { framepath_kinematics_configure_inner(types.as_ptr(), c"".as_ptr()) }
 }
+
+type Answer =
+    unsafe extern "C" fn(*const EmcPose, *mut c_double, *const c_ulong, *mut c_ulong) -> c_int;
 
 /// One after the other: the memory is one for the process.
 #[test]
 fn what_passes_between_motion_and_the_other_module() {
     assert_eq!(configure(c"0,x"), 7);
     assert!(words(framepath_kinematics_configure_text(7)).contains("tool_types=0,2"));
+    // SAFETY: strings.
+    let told = unsafe { framepath_kinematics_configure_inner(null(), c"B,C".as_ptr()) };
+    assert_eq!(told, 8);
+    assert!(words(framepath_kinematics_configure_text(8)).contains("tool_axes=C,B"));
     assert!(words(framepath_kinematics_refusal_text(18)).contains("framekins.inner-type"));
     assert_eq!(configure(c"1"), 0);
     assert_eq!(framepath_kinematics_tilt_axis(), 0);
@@ -214,4 +221,61 @@ fn what_passes_between_motion_and_the_other_module() {
     pins.in_position = 1;
     assert_eq!(asked(&pins), (7, (0, 0), 0.0));
     assert_eq!(framepath_kinematics_tool_tilt_axis(), 3);
+
+    // What cannot be known is said where the type turns the tool, else Z is enough.
+    framepath_kinematics_inner_functions(Some(inverse), Some(forward), Some(switch));
+    for (kind, answer) in [(1, -1), (0, 0)] {
+        pins.inner_type = kind.into();
+        // SAFETY: structures of the interface.
+        unsafe {
+            assert_eq!(framepath_kinematics_switch(kind, &pins), 0);
+            framepath_kinematics_update(&pins, &mut shown);
+        }
+        assert_eq!((shown.retract_kind, shown.tool_centre_type), (answer, 1));
+    }
+
+    // Without a frame how the tool turns is asked if a program wants to know, which a table tells.
+    assert_eq!(configure(c"1"), 0);
+    framepath_kinematics_inner_functions(Some(inverse), Some(forward), Some(switch));
+    // SAFETY: structures of the interface.
+    unsafe { framepath_kinematics_update(&pins, &mut shown) };
+    assert_eq!(shown.retract_kind, -3);
+    assert_eq!((shown.tool_centre_type, shown.axes_type), (1, 0));
+    framepath_kinematics_inner_functions(Some(table), Some(forward), None);
+    pins.command = 1014.0;
+    // SAFETY: structures of the interface.
+    unsafe { framepath_kinematics_update(&pins, &mut shown) };
+    assert_eq!((shown.retract_kind, shown.retract_way[2]), (1, 1.0));
+    assert_eq!((shown.tool_centre_type, shown.axes_type), (-1, 0));
+
+    // What the user says of axes that cannot be found, and what is not so.
+    for (said, kinematics, refusal, axes) in [
+        (c"C,B", inverse as Answer, 0, (2, 3)),
+        (c"none", inverse, 0, (0, 0)),
+        (c"-C,-A", table, 0, (1, 3)),
+        (c"C,A", table, 8, (0, 0)),
+    ] {
+        // SAFETY: strings, and structures of the interface.
+        unsafe {
+            let told = framepath_kinematics_configure_inner(c"0".as_ptr(), said.as_ptr());
+            assert_eq!(told, 0);
+            framepath_kinematics_inner_functions(Some(kinematics), Some(forward), Some(switch));
+            assert_eq!(framepath_kinematics_switch(16, &pins), 0);
+            framepath_kinematics_update(&pins, &mut shown);
+        }
+        let shown_axes = (shown.normal_tilt_axis, shown.normal_rotary_axis);
+        assert_eq!(
+            (shown.normal_refusal, shown_axes),
+            (refusal, axes),
+            "{said:?}"
+        );
+        let is_known = if said == c"-C,-A" {
+            1
+        } else if said == c"none" {
+            0
+        } else {
+            -1
+        };
+        assert_eq!(shown.retract_kind, is_known, "{said:?}");
+    }
 }

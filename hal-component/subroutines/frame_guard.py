@@ -380,7 +380,7 @@ def make_component(settings):
     for pin, kind, value in (
             ("analog-output", hal.HAL_S32, settings.analog_output),
             ("units-per-mm", hal.HAL_FLOAT, settings.units_per_mm),
-            ("z-joint", hal.HAL_S32, settings.z_joint),
+            ("type-output", hal.HAL_S32, settings.type_output),
             ("rots-convention", hal.HAL_S32, int(settings.rots_convention == "k2"))):
         component.newpin(pin, kind, hal.HAL_OUT)
         component[pin] = value

@@ -81,10 +81,9 @@ def _place(text):
     return value if abs(value) <= 100000 else None
 
 
-def _output(text):
-    if not text.isdigit() or int(text) + OUTPUTS > MOST_OUTPUTS:
-        return None
-    return int(text)
+def _output(width):
+    """The first of so many outputs."""
+    return lambda text: int(text) if text.isdigit() and int(text) + width <= MOST_OUTPUTS else None
 
 
 #: key: (default, reader that returns None for what it cannot read, what may be written)
@@ -97,7 +96,8 @@ KEYS = {
     # read by framepath filter
     "TOLERANCE": (0.01, _tolerance, "a tolerance from 0.001 to 10 mm"),
     "RETRACT_Z": (None, _place, "a place of the machine in mm"),
-    "ANALOG_OUTPUT": (0, _output, f"a whole number from 0 to {MOST_OUTPUTS - OUTPUTS}"),
+    "ANALOG_OUTPUT": (0, _output(OUTPUTS), f"a whole number from 0 to {MOST_OUTPUTS - OUTPUTS}"),
+    "TYPE_OUTPUT": (3, _output(1), f"a whole number from 0 to {MOST_OUTPUTS - 1}"),
 }
 
 
@@ -105,7 +105,7 @@ class Settings:
     """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
 
     units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s; screen_aborts_mdi: whether the
-    screen aborts what others do in MDI right behind a program; z_joint: number of the joint of Z, -1 if there is none.
+    screen aborts what others do in MDI right behind a program.
     """
 
     #: one of the keys, which are set by their names; a type checker learns of it here
@@ -135,7 +135,6 @@ class Settings:
         self.units_per_mm = _linear_units(ini)
         self.task_cycle = _task_cycle(ini)
         self.screen_aborts_mdi = _aborts_mdi(ini)
-        self.z_joint = _z_joint(ini)
         _check_coordinates(ini)
         _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
         if self.clear_on_abort:
@@ -163,11 +162,6 @@ def _joint_letters(ini):
     kinematics, line = ini.find("KINS", "KINEMATICS")
     letters = re.search(r"^framekins\b.*\bcoordinates=(\w+)", kinematics or "")
     return (letters.group(1).upper() if letters else ""), line
-
-
-def _z_joint(ini):
-    letters, _ = _joint_letters(ini)
-    return (letters or "XYZ").find("Z")
 
 
 def _check_coordinates(ini):

@@ -4,7 +4,7 @@ use libc::{c_double, c_int, c_longlong, c_uint};
 
 use nalgebra::Vector3;
 
-use super::normal_pins::NormalPins;
+use super::tool_pins::ToolPins;
 use crate::axes::Axes;
 use crate::frame::{AffineMap, ToolLength};
 use crate::kinematics::control::{FrameControl, FrameInputs, FrameOutputs};
@@ -125,6 +125,17 @@ pub struct framepath_frame_outputs {
     pub inner_type: c_int,
     /// Why it is not the one that the pin says; 0 if it is.
     pub inner_refusal: c_int,
+    /// The type of the inner kinematics for the tool centre point; -1 if none is known.
+    pub tool_centre_type: c_int,
+    /// Their type with the machine's own axes; -1 if there is none.
+    pub axes_type: c_int,
+    /// How the tool is drawn back: 0 by Z without the frame, 1 along `retract_way`, -1 its kinematics are not known, -2 it
+    /// lies level or points up, -3 the kinematics of another module have not been asked yet.
+    pub retract_kind: c_int,
+    /// Where its tip goes, in LinuxCNC's coordinates X Y Z, while the machine's own Z rises by one.
+    pub retract_way: [c_double; 3],
+    /// Where the machine's own Z is.
+    pub retract_z: c_double,
 }
 
 pub(super) fn inputs_of(pins: &framepath_frame_inputs, tool_length: ToolLength) -> FrameInputs {
@@ -200,13 +211,18 @@ pub(super) fn outputs_of(
     control: &FrameControl,
     pins: &framepath_frame_inputs,
     position: &Axes,
-    normal: &NormalPins,
+    shown_of_tool: &ToolPins,
 ) -> framepath_frame_outputs {
     let tool = Vector3::from(pins.tool_offset);
     let (frame, turned_tool) = control.active().map_or_else(
         || (AffineMap::identity(), tool),
         |frame| (*frame.tip_map(), frame.turned_tool(&tool)),
     );
+    let ToolPins {
+        normal,
+        retract,
+        types: [tool_centre_type, axes_type],
+    } = shown_of_tool;
     framepath_frame_outputs {
         switchkins_type: outputs.switchkins_type.into(),
         acknowledged: outputs.acknowledged,
@@ -232,5 +248,10 @@ pub(super) fn outputs_of(
         turned_tool: turned_tool.map(shown).into(),
         inner_type: outputs.inner_type,
         inner_refusal: outputs.inner_refusal.map_or(0, |refusal| refusal as c_int),
+        tool_centre_type: *tool_centre_type,
+        axes_type: *axes_type,
+        retract_kind: retract.kind,
+        retract_way: retract.way,
+        retract_z: retract.z,
     }
 }

@@ -6,32 +6,41 @@ use super::frame_pins::framepath_frame_inputs;
 use super::inner::{Calls, InnerModule};
 use super::inner_normal::AskedNormal;
 use super::kinematics::{
-    FRAMEPATH_UNKNOWN_TOOL_TYPES, Kinematics, joints_of, joints_of_mut, module, parameter,
+    FRAMEPATH_UNKNOWN_TOOL_AXES, FRAMEPATH_UNKNOWN_TOOL_TYPES, Kinematics, joints_of,
+    joints_of_mut, module, parameter,
 };
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::Axes;
 use crate::frame::{ActiveFrame, ToolLength};
-use crate::kinematics::Behind;
 use crate::kinematics::control::FrameControl;
 use crate::kinematics::inner::{self, Guess, InnerType};
+use crate::kinematics::{Behind, ToolAxes};
 use crate::machine::JOINT_COUNT;
 
 /// Chooses the kinematics of another module in place of a machine: `tool_types` is a list of their types that turn the
-/// tool's length themselves, empty if none do. Returns 0, or an error for `framepath_kinematics_configure_text`.
+/// tool's length themselves, empty if none do; `tool_axes` says how they turn the tool, empty if they are to be asked. Returns
+/// 0, or an error for `framepath_kinematics_configure_text`.
 ///
 /// # Safety
-/// The text is a string or null.
+/// The texts are strings or null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn framepath_kinematics_configure_inner(tool_types: *const c_char) -> c_int {
+pub unsafe extern "C" fn framepath_kinematics_configure_inner(
+    tool_types: *const c_char,
+    tool_axes: *const c_char,
+) -> c_int {
     // SAFETY: see above.
-    let Some(types) = inner::tool_types(unsafe { parameter(tool_types) }) else {
+    let (types, axes) = unsafe { (parameter(tool_types), parameter(tool_axes)) };
+    let Some(types) = inner::tool_types(types) else {
         return FRAMEPATH_UNKNOWN_TOOL_TYPES;
+    };
+    let Some(said) = ToolAxes::from_text(axes) else {
+        return FRAMEPATH_UNKNOWN_TOOL_AXES;
     };
     let module = module();
     module.tool_length = ToolLength::Frame;
     module.inner = InnerModule::NONE;
-    module.normal = AskedNormal::NONE;
+    module.normal = AskedNormal::with(said);
     module.control = Some(FrameControl::new(Behind::Inner(InnerType::first(types))));
     0
 }

@@ -33,6 +33,8 @@ pub const FRAMEPATH_UNKNOWN_MACHINE: c_int = 5;
 pub const FRAMEPATH_UNKNOWN_TOOL_LENGTH: c_int = 6;
 /// `tool_types=` is no list of types.
 pub const FRAMEPATH_UNKNOWN_TOOL_TYPES: c_int = 7;
+/// `tool_axes=` names no axes that could turn a tool.
+pub const FRAMEPATH_UNKNOWN_TOOL_AXES: c_int = 8;
 
 /// The machine of the module.
 pub(super) struct Kinematics {
@@ -202,6 +204,7 @@ pub extern "C" fn framepath_kinematics_configure_text(error: c_int) -> *const c_
         FRAMEPATH_UNKNOWN_MACHINE => c"there is no such machine; write machine=identity, machine=xyzac or machine=xyzbc",
         FRAMEPATH_UNKNOWN_TOOL_LENGTH => c"there is no such rule; write tool_length=frame or tool_length=machine",
         FRAMEPATH_UNKNOWN_TOOL_TYPES => c"this is no list of types from 0 to 15; write those of the kinematics that have a tool-offset pin, as in tool_types=0,2",
+        FRAMEPATH_UNKNOWN_TOOL_AXES => c"this is no axis of A B C that tilts the tool, nor one that carries another; write tool_axes=B, tool_axes=C,B for C that carries B, tool_axes=-C,-A for those of a table, tool_axes=C,B:0:1:1 for B about another line, or tool_axes=none",
         _ => c"no error",
     }
     .as_ptr()
@@ -360,6 +363,6 @@ pub unsafe extern "C" fn framepath_kinematics_update(
         return;
     };
     let outputs = control.update(&inputs);
-    let normal = normal.update(control, pins, position, joints, inner, outputs.slot);
-    *out = outputs_of(&outputs, control, pins, &Axes::from(*position), &normal);
+    let shown = normal.update(control, pins, position, joints, inner, outputs.slot);
+    *out = outputs_of(&outputs, control, pins, &Axes::from(*position), &shown);
 }

@@ -12,6 +12,8 @@ pub mod linuxcnc;
 mod normal_pins;
 pub mod planner;
 pub mod pose;
+mod retract_pins;
+mod tool_pins;
 
 use libc::c_uint;
 

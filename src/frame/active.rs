@@ -151,6 +151,11 @@ impl ActiveFrame {
         )
     }
 
+    /// The way in world coordinates that is this one of X Y Z on the machine.
+    pub fn vector_to_world(&self, way: &Vector3<f64>) -> Vector3<f64> {
+        self.to_world.apply_to_vector(way)
+    }
+
     /// The map of X Y Z from world to machine, tool and work offset included.
     pub fn map(&self) -> &AffineMap {
         &self.to_machine

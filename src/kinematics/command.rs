@@ -14,6 +14,9 @@ const ADDITIVE: i32 = 100;
 /// The code of the command that removes the frame.
 const REMOVE: f64 = 9.0;
 
+/// The code of the command that asks how the tool is turned.
+const ASK: f64 = 14.0;
+
 /// The code of the command that suspends the frame.
 const SUSPEND: f64 = 13.0;
 
@@ -40,6 +43,11 @@ impl Command {
     /// Whether the frame is removed, which needs no values and is never wrong.
     pub fn removes(&self) -> bool {
         self.code == REMOVE
+    }
+
+    /// Whether the program wants to know how the kinematics of another module turn the tool, also without a frame.
+    pub fn asks(&self) -> bool {
+        self.code == ASK
     }
 
     /// Whether the machine is to run without the frame for a while: what the frame is made of stays,
@@ -105,7 +113,7 @@ impl Source {
         let mut next = if self.map { Self::nothing() } else { *self };
         match code {
             10 => next.list.drop_scales()?,
-            11 => return Ok(*self),
+            11 | 14 => return Ok(*self),
             12 => return Ok(Self::map_pins()),
             _ if code > ADDITIVE => {
                 next.list.append(&operation(code - ADDITIVE, values)?)?;

@@ -57,6 +57,24 @@ impl InnerType {
         bit.is_some_and(|bit| self.tool_types & bit != 0)
     }
 
+    /// The type for the tool centre point: the one in force, if it is theirs to turn the tool, or the first such one; `None`
+    /// if none is named.
+    pub fn for_tool_centre(self) -> Option<i32> {
+        self.nearest(true)
+    }
+
+    /// The type for the machine's own axes: the one in force, if it does not turn the tool, or the first such one.
+    pub fn for_axes(self) -> Option<i32> {
+        self.nearest(false)
+    }
+
+    /// The type in force, or the first one, of those that turn the tool or of the others.
+    fn nearest(self, turning: bool) -> Option<i32> {
+        core::iter::once(self.number)
+            .chain(0..TYPES)
+            .find(|number| self.with(*number).turns_tool() == turning)
+    }
+
     /// The number that a pin says; `None` if it cannot be one.
     pub fn on_pin(value: f64) -> Option<i32> {
         let number = value as i32;
@@ -186,5 +204,18 @@ mod tests {
         let kinds = InnerType::first(0b101);
         let turning = (0..TYPES).filter(|number| kinds.with(*number).turns_tool());
         assert!(turning.eq([0, 2]));
+    }
+
+    #[test]
+    fn the_type_in_force_is_kept_where_it_will_do() {
+        let kinds = InnerType::first(0b110);
+        for (number, tool_centre, axes) in [(0, 1, 0), (1, 1, 0), (2, 2, 0), (3, 1, 3)] {
+            let kind = kinds.with(number);
+            assert_eq!(kind.for_tool_centre(), Some(tool_centre), "{number}");
+            assert_eq!(kind.for_axes(), Some(axes), "{number}");
+        }
+        assert_eq!(InnerType::first(0b1).for_axes(), Some(1));
+        assert_eq!(InnerType::first(0).for_tool_centre(), None);
+        assert_eq!(InnerType::first(u16::MAX).for_axes(), None);
     }
 }

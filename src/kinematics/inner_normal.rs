@@ -44,7 +44,7 @@ pub fn inner_normal(
 }
 
 /// Where the axes are that turn the tool.
-fn angles(chain: &RotaryChain, axes: &Axes) -> RotaryAngles {
+pub fn angles(chain: &RotaryChain, axes: &Axes) -> RotaryAngles {
     let angle = |letter: usize| axes.get(A + letter).copied().unwrap_or(0.0);
     RotaryAngles {
         tilt: angle(chain.tilt.letter),

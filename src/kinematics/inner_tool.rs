@@ -10,14 +10,16 @@
 //! with T the turn of the table, h where the head has the tool, from the tip towards the spindle, and L from the tip to where
 //! the head turns. Joints beside a tip give T. Where an angle changes them and not T, it belongs to the head, and since h and z
 //! have the same length, the way d of the joints gives L: `d d + 2 L d z = 0`. The tool then has the direction T^-1 h on the
-//! workpiece. What is found has to agree with further angles to the last digits; everything else (robots, heads whose
-//! axes do not meet) is not known.
+//! workpiece. What is found has to agree with further angles to the last digits. Of a head whose axes do not meet
+//! [`head_circles`](super::head_circles) makes something; everything else (robots) is not known, unless a user says it.
 
 use nalgebra::{Matrix3, Unit, Vector3};
 
+use super::head_circles::chain_by_circles;
 use super::inner::InnerKinematics;
 use super::rotary_chain::{RotaryAxis, RotaryChain};
 use super::tool_angles::RotaryAngles;
+use super::tool_axes::ToolAxes;
 use crate::axes::Axes;
 use crate::machine::JOINT_COUNT;
 
@@ -32,25 +34,94 @@ const TRIED: f64 = 20.0;
 /// Angles of both axes at which what was found is compared once more, degrees.
 const COMPARED: [[f64; 2]; 3] = [[35.0, -50.0], [-65.0, 25.0], [110.0, 15.0]];
 
-/// Which axes turn the tool and how: `Ok(None)` if none does; `Err` if it is not known. `axes` and `joints` are those of now.
-pub fn rotary_chain(
+/// What is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolTurning {
+    /// The axes that turn the tool; `None` if none does.
+    pub chain: Option<RotaryChain>,
+    /// The joint that runs along Z; `None` of an arm.
+    pub z_joint: Option<usize>,
+}
+
+/// Which axes turn the tool and how. `axes` and `joints` are those of now, `said` is what the user says of it.
+///
+/// # Errors
+///
+/// [`Unknown`].
+pub fn tool_turning(
     inner: &mut impl InnerKinematics,
     axes: &Axes,
     joints: &[f64; JOINT_COUNT],
-) -> Result<Option<RotaryChain>, Unknown> {
+    said: &ToolAxes,
+) -> Result<ToolTurning, Unknown> {
     // The arm that the machine has with these joints.
     let mut here = *axes;
     inner.forward(joints, &mut here);
-    let found = Asked::new(inner, axes, joints).and_then(|mut asked| asked.chain());
+    let found = Asked::new(inner, axes, joints).and_then(|mut asked| {
+        let [_, _, z_joint] = asked.linear;
+        let by_reach = asked.find_reach().and_then(|()| asked.chain());
+        let chain = match by_reach {
+            Some(chain) => chain,
+            None => Some(asked.chain_by_circles()?),
+        };
+        Some(ToolTurning {
+            chain,
+            z_joint: Some(z_joint),
+        })
+    });
     // Some remember where they were asked last.
     let mut back = *joints;
     inner.inverse(axes, &mut back);
-    found.ok_or(Unknown)
+    with_what_is_said(found, said)
 }
 
-/// How the kinematics turn the tool cannot be found out.
+/// How the kinematics turn the tool is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unknown;
+pub enum Unknown {
+    /// It cannot be found out, and nobody says it.
+    NotFound,
+    /// They turn it otherwise than the user says.
+    NotAsSaid,
+}
+
+fn with_what_is_said(found: Option<ToolTurning>, said: &ToolAxes) -> Result<ToolTurning, Unknown> {
+    let chain = match (found, said) {
+        (Some(found), said) => {
+            let is_so = match (found.chain, said) {
+                (None, _) | (_, ToolAxes::Unsaid) => true,
+                (Some(_), ToolAxes::Nothing) => false,
+                (Some(chain), ToolAxes::Turning(other)) => is_alike(&chain, other),
+            };
+            return if is_so {
+                Ok(found)
+            } else {
+                Err(Unknown::NotAsSaid)
+            };
+        }
+        (None, ToolAxes::Unsaid) => return Err(Unknown::NotFound),
+        (None, ToolAxes::Nothing) => None,
+        (None, ToolAxes::Turning(chain)) => Some(*chain),
+    };
+    Ok(ToolTurning {
+        chain,
+        z_joint: None,
+    })
+}
+
+/// Whether two chains turn the tool alike.
+fn is_alike(one: &RotaryChain, other: &RotaryChain) -> bool {
+    let direction = |chain: &RotaryChain, angles: [f64; 3]| {
+        let angle = |axis: &RotaryAxis| angles.get(axis.letter).copied().unwrap_or(0.0);
+        chain.direction(RotaryAngles {
+            tilt: angle(&chain.tilt),
+            rotary: chain.rotary.as_ref().map_or(0.0, angle),
+        })
+    };
+    COMPARED.iter().all(|[one_angle, other_angle]| {
+        let angles = [*one_angle, *other_angle, TRIED];
+        (direction(one, angles) - direction(other, angles)).norm() < CLOSE
+    })
+}
 
 /// Kinematics whose linear joints are straight, and what is known of them.
 struct Asked<'a, K> {
@@ -76,7 +147,7 @@ impl<'a, K: InnerKinematics> Asked<'a, K> {
             reach: None,
         };
         asked.find_linear_joints()?;
-        asked.find_head()?;
+        asked.find_tables()?;
         Some(asked)
     }
 
@@ -157,7 +228,8 @@ impl<'a, K: InnerKinematics> Asked<'a, K> {
         Some(Matrix3::from_rows(&[x?, y?, z?]))
     }
 
-    fn find_head(&mut self) -> Option<()> {
+    /// Which axes turn the workpiece; all others count for the head.
+    fn find_tables(&mut self) -> Option<()> {
         let level = self.table([0.0; 3])?;
         let mut head = [false; 3];
         for (axis, is_head) in head.iter_mut().enumerate() {
@@ -165,6 +237,11 @@ impl<'a, K: InnerKinematics> Asked<'a, K> {
             *is_head = is_near(&turned, &level, CLOSE);
         }
         self.head = head;
+        Some(())
+    }
+
+    /// How far above the tip the head turns, where its axes meet.
+    fn find_reach(&mut self) -> Option<()> {
         let angles = self.head.map(|is_head| if is_head { TRIED } else { 0.0 });
         let way = self.place(angles)? - self.place([0.0; 3])?;
         if way.norm() > CLOSE {
@@ -186,6 +263,37 @@ impl<'a, K: InnerKinematics> Asked<'a, K> {
             head += (self.place(angles)? - self.place(level)?) / reach;
         }
         Some(self.table(angles)?.transpose() * head)
+    }
+
+    /// The axes of a head that do not meet, with a table that one axis turns or none.
+    fn chain_by_circles(&mut self) -> Option<RotaryChain> {
+        let is_of_head = self.head;
+        let mut tables = (0..3).filter(|axis| !is_of_head.get(*axis).copied().unwrap_or(true));
+        let table = match (tables.next(), tables.next()) {
+            (None, _) => None,
+            (Some(axis), None) => Some(self.table_axis(axis)?),
+            (Some(_), Some(_)) => return None,
+        };
+        chain_by_circles(|angles| self.place(angles), is_of_head, table)
+    }
+
+    /// An axis of the table, as the workpiece sees it.
+    fn table_axis(&mut self, letter: usize) -> Option<RotaryAxis> {
+        let turn = self.table(only(letter, TRIED))?.transpose();
+        let twist = Vector3::new(
+            turn.m32 - turn.m23,
+            turn.m13 - turn.m31,
+            turn.m21 - turn.m12,
+        );
+        let axis = RotaryAxis {
+            letter,
+            line: Unit::try_new(twist, CLOSE)?,
+            is_of_head: false,
+        };
+        let alike = [Vector3::x(), Vector3::y(), Vector3::z()]
+            .iter()
+            .all(|side| (axis.turned(TRIED, side) - turn * side).norm() < CLOSE);
+        alike.then_some(axis)
     }
 
     /// The axes that tilt the tool by themselves, and those along it that turn what is tilted.
@@ -222,7 +330,7 @@ impl<'a, K: InnerKinematics> Asked<'a, K> {
             return Some(None);
         }
         let line = Unit::try_new((there - z).cross(&(back - z)), CLOSE * CLOSE)?;
-        Some(Some(either_way(axis, line, &z, &there)?))
+        Some(Some(self.either_way(axis, line, &z, &there)?))
     }
 
     /// An axis along the tool; `Some(None)` if it turns nothing.
@@ -232,7 +340,8 @@ impl<'a, K: InnerKinematics> Asked<'a, K> {
         if (after - before).norm() < CLOSE {
             return Some(None);
         }
-        Some(Some(either_way(axis, Vector3::z_axis(), &before, &after)?))
+        let line = Vector3::z_axis();
+        Some(Some(self.either_way(axis, line, &before, &after)?))
     }
 
     /// Which one carries the other.
@@ -248,6 +357,25 @@ impl<'a, K: InnerKinematics> Asked<'a, K> {
             }
         }
         None
+    }
+
+    /// The axis about this line, or the other way round, that has turned one direction into another.
+    fn either_way(
+        &self,
+        letter: usize,
+        line: Unit<Vector3<f64>>,
+        before: &Vector3<f64>,
+        after: &Vector3<f64>,
+    ) -> Option<RotaryAxis> {
+        let is_of_head = self.head.get(letter).copied().unwrap_or(false);
+        [line, -line]
+            .map(|line| RotaryAxis {
+                letter,
+                line,
+                is_of_head,
+            })
+            .into_iter()
+            .find(|axis| (axis.turned(TRIED, before) - after).norm() < CLOSE)
     }
 
     fn agrees(&mut self, chain: &RotaryChain, compared: &[[f64; 2]]) -> Option<bool> {
@@ -266,19 +394,6 @@ impl<'a, K: InnerKinematics> Asked<'a, K> {
         }
         Some(true)
     }
-}
-
-/// The axis about this line, or the other way round, that has turned one direction into another.
-fn either_way(
-    letter: usize,
-    line: Unit<Vector3<f64>>,
-    before: &Vector3<f64>,
-    after: &Vector3<f64>,
-) -> Option<RotaryAxis> {
-    [line, -line]
-        .map(|line| RotaryAxis { letter, line })
-        .into_iter()
-        .find(|axis| (axis.turned(TRIED, before) - after).norm() < CLOSE)
 }
 
 /// One of A B C at an angle, the others at 0.

@@ -28,6 +28,8 @@ pub struct RotaryAxis {
     pub letter: usize,
     /// The line that a positive angle turns the tool about, right-handed, while the other axis is at 0.
     pub line: Unit<Vector3<f64>>,
+    /// Whether it turns the tool, and not the workpiece.
+    pub is_of_head: bool,
 }
 
 impl RotaryAxis {
@@ -61,6 +63,17 @@ impl RotaryChain {
         let tilted = self.tilt.turned(angles.tilt, &Vector3::z());
         self.rotary
             .map_or(tilted, |rotary| rotary.turned(angles.rotary, &tilted))
+    }
+
+    /// Where the tool points in the machine, while [`Self::direction`] is what the workpiece sees.
+    pub fn direction_in_machine(&self, angles: RotaryAngles) -> Vector3<f64> {
+        let turned = |axis: &RotaryAxis, angle, tool: Vector3<f64>| match axis.is_of_head {
+            true => axis.turned(angle, &tool),
+            false => tool,
+        };
+        let tilted = turned(&self.tilt, angles.tilt, Vector3::z());
+        self.rotary
+            .map_or(tilted, |rotary| turned(&rotary, angles.rotary, tilted))
     }
 
     /// Both solutions, without whole turns, for a tool along `direction` in coordinates of the workpiece (any length above

@@ -30,6 +30,8 @@ pub enum ToolNormalError {
     NothingTurnsTool = 6,
     /// Without a frame the kinematics of another module are not asked how they turn the tool: nobody touches them then.
     NoFrame = 7,
+    /// The kinematics of another module turn the tool otherwise than `tool_axes=` says.
+    NotAsSaid = 8,
 }
 
 impl From<OrientationError> for ToolNormalError {

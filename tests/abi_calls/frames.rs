@@ -193,10 +193,14 @@ impl Calls {
         assert!(shown.operations >= 0);
         assert!((0..=LAST_REFUSAL).contains(&shown.refusal));
         assert!((0..=LAST_NORMAL_REFUSAL).contains(&shown.normal_refusal));
+        assert!((0..=1).contains(&shown.retract_kind), "a table stands");
         for (name, value) in [
             ("acknowledged", shown.acknowledged),
             ("normal tilt", shown.normal_tilt),
             ("normal rotary", shown.normal_rotary),
+            ("retract way X", shown.retract_way[0]),
+            ("retract way Z", shown.retract_way[2]),
+            ("retract Z", shown.retract_z),
             ("tool offset X", shown.tool_offset[0]),
             ("tool offset Y", shown.tool_offset[1]),
             ("tool offset Z", shown.tool_offset[2]),

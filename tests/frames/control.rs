@@ -60,6 +60,21 @@ fn a_suspended_frame_comes_back() {
 }
 
 #[test]
+fn a_question_changes_nothing() {
+    let mut motion = xyz();
+    assert_eq!(motion.send(14, [0.0; 3]), None);
+    assert_eq!((motion.out.slot, motion.out.active), (0, false));
+    assert_eq!(motion.send(1, [55.0, 35.0, 0.0]), None);
+    assert_eq!(motion.send(14, [0.0; 3]), None);
+    assert_eq!(motion.machine([10.0, 0.0, 0.0]), [65.0, 35.0, 0.0]);
+    assert_eq!(motion.out.operations, 1);
+    assert_eq!(
+        motion.send(114, [0.0; 3]),
+        Some(FrameRefusal::UnknownCommand)
+    );
+}
+
+#[test]
 fn removing_nothing_needs_no_switch() {
     let mut motion = xyz();
     motion.linked = false;
@@ -80,7 +95,7 @@ fn a_refusal_keeps_the_old_frame() {
         (3, [10.0, 0.5, 0.0], FrameRefusal::UnknownCommand),
         (4, [10.0, 20.0, 2.0], FrameRefusal::UnknownCommand),
         (0, [0.0; 3], FrameRefusal::UnknownCommand),
-        (14, [0.0; 3], FrameRefusal::UnknownCommand),
+        (15, [0.0; 3], FrameRefusal::UnknownCommand),
         (109, [0.0; 3], FrameRefusal::UnknownCommand),
         (999, [0.0; 3], FrameRefusal::UnknownCommand),
         (107, [1.0, 0.0, 1.0], FrameRefusal::ZeroScale),

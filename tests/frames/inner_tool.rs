@@ -2,17 +2,17 @@
 
 use framepath::axes::Axes;
 use framepath::kinematics::inner::InnerKinematics;
-use framepath::kinematics::inner_tool::{Unknown, rotary_chain};
+use framepath::kinematics::inner_tool::{Unknown, tool_turning};
 use framepath::kinematics::{
-    AngleRange, OrientationError, RotaryAngles, RotaryChain, RotaryLimits, ToolNormalError,
-    inner_normal, tool_angles,
+    AngleRange, OrientationError, RotaryAngles, RotaryChain, RotaryLimits, ToolAxes,
+    ToolNormalError, inner_normal, tool_angles,
 };
 use framepath::machine::{Machine, TableTiltingParameters};
 use nalgebra::{Rotation3, Unit, Vector3};
 use proptest::prelude::*;
 
 /// Joints for a tip and the angles A B C, by a formula.
-struct Formula<F>(F);
+pub struct Formula<F>(pub F);
 
 impl<F: FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6]> InnerKinematics for Formula<F> {
     fn inverse(&mut self, axes: &Axes, joints: &mut [f64; 16]) -> i32 {
@@ -26,16 +26,16 @@ impl<F: FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6]> InnerKinematics for Formula<F
     }
 }
 
-fn about(line: Vector3<f64>, degrees: f64) -> Rotation3<f64> {
+pub fn about(line: Vector3<f64>, degrees: f64) -> Rotation3<f64> {
     Rotation3::from_axis_angle(&Unit::new_normalize(line), degrees.to_radians())
 }
 
-fn joints(place: Vector3<f64>, [a, b, c]: [f64; 3]) -> [f64; 6] {
+pub fn joints(place: Vector3<f64>, [a, b, c]: [f64; 3]) -> [f64; 6] {
     [place.x, place.y, place.z, a, b, c]
 }
 
 /// A head that turns about Z by C and, carried by it, about this line by B, so far above the tip.
-fn head(line: Vector3<f64>, reach: f64) -> impl FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6] {
+pub fn head(line: Vector3<f64>, reach: f64) -> impl FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6] {
     move |tip, angles| {
         let tool = about(Vector3::z(), angles[2]) * about(line, angles[1]) * Vector3::z();
         joints(tip + reach * (tool - Vector3::z()), angles)
@@ -43,7 +43,7 @@ fn head(line: Vector3<f64>, reach: f64) -> impl FnMut(Vector3<f64>, [f64; 3]) ->
 }
 
 /// A table turns about Z by C, a head about -Y by B.
-fn mixed(tip: Vector3<f64>, angles: [f64; 3]) -> [f64; 6] {
+pub fn mixed(tip: Vector3<f64>, angles: [f64; 3]) -> [f64; 6] {
     let tool = about(-Vector3::y(), angles[1]) * Vector3::z();
     let centre = Vector3::new(3.0, -2.0, 0.0);
     let turned = about(Vector3::z(), angles[2]) * (tip - centre) + centre;
@@ -52,7 +52,17 @@ fn mixed(tip: Vector3<f64>, angles: [f64; 3]) -> [f64; 6] {
 
 fn ask(inner: &mut impl InnerKinematics) -> Result<Option<RotaryChain>, Unknown> {
     let here = Axes::from([12.0, -5.0, 30.0, 7.0, -11.0, 23.0, 0.0, 0.0, 0.0]);
-    rotary_chain(inner, &here, &[0.0; 16])
+    tool_turning(inner, &here, &[0.0; 16], &ToolAxes::Unsaid).map(|found| found.chain)
+}
+
+/// What comes of it where a user says something.
+fn said(
+    text: &str,
+    formula: impl FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6],
+) -> Result<Option<RotaryChain>, Unknown> {
+    let axes = ToolAxes::from_text(text.as_bytes()).expect("axes");
+    let found = tool_turning(&mut Formula(formula), &Axes::zeros(), &[0.0; 16], &axes);
+    found.map(|found| found.chain)
 }
 
 fn found(formula: impl FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6]) -> RotaryChain {
@@ -155,19 +165,102 @@ fn axes_that_turn_nothing_are_told_from_those_that_are_not_understood() {
         let (reach, bearing) = (tip.x.hypot(tip.y), tip.y.atan2(tip.x).to_degrees());
         joints(Vector3::new(reach, bearing, tip.z), angles)
     };
-    assert_eq!(ask(&mut Formula(arms)), Err(Unknown));
-    // a head whose axes do not meet
-    let bent = |tip: Vector3<f64>, angles: [f64; 3]| {
-        let arm = about(Vector3::z(), angles[2]);
-        let tool = arm * about(Vector3::y(), angles[1]) * Vector3::z();
+    assert_eq!(ask(&mut Formula(arms)), Err(Unknown::NotFound));
+    let fails = |_, _| [f64::NAN; 6];
+    assert_eq!(ask(&mut Formula(fails)), Err(Unknown::NotFound));
+    // a head that shifts where it turns is no head
+    let shifting = |tip: Vector3<f64>, angles: [f64; 3]| {
+        let shift = Vector3::new(0.0, 0.3 * angles[1], 0.0);
         joints(
-            tip + 100.0 * tool + arm * Vector3::new(15.0, 0.0, 0.0),
+            tip + about(Vector3::y(), angles[1]) * Vector3::new(15.0, 0.0, 100.0) + shift,
             angles,
         )
     };
-    assert_eq!(ask(&mut Formula(bent)), Err(Unknown));
-    let fails = |_, _| [f64::NAN; 6];
-    assert_eq!(ask(&mut Formula(fails)), Err(Unknown));
+    assert_eq!(ask(&mut Formula(shifting)), Err(Unknown::NotFound));
+}
+
+/// A head on C and B, or on B and A, whose axes miss each other and the tool.
+fn bent(
+    [carrying, carried]: [usize; 2],
+    lines: [Vector3<f64>; 2],
+) -> impl FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6] {
+    move |tip, angles| {
+        let arm = about(lines[0], angles[carrying]);
+        let tool = arm * about(lines[1], angles[carried]);
+        let (reach, offset) = (
+            Vector3::new(3.0, -4.0, 100.0),
+            Vector3::new(15.0, 6.0, 20.0),
+        );
+        joints(tip + tool * reach + arm * offset, angles)
+    }
+}
+
+#[test]
+fn a_head_whose_axes_do_not_meet() {
+    let cases = [
+        ([2, 1], [Vector3::z(), Vector3::y()]),
+        ([2, 0], [-Vector3::z(), Vector3::x()]),
+        ([2, 1], [Vector3::z(), Vector3::new(0.0, 1.0, 1.0)]),
+        ([1, 0], [Vector3::y(), -Vector3::x()]),
+        ([0, 1], [Vector3::x(), Vector3::y()]),
+    ];
+    for (axes, lines) in cases {
+        let chain = found(bent(axes, lines));
+        assert_eq!(letters(&chain), (axes[1], Some(axes[0])));
+        let (tilt, rotary) = (-37.0, 71.0);
+        let tool = chain.direction(RotaryAngles { tilt, rotary });
+        let expected = about(lines[0], rotary) * about(lines[1], tilt) * Vector3::z();
+        assert!((tool - expected).norm() < 1e-9, "{axes:?} {tool}");
+    }
+}
+
+#[test]
+fn a_bent_head_of_one_axis_alone_beside_a_table_or_with_a_spindle_that_turns() {
+    let side = Vector3::new(15.0, 0.0, 100.0);
+    let chain = found(|tip, angles| joints(tip + about(Vector3::y(), angles[1]) * side, angles));
+    assert_eq!(letters(&chain), (1, None));
+    let beside = |tip: Vector3<f64>, angles: [f64; 3]| {
+        let turned = about(Vector3::z(), angles[2]) * (tip - Vector3::new(3.0, -2.0, 0.0));
+        joints(turned + about(-Vector3::y(), angles[1]) * side, angles)
+    };
+    let chain = found(beside);
+    assert_eq!(letters(&chain), (1, Some(2)));
+    let (tilt, rotary) = (30.0, 90.0);
+    let tool = chain.direction(RotaryAngles { tilt, rotary });
+    // the workpiece has turned the other way round
+    let expected = Vector3::new(0.0, 0.5, 0.75_f64.sqrt());
+    assert!((tool - expected).norm() < 1e-9, "{tool}");
+    // C turns the tool about itself, beside its line
+    let spindle = |tip: Vector3<f64>, angles: [f64; 3]| {
+        let off = about(Vector3::z(), angles[2]) * Vector3::new(2.0, 0.0, 0.0);
+        joints(tip + about(Vector3::y(), angles[1]) * (side + off), angles)
+    };
+    assert_eq!(letters(&found(spindle)), (1, None));
+}
+
+#[test]
+fn what_a_user_says_counts_where_nothing_can_be_found_and_has_to_be_so_where_it_can() {
+    let arms = |tip: Vector3<f64>, angles: [f64; 3]| {
+        let (reach, bearing) = (
+            tip.x.hypot(tip.y) + 10.0,
+            tip.y.atan2(tip.x + 1.0).to_degrees(),
+        );
+        joints(Vector3::new(reach, bearing, tip.z), angles)
+    };
+    assert_eq!(said("", arms), Err(Unknown::NotFound));
+    assert_eq!(said("none", arms), Ok(None));
+    let chain = said("C,B", arms).expect("said").expect("axes");
+    assert_eq!(letters(&chain), (1, Some(2)));
+    // a head and a table that are asked
+    let upright = || head(Vector3::y(), 250.0);
+    assert!(said("C,B", upright()).is_ok_and(|chain| chain.is_some()));
+    for wrong in ["-C,B", "C,-B", "C,A", "B", "none", "C,B:0:1:1"] {
+        assert_eq!(said(wrong, upright()), Err(Unknown::NotAsSaid), "{wrong}");
+    }
+    assert!(said("-C,-B", mixed).is_ok_and(|chain| chain.is_some()));
+    assert_eq!(said("C,-B", mixed), Err(Unknown::NotAsSaid));
+    // a type without the tool centre point
+    assert_eq!(said("C,B", joints), Ok(None));
 }
 
 #[test]

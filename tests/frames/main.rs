@@ -9,5 +9,6 @@ mod inner_types;
 mod machine_control;
 mod machine_kinematics;
 mod properties;
+mod retraction;
 mod sinumerik;
 mod tool;

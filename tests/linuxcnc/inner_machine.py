@@ -17,6 +17,11 @@ REMAP = M428 modalgroup=10 ngc=to_type_1
 REMAP = M429 modalgroup=10 ngc=to_type_0
 """
 
+TOOL_CENTRE = "REMAP = G43.4 modalgroup=1 argspec=abcdehijklpqruvwxyz ngc=code_tool_centre\n"
+
+#: lengths of 15 and 40 mm
+TOOLS = "T1 P1 Z15\nT2 P2 Z40\n"
+
 ABORT = "ON_ABORT_COMMAND = o<on_abort> call\n"
 
 SETTINGS = f"[FRAMEPATH]\nANALOG_OUTPUT = {FIRST}\n"
@@ -68,7 +73,7 @@ class Machine:
     def ini(self, inner):
         text = robots.INI.format(kinematics=self.kinematics, joints=len(self.home), letters=self.letters, planner="blendtp",
                                  world_home=self.options.get("world_home", ""))
-        text = text.replace("[RS274NGC]\n", "[RS274NGC]\n" + NGC + ABORT * self.has_frames(inner)) + SETTINGS
+        text = text.replace("[RS274NGC]\n", "[RS274NGC]\n" + NGC + (ABORT + TOOL_CENTRE) * self.has_frames(inner)) + SETTINGS
         text += "".join(robots.AXIS.format(letter=letter) for letter in self.letters)
         for number, home in enumerate(self.home):
             least, greatest = self.options.get(f"joint_{number}", (-5000, 5000))
@@ -89,10 +94,11 @@ class Machine:
                         for number in range(len(self.home)))
         return text + GUARD * self.has_frames(inner)
 
-    def run(self, steps, programs=None, inner=None, record=True):
+    def run(self, steps, programs=None, inner=None, record=True, modules=None):
         folder = tempfile.mkdtemp(prefix="framepath-inner.")
         try:
-            files = {"robot.ini": self.ini(inner), "robot.hal": self.hal_text(inner)}
+            ini = self.ini(inner).replace("[EMCIO]\n", "[EMCIO]\nTOOL_TABLE = robot.tbl\n")
+            files = {"robot.ini": ini, "robot.hal": self.hal_text(inner), "robot.tbl": TOOLS}
             for number in range(2):
                 files[f"to_type_{number}.ngc"] = SWITCH.format(number=number, output=SELECT)
             for name, content in files.items():
@@ -103,13 +109,14 @@ class Machine:
                 # without framekins there is no slot
                 del recorder.integers["slot"]
                 recorder.header.remove("slot")
-            return harness.run(steps, programs, sample="robot", configuration=folder, recorder=recorder, record=record)
+            return harness.run(steps, programs, sample="robot", configuration=folder, recorder=recorder, record=record,
+                               modules=modules)
         finally:
             shutil.rmtree(folder)
 
-    def run_program(self, *lines, inner=None):
+    def run_program(self, *lines, inner=None, modules=None):
         text = "\n".join(["G21 G61.1 G17 G90 G94 F3000", *lines, "M2"]) + "\n"
-        return self.run([["run", "PROGRAMS/part.ngc"], ["note", "end"]], {"part.ngc": text}, inner)
+        return self.run([["run", "PROGRAMS/part.ngc"], ["note", "end"]], {"part.ngc": text}, inner, modules=modules)
 
     def joints(self, result, note="end"):
         return result.answers[note]["joints"][:len(self.home)]

@@ -71,10 +71,15 @@ def all_of_linuxcnc():
     return [kinematics for kinematics in MODULES + NEWER if kinematics.name in names], names
 
 
-def with_skewkins(folder):
-    """Our modules, and one that halcompile makes of skewkins.comp."""
+def with_compiled(folder, name):
+    """Our modules, and one that halcompile makes of the component of this name."""
     for file in glob.glob(os.path.join(harness.MODULES, "*.so")):
         shutil.copy(file, folder)
-    shutil.copy(os.path.join(harness.HERE, "skewkins.comp"), folder)
-    subprocess.run(["halcompile", "--compile", "skewkins.comp"], cwd=folder, check=True, capture_output=True)
+    shutil.copy(os.path.join(harness.HERE, f"{name}.comp"), folder)
+    subprocess.run(["halcompile", "--compile", f"{name}.comp"], cwd=folder, check=True, capture_output=True)
     os.chmod(folder, 0o755)
+
+
+def with_skewkins(folder):
+    """The same with skewkins.comp."""
+    with_compiled(folder, "skewkins")

@@ -301,9 +301,7 @@ class SettingsOfTheIni(unittest.TestCase):
         self.assertEqual((self.read("").tolerance, self.read("").retract_z), (0.01, None))
         settings = self.read("[FRAMEPATH]\nTOLERANCE = 0.05\nRETRACT_Z = -12.5\n")
         self.assertEqual((settings.tolerance, settings.retract_z), (0.05, -12.5))
-        for letters, joint in (("XYZAC", 2), ("XYYZ", 3), ("XY", -1)):
-            kinematics = f"[KINS]\nKINEMATICS = framekins coordinates={letters}\n"
-            self.assertEqual(self.read(kinematics).z_joint, joint)
+        self.assertEqual((self.read("").type_output, self.read("[FRAMEPATH]\nTYPE_OUTPUT = 63\n").type_output), (3, 63))
 
     def test_every_mistake_is_named(self):
         self.refused("[FRAMEPATH]\nCLEAR_AT_STRAT = 1\n", ".ini:7: [FRAMEPATH]CLEAR_AT_STRAT", "CLEAR_AT_START",
@@ -314,6 +312,8 @@ class SettingsOfTheIni(unittest.TestCase):
         self.refused("[FRAMEPATH]\nCLEAR_AT_END = 1 # always\n", "comments on a line of their own")
         for value in ("56", "-1", "1.5", "x"):
             self.refused(f"[FRAMEPATH]\nANALOG_OUTPUT = {value}\n", "from 0 to 55")
+        for value in ("64", "-1", "x"):
+            self.refused(f"[FRAMEPATH]\nTYPE_OUTPUT = {value}\n", "from 0 to 63")
         for value in ("0", "11", "fine"):
             self.refused(f"[FRAMEPATH]\nTOLERANCE = {value}\n", "from 0.001 to 10 mm")
         self.refused("[FRAMEPATH]\nRETRACT_Z = top\n", "a place of the machine")

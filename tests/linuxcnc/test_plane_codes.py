@@ -177,7 +177,7 @@ class WrongUse(unittest.TestCase):
             (["G68.2 P2 Q1 X0 Y0 Z0", "G68.4 J10"], "P2 Q2 is missing"),
             *(([f"{code} X1"], "Unknown g code used") for code in UNKNOWN),
             (["G43.4 H1 X5"], "G43.4 takes H only"),
-            (["G43.4 H1"], "tilting rotary tables of framekins"),
+            (["G43.4 H1"], "rotary axes that framekins knows"),
         ]
         steps: list[list] = [["mdi", "G21 G61.1 G17 G90"]]
         for number, (lines, _) in enumerate(wrong):

@@ -63,6 +63,13 @@ fn lead_type_to_framekins(subject: &Subject, edits: &mut Edits) {
     };
     let commands = subject.all("HAL", "HALCMD");
     let own = |line: usize, file: &std::path::Path| line == place.line && *file == *place.file;
+    let outputs = subject.state.beside(MOTION_TYPE);
+    let number = |pin: &str| pin.strip_prefix("motion.analog-out-")?.parse::<u32>().ok();
+    if let Some(output) = outputs.filter_map(|(pin, _)| number(pin)).next()
+        && output != subject.type_output()
+    {
+        edits.set("FRAMEPATH", "TYPE_OUTPUT", &output.to_string());
+    }
     match commands
         .into_iter()
         .find(|entry| own(entry.place.line, &entry.place.file))

@@ -10,7 +10,8 @@ use crate::wiring::joints::JointSettings;
 use framepath::abi::planner::joint_kinematics::{JointKinematics, Measured};
 use framepath::abi::planner::joint_limits::{self, FRAMEPATH_MOST_MICROSECONDS};
 use framepath::axes::{Axes, AxisLimits};
-use framepath::kinematics::inner_tool::rotary_chain;
+use framepath::kinematics::ToolAxes;
+use framepath::kinematics::inner_tool::tool_turning;
 use framepath::machine::JOINT_COUNT;
 use framepath::machine_map::JointMap;
 use serde::{Deserialize, Serialize};
@@ -105,8 +106,11 @@ fn settings(settings: &JointSettings, ini: &Ini) -> KinematicsSettings {
 /// The axis, 3 for A or 4 for B, that tilts the tool while C turns it, as framekins finds it out of the module behind it.
 pub(super) fn tool_tilt_axis(joints: &JointSettings, ini: &Ini) -> Option<usize> {
     let mut loaded = LoadedKinematics::load(&settings(joints, ini)).ok()?;
-    let (joints, axes) = *loaded.home();
-    let chain = rotary_chain(&mut loaded, &axes, &joints).ok()??;
+    let (place, axes) = *loaded.home();
+    let said = ToolAxes::from_text(joints.tool_axes.as_bytes())?;
+    let chain = tool_turning(&mut loaded, &axes, &place, &said)
+        .ok()?
+        .chain?;
     chain.tilt_axis_below_c()
 }
 

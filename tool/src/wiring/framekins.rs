@@ -13,6 +13,8 @@ pub const MOST_OUTPUTS: u32 = 64;
 pub const USUAL_OUTPUTS: u32 = 4;
 /// What the samples give to motmod.
 pub const SAMPLE_OUTPUTS: u32 = 16;
+/// The output by which G43.4 chooses the type of the kinematics behind framekins: that of LinuxCNC's samples.
+pub const USUAL_TYPE_OUTPUT: u32 = 3;
 
 /// The line behind which motion's positions are those of the period.
 pub const ADD_FUNCTION: &str = "addf framekins servo-thread";

@@ -21,6 +21,8 @@ pub struct JointSettings {
     pub kinematics_type: Option<i32>,
     /// Whether the kinematics are behind framekins: `inner=`.
     pub is_behind_framekins: bool,
+    /// `tool_axes=` of framekins.
+    pub tool_axes: String,
     /// The words behind the name of the module in `[KINS]KINEMATICS`.
     in_ini: String,
     state: State,
@@ -50,6 +52,7 @@ impl JointSettings {
             turned_on: false,
             kinematics_type: None,
             is_behind_framekins: !given("inner").is_empty(),
+            tool_axes: given("tool_axes").to_owned(),
             in_ini: words.to_owned(),
             state,
         }

@@ -43,9 +43,10 @@ fn number(text: &str, range: &RangeInclusive<f64>) -> bool {
     text.parse().is_ok_and(|value| range.contains(&value))
 }
 
-fn output(text: &str) -> bool {
+/// The first of so many outputs.
+fn output(text: &str, width: u32) -> bool {
     text.parse::<u32>()
-        .is_ok_and(|first| first <= MOST_OUTPUTS - OUTPUTS)
+        .is_ok_and(|first| first <= MOST_OUTPUTS - width)
 }
 
 const SWITCH: Key = Key {
@@ -56,7 +57,7 @@ const SWITCH: Key = Key {
 };
 
 /// All keys.
-pub const KEYS: [Key; 8] = [
+pub const KEYS: [Key; 9] = [
     Key {
         name: "CLEAR_AT_START",
         ..SWITCH
@@ -97,7 +98,14 @@ pub const KEYS: [Key; 8] = [
         name: "ANALOG_OUTPUT",
         usual: Some("0"),
         possible: "a whole number from 0 to 55",
-        is_possible: output,
+        is_possible: |text| output(text, OUTPUTS),
+    },
+    // Without it USUAL_TYPE_OUTPUT, and only G43.4 behind inner= looks at it.
+    Key {
+        name: "TYPE_OUTPUT",
+        usual: None,
+        possible: "a whole number from 0 to 63",
+        is_possible: |text| output(text, 1),
     },
 ];
 

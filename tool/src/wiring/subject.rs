@@ -1,6 +1,6 @@
 //! The machine that is looked at: its INI file, what its HAL files leave behind, and what follows from both.
 
-use super::framekins::external_offset;
+use super::framekins::{USUAL_TYPE_OUTPUT, external_offset};
 use super::settings;
 use crate::hal::{Module, Script, State, Statement};
 use crate::machine::IniError;
@@ -221,6 +221,16 @@ impl Subject {
         match key.is_some_and(|key| key.takes(text)) {
             true => text.parse().unwrap_or(0),
             false => 0,
+        }
+    }
+
+    /// The analog output with which G43.4 chooses the type of the kinematics behind framekins.
+    pub fn type_output(&self) -> u32 {
+        let text = self.text("FRAMEPATH", "TYPE_OUTPUT").unwrap_or("");
+        let key = settings::key("TYPE_OUTPUT");
+        match key.is_some_and(|key| key.takes(text)) {
+            true => text.parse().unwrap_or(USUAL_TYPE_OUTPUT),
+            false => USUAL_TYPE_OUTPUT,
         }
     }
 

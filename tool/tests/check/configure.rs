@@ -197,6 +197,17 @@ fn what_chooses_a_type_of_the_kinematics_goes_to_framekins() {
     }
     let found = findings(folder.path()).to_string();
     assert!(!found.contains("framekins"), "{found}");
+    assert!(!written.contains("TYPE_OUTPUT"), "{written}");
+    // G43.4 is told of another output
+    let (folder, output) = delta(
+        table,
+        &format!("{tool}\nHALCMD = {}", select.replace("03", "05")),
+    );
+    let other = text(&output.stdout);
+    assert!(other.contains("+TYPE_OUTPUT = 5\n"), "{other}");
+    let found = findings(folder.path()).to_string();
+    assert!(!found.contains("framekins"), "{found}");
+    let (folder, _) = delta(table, &format!("{tool}\nHALCMD = {select}"));
     // in a HAL file of the user's, which stays as it is
     fs::write(folder.path().join("own.hal"), format!("{select}\n")).expect("written");
     let ini = fs::read_to_string(folder.path().join("axis_mm.ini")).expect("a text");

@@ -47,7 +47,7 @@ fn a_configuration_that_is_right_has_no_findings() {
 }
 
 /// What is changed, and what is said of it.
-const CASES: [(&str, &str, &str, &str, &str); 10] = [
+const CASES: [(&str, &str, &str, &str, &str); 12] = [
     (
         "inner=trivkins",
         "inner=trivkins coordinates=XYZ",
@@ -68,6 +68,13 @@ const CASES: [(&str, &str, &str, &str, &str); 10] = [
         "error",
         "tool_types=x is no list of types",
         "tool_types=0,2",
+    ),
+    (
+        "inner=trivkins",
+        "inner=trivkins tool_axes=B,C",
+        "error",
+        "tool_axes=B,C names no axes of A B C that could turn a tool",
+        "tool_axes=C,B",
     ),
     (
         "inner=trivkins",
@@ -110,6 +117,13 @@ const CASES: [(&str, &str, &str, &str, &str); 10] = [
         "error",
         "chooses the kinematics and carries a part of each frame",
         "ANALOG_OUTPUT = 6",
+    ),
+    (
+        SELECT,
+        "net kinstype-select motion.analog-out-13 => framekins.inner-type",
+        "warning",
+        "G43.4 chooses the kinematics by output 3, and is refused since 13 is linked",
+        "TYPE_OUTPUT = 13",
     ),
     (
         "loadrt framekins inner=trivkins\nloadrt [KINS]KINEMATICS",

@@ -68,6 +68,7 @@ fn elsewhere(subject: &Subject, findings: &mut Findings) {
         "ROTS_CONVENTION",
         "RETRACT_Z",
         "ANALOG_OUTPUT",
+        "TYPE_OUTPUT",
     ];
     for entry in subject.ini.entries() {
         if entry.section != SECTION && ours.contains(&entry.key.as_str()) {

@@ -5,6 +5,7 @@ use crate::check::finding::{Findings, add, advice, if_missing, replace};
 use crate::hal::Module;
 use crate::wiring::framekins::{INNER_TYPE as TYPE, MOTION_TYPE as MOTION, OUTPUTS};
 use crate::wiring::subject::Subject;
+use framepath::kinematics::ToolAxes;
 use framepath::kinematics::inner::tool_types;
 
 pub fn look(subject: &Subject, module: &Module, inner: &str, findings: &mut Findings) {
@@ -36,6 +37,13 @@ fn parameters(module: &Module, inner: &str, findings: &mut Findings) {
         let found =
             format!("framekins is not loaded: tool_types={types} is no list of types from 0 to 15");
         findings.error(place, found, advice("tool_types=0,2"));
+    }
+    let axes = module.parameter("tool_axes").unwrap_or("");
+    if ToolAxes::from_text(axes.as_bytes()).is_none() {
+        let found = format!(
+            "framekins is not loaded: tool_axes={axes} names no axes of A B C that could turn a tool"
+        );
+        findings.error(place, found, advice("tool_axes=C,B"));
     }
 }
 
@@ -86,9 +94,13 @@ fn order(subject: &Subject, module: &Module, inner: &str, findings: &mut Finding
     }
 }
 
+/// The number of an analog output.
+fn output(pin: &str) -> Option<u32> {
+    pin.strip_prefix("motion.analog-out-")?.parse().ok()
+}
+
 /// What went to motion to choose a type goes to framekins, over an output that is not one of a frame's.
 fn types(subject: &Subject, findings: &mut Findings) {
-    let output = |pin: &str| pin.strip_prefix("motion.analog-out-")?.parse::<u32>().ok();
     let is_linked = subject.state.signal_of(TYPE).is_some();
     for (pin, place) in subject.state.beside(MOTION) {
         if !is_linked && output(pin).is_some() {
@@ -112,5 +124,22 @@ fn types(subject: &Subject, findings: &mut Findings) {
             );
             findings.error(place, found, advice(remedy));
         }
+    }
+    type_output(subject, findings);
+}
+
+/// G43.4 puts the type on an output of which the INI file tells.
+fn type_output(subject: &Subject, findings: &mut Findings) {
+    let outputs = subject.state.beside(TYPE);
+    let mut outputs = outputs.filter_map(|(pin, place)| Some((output(pin)?, place)));
+    if let Some((number, place)) = outputs.next()
+        && number != subject.type_output()
+    {
+        let found = format!(
+            "G43.4 chooses the kinematics by output {}, and is refused since {number} is linked",
+            subject.type_output()
+        );
+        let line = format!("TYPE_OUTPUT = {number}");
+        findings.warning(place, found, add("[FRAMEPATH]", line));
     }
 }
