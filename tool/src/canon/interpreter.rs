@@ -4,6 +4,7 @@ use super::call::Call;
 use super::surroundings::Surroundings;
 use super::timed::Timed;
 use crate::memory_file::MemoryFile;
+use crate::path::Position;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -74,8 +75,16 @@ fn behind_colon(line: u32) -> String {
 /// # Errors
 /// A file that cannot be opened, a program that the interpreter refuses (with its line and
 /// message), an interpreter that cannot be run.
-pub fn read_program(file: &Path) -> Result<Vec<Call>, CanonError> {
-    stream_program(file, &Surroundings::default())?.collect()
+pub fn read_program(file: &Path, start: &Position) -> Result<Vec<Call>, CanonError> {
+    stream_program(file, &standing_at(start))?.collect()
+}
+
+/// Nothing but a machine that stands there.
+fn standing_at(start: &Position) -> Surroundings {
+    Surroundings {
+        start: *start,
+        ..Surroundings::default()
+    }
 }
 
 /// The canonical calls of a program one by one, while the interpreter goes on.
@@ -93,11 +102,11 @@ pub fn stream_program(file: &Path, surroundings: &Surroundings) -> Result<CallSt
     CallStream::start(file, &absolute, home(file)?, surroundings)
 }
 
-/// The canonical calls of a program that is in no file; the name is for messages.
+/// The canonical calls of a program that is in no file, with the machine at `start`; the name is for messages.
 ///
 /// # Errors
 /// Those of [`read_program`].
-pub fn read_text(name: &str, text: &str) -> Result<Vec<Call>, CanonError> {
+pub fn read_text(name: &str, text: &str, start: &Position) -> Result<Vec<Call>, CanonError> {
     let file = Path::new(name);
     let home = home(file)?;
     let written = home.path().join("program.ngc");
@@ -105,7 +114,7 @@ pub fn read_text(name: &str, text: &str) -> Result<Vec<Call>, CanonError> {
         file: file.to_owned(),
         source,
     })?;
-    CallStream::start(file, &written, home, &Surroundings::default())?.collect()
+    CallStream::start(file, &written, home, &standing_at(start))?.collect()
 }
 
 fn home(file: &Path) -> Result<Home, CanonError> {

@@ -9,14 +9,16 @@
 //! a tool without length and radius.
 //!
 //! [`call`] are the calls, [`interpreter`] runs a program, [`surroundings`] are what it finds around
-//! it: INI file, parameters, [`tool_table`].
+//! it: INI file, parameters, [`tool_table`]. [`seen_from`] moves the calls to another zero.
 
 pub mod call;
 pub mod interpreter;
+mod seen_from;
 pub mod surroundings;
 mod timed;
 pub mod tool_table;
 
 pub use call::Call;
 pub use interpreter::{CallStream, CanonError, read_program, read_text, stream_program};
+pub use seen_from::seen_from;
 pub use surroundings::Surroundings;

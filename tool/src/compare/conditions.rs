@@ -7,15 +7,12 @@ use crate::machine::configuration::Machine;
 use crate::machine::ini::Ini;
 use crate::machine::limits::Limits;
 use crate::machine::warn_of;
+use crate::path::Position;
 use crate::wiring::joints::JointSettings;
-use framepath::axes::Axes;
 use std::path::Path;
 
 /// More than any machine has, mm/s.
 pub(super) const NO_VELOCITY_LIMIT: f64 = 1e9;
-
-/// Rounding of kinematics, mm or degrees.
-const NEXT_TO_ZERO: f64 = 1e-6;
 
 /// Lengths are mm, whatever the machine's unit is.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,8 +21,10 @@ pub(super) struct Conditions {
     pub limits: Limits,
     /// Where they come from, for the reader.
     pub limits_from: String,
-    /// What is known of the joints.
+    /// What is known of the joints, for positions as seen from the start.
     pub joints: Joints,
+    /// Where the machine begins: where joints have limits behind a kinematics module, with these at home.
+    pub start: Position,
     /// Servo period, s.
     pub period: f64,
     /// Along the path, mm/s.
@@ -68,6 +67,7 @@ impl Conditions {
             limits: Limits::default(),
             limits_from: "V=100,A=1000".to_owned(),
             joints: Joints::Axes,
+            start: [0.0; 9],
             period: 0.001,
             velocity_limit: NO_VELOCITY_LIMIT,
             max_feed_override: 1.0,
@@ -82,14 +82,12 @@ impl Conditions {
         let mut joints = JointSettings::read(&ini);
         joints.turned_on = arguments.tool_centre_point;
         joints.kinematics_type = arguments.kinematics_type;
+        let joints = Joints::from_settings(&joints, &ini, period, machine.millimetres())?;
+        let (start, joints) = at_home(joints);
         let mut conditions = Conditions {
             limits_from: format!("limits of {}", file.display()),
-            joints: from_zero(Joints::from_settings(
-                &joints,
-                &ini,
-                period,
-                machine.millimetres(),
-            )?),
+            joints,
+            start,
             period,
             ..Conditions::without_machine()
         };
@@ -105,16 +103,14 @@ impl Conditions {
     }
 }
 
-/// Programs begin at zero here: joints of machines that cannot are not known.
-fn from_zero(joints: Joints) -> Joints {
-    let begins_elsewhere = |home: Axes| home.amax() > NEXT_TO_ZERO;
+/// Where the machine begins, with its joints at home, and the joints as programs see them that begin at zero there.
+fn at_home(joints: Joints) -> (Position, Joints) {
     match joints {
-        Joints::Limited(joints) if joints.home().is_some_and(begins_elsewhere) => {
-            let name = joints.told();
-            Joints::Unknown(format!(
-                "{name} (programs begin at zero here, and with its joints at [JOINT_n]HOME the machine is elsewhere)"
-            ))
+        Joints::Limited(joints) => {
+            let start = joints.home().unwrap_or_default();
+            let joints = joints.beginning_at(&start);
+            (start.into(), Joints::Limited(Box::new(joints)))
         }
-        others => others,
+        others => ([0.0; 9], others),
     }
 }

@@ -234,7 +234,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
         return Err(CompareError::TubeOfJoints);
     }
     let limits = conditions.limits;
-    let subjects = subjects(arguments, limits)?;
+    let subjects = subjects(arguments, limits, &conditions.start)?;
     let events = events(arguments);
     let runner = Runner::new(arguments, &conditions, &events)?;
     let mut output = std::io::stdout().lock();

@@ -4,11 +4,13 @@ use super::CompareArguments;
 use super::error::CompareError;
 use super::excerpt::{Excerpt, excerpt};
 use crate::arguments::file_name;
-use crate::canon::{read_program, read_text};
+use crate::canon::call::Call;
+use crate::canon::{read_program, read_text, seen_from};
 use crate::generated;
 use crate::layer::program::Program;
 use crate::layer::{LayerSettings, lay};
 use crate::machine::limits::Limits;
+use crate::path::Position;
 
 /// A program that is run.
 pub(super) struct Subject {
@@ -55,10 +57,11 @@ impl Subject {
     }
 }
 
-/// Reads all programs, so that one that cannot be read is known before anything runs.
+/// Reads all programs, with the machine at `start`, mm and degrees, so that one that cannot be read is known before anything runs.
 pub(super) fn subjects(
     arguments: &CompareArguments,
     limits: Limits,
+    start: &Position,
 ) -> Result<Vec<Subject>, CompareError> {
     let settings = LayerSettings {
         limits,
@@ -68,14 +71,20 @@ pub(super) fn subjects(
     if arguments.files.is_empty() && names.is_empty() {
         return Err(CompareError::NoProgram(generated::names().join(", ")));
     }
+    // Planners begin at zero.
+    let program = |calls: Vec<Call>| {
+        let calls = calls.into_iter().map(|call| seen_from(call, start));
+        lay(&calls.collect::<Vec<_>>(), &settings)
+    };
     let mut programs = Vec::new();
     for file in &arguments.files {
         let name = file_name(file);
-        programs.push((name, lay(&read_program(file)?, &settings)));
+        programs.push((name, program(read_program(file, start)?)));
     }
     for name in names {
         let text = generated::program(&name).unwrap_or_default();
-        programs.push((name.clone(), lay(&read_text(&name, &text)?, &settings)));
+        let calls = read_text(&name, &text, start)?;
+        programs.push((name, program(calls)));
     }
     for (name, program) in &programs {
         if program.handed.is_empty() {

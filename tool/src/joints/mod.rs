@@ -38,6 +38,14 @@ pub(crate) enum Joints {
 pub(crate) struct LimitedJoints {
     behind: Behind,
     limits: [Position; 3],
+    begin: Begin,
+}
+
+/// What positions and joints are counted from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Begin {
+    position: Position,
+    joints: Position,
 }
 
 /// What makes joints of a position.
@@ -52,6 +60,7 @@ enum Behind {
 struct Told {
     behind: ToldBehind,
     limits: [Position; 3],
+    begin: Begin,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -162,6 +171,7 @@ impl Joints {
         Ok(Joints::Limited(Box::new(LimitedJoints {
             limits: limits(settings, unit, period)?,
             behind: Behind::Table(table, Box::new(machine)),
+            begin: Begin::default(),
         })))
     }
 
@@ -191,6 +201,7 @@ impl Joints {
         Ok(Joints::Limited(Box::new(LimitedJoints {
             behind: Behind::Module(Box::new(joints)),
             limits,
+            begin: Begin::default(),
         })))
     }
 
@@ -280,24 +291,42 @@ impl LimitedJoints {
         joints
     }
 
-    /// The joints for a position, shape (9); 0 where there is none. Not a number where the machine does not reach it.
+    /// The same joints for positions that are counted from this one of the machine, where they count from 0 as well.
+    pub(crate) fn beginning_at(&self, position: &Axes) -> LimitedJoints {
+        let mut joints = self.clone();
+        joints.begin = Begin {
+            position: (*position).into(),
+            ..Begin::default()
+        };
+        joints.begin.joints = joints.at(&[0.0; 9]);
+        joints
+    }
+
+    /// Where a position is on the machine.
+    fn on_machine(&self, position: &Axes) -> Axes {
+        position + Axes::from(self.begin.position)
+    }
+
+    /// The joints for a position, shape (9), from where they begin; 0 where there is none. Not a number where the machine does
+    /// not reach it.
     pub(crate) fn at(&self, position: &Position) -> Position {
         let mut joints = [0.0; JOINT_COUNT];
         if !self.move_to(&Axes::from(*position), &mut joints) {
             return [f64::NAN; 9];
         }
-        std::array::from_fn(|joint| joints[joint])
+        std::array::from_fn(|joint| joints[joint] - self.begin.joints[joint])
     }
 
     /// The same for as many joints as LinuxCNC has, from those of before. What is no joint stays as it is; `false` where
     /// the machine does not reach the position.
     pub(crate) fn move_to(&self, position: &Axes, joints: &mut [f64; JOINT_COUNT]) -> bool {
+        let position = self.on_machine(position);
         match &self.behind {
             Behind::Table(_, machine) => {
-                machine.inverse(position, joints);
+                machine.inverse(&position, joints);
                 true
             }
-            Behind::Module(module) => match module.joints(position) {
+            Behind::Module(module) => match module.joints(&position) {
                 Some(found) => {
                     *joints = found;
                     true
@@ -310,10 +339,11 @@ impl LimitedJoints {
     /// The position that joints stand for. Axes that the machine does not have, and where kinematics begin that iterate, as
     /// in `near`; not a number where there is no such place.
     pub(crate) fn position(&self, joints: &[f64; JOINT_COUNT], near: &Axes) -> Axes {
-        match &self.behind {
+        let position = match &self.behind {
             Behind::Table(_, machine) => machine.forward(joints),
-            Behind::Module(module) => module.position(joints, near),
-        }
+            Behind::Module(module) => module.position(joints, &self.on_machine(near)),
+        };
+        position - Axes::from(self.begin.position)
     }
 
     /// Whether the machine gets to a position: some kinematics have joints for one out of reach, too, and these lead
@@ -334,6 +364,7 @@ impl LimitedJoints {
         derivatives: &[Axes; 3],
         shares: &[Axes; 3],
     ) -> [Axes; 3] {
+        let position = &self.on_machine(position);
         match &self.behind {
             Behind::Table(_, machine) => of_table(machine, position, derivatives),
             Behind::Module(module) => module.derivatives(position, derivatives, shares),
@@ -346,6 +377,7 @@ impl LimitedJoints {
         position: &Axes,
         derivatives: &[Axes; 3],
     ) -> Option<[Axes; 3]> {
+        let position = &self.on_machine(position);
         match &self.behind {
             Behind::Table(_, machine) => Some(of_table(machine, position, derivatives)),
             Behind::Module(_) => None,
@@ -378,6 +410,7 @@ impl TryFrom<Told> for LimitedJoints {
         Ok(LimitedJoints {
             behind,
             limits: told.limits,
+            begin: told.begin,
         })
     }
 }
@@ -390,6 +423,7 @@ impl From<LimitedJoints> for Told {
                 Behind::Module(joints) => ToldBehind::Module(Box::new(joints.into_settings())),
             },
             limits: joints.limits,
+            begin: joints.begin,
         }
     }
 }
@@ -462,6 +496,7 @@ mod tests {
         LimitedJoints {
             behind: Behind::Table(table, machine),
             limits: [[100.0; 9], [1000.0; 9], [f64::INFINITY; 9]],
+            begin: Begin::default(),
         }
     }
 
@@ -474,6 +509,30 @@ mod tests {
         let mut there = [0.0; JOINT_COUNT];
         joints().move_to(&Axes::from(place), &mut there);
         assert!((back.position(&there, &Axes::zeros()) - Axes::from(place)).amax() < 1e-12);
+    }
+
+    #[test]
+    fn positions_and_joints_may_begin_elsewhere() {
+        let start = Axes::from([10.0, -5.0, 30.0, 20.0, 0.0, -40.0, 0.0, 0.0, 0.0]);
+        let elsewhere = joints().beginning_at(&start);
+        assert_eq!(elsewhere.at(&[0.0; 9]), [0.0; 9]);
+        let place = Axes::from([1.0, 2.0, 3.0, 30.0, 0.0, 50.0, 0.0, 0.0, 0.0]);
+        let begun = joints().at(&start.into());
+        let there = joints().at(&(start + place).into());
+        let expected: Position = std::array::from_fn(|joint| there[joint] - begun[joint]);
+        assert_eq!(elsewhere.at(&place.into()), expected);
+        // the module is asked for the joints of the machine
+        let mut moved = [0.0; JOINT_COUNT];
+        assert!(elsewhere.move_to(&place, &mut moved));
+        assert_eq!(moved[..9], there);
+        assert!((elsewhere.position(&moved, &place) - place).amax() < 1e-12);
+        assert!(elsewhere.reaches(&place));
+        let rates = [Axes::repeat(2.0), Axes::repeat(-1.0), Axes::repeat(3.0)];
+        let expected = joints().derivatives(&(start + place), &rates, &rates);
+        assert_eq!(elsewhere.derivatives(&place, &rates, &rates), expected);
+        assert_eq!(elsewhere.exact_derivatives(&place, &rates), Some(expected));
+        let bytes = postcard::to_stdvec(&elsewhere).expect("bytes");
+        assert_eq!(postcard::from_bytes(&bytes), Ok(elsewhere));
     }
 
     #[test]

@@ -79,7 +79,7 @@ fn assert_same(program: &Path) -> usize {
     let moves = ["STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED"];
     let mut expected = printed(program);
     expected.retain(|(name, _)| moves.contains(&name.as_str()));
-    let found = read(&read_program(program).expect("the interpreter takes it"));
+    let found = read(&read_program(program, &[0.0; 9]).expect("the interpreter takes it"));
     assert!(!expected.is_empty());
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(&expected) {
@@ -111,7 +111,12 @@ fn programs_of_linuxcnc_as_rs274_reads_them() {
 
 #[test]
 fn all_digits_and_all_axes() {
-    let calls = read_text("t", "G21 F100\nG1 X[1/3] A[2/3] U[1/7] V1 W2\nM2\n").expect("read");
+    let calls = read_text(
+        "t",
+        "G21 F100\nG1 X[1/3] A[2/3] U[1/7] V1 W2\nM2\n",
+        &[0.0; 9],
+    )
+    .expect("read");
     let moves: Vec<_> = calls
         .iter()
         .filter(|call| matches!(call, Call::Feed { .. }))
@@ -140,7 +145,7 @@ G1 X1 Y2 Z3
 G91 X1
 M2
 ";
-    let calls = read_text("t", program).expect("read");
+    let calls = read_text("t", program, &[0.0; 9]).expect("read");
     let ends: Vec<_> = calls
         .iter()
         .filter_map(|call| match call {
@@ -160,7 +165,7 @@ M2
 #[test]
 fn modes_tolerances_and_tags() {
     let program = "G20 G64 P0.01 Q0.002 F10\nG1 X1\nG61\nX2\nG61.1\nX3\nG4 P1.5\nM2\n";
-    let calls = read_text("t", program).expect("read");
+    let calls = read_text("t", program, &[0.0; 9]).expect("read");
     let modes: Vec<_> = calls
         .iter()
         .filter_map(|call| match call {
@@ -185,7 +190,7 @@ fn modes_tolerances_and_tags() {
 #[test]
 fn what_a_program_prints_is_not_taken_for_a_call() {
     let program = "(PRINT,FEED 1 1 1 1 1 1 1 1 1 1)\nG0 X1\nM2\n";
-    let calls = read_text("t", program).expect("read");
+    let calls = read_text("t", program, &[0.0; 9]).expect("read");
     assert!(!calls.iter().any(|call| matches!(call, Call::Feed { .. })));
     assert!(
         calls

@@ -62,7 +62,7 @@ fn an_unknown_name_is_refused() {
 /// Moves of a program: straight ones, arcs.
 fn count(name: &str) -> (usize, usize) {
     let text = generated::program(name).expect("a program");
-    let calls = read_text(name, &text).expect("the interpreter takes it");
+    let calls = read_text(name, &text, &[0.0; 9]).expect("the interpreter takes it");
     let straight = calls
         .iter()
         .filter(|call| matches!(call, Call::Feed { .. }))
