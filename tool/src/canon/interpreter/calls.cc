@@ -98,10 +98,22 @@ static void numbers(const double *values, int count)
         fprintf(output, " %.17g", values[i]);
 }
 
+/* A move with kinematics of another type than those of the plan. */
 static void check_kinematics()
 {
-    if (now.kinematics_type != machine.kinematics_type)
-        refused = "a move with kinematics of another type than --kinematics-type says (0 where it is not given)";
+    static char text[160];
+    static bool moved;
+    if (now.kinematics_type == machine.kinematics_type) {
+        moved = true;
+        return;
+    }
+    if (moved)
+        snprintf(text, sizeof text, "a move with kinematics of type %g behind moves with type %d: plan the part with each type by itself, "
+                 "with --kinematics-type", now.kinematics_type, machine.kinematics_type);
+    else
+        snprintf(text, sizeof text, "a move with kinematics of type %g, and the plan is one with type %d: write --kinematics-type %g",
+                 now.kinematics_type, machine.kinematics_type, now.kinematics_type);
+    refused = text;
 }
 
 static void move(const char *call, int line, const Pose &end)
