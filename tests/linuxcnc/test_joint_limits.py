@@ -165,6 +165,19 @@ class Planned(unittest.TestCase):
         own = planned(limited(OWN), TURNS + "M2\n")[1]
         self.assertLessEqual(abs(own["cycles"] - figures["cycles"]), 0.005 * own["cycles"])
 
+    def test_the_length_of_the_tool_goes_to_the_kinematics(self):
+        """As HAL hands it over: joints are those of a machine with it, in the time of LinuxCNC."""
+        program = "G43.1 Z150\n" + TURNS + "M2\n"
+        figures = self.check_time(limited(TILTING), program)[1]
+        own = planned(limited(OWN), program)[1]
+        self.assertLessEqual(abs(own["cycles"] - figures["cycles"]), 0.005 * own["cycles"])
+        with self.assertRaisesRegex(RuntimeError, "the length of the tool changes while A, B or C are turned"):
+            planned(limited(TILTING), "G1 A20 F3000\nG43.1 Z30\nG1 X5\nM2\n")
+        # without that net the kinematics know of no tool
+        unlinked = Machine(TILTING.kinematics, TILTING.home, TILTING.letters, TILTING.hal.replace("net tool-z", "# net tool-z"))
+        other = planned(limited(unlinked), program)[1]
+        self.assertGreater(abs(other["cycles"] - figures["cycles"]), 0.2 * figures["cycles"])
+
     def test_the_time_of_a_robot_that_does_not_begin_at_zero(self):
         figures = self.check_time(limited(SCARA, 6), SWEEPS)[1]
         joints = {joint["name"]: joint for joint in figures["joints"]}

@@ -136,6 +136,8 @@ pub enum Call {
     },
     /// S, as in [`Call::Spindle`].
     Speed(f64),
+    /// Length of the tool along Z from here on, mm.
+    ToolLength(f64),
     /// Waits for the end of motion, then as many seconds.
     Dwell(f64),
     /// What comes next waits for the end of motion.
@@ -227,6 +229,7 @@ impl Call {
                 direction: words.number()?,
             },
             "SPEED" => Call::Speed(words.number()?),
+            "LENGTH" => Call::ToolLength(words.number()?),
             "DWELL" => Call::Dwell(words.number()?),
             "WAIT" => Call::Wait,
             "FLUSH" => Call::Flush,

@@ -103,7 +103,9 @@ fn longest_run(program: &Program) -> Result<RangeInclusive<usize>, NoExcerpt> {
                 }
             }
             Operation::Synchronise { per_revolution, .. } => synchronised = *per_revolution != 0.0,
-            Operation::WaitForMotion | Operation::Dwell(_) => start = None,
+            Operation::WaitForMotion | Operation::Dwell(_) | Operation::ToolLength(_) => {
+                start = None;
+            }
             Operation::Termination(..) | Operation::Spindle(_) => {}
         }
     }

@@ -52,6 +52,8 @@ impl Drive<'_> {
                         break;
                     }
                 }
+                // Without an INI file tools have no length.
+                Operation::ToolLength(_) => {}
                 Operation::Dwell(seconds) => self.dwell_until = Some(self.time() + seconds),
                 Operation::Termination(mode, tolerance) => {
                     let condition = match mode {

@@ -16,7 +16,7 @@ use framepath::planner::JerkLimit;
 use module::{KinematicsRefused, ModuleJoints, ModuleSettings};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-use table::{Table, TableError, own_table};
+use table::{Table, TableError, TableMachine, own_table};
 
 /// How close to a position the joints for it have to lead, units of length: kinematics that iterate are not exact.
 const REACHED: f64 = 1e-3;
@@ -51,7 +51,7 @@ struct Begin {
 /// What makes joints of a position.
 #[derive(Clone, Debug, PartialEq)]
 enum Behind {
-    Table(Table, Box<Machine>),
+    Table(Table, TableMachine),
     Module(Box<ModuleJoints>),
 }
 
@@ -170,7 +170,7 @@ impl Joints {
         };
         Ok(Joints::Limited(Box::new(LimitedJoints {
             limits: limits(settings, unit, period)?,
-            behind: Behind::Table(table, Box::new(machine)),
+            behind: Behind::Table(table, TableMachine::new(machine)),
             begin: Begin::default(),
         })))
     }
@@ -239,7 +239,7 @@ impl LimitedJoints {
     /// How many joints there are.
     pub(crate) fn count(&self) -> usize {
         match &self.behind {
-            Behind::Table(_, machine) => machine.coordinates().joint_count(),
+            Behind::Table(_, machine) => machine.now().coordinates().joint_count(),
             Behind::Module(joints) => joints.count(),
         }
     }
@@ -247,7 +247,7 @@ impl LimitedJoints {
     /// The axis that a joint moves, 0 to 8; `None` where there is none, or where it moves several.
     pub(crate) fn axis(&self, joint: usize) -> Option<usize> {
         match &self.behind {
-            Behind::Table(_, machine) => machine.coordinates().axis_of_joint(joint),
+            Behind::Table(_, machine) => machine.now().coordinates().axis_of_joint(joint),
             Behind::Module(_) => None,
         }
     }
@@ -265,6 +265,17 @@ impl LimitedJoints {
         match &self.behind {
             Behind::Table(..) => None,
             Behind::Module(joints) => Some(*joints.home()),
+        }
+    }
+
+    /// From here on the tool has this length along Z, in lengths of the joints, as far as HAL hands it to the kinematics.
+    /// Whether it does.
+    pub(crate) fn set_tool_length(&self, length: f64) -> bool {
+        match &self.behind {
+            Behind::Table(table, machine) => {
+                table.takes_tool_length && machine.set_tool_length(table, length)
+            }
+            Behind::Module(joints) => joints.set_tool_length(length),
         }
     }
 
@@ -323,7 +334,7 @@ impl LimitedJoints {
         let position = self.on_machine(position);
         match &self.behind {
             Behind::Table(_, machine) => {
-                machine.inverse(&position, joints);
+                machine.now().inverse(&position, joints);
                 true
             }
             Behind::Module(module) => match module.joints(&position) {
@@ -340,7 +351,7 @@ impl LimitedJoints {
     /// in `near`; not a number where there is no such place.
     pub(crate) fn position(&self, joints: &[f64; JOINT_COUNT], near: &Axes) -> Axes {
         let position = match &self.behind {
-            Behind::Table(_, machine) => machine.forward(joints),
+            Behind::Table(_, machine) => machine.now().forward(joints),
             Behind::Module(module) => module.position(joints, &self.on_machine(near)),
         };
         position - Axes::from(self.begin.position)
@@ -366,7 +377,7 @@ impl LimitedJoints {
     ) -> [Axes; 3] {
         let position = &self.on_machine(position);
         match &self.behind {
-            Behind::Table(_, machine) => of_table(machine, position, derivatives),
+            Behind::Table(_, machine) => of_table(&machine.now(), position, derivatives),
             Behind::Module(module) => module.derivatives(position, derivatives, shares),
         }
     }
@@ -379,7 +390,7 @@ impl LimitedJoints {
     ) -> Option<[Axes; 3]> {
         let position = &self.on_machine(position);
         match &self.behind {
-            Behind::Table(_, machine) => Some(of_table(machine, position, derivatives)),
+            Behind::Table(_, machine) => Some(of_table(&machine.now(), position, derivatives)),
             Behind::Module(_) => None,
         }
     }
@@ -400,7 +411,7 @@ impl TryFrom<Told> for LimitedJoints {
         let behind = match told.behind {
             ToldBehind::Table(table) => {
                 let machine = table.machine().map_err(|why| why.to_string())?;
-                Behind::Table(table, Box::new(machine))
+                Behind::Table(table, TableMachine::new(machine))
             }
             ToldBehind::Module(settings) => {
                 let joints = ModuleJoints::new(*settings).map_err(|why| why.to_string())?;
@@ -491,8 +502,9 @@ mod tests {
             tool_offset: 25.0,
             conventional: true,
             tool_centre_point: true,
+            takes_tool_length: true,
         };
-        let machine = Box::new(table.machine().expect("a table"));
+        let machine = TableMachine::new(table.machine().expect("a table"));
         LimitedJoints {
             behind: Behind::Table(table, machine),
             limits: [[100.0; 9], [1000.0; 9], [f64::INFINITY; 9]],
@@ -509,6 +521,22 @@ mod tests {
         let mut there = [0.0; JOINT_COUNT];
         joints().move_to(&Axes::from(place), &mut there);
         assert!((back.position(&there, &Axes::zeros()) - Axes::from(place)).amax() < 1e-12);
+    }
+
+    #[test]
+    fn the_length_of_the_tool_is_that_of_all_copies() {
+        let (joints, level) = (joints(), [1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let (copy, turned) = (
+            joints.clone(),
+            [1.0, 2.0, 3.0, 30.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        );
+        let before = [joints.at(&level), joints.at(&turned)];
+        assert!(joints.set_tool_length(125.0));
+        assert_eq!(copy, joints);
+        assert_eq!(copy.at(&level), before[0]);
+        // by hand: 100 more turn by 30 degrees the other way
+        let moved = copy.at(&turned)[1] - before[1][1];
+        assert!((moved.abs() - 50.0).abs() < 1e-9, "{moved}");
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub(super) struct ModuleSettings {
     angular: [bool; LIMITED_JOINTS],
     /// In lengths of which a machine unit has so many.
     lengths: f64,
+    /// Its pins to which HAL hands the length of the tool in force.
+    tool_pins: Vec<String>,
 }
 
 /// The joints, with the module loaded.
@@ -130,6 +132,11 @@ impl ModuleJoints {
             kinematics: settings(joints, ini),
             angular: std::array::from_fn(angular),
             lengths,
+            tool_pins: joints
+                .tool_length_pins()
+                .into_iter()
+                .filter(|pin| pin.split('.').next() == Some(joints.kinematics.as_str()))
+                .collect(),
         })
     }
 
@@ -167,6 +174,14 @@ impl ModuleJoints {
 
     pub(super) fn count(&self) -> usize {
         self.settings.kinematics.joints
+    }
+
+    /// See [`super::LimitedJoints::set_tool_length`].
+    pub(super) fn set_tool_length(&self, length: f64) -> bool {
+        for pin in &self.settings.tool_pins {
+            self.loaded.put(pin, length / self.settings.lengths);
+        }
+        !self.settings.tool_pins.is_empty()
     }
 
     pub(super) fn home(&self) -> &Axes {

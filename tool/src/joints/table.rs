@@ -7,6 +7,7 @@ use framepath::machine::{
 };
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
+use std::sync::{Arc, PoisonError, RwLock};
 
 /// A table as the parameters and pins of framekins describe it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,6 +21,41 @@ pub(super) struct Table {
     pub tool_offset: f64,
     pub conventional: bool,
     pub tool_centre_point: bool,
+    /// Whether HAL hands it the length of the tool in force.
+    pub takes_tool_length: bool,
+}
+
+/// The machine that it makes with the tool in force: of all copies the same.
+#[derive(Clone, Debug)]
+pub(super) struct TableMachine(Arc<RwLock<Machine>>);
+
+impl PartialEq for TableMachine {
+    fn eq(&self, other: &TableMachine) -> bool {
+        self.now() == other.now()
+    }
+}
+
+impl TableMachine {
+    pub(super) fn new(machine: Machine) -> TableMachine {
+        TableMachine(Arc::new(RwLock::new(machine)))
+    }
+
+    pub(super) fn now(&self) -> Machine {
+        *self.0.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether it is a machine with a tool of this length.
+    pub(super) fn set_tool_length(&self, table: &Table, length: f64) -> bool {
+        let with_tool = Table {
+            tool_offset: length,
+            ..table.clone()
+        };
+        let machine = with_tool.machine();
+        if let Ok(machine) = machine {
+            *self.0.write().unwrap_or_else(PoisonError::into_inner) = machine;
+        }
+        machine.is_ok()
+    }
 }
 
 /// Why a table is none of ours.
@@ -54,6 +90,9 @@ impl Table {
             tool_offset: length("tool-offset"),
             conventional: pin("conventional-directions") != 0.0,
             tool_centre_point: settings.tool_centre_point(),
+            takes_tool_length: settings
+                .tool_length_pins()
+                .contains(&"framekins.tool-offset".to_owned()),
         }
     }
 

@@ -114,6 +114,10 @@ impl<'a> Layer<'a> {
             Call::Surface { greatest, centre } => self.surface(greatest, centre),
             Call::Spindle { speed, direction } => self.switch_spindle(speed, direction),
             Call::Speed(speed) => self.spindle_speed(speed),
+            Call::ToolLength(length) => {
+                self.wait();
+                self.builder.operation(Operation::ToolLength(length));
+            }
             Call::Dwell(seconds) => {
                 self.wait();
                 self.builder.operation(Operation::Dwell(seconds));

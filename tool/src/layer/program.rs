@@ -59,6 +59,8 @@ pub(crate) enum Operation {
     WaitForMotion,
     /// Seconds.
     Dwell(f64),
+    /// Length of the tool along Z from here on, mm.
+    ToolLength(f64),
     Synchronise {
         per_revolution: f64,
         velocity_mode: bool,

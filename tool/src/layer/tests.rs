@@ -142,6 +142,7 @@ fn what_waits_for_the_end_of_motion() {
             Operation::Move(_) => "move",
             Operation::WaitForMotion => "wait",
             Operation::Dwell(_) => "dwell",
+            Operation::ToolLength(_) => "tool length",
             Operation::Spindle(_) => "spindle",
             Operation::Termination(..) => "mode",
             Operation::Synchronise { .. } => "synchronise",

@@ -103,6 +103,13 @@ impl LoadedKinematics {
         &self.home
     }
 
+    /// Sets a pin, from here on.
+    pub(crate) fn put(&self, pin: &str, value: f64) {
+        if let Some(stubs) = Stubs::find() {
+            stubs.put(pin, value);
+        }
+    }
+
     /// As the planner asks them, which has not measured them yet.
     pub(crate) fn as_asked(&self) -> JointKinematics {
         JointKinematics::of(KinematicsModule::new(

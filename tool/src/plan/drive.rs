@@ -137,10 +137,12 @@ impl<'a> Drive<'a> {
             acceleration: scaled(&setup.limits.acceleration),
             jerk: scaled(&setup.jerk),
         });
-        if let Some(joints) = setup.joints.limited()
-            && !planner.set_joints(Some(joints::map(joints)))
-        {
-            return Err(refused("the limits of joints"));
+        if let Some(joints) = setup.joints.limited() {
+            // That of the program before is not in the spindle.
+            joints.set_tool_length(0.0);
+            if !planner.set_joints(Some(joints::map(joints))) {
+                return Err(refused("the limits of joints"));
+            }
         }
         let length = 1.0 / setup.millimetres;
         planner
@@ -262,6 +264,7 @@ impl<'a> Drive<'a> {
                     }
                 }
                 Operation::WaitForMotion => {}
+                Operation::ToolLength(length) => self.set_tool_length(length)?,
                 // The next move was recorded behind it.
                 Operation::Dwell(_) if self.arrivals.is_some() => {}
                 Operation::Dwell(seconds) => {
@@ -287,6 +290,22 @@ impl<'a> Drive<'a> {
                 }
                 Operation::Spindle(command) => self.spindle.command(command),
             }
+        }
+        Ok(())
+    }
+
+    /// The machine stands, as behind `WaitForMotion`.
+    fn set_tool_length(&mut self, millimetres: f64) -> Result<(), PlanError> {
+        let Some(joints) = self.setup.joints.limited() else {
+            return Ok(());
+        };
+        let is_taken = joints.set_tool_length(millimetres / self.setup.millimetres);
+        let position = self.planner.status().position;
+        let is_turned = (3..6).any(|axis| position[axis].abs() > NO_TRAVEL);
+        if is_taken && is_turned {
+            let problem = "behind it the length of the tool changes while A, B or C are turned, which moves the joints: \
+                           turn them to zero before G43 and G49";
+            return Err(self.move_refused(self.last_line, problem.to_owned()));
         }
         Ok(())
     }

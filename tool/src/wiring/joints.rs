@@ -96,6 +96,12 @@ impl JointSettings {
         beside.find_map(|(pin, _)| pin.strip_prefix("motion.analog-out-")?.parse().ok())
     }
 
+    /// The pins to which the length of the tool goes.
+    pub fn tool_length_pins(&self) -> Vec<String> {
+        let beside = self.state.beside("motion.tooloffset.z");
+        beside.map(|(pin, _)| pin.clone()).collect()
+    }
+
     /// What HAL files set pins to.
     pub fn pins(&self) -> Vec<(String, f64)> {
         let names = self.state.settings.keys();

@@ -15,6 +15,7 @@
  *   SURFACE greatest centre      of the two below: their speed is mm a minute (G96), up to so many rpm; X in the middle of the work,
  *                                mm of the machine; greatest 0: their speed is rpm
  *   SPINDLE speed direction      direction 0: off           SPEED speed
+ *   LENGTH mm                    of the tool along Z, from here on
  *   DWELL seconds                WAIT (motion comes to its end)     FLUSH (ends the merging of short lines)
  *   END (the program came to its end)
  *
@@ -308,8 +309,11 @@ void SET_XY_ROTATION(double degrees)
 void USE_TOOL_LENGTH_OFFSET(GivenPose o)
 {
     now.tool_in_program_units = o;
+    double length = now.tool.at[2];
     now.tool = metric(pose(o.tran.x, o.tran.y, o.tran.z, o.a, o.b, o.c, o.u, o.v, o.w));
     waits();
+    if (now.tool.at[2] != length)
+        fprintf(output, "LENGTH %.17g\n", now.tool.at[2]);
     centre_moved();
 }
 
