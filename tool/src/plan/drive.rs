@@ -294,6 +294,16 @@ impl<'a> Drive<'a> {
         Ok(())
     }
 
+    fn set_termination(&mut self, mode: PathMode, tolerance: f64) {
+        self.planner.set_termination(match mode {
+            PathMode::ExactStop => TerminationCondition::Stop,
+            PathMode::ExactPath => TerminationCondition::Exact,
+            PathMode::Continuous => TerminationCondition::Continuous {
+                tolerance: tolerance / self.setup.millimetres,
+            },
+        });
+    }
+
     /// The machine stands, as behind `WaitForMotion`.
     fn set_tool_length(&mut self, millimetres: f64) -> Result<(), PlanError> {
         let Some(joints) = self.setup.joints.limited() else {
@@ -308,16 +318,6 @@ impl<'a> Drive<'a> {
             return Err(self.move_refused(self.last_line, problem.to_owned()));
         }
         Ok(())
-    }
-
-    fn set_termination(&mut self, mode: PathMode, tolerance: f64) {
-        self.planner.set_termination(match mode {
-            PathMode::ExactStop => TerminationCondition::Stop,
-            PathMode::ExactPath => TerminationCondition::Exact,
-            PathMode::Continuous => TerminationCondition::Continuous {
-                tolerance: tolerance / self.setup.millimetres,
-            },
-        });
     }
 
     fn add(&mut self, a_move: &Move) -> Result<(), PlanError> {
