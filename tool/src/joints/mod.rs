@@ -1,10 +1,11 @@
 //! Joints that have limits of their own, behind a table of framekins or a kinematics module of LinuxCNC's: what the planner
 //! asks of them.
 
+mod error;
 mod module;
 mod table;
+mod told;
 
-use crate::machine::IniError;
 use crate::machine::ini::Ini;
 use crate::machine::limits::{Jerk, infinite_for_none, is_rotary};
 use crate::path::Position;
@@ -13,10 +14,12 @@ use crate::wiring::joints::JointSettings;
 use framepath::axes::Axes;
 use framepath::machine::{JOINT_COUNT, Machine};
 use framepath::planner::JerkLimit;
-use module::{KinematicsRefused, ModuleJoints, ModuleSettings};
+use module::ModuleJoints;
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
 use table::{Table, TableError, TableMachine, own_table};
+use told::Told;
+
+pub use error::JointsError;
 
 /// How close to a position the joints for it have to lead, units of length: kinematics that iterate are not exact.
 const REACHED: f64 = 1e-3;
@@ -53,87 +56,6 @@ struct Begin {
 enum Behind {
     Table(Table, TableMachine),
     Module(Box<ModuleJoints>),
-}
-
-/// The same as it is told another process.
-#[derive(Serialize, Deserialize)]
-struct Told {
-    behind: ToldBehind,
-    limits: [Position; 3],
-    begin: Begin,
-}
-
-#[derive(Serialize, Deserialize)]
-enum ToldBehind {
-    Table(Table),
-    Module(Box<ModuleSettings>),
-}
-
-/// Why limits of joints cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum JointsError {
-    /// The INI file names kinematics that framekins refuses.
-    #[error(transparent)]
-    Ini(#[from] IniError),
-    /// --tool-centre-point for a machine of which that is not known.
-    #[error(
-        "--tool-centre-point: the HAL files of {} set no limits of joints (blendtp.joint.*) behind a table of framekins \
-         (machine=xyzac or machine=xyzbc)",
-        .0.display()
-    )]
-    NoTable(PathBuf),
-    /// --kinematics-type for a machine of which that is not known.
-    #[error(
-        "--kinematics-type: the HAL files of {} set no limits of joints (blendtp.joint.*) behind a kinematics module of \
-         several types",
-        .0.display()
-    )]
-    NoTypes(PathBuf),
-    /// --kinematics-type is none of the module's.
-    #[error("--kinematics-type {kind}: {why}")]
-    NoType {
-        /// What was asked for.
-        kind: i32,
-        /// What the module makes of it.
-        why: String,
-    },
-    /// A kinematics module with which blendtp refuses every move.
-    #[error(
-        "limits of joints (blendtp.joint.*) behind {kinematics}, with which blendtp refuses every move: {why}"
-    )]
-    Module {
-        /// Its name.
-        kinematics: String,
-        /// What blendtp says.
-        why: KinematicsRefused,
-    },
-    /// Without this limit blendtp refuses every move.
-    #[error(
-        "blendtp.joint.{joint}.max-{quantity} is {limit}: since a limit of joints is set, blendtp refuses every move \
-         unless it is positive for each joint, and an acceleration not infinite: set it with setp from [JOINT_{joint}]MAX_{}",
-        quantity.to_uppercase()
-    )]
-    NotPositive {
-        /// Its number.
-        joint: usize,
-        /// velocity or acceleration.
-        quantity: &'static str,
-        /// What the pin says, machine units.
-        limit: f64,
-    },
-    /// A jerk so small that blendtp refuses every move.
-    #[error(
-        "blendtp.joint.{joint}.max-jerk is {limit}: blendtp refuses every move unless it is 0 (not limited) or at \
-         least {smallest}: set it with setp from [JOINT_{joint}]MAX_JERK"
-    )]
-    Jerk {
-        /// Its number.
-        joint: usize,
-        /// What the pin says, machine units.
-        limit: f64,
-        /// The least that is taken, machine units.
-        smallest: f64,
-    },
 }
 
 impl Joints {
@@ -402,41 +324,6 @@ fn of_table(machine: &Machine, position: &Axes, derivatives: &[Axes; 3]) -> [Axe
         machine.coordinates().distribute(&axes, &mut joints);
         Axes::from_fn(|joint, _| joints[joint])
     })
-}
-
-impl TryFrom<Told> for LimitedJoints {
-    type Error = String;
-
-    fn try_from(told: Told) -> Result<LimitedJoints, String> {
-        let behind = match told.behind {
-            ToldBehind::Table(table) => {
-                let machine = table.machine().map_err(|why| why.to_string())?;
-                Behind::Table(table, TableMachine::new(machine))
-            }
-            ToldBehind::Module(settings) => {
-                let joints = ModuleJoints::new(*settings).map_err(|why| why.to_string())?;
-                Behind::Module(Box::new(joints))
-            }
-        };
-        Ok(LimitedJoints {
-            behind,
-            limits: told.limits,
-            begin: told.begin,
-        })
-    }
-}
-
-impl From<LimitedJoints> for Told {
-    fn from(joints: LimitedJoints) -> Told {
-        Told {
-            behind: match joints.behind {
-                Behind::Table(table, _) => ToldBehind::Table(table),
-                Behind::Module(joints) => ToldBehind::Module(Box::new(joints.into_settings())),
-            },
-            limits: joints.limits,
-            begin: joints.begin,
-        }
-    }
 }
 
 /// The axis, 3 for A or 4 for B, that tilts the tool while C turns it, as framekins tells blendtp.

@@ -306,18 +306,10 @@ impl<'a> Drive<'a> {
 
     /// The machine stands, as behind `WaitForMotion`.
     fn set_tool_length(&mut self, millimetres: f64) -> Result<(), PlanError> {
-        let Some(joints) = self.setup.joints.limited() else {
-            return Ok(());
-        };
-        let is_taken = joints.set_tool_length(millimetres / self.setup.millimetres);
+        let length = millimetres / self.setup.millimetres;
         let position = self.planner.status().position;
-        let is_turned = (3..6).any(|axis| position[axis].abs() > NO_TRAVEL);
-        if is_taken && is_turned {
-            let problem = "behind it the length of the tool changes while A, B or C are turned, which moves the joints: \
-                           turn them to zero before G43 and G49";
-            return Err(self.move_refused(self.last_line, problem.to_owned()));
-        }
-        Ok(())
+        joints::set_tool_length(&self.setup.joints, length, &position)
+            .map_err(|why| self.move_refused(self.last_line, why.to_owned()))
     }
 
     fn add(&mut self, a_move: &Move) -> Result<(), PlanError> {

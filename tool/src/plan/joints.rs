@@ -5,6 +5,9 @@ use framepath::axes::{Axes, AxisLimits};
 use framepath::machine_map::JointMap;
 use std::cell::RefCell;
 
+/// A rotary axis nearer to zero is not turned, degrees.
+const LEVEL: f64 = 1e-8;
+
 thread_local! {
     /// The joints of the planner of this thread, for their jets.
     static JOINTS: RefCell<Option<LimitedJoints>> = const { RefCell::new(None) };
@@ -27,6 +30,24 @@ fn jet(position: &Axes, derivatives: &[Axes; 3], shares: &[Axes; 3]) -> [Axes; 3
         Some(joints) => joints.derivatives(position, derivatives, shares),
         None => [Axes::repeat(f64::NAN); 3],
     })
+}
+
+/// From here on the tool has this length, machine units, where HAL tells the kinematics of it; the machine stands at `position`.
+///
+/// # Errors
+/// Why the plan would be wrong.
+pub fn set_tool_length(joints: &Joints, length: f64, position: &Axes) -> Result<(), &'static str> {
+    let is_taken = joints
+        .limited()
+        .is_some_and(|joints| joints.set_tool_length(length));
+    let is_turned = (3..6).any(|axis| position[axis].abs() > LEVEL);
+    if is_taken && is_turned {
+        return Err(
+            "behind it the length of the tool changes while A, B or C are turned, which moves the joints: turn them to zero \
+             before G43 and G49",
+        );
+    }
+    Ok(())
 }
 
 /// What is planned of the limits of joints, for the reader.
