@@ -46,7 +46,7 @@ pub(super) fn widen(
     let mut searched = if wider {
         width > window.lasting_clip(chain, number)
     } else {
-        number.saturating_add(1) < window.next
+        number.saturating_add(1) < window.next || has_long_legs(vertex, settings)
     };
     let mut cost = looked;
     let mut goes_on = false;
@@ -72,6 +72,11 @@ pub(super) fn widen(
     vertex.searched = searched;
     choose(vertex);
     (goes_on, cost)
+}
+
+/// Whether both legs of a vertex are so long that no width that is tried is wider than half of one, where kernels would overlap.
+fn has_long_legs(vertex: &Vertex, settings: &BlendSettings) -> bool {
+    vertex.half_leg >= settings.greatest_design_width()
 }
 
 /// Looks how far the next corner is from a vertex that may swing out. Answers the kernel terms that it took.

@@ -184,6 +184,11 @@ impl BlendedPath {
         self.chain.end()
     }
 
+    /// Where the moves that were added end, with lines that wait to be merged; path distance.
+    pub fn added_end(&self) -> f64 {
+        self.chain.end() + self.merger.waiting_length()
+    }
+
     /// Up to where the path is within its tolerance, path distance.
     pub fn known_end(&self) -> f64 {
         self.optimizer.stored_end()

@@ -57,6 +57,11 @@ impl LineMerger {
         self.waiting = false;
     }
 
+    /// How long what is waiting is, machine units.
+    pub fn waiting_length(&self) -> f64 {
+        if self.waiting { self.chord.length } else { 0.0 }
+    }
+
     /// What is waiting, which then waits no more.
     pub fn take(&mut self) -> Option<Leg> {
         core::mem::take(&mut self.waiting).then_some(self.chord)

@@ -447,3 +447,18 @@ fn an_empty_path_is_at_rest_where_it_starts() {
         assert_eq!((path.known_end(), path.final_end()), (0.0, 0.0));
     });
 }
+
+#[test]
+fn a_line_that_waits_to_be_merged_is_counted_at_the_end() {
+    with_path(|path| {
+        path.restart(&settings(), &Axes::zeros());
+        for (serial, from, to) in [(0, 0.0, 10.0), (1, 10.0, 10.02)] {
+            path.add(&line(serial, (from, 0.0), (to, 0.0), 0.05))
+                .expect("a line");
+        }
+        assert_eq!(path.programmed_end(), 10.0);
+        assert!((path.added_end() - 10.02).abs() < 1e-12);
+        path.flush();
+        assert_eq!(path.programmed_end(), path.added_end());
+    });
+}

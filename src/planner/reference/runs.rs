@@ -118,7 +118,7 @@ impl Reference {
     /// than would become final if it ended. A plan may be short of time or be refused as well, however long the path is.
     /// To end the path then would bring the machine to rest there later, with all moves known.
     fn lacks_path_behind(&self, planned: f64) -> bool {
-        let (known, end) = (self.path.final_end(), self.path.programmed_end());
+        let (known, end) = (self.path.final_end(), self.path.added_end());
         known - planned <= end - known + ROUNDING * (1.0 + end)
     }
 
