@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use framepath::axes::{Axes, AxisLimits};
-use framepath::moves::TerminationCondition;
+use framepath::moves::{NearLimit, TerminationCondition};
 use framepath::moves::shape::{Line9, Shape};
 use framepath::path::{BlendSettings, BlendedPath, ProgrammedMove};
 
@@ -18,7 +18,7 @@ fn line(serial: u64, from: &Axes, to: &Axes) -> ProgrammedMove {
         stop_before: false,
         separate: false,
         may_swing_out: true,
-        ends_at_limit: false,
+        near_limit: NearLimit::NONE,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What LinuxCNC queues: moves with their shape, feed, flags and synchronised outputs.
 
 mod motion_type;
+mod near_limit;
 mod outputs;
 mod queue;
 mod queued_move;
@@ -10,6 +11,7 @@ mod tag;
 mod termination;
 
 pub use motion_type::MotionType;
+pub use near_limit::NearLimit;
 pub use outputs::SynchronisedOutputs;
 pub use queue::{CAPACITY, MoveQueue, QueueFull};
 pub use queued_move::{FEED_OVERRIDE_ENABLED, Move};

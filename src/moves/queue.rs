@@ -1,5 +1,6 @@
 //! The moves that wait and the one that runs, in order.
 
+use super::near_limit::NearLimit;
 use super::queued_move::Move;
 use super::shape::Shape;
 use super::{MotionType, StateTag, SynchronisedOutputs, TerminationCondition};
@@ -53,7 +54,7 @@ const VACANT: Move = Move {
     synchronisation: None,
     indexer_joint: None,
     termination: TerminationCondition::Stop,
-    ends_at_limit: false,
+    near_limit: NearLimit::NONE,
     outputs: SynchronisedOutputs::NONE,
 };
 
@@ -178,10 +179,11 @@ impl MoveQueue {
         self.released = self.released.max(serial.min(self.next));
     }
 
-    /// Allows the move with this serial number to run as well, the next one in turn, whose end is near a soft limit.
-    pub fn release_at_limit(&mut self, serial: u64) {
+    /// Allows the move with this serial number to run as well, the next one in turn, and takes note which of its ends are near
+    /// a soft limit.
+    pub fn release_near_limit(&mut self, serial: u64, near_limit: NearLimit) {
         if self.get(serial).is_some() {
-            self.slots.at_mut(serial).ends_at_limit = true;
+            self.slots.at_mut(serial).near_limit = near_limit;
         }
         self.release(serial + 1);
     }

@@ -1,6 +1,7 @@
 //! One move as it lies in the queue.
 
 use super::motion_type::MotionType;
+use super::near_limit::NearLimit;
 use super::outputs::SynchronisedOutputs;
 use super::shape::Shape;
 use super::synchronisation::Synchronisation;
@@ -38,8 +39,8 @@ pub struct Move {
     pub indexer_joint: Option<i32>,
     /// How the move meets the next one.
     pub termination: TerminationCondition,
-    /// Whether a joint may be so near to a soft limit at its end that the path must not leave the program there.
-    pub ends_at_limit: bool,
+    /// Which of its ends are near a soft limit.
+    pub near_limit: NearLimit,
     /// What M62, M63 and M67 asked for since the move before: written once, when the move starts.
     pub outputs: SynchronisedOutputs,
 }

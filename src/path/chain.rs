@@ -149,7 +149,7 @@ impl Chain {
                 vertex
             }
         };
-        self.linear &= vertex.tangent_jump.is_linear() && vertex.curvature_jump.is_linear();
+        self.linear &= vertex.is_linear();
         *self.leg_mut(self.next) = leg;
         *self.vertex_mut(self.next) = vertex;
         self.next = self.next.wrapping_add(1);

@@ -87,8 +87,8 @@ pub(super) mod tests {
     use super::super::settings::{Allowance, BlendSettings};
     use super::*;
     use crate::axes::Axes;
-    use crate::moves::TerminationCondition;
     use crate::moves::shape::{Line9, Shape};
+    use crate::moves::{NearLimit, TerminationCondition};
 
     /// Lines in XYZ, each given by its displacement and tolerance.
     pub(in crate::path) fn lines(
@@ -117,7 +117,7 @@ pub(super) mod tests {
                 stop_before: false,
                 separate: false,
                 may_swing_out: true,
-                ends_at_limit: false,
+                near_limit: NearLimit::NONE,
             };
             chain.push(Leg::new(&programmed, settings, &metric), settings, &metric);
             at = end;

@@ -2,9 +2,9 @@
 
 use super::metric::Metric;
 use super::settings::{Allowance, BlendSettings};
-use crate::moves::TerminationCondition;
 use crate::moves::shape::measure::{self, Measure};
 use crate::moves::shape::{PathPoint, Shape};
+use crate::moves::{NearLimit, TerminationCondition};
 
 /// Legs that turn by less, length of the difference of unit vectors, may be chords of a curve: 60
 /// degrees.
@@ -35,8 +35,8 @@ pub struct ProgrammedMove {
     /// Whether corners at its ends may [swing out](super::lone_corner): not on a thread, which would be off its groove far from
     /// them.
     pub may_swing_out: bool,
-    /// Whether its end is so near to a soft limit that no corner may swing out there.
-    pub ends_at_limit: bool,
+    /// Which of its ends are so near a soft limit that the path must not leave the program to the outer side there.
+    pub near_limit: NearLimit,
 }
 
 /// A leg of the programmed path.
@@ -71,8 +71,8 @@ pub(super) struct Leg {
     pub stop_after: bool,
     /// Whether corners at its ends may [swing out](super::lone_corner).
     pub may_swing_out: bool,
-    /// Whether none may swing out where it ends.
-    pub ends_at_limit: bool,
+    /// Which of its ends are near a soft limit.
+    pub near_limit: NearLimit,
     /// Whether a trial assignment of widths has yet to be checked on it.
     pub unchecked: bool,
     /// How many vertices to the left, its own start included, reach into it at most.
@@ -99,7 +99,7 @@ impl Leg {
         stop_before: false,
         stop_after: false,
         may_swing_out: false,
-        ends_at_limit: false,
+        near_limit: NearLimit::NONE,
         unchecked: false,
         reached_from_left: 0,
         reached_from_right: 0,
@@ -135,7 +135,7 @@ impl Leg {
             design_width: settings.design_width(speed),
             stop_before: programmed.stop_before,
             may_swing_out: programmed.may_swing_out,
-            ends_at_limit: programmed.ends_at_limit,
+            near_limit: programmed.near_limit,
             stop_after: programmed.termination == TerminationCondition::Stop,
             ..Self::VACANT
         }

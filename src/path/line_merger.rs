@@ -7,6 +7,7 @@ use super::leg::{Leg, ProgrammedMove};
 use super::metric::Metric;
 use super::settings::{Allowance, BlendSettings};
 use crate::axes::Axes;
+use crate::moves::NearLimit;
 use crate::moves::shape::measure::Measure;
 use crate::moves::shape::{Line9, Shape};
 
@@ -132,7 +133,14 @@ impl LineMerger {
         if merged.measure != self.measure || merged.length > GREATEST_CHORD * merged.design_width {
             return false;
         }
-        self.chord = Leg {
+        self.chord = self.lengthened(merged, dropped);
+        self.keep(end);
+        true
+    }
+
+    /// The chord of all lines, where points are left out that far from it, with what holds for where it starts.
+    fn lengthened(&self, chord: Leg, dropped: f64) -> Leg {
+        Leg {
             allowance: match self.allowance {
                 Allowance::Exact(whole) => Allowance::Exact(whole),
                 Allowance::Tolerance(whole) => Allowance::Tolerance(whole - dropped),
@@ -140,11 +148,13 @@ impl LineMerger {
             },
             first: self.chord.first,
             stop_before: self.chord.stop_before,
-            greatest_speed: merged.greatest_speed.min(self.chord.greatest_speed),
-            ..merged
-        };
-        self.keep(end);
-        true
+            near_limit: NearLimit {
+                start: self.chord.near_limit.start,
+                ..chord.near_limit
+            },
+            greatest_speed: chord.greatest_speed.min(self.chord.greatest_speed),
+            ..chord
+        }
     }
 
     fn keep(&mut self, point: Axes) {

@@ -240,8 +240,8 @@ mod tests {
     use super::super::widths::Widths;
     use super::*;
     use crate::axes::Axes;
-    use crate::moves::TerminationCondition;
     use crate::moves::shape::{Line9, Shape};
+    use crate::moves::{NearLimit, TerminationCondition};
 
     /// Forty lines that turn all the time, in XYZ or in as many axes as that, and widths on trial of all kinds.
     fn with_curve<R: Send + 'static>(axes: usize, test: fn(&Chain, &Metric) -> R) -> R {
@@ -268,7 +268,7 @@ mod tests {
                     stop_before: false,
                     separate: false,
                     may_swing_out: true,
-                    ends_at_limit: false,
+                    near_limit: NearLimit::NONE,
                 };
                 chain.push(
                     Leg::new(&programmed, &settings, &metric),

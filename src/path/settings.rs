@@ -38,9 +38,6 @@ const FEW_RAMPS: f64 = 0.3;
 /// long.
 const SHORTEST_RAMP: f64 = 1.0 / 300.0;
 
-/// What moves that are to be followed exactly are left by on either side of a tangent joint, mm.
-const EXACT_TOLERANCE: f64 = 1e-3;
-
 /// A tolerance below this is met by following the path exactly, mm.
 const LEAST_TOLERANCE: f64 = 1e-5;
 
@@ -73,6 +70,9 @@ pub(super) enum Allowance {
 }
 
 impl BlendSettings {
+    /// What moves that are to be followed exactly are left by on either side of a tangent joint, mm.
+    pub const EXACT_TOLERANCE: f64 = 1e-3;
+
     /// A machine in millimetres without limits: 0.1 mm counts as much as a degree.
     pub const DEFAULT: Self = Self {
         millimetre: 1.0,
@@ -250,7 +250,7 @@ impl BlendSettings {
 
     /// What G61 and G61.1 allow.
     pub(super) fn exact(&self) -> Allowance {
-        Allowance::Exact(EXACT_TOLERANCE * self.millimetre)
+        Allowance::Exact(Self::EXACT_TOLERANCE * self.millimetre)
     }
 
     /// What G64 allows. `given` is P, 0 where the program gave none.
@@ -262,7 +262,7 @@ impl BlendSettings {
             self.exact()
         } else {
             let default = self.default_tolerance;
-            Allowance::HalfLegs(default.max(EXACT_TOLERANCE * self.millimetre))
+            Allowance::HalfLegs(default.max(Self::EXACT_TOLERANCE * self.millimetre))
         }
     }
 }

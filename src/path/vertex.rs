@@ -10,6 +10,7 @@ use super::metric::Metric;
 use super::settings::BlendSettings;
 use super::widths::Widths;
 use super::{easement, kernel};
+use crate::axes::Axes;
 
 /// A turn of the direction below this is rounding.
 const NO_TANGENT_JUMP: f64 = 1e-9;
@@ -76,8 +77,11 @@ pub(super) struct Vertex {
     pub left_wall: f64,
     /// Where the nearest wall to the right is, infinity where none is known.
     pub right_wall: f64,
-    /// No corner may swing out here.
+    /// A soft limit is near: the path keeps to the inner side. It is a [wall](Self::wall), and its own kernel keeps clear of its
+    /// neighbours' and is nowhere negative, so that between lines the path stays within what the program spans.
     pub at_limit: bool,
+    /// What its easement is led to the [inner side](easement) by: the curvatures on both sides added up; none elsewhere.
+    inner: Jump,
     /// What it may be where it keeps clear of its neighbours.
     pub corner: LoneCorner,
     /// Kernels and easements up to this width need no tolerance: half of the shorter leg under G64
@@ -139,6 +143,7 @@ impl Vertex {
         left_wall: 0.0,
         right_wall: f64::INFINITY,
         at_limit: false,
+        inner: Jump::NONE,
         corner: LoneCorner::NONE,
         free_limit: 0.0,
         free_kernel: 0.0,
@@ -176,7 +181,15 @@ impl Vertex {
         let (tangent_jump, curvature_jump) = (to.first - from.first, to.second - from.second);
         let significant = |size: f64, least: f64| if size > least { size } else { 0.0 };
         let tangent_jump_size = significant(metric.norm(&tangent_jump), NO_TANGENT_JUMP);
-        let curvature_jump_size = significant(metric.norm(&curvature_jump), NO_CURVATURE_JUMP);
+        let mut curvature_jump_size = significant(metric.norm(&curvature_jump), NO_CURVATURE_JUMP);
+        let at_limit = before.near_limit.end || after.near_limit.start;
+        let mut inner = Jump::NONE;
+        if at_limit && (tangent_jump_size > 0.0 || curvature_jump_size > 0.0) {
+            let sum = from.second + to.second;
+            let size = significant(metric.norm(&sum), NO_CURVATURE_JUMP);
+            curvature_jump_size = curvature_jump_size.max(size);
+            inner = Jump::new(&sum);
+        }
         let turn_share = before.turn_share.max(after.turn_share);
         let tolerance_jump_size = if tangent_jump_size > 0.0 {
             metric
@@ -200,14 +213,15 @@ impl Vertex {
             longer_leg: before.length.max(after.length),
             mean_leg: 0.5 * (before.length + after.length),
             stop,
-            wall: stop || exact,
-            at_limit: before.ends_at_limit,
+            wall: stop || exact || at_limit,
+            at_limit,
+            inner,
             ..Self::VACANT
         };
-        if !vertex.wall {
-            vertex.find_base_widths(before, after, settings);
-        } else if !stop {
+        if exact && !stop {
             vertex.find_exact_widths(before, after, settings);
+        } else if !stop {
+            vertex.find_base_widths(before, after, settings);
         }
         vertex
     }
@@ -228,8 +242,8 @@ impl Vertex {
             self.base.kernel = self.corner.width.min(room).min(wanted);
         }
         if self.curvature_jump_size > 0.0 {
-            let within =
-                EXACT_EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.curvature_jump_size);
+            let within = EXACT_EASEMENT_SHARE * self.tolerance
+                / (self.easement_peak() * self.curvature_jump_size);
             self.base.easement = within.sqrt().min(room);
         }
     }
@@ -246,15 +260,7 @@ impl Vertex {
             // In the slower leg's half the other's feed does not matter.
             let slower = before.speed.min(after.speed);
             let tangent_jump = self.tangent_jump.axes();
-            let (mix, free) = if self.free_limit > 0.0 {
-                let width = settings.free_width(&tangent_jump, slower, 0.0);
-                let mix = settings.corner_mix(&tangent_jump, width.min(self.free_limit), false);
-                (mix, settings.free_width(&tangent_jump, slower, mix))
-            } else {
-                let by_tolerance = biweight_width < self.half_leg;
-                let width = biweight_width.min(self.half_leg);
-                (settings.corner_mix(&tangent_jump, width, by_tolerance), 0.0)
-            };
+            let (mix, free) = self.mix_alone(&tangent_jump, biweight_width, slower, settings);
             self.corner = LoneCorner {
                 mix,
                 width: within / kernel::peak(mix),
@@ -268,7 +274,9 @@ impl Vertex {
                 greatest_width: settings.greatest_swing(2.0 * self.half_leg),
             };
             self.free_kernel = free.min(self.free_limit);
-            self.isolated = if self.free_limit > 0.0 {
+            self.isolated = if self.at_limit {
+                true
+            } else if self.free_limit > 0.0 {
                 free <= self.free_limit
             } else {
                 biweight_width <= ISOLATED * self.half_leg
@@ -284,14 +292,62 @@ impl Vertex {
             self.base = self.widths_alone();
         }
         if self.curvature_jump_size > 0.0 {
-            let within =
-                EASEMENT_SHARE * self.tolerance / (easement::PEAK * self.curvature_jump_size);
-            let wanted = settings
+            self.find_base_easement(before, after, settings);
+        }
+    }
+
+    /// The mix of its kernel where it keeps clear of its neighbours', and the width that its feed wants where half legs may be
+    /// cut.
+    fn mix_alone(
+        &self,
+        tangent_jump: &Axes,
+        biweight_width: f64,
+        speed: f64,
+        settings: &BlendSettings,
+    ) -> (f64, f64) {
+        // What leads an arc back to the inner side is meant for the biweight kernel.
+        let biweight = self.at_limit && self.curvature_jump_size > 0.0;
+        let mix_of = |width: f64, by_tolerance: bool| {
+            if biweight {
+                0.0
+            } else {
+                settings.corner_mix(tangent_jump, width, by_tolerance)
+            }
+        };
+        if self.free_limit > 0.0 {
+            let width = settings.free_width(tangent_jump, speed, 0.0);
+            let mix = mix_of(width.min(self.free_limit), false);
+            (mix, settings.free_width(tangent_jump, speed, mix))
+        } else {
+            let by_tolerance = biweight_width < self.half_leg;
+            (mix_of(biweight_width.min(self.half_leg), by_tolerance), 0.0)
+        }
+    }
+
+    fn find_base_easement(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
+        let speed = before.speed.max(after.speed);
+        let design_width = before.design_width.max(after.design_width);
+        let within =
+            EASEMENT_SHARE * self.tolerance / (self.easement_peak() * self.curvature_jump_size);
+        let halves = before.half_for_corner().min(after.half_for_corner());
+        let wanted = if self.at_limit {
+            halves
+        } else {
+            settings
                 .full_speed_easement(self.curvature_jump_size, speed)
                 .max(design_width)
-                .min(WIDEST_EASEMENT * before.half_for_corner().min(after.half_for_corner()));
-            self.free_easement = wanted.min(self.free_limit);
-            self.base.easement = within.sqrt().min(wanted).max(self.free_easement);
+                .min(WIDEST_EASEMENT * halves)
+        };
+        self.free_easement = wanted.min(self.free_limit);
+        self.base.easement = within.sqrt().min(wanted).max(self.free_easement);
+    }
+
+    /// The greatest value of its easement for a width of 1.
+    fn easement_peak(&self) -> f64 {
+        if self.at_limit {
+            easement::INNER_PEAK
+        } else {
+            easement::PEAK
         }
     }
 
@@ -357,6 +413,12 @@ impl Vertex {
     /// Puts widths under examination.
     pub fn set_trial(&mut self, widths: Widths) {
         let counted = |width: f64| if width > self.free_limit { width } else { 0.0 };
+        let mut widths = widths;
+        if self.at_limit && self.tangent_jump_size > 0.0 && self.curvature_jump_size > 0.0 {
+            let both = widths.kernel.min(widths.easement);
+            widths.kernel = both;
+            widths.easement = both;
+        }
         self.trial = widths;
         self.counted = Widths {
             kernel: counted(widths.kernel),
@@ -424,6 +486,10 @@ impl Vertex {
         if x < widths.easement {
             let value = widths.easement * widths.easement * easement::value(x / widths.easement);
             deviation.add(&self.curvature_jump, &[value.copysign(distance)]);
+            if self.at_limit {
+                let inner = easement::inner_value(x / widths.easement);
+                deviation.add(&self.inner, &[widths.easement * widths.easement * inner]);
+            }
         }
     }
 
@@ -433,7 +499,12 @@ impl Vertex {
     pub fn bend_bound(&self, widths: &Widths, distance: f64) -> f64 {
         let mut bound = self.tangent_jump_size * widths.bend_bound(distance);
         if distance < widths.easement {
-            bound += self.curvature_jump_size * easement::GREATEST_SECOND;
+            bound += self.curvature_jump_size
+                * if self.at_limit {
+                    easement::INNER_GREATEST_SECOND
+                } else {
+                    easement::GREATEST_SECOND
+                };
         }
         bound
     }
@@ -515,6 +586,9 @@ impl Vertex {
         }
         if distance < self.stored.easement {
             sum.add(&self.curvature_jump, &self.easement_factors(distance, side));
+            if self.at_limit {
+                sum.add(&self.inner, &self.inner_factors(distance, side));
+            }
         }
     }
 
@@ -528,5 +602,22 @@ impl Vertex {
             even: f64x2::new([side * width * width * f.value, side * f.second]),
             odd: f64x2::new([width * f.first, f.third / width]),
         }
+    }
+
+    #[inline(never)]
+    fn inner_factors(&self, distance: f64, side: Side) -> Factors {
+        let width = self.stored.easement;
+        let side = side.sign();
+        let b = easement::inner_derivatives(distance / width);
+        Factors {
+            even: f64x2::new([width * width * b.value, b.second]),
+            odd: f64x2::new([side * width * b.first, side * b.third / width]),
+        }
+    }
+
+    /// Whether nothing but XYZ jumps.
+    pub fn is_linear(&self) -> bool {
+        let jumps = [&self.tangent_jump, &self.curvature_jump, &self.inner];
+        jumps.into_iter().all(Jump::is_linear)
     }
 }

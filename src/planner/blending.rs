@@ -98,6 +98,19 @@ impl Blending {
         }
     }
 
+    /// How far the path may be from a move that ends so, but for corners that are cut by half of a leg; machine units.
+    pub(super) fn greatest_deviation(&self, termination: TerminationCondition) -> f64 {
+        let exact = BlendSettings::EXACT_TOLERANCE * self.millimetre;
+        match termination {
+            TerminationCondition::Stop => 0.0,
+            TerminationCondition::Exact => exact,
+            TerminationCondition::Continuous { tolerance } if tolerance > 0.0 => {
+                tolerance.max(exact)
+            }
+            TerminationCondition::Continuous { .. } => self.default_tolerance.max(exact),
+        }
+    }
+
     /// The settings of a path that begins with the first move of the queue. Finds the weight of
     /// rotary axes: linear and rotary axes use up their tolerances together. The weight belongs to the
     /// first P of the moves that have come so far, or to the tolerance for G64 without P where they

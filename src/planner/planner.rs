@@ -21,7 +21,7 @@ use crate::cycle::Executor;
 use crate::machine_map::JointMap;
 use crate::moves::shape::{Arc9, Circle, Line9, Shape, ShapeError};
 use crate::moves::{
-    Move, MoveQueue, QueueFull, StateTag, SynchronisationMode, TerminationCondition,
+    Move, MoveQueue, NearLimit, QueueFull, StateTag, SynchronisationMode, TerminationCondition,
 };
 
 /// A position with a coordinate that is infinite or not a number was refused.
@@ -289,7 +289,7 @@ impl Planner {
             synchronisation,
             indexer_joint: request.indexer_joint,
             termination: self.next_move.termination,
-            ends_at_limit: false,
+            near_limit: NearLimit::NONE,
             outputs: self.next_move.outputs,
         })
     }

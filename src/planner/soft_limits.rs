@@ -27,9 +27,11 @@ impl Planner {
         if !self.range_check.is_on() || self.status.aborting {
             return None;
         }
+        let blending = self.blending;
+        let deviation = |termination| blending.greatest_deviation(termination);
         let finding = self
             .range_check
-            .go_on(&mut self.queue, range, machine, solver);
+            .go_on(&mut self.queue, range, machine, deviation, solver);
         if let Some(Finding::Leaves { .. }) = finding {
             self.stop_for_error(ErrorStop::SoftLimit);
         }

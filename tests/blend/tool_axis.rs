@@ -1,8 +1,8 @@
 //! Where an axis tilts the tool: the tip keeps P and the tool axis the rotary tolerance, whatever C does.
 
 use framepath::axes::{Axes, AxisLimits};
-use framepath::moves::TerminationCondition;
 use framepath::moves::shape::{Line9, Shape};
+use framepath::moves::{NearLimit, TerminationCondition};
 use framepath::path::{BlendSettings, BlendedPath, ProgrammedMove};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -40,7 +40,7 @@ fn lines(places: &[[f64; 3]]) -> Vec<ProgrammedMove> {
             stop_before: false,
             separate: false,
             may_swing_out: true,
-            ends_at_limit: false,
+            near_limit: NearLimit::NONE,
         })
         .collect()
 }

@@ -1,6 +1,7 @@
 //! The planner driven cycle by cycle: what it keeps on ordinary and on random programs, and what was found there once.
 
 mod arrivals;
+mod at_soft_limits;
 mod behind_frame;
 mod caps;
 mod chord_circles;

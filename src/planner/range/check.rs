@@ -4,7 +4,7 @@ use super::joints::{Finding, JointRange, JointSolver, Joints, OutOfRange};
 use super::sweep::{RangeVerdict, Sweep};
 use crate::machine::JOINT_COUNT;
 use crate::moves::shape::Shape;
-use crate::moves::{Move, MoveQueue, TerminationCondition};
+use crate::moves::{Move, MoveQueue, NearLimit, TerminationCondition};
 
 /// Moves that need no look inside are passed over, so many in a servo period.
 const MOVES_A_CYCLE: usize = 16;
@@ -52,7 +52,8 @@ impl RangeCheck {
     }
 
     /// Looks at more of the moves, as much as the solver may be asked in a servo period, and releases
-    /// those that have been looked at. `machine` are the joints of the machine.
+    /// those that have been looked at. `machine` are the joints of the machine, `deviation` is how far the path may be from
+    /// a move that ends so, machine units.
     ///
     /// Where the limits of the joints have changed it begins again with the move that runs.
     pub fn go_on(
@@ -60,6 +61,7 @@ impl RangeCheck {
         queue: &mut MoveQueue,
         range: &JointRange,
         machine: &Joints,
+        deviation: impl Fn(TerminationCondition) -> f64,
         solver: &mut impl JointSolver,
     ) -> Option<Finding> {
         let changed = !self.range.is(range);
@@ -82,44 +84,45 @@ impl RangeCheck {
                 solver.begin(&queued.shape.position(0.0), machine);
                 self.origin = Some(queue.cleared());
             }
-            let Some(verdict) = self.look(&queued.shape, &mut calls, solver) else {
+            let margin = TOLERANCES * deviation(queued.termination);
+            let Some(verdict) = self.look(&queued.shape, margin, &mut calls, solver) else {
                 break;
             };
-            let at_limit = match verdict {
-                Passed::Stays => self.ends_at_limit(queued, solver),
+            let near_limit = match verdict {
+                Passed::Stays { comes_near: true } => NearLimit::BOTH,
+                Passed::Stays { comes_near: false } => NearLimit {
+                    end: self.ends_near(queued, margin, solver),
+                    ..NearLimit::NONE
+                },
                 Passed::Leaves(found) => {
                     let (found, id) = (self.with_limit(found), queued.id);
                     return Some(Finding::Leaves { found, id });
                 }
                 Passed::Unknown => {
                     finding = Some(Finding::Unknown { id: queued.id });
-                    true
+                    NearLimit::BOTH
                 }
             };
-            if at_limit {
-                queue.release_at_limit(self.next);
-            } else {
-                queue.release(self.next + 1);
-            }
+            queue.release_near_limit(self.next, near_limit);
             self.next += 1;
         }
         finding
     }
 
-    /// Whether joints are so near to a limit at the end of a move that a path within its tolerance might pass it.
-    fn ends_at_limit(&self, queued: &Move, solver: &mut impl JointSolver) -> bool {
-        let TerminationCondition::Continuous { tolerance } = queued.termination else {
+    /// Whether joints are nearer than `margin` to a limit where a move ends. Where the machine comes to rest no path leads beyond
+    /// one.
+    fn ends_near(&self, queued: &Move, margin: f64, solver: &mut impl JointSolver) -> bool {
+        if queued.termination == TerminationCondition::Stop {
             return false;
-        };
+        }
         // What was looked at all along ends with the joints there.
         let joints = if self.at_start {
             Some(self.near)
         } else {
             solver.solve(&queued.shape.end(), &self.near)
         };
-        let margin = TOLERANCES * tolerance;
-        let limits = self.range.least.iter().zip(&self.range.greatest);
         let is_near = |joints: Joints| {
+            let limits = self.range.least.iter().zip(&self.range.greatest);
             let mut limited = joints.iter().zip(limits).take(self.range.count);
             limited.any(|(joint, (least, greatest))| {
                 !(least + margin < *joint && *joint < greatest - margin)
@@ -146,25 +149,28 @@ impl RangeCheck {
     fn look(
         &mut self,
         shape: &Shape,
+        margin: f64,
         calls: &mut usize,
         solver: &mut impl JointSolver,
     ) -> Option<Passed> {
         if matches!(shape, Shape::Line(_)) && solver.keeps_lines() {
             self.at_start = false;
-            return Some(Passed::Stays);
+            return Some(Passed::Stays { comes_near: false });
         }
         let mut sweep = match self.sweep.take() {
             Some(sweep) => sweep,
             None if self.at_start => Sweep::behind_start(shape, &self.range, &self.near),
             None => Sweep::new(shape, &self.range, &self.near),
-        };
+        }
+        .with_margin(margin);
         while *calls > 0 {
             *calls -= 1;
             match sweep.step(shape, solver) {
                 None => {}
                 Some(RangeVerdict::Stays(joints)) => {
                     (self.near, self.at_start) = (joints, true);
-                    return Some(Passed::Stays);
+                    let comes_near = sweep.comes_near();
+                    return Some(Passed::Stays { comes_near });
                 }
                 Some(RangeVerdict::Leaves(found)) => return Some(Passed::Leaves(found)),
                 Some(RangeVerdict::Unknown) => {
@@ -180,7 +186,7 @@ impl RangeCheck {
 
 /// What became of a move.
 enum Passed {
-    Stays,
+    Stays { comes_near: bool },
     Leaves(OutOfRange),
     Unknown,
 }

@@ -71,6 +71,10 @@ pub struct Sweep {
     allowed: JointRange,
     /// The joint that leaves its range, and the furthest that is known of it.
     found: Option<OutOfRange>,
+    /// A joint is near a limit that is less than this away, machine units or degrees.
+    margin: f64,
+    /// Whether one comes near.
+    near: bool,
     /// Places that may still be asked for.
     calls: f64,
     /// What an answer may be wrong by.
@@ -91,6 +95,8 @@ impl Sweep {
             filled: 0,
             allowed: *range,
             found: None,
+            margin: 0.0,
+            near: false,
             calls: spans * INTERVALS + FURTHER_CALLS,
             precision: 0.0,
         }
@@ -102,6 +108,17 @@ impl Sweep {
         sweep.allow_start(start);
         sweep.filled = 1;
         sweep
+    }
+
+    /// The same that looks whether a joint comes nearer to a limit than `margin`, machine units or degrees.
+    #[must_use]
+    pub fn with_margin(self, margin: f64) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// Whether one does, as far as is known. What is between the places counts as much as half of the margin.
+    pub fn comes_near(&self) -> bool {
+        self.near
     }
 
     /// Asks for one more place; the verdict, if that was the last one.
@@ -155,6 +172,18 @@ impl Sweep {
         }
         for (joint, bend) in known.enumerate() {
             self.look_beyond(joint, bend);
+            self.near |= self.is_near(joint, bend, 0.0);
+        }
+        let nears = bends.iter().enumerate().take(self.allowed.count);
+        if !self.near
+            && nears
+                .into_iter()
+                .any(|(joint, bend)| self.may_come_near(joint, bend))
+        {
+            if !spent && self.halve() {
+                return None;
+            }
+            self.near = true;
         }
         let open = bends.iter().enumerate().take(self.allowed.count);
         if open
@@ -232,6 +261,21 @@ impl Sweep {
         }
         bend.second > TOLERANCE.max(NOISE * self.precision)
             && (bend.greatest + bend.second > greatest || bend.least - bend.second < least)
+    }
+
+    /// Whether a joint is near a limit at one of the places of the span, or would be if it went so much further.
+    fn is_near(&self, joint: usize, bend: &BentKinematics, further: f64) -> bool {
+        let margin = self.margin + further;
+        let least = self.allowed.least.get(joint);
+        let greatest = self.allowed.greatest.get(joint);
+        least.is_some_and(|least| bend.least < least + margin)
+            || greatest.is_some_and(|greatest| bend.greatest > greatest - margin)
+    }
+
+    /// Whether one may be between the places, and that can be told by more of them.
+    fn may_come_near(&self, joint: usize, bend: &BentKinematics) -> bool {
+        let least = (0.5 * self.margin).max(TOLERANCE.max(NOISE * self.precision));
+        self.margin > 0.0 && bend.second > least && self.is_near(joint, bend, bend.second)
     }
 
     /// Looks at the first half of the span. `false` if that would be too small.

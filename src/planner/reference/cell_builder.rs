@@ -268,8 +268,8 @@ mod tests {
 
     use super::super::reference_segment::ProfiledMotion;
     use super::*;
-    use crate::moves::TerminationCondition;
     use crate::moves::shape::{Arc9, Circle, Shape};
+    use crate::moves::{NearLimit, TerminationCondition};
     use crate::path::{BlendSettings, ProgrammedMove};
     use crate::speed::{JerkLimitedProfile, PathLimits};
 
@@ -297,7 +297,7 @@ mod tests {
                 stop_before: false,
                 separate: false,
                 may_swing_out: true,
-                ends_at_limit: false,
+                near_limit: NearLimit::NONE,
             })
             .expect("room");
             path.step(1000);

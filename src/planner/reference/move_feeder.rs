@@ -235,7 +235,7 @@ impl MoveFeeder {
             stop_before: follows && (new.probes || self.kind.probes),
             separate: !queued.outputs.is_empty() || new != self.kind,
             may_swing_out: queued.synchronisation.is_none(),
-            ends_at_limit: queued.ends_at_limit,
+            near_limit: queued.near_limit,
         }
     }
 }

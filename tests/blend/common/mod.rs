@@ -3,8 +3,8 @@
 use core::f64::consts::TAU;
 
 use framepath::axes::{Axes, AxisLimits};
-use framepath::moves::TerminationCondition;
 use framepath::moves::shape::{Arc9, Circle, Line9, PathPoint, Shape};
+use framepath::moves::{NearLimit, TerminationCondition};
 use framepath::path::{BlendSettings, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -211,7 +211,7 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
             stop_before: mode < 0.02 * c.stops,
             separate: mode > 0.9,
             may_swing_out: true,
-            ends_at_limit: false,
+            near_limit: NearLimit::NONE,
         });
         at = shape.end();
     }
@@ -401,7 +401,7 @@ pub fn line(serial: u64, from: (f64, f64), to: (f64, f64), tolerance: f64) -> Pr
         stop_before: false,
         separate: false,
         may_swing_out: true,
-        ends_at_limit: false,
+        near_limit: NearLimit::NONE,
     }
 }
 
