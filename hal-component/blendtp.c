@@ -34,6 +34,7 @@ static struct {
     hal_float_t *millimetre;
     hal_float_t *rotary_tolerance;
     hal_float_t *default_tolerance;
+    hal_bit_t *corners_inside;
     hal_u32_t *version;
 } *pins;
 
@@ -91,6 +92,7 @@ static int prepare(void)
         framepath_planner_set_machine_map(planner, linear_map(map), map);
     if (tool_tilt_axis)
         framepath_planner_set_tool_tilt_axis(planner, tool_tilt_axis());
+    framepath_planner_set_corners_inside(planner, *pins->corners_inside);
     return has_velocity() || take_jerk_limits() || take_joint_limits() || take_tolerances() ? -1 : 0;
 }
 
@@ -460,6 +462,8 @@ int rtapi_app_main(void)
         error |= hal_pin_float_newf(HAL_IN, &pins->rotary_tolerance, component, "blendtp.rotary-tolerance");
     if (!error)
         error |= hal_pin_float_newf(HAL_IN, &pins->default_tolerance, component, "blendtp.default-tolerance");
+    if (!error)
+        error |= hal_pin_bit_newf(HAL_IN, &pins->corners_inside, component, "blendtp.corners-inside");
     if (!error)
         error |= hal_pin_u32_newf(HAL_OUT, &pins->version, component, "blendtp.version") || make_operator_pins();
 #ifdef FRAMEPATH_FAULT_INJECTION

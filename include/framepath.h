@@ -913,6 +913,14 @@ int framepath_planner_set_blending(struct framepath_planner *handle,
                                    double default_tolerance);
 
 /*
+ Says whether corners are rounded on their inner side only: where not 0 none swings out. Holds from the next rest on.
+
+ # Safety
+ `handle` from `framepath_planner_create`.
+ */
+void framepath_planner_set_corners_inside(struct framepath_planner *handle, int inside);
+
+/*
  Says which axis tilts the tool while C turns it, 3 for A, 4 for B, where the coordinates of the program are those of its
  tip: the tolerance of rotary axes is then one of the tool axis. Any other number: none does. Holds from the next rest on.
 

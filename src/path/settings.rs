@@ -54,6 +54,8 @@ pub struct BlendSettings {
     per_acceleration: Axes,
     per_jerk: Axes,
     orientation: Option<Orientation>,
+    /// Whether corners may [swing out](super::lone_corner).
+    swings: bool,
 }
 
 /// How far the blended path may be from a move.
@@ -82,6 +84,7 @@ impl BlendSettings {
         per_acceleration: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
         per_jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
         orientation: None,
+        swings: true,
     };
 
     /// `millimetre`: its length in machine units (1, or 1/25.4). `rotary_weight`: how many machine
@@ -120,6 +123,7 @@ impl BlendSettings {
             per_acceleration: limits.acceleration.map(f64::recip),
             per_jerk: limits.jerk.map(f64::recip),
             orientation: None,
+            swings: true,
         })
     }
 
@@ -129,6 +133,15 @@ impl BlendSettings {
     pub fn with_tilt(self, tilt: usize, tolerance: f64) -> Self {
         Self {
             orientation: Some(Orientation { tilt, tolerance }),
+            ..self
+        }
+    }
+
+    /// The same where no corner [swings out](super::lone_corner).
+    #[must_use]
+    pub fn without_swings(self) -> Self {
+        Self {
+            swings: false,
             ..self
         }
     }
@@ -220,7 +233,11 @@ impl BlendSettings {
 
     /// How far a corner beside a leg of this `length` swings out at most; machine units.
     pub(super) fn greatest_swing(&self, length: f64) -> f64 {
-        (LEGS_OF_A_SWING * length).min(self.greatest_design_width())
+        if self.swings {
+            (LEGS_OF_A_SWING * length).min(self.greatest_design_width())
+        } else {
+            0.0
+        }
     }
 
     /// How often the time of a ramp from 0 to the greatest acceleration fits into half of a corner, with the biweight kernel of
@@ -245,7 +262,7 @@ impl BlendSettings {
             && self
                 .ramps(tangent_jump, width)
                 .is_none_or(|ramps| ramps > FEW_RAMPS);
-        !sharp && self.free_width(tangent_jump, speed, 0.0) > LIMITING * width
+        self.swings && !sharp && self.free_width(tangent_jump, speed, 0.0) > LIMITING * width
     }
 
     /// What G61 and G61.1 allow.

@@ -45,6 +45,8 @@ pub struct Blending {
     default_tolerance: f64,
     /// Which axis tilts the tool while C turns it, 3 for A, 4 for B, where the machine tells.
     tilt: Option<usize>,
+    /// Whether corners are rounded on their inner side only.
+    corners_inside: bool,
     /// Machine units that count as much as a degree of A B C.
     weight: f64,
 }
@@ -59,6 +61,7 @@ impl Blending {
         rotary_tolerance: 0.0,
         default_tolerance: Self::DEFAULT_TOLERANCE,
         tilt: None,
+        corners_inside: false,
         weight: 1.0,
     };
 
@@ -87,6 +90,11 @@ impl Blending {
     /// Which axis tilts the tool while C turns it. Others than A and B count as none.
     pub(super) fn set_tilt(&mut self, tilt: Option<usize>) {
         self.tilt = tilt.filter(|axis| (3..5).contains(axis));
+    }
+
+    /// Whether corners are rounded on their inner side only.
+    pub(super) fn set_corners_inside(&mut self, inside: bool) {
+        self.corners_inside = inside;
     }
 
     /// What no tolerance P may exceed so that rotary axes keep theirs, machine units.
@@ -140,6 +148,11 @@ impl Blending {
         }
         let settings =
             BlendSettings::new(self.millimetre, self.weight, self.default_tolerance, limits)?;
+        let settings = if self.corners_inside {
+            settings.without_swings()
+        } else {
+            settings
+        };
         Some(match self.tilt {
             Some(tilt) if self.rotary_tolerance > 0.0 => {
                 settings.with_tilt(tilt, self.rotary_tolerance)

@@ -169,6 +169,11 @@ impl Planner {
         self.blending.set_tilt(tilt);
     }
 
+    /// Chooses whether corners are rounded on their inner side only, and none swings out. Holds from the next rest on.
+    pub fn set_corners_inside(&mut self, inside: bool) {
+        self.blending.set_corners_inside(inside);
+    }
+
     /// Sets how the moves to come meet the next one.
     pub fn set_termination(&mut self, termination: TerminationCondition) {
         self.next_move.termination = termination;

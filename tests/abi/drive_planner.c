@@ -132,6 +132,7 @@ static void operate(void)
     case 8: framepath_host_set("rotary-tolerance", number(0, 1)); break;
     case 9: framepath_host_set("millimetre", number(.03, 1)); break;
     case 10: framepath_host_set("default-tolerance", number(0, .1)); break;
+    case 12: framepath_host_set("corners-inside", pick(2)); break;
     case 11: framepath_host_set("millimetre", 1); framepath_host_set("rotary-tolerance", 0); break;
     default: break;
     }

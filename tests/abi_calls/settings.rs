@@ -4,10 +4,11 @@ use std::ffi::c_int;
 
 use framepath::abi::planner::settings::{
     framepath_planner_set_analog_output, framepath_planner_set_blending,
-    framepath_planner_set_cycle_time, framepath_planner_set_digital_output,
-    framepath_planner_set_id, framepath_planner_set_jerk, framepath_planner_set_machine_map,
-    framepath_planner_set_spindle_sync, framepath_planner_set_termination,
-    framepath_planner_set_tool_tilt_axis, framepath_planner_set_velocity_limit,
+    framepath_planner_set_corners_inside, framepath_planner_set_cycle_time,
+    framepath_planner_set_digital_output, framepath_planner_set_id, framepath_planner_set_jerk,
+    framepath_planner_set_machine_map, framepath_planner_set_spindle_sync,
+    framepath_planner_set_termination, framepath_planner_set_tool_tilt_axis,
+    framepath_planner_set_velocity_limit,
 };
 use framepath::axes::AXIS_COUNT;
 use framepath::planner::JerkLimit;
@@ -231,6 +232,8 @@ impl Calls {
         self.tell(format_args!("tilt {tilt}"));
         // SAFETY: a handle of the planner.
         unsafe { framepath_planner_set_tool_tilt_axis(self.shared.handle, tilt) };
+        // SAFETY: as above.
+        unsafe { framepath_planner_set_corners_inside(self.shared.handle, tilt) };
         self.check(Kind::Command);
     }
 

@@ -58,6 +58,36 @@ class PathModes(unittest.TestCase):
             else:
                 self.assertLessEqual(max(beyond), 1e-9)
 
+    def test_programs_that_touch_a_soft_limit_do_not_pass_it(self):
+        limit = 500
+        zigzag = [(limit - depth, 480 + 0.4 * k) for k, depth in enumerate((0, 0.9, 0.3, 0, 0.2, 1.3) * 8)]
+        angles = [0.025 * k for k in range(-40, 41)]
+        circle = [(limit - 20 + 20 * math.cos(angle), 480 + 20 * math.sin(angle)) for angle in angles]
+        lines = ["".join(f"X{x:.6f} Y{y:.6f}\n" for x, y in points) for points in (circle, zigzag)]
+        rounded = f"X{limit - 10} Y440\nG3 X{limit} Y450 J10\nG1 Y470\nG3 X{limit - 10} Y480 I-10\n"
+        for moves in (*lines, rounded):
+            with self.subTest(moves[:30]):
+                program = f"G0 X{limit - 30} Y440\nG64 P0.05\nG1 F3000\n{moves}G1 X{limit - 30}\nM2\n"
+                result = harness.run([RUN], {"part.ngc": program})
+                self.assertIsNone(result.failure, result.log)
+                self.assertEqual(result.errors, [], result.log)
+                farthest = max(result.column("joint.0"))
+                self.assertLessEqual(farthest, limit + 1e-9)
+                self.assertGreater(farthest, limit - 0.05)
+
+    def test_corners_stay_inside_where_a_pin_says_so(self):
+        program = "G0 X20 Y20\nG64 P0.05\nG1 F3000 X40\nY40\nX20\nM2\n"
+        for inside in (0, 1):
+            result = harness.run([RUN], {"part.ngc": program}, hal=f"setp blendtp.corners-inside {inside}\n")
+            self.assertIsNone(result.failure, result.log)
+            self.assertEqual(result.errors, [], result.log)
+            rows = result.columns("joint.0", "joint.1")
+            beyond = max(max(row) for row in rows) - 40
+            if inside:
+                self.assertLessEqual(beyond, 1e-9)
+            else:
+                self.assertGreater(beyond, 0.01)
+
 
 if __name__ == "__main__":
     unittest.main()

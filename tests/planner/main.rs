@@ -6,6 +6,7 @@ mod behind_frame;
 mod caps;
 mod chord_circles;
 mod common;
+mod corners_inside;
 mod faults;
 mod feed;
 mod fillets;

@@ -97,6 +97,18 @@ pub unsafe extern "C" fn framepath_planner_set_blending(
     })
 }
 
+/// Says whether corners are rounded on their inner side only: where not 0 none swings out. Holds from the next rest on.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_set_corners_inside(handle: *mut Handle, inside: c_int) {
+    // SAFETY: see above.
+    if let Some(handle) = unsafe { handle.as_mut() } {
+        handle.planner.set_corners_inside(inside != 0);
+    }
+}
+
 /// Says which axis tilts the tool while C turns it, 3 for A, 4 for B, where the coordinates of the program are those of its
 /// tip: the tolerance of rotary axes is then one of the tool axis. Any other number: none does. Holds from the next rest on.
 ///

@@ -96,10 +96,11 @@ pub fn has_pin(pin: &str) -> bool {
 }
 
 /// The pins that are there once.
-const OTHERS: [&str; 20] = [
+const OTHERS: [&str; 21] = [
     "millimetre",
     "rotary-tolerance",
     "default-tolerance",
+    "corners-inside",
     "version",
     "move.number",
     "move.line",
