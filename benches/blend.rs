@@ -4,8 +4,8 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use framepath::axes::{Axes, AxisLimits};
-use framepath::moves::{NearLimit, TerminationCondition};
 use framepath::moves::shape::{Line9, Shape};
+use framepath::moves::{NearLimit, TerminationCondition};
 use framepath::path::{BlendSettings, BlendedPath, ProgrammedMove};
 
 fn line(serial: u64, from: &Axes, to: &Axes) -> ProgrammedMove {

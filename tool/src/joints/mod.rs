@@ -326,6 +326,11 @@ fn of_table(machine: &Machine, position: &Axes, derivatives: &[Axes; 3]) -> [Axe
     })
 }
 
+/// Whether the kinematics are a tilting table of framekins.
+pub(crate) fn is_table(settings: &JointSettings) -> bool {
+    own_table(settings).is_some()
+}
+
 /// The axis, 3 for A or 4 for B, that tilts the tool while C turns it, as framekins tells blendtp.
 pub(crate) fn tool_tilt_axis(settings: &JointSettings, ini: &Ini) -> Option<usize> {
     match own_table(settings) {

@@ -5,14 +5,15 @@ use super::arrivals::Arrivals;
 use super::error::{PlanError, refusal, spindle_error};
 use super::joints;
 use super::setup::Setup;
+use super::soft_limits::SoftLimits;
 use super::source::Source;
 use super::spindle::Spindle;
 use super::turn_feeds::TurnFeeds;
 use crate::canon::call::PathMode;
-use crate::layer::program::{self, Move, Operation, Piece, Shape};
+use crate::layer::program::{self, Move, Operation, Piece};
 use crate::path::Position;
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
-use framepath::moves::shape::Circle;
+use framepath::moves::shape::{Circle, Shape, ShapeError};
 use framepath::moves::{MotionType, STATE_TAG_SIZE, StateTag, TerminationCondition};
 use framepath::planner::{CycleInputs, MoveRequest, Planner, Status};
 use nalgebra::Vector3;
@@ -101,6 +102,7 @@ pub struct Drive<'a> {
     file: &'a Path,
     setup: &'a Setup,
     planner: Box<Planner>,
+    soft_limits: Option<SoftLimits>,
     spindle: Spindle,
     turn_feeds: TurnFeeds,
     inputs: CycleInputs,
@@ -153,6 +155,8 @@ impl<'a> Drive<'a> {
             )
             .map_err(|_| refused("the tolerances: they must be 0 or positive"))?;
         planner.set_tilt_axis(setup.tool_tilt_axis);
+        planner.set_corners_inside(setup.corners_inside);
+        planner.wait_for_range_check(setup.soft_limits.is_some());
         planner.set_velocity_limit(setup.velocity_limit * length);
         planner
             .set_position(&scaled(&setup.surroundings.start))
@@ -161,6 +165,7 @@ impl<'a> Drive<'a> {
             file,
             setup,
             planner,
+            soft_limits: setup.soft_limits.clone(),
             spindle: Spindle::new(setup.spindle),
             turn_feeds: TurnFeeds::default(),
             inputs: CycleInputs::default(),
@@ -207,6 +212,7 @@ impl<'a> Drive<'a> {
             None => 1.0,
         };
         self.inputs.spindles[0] = self.spindle.turn(self.setup.period);
+        self.look_for_soft_limits()?;
         let status = *self.planner.cycle(&self.inputs);
         let x = status.position[0] / self.setup.scale(0);
         self.spindle.obey(&status, x);
@@ -294,6 +300,29 @@ impl<'a> Drive<'a> {
         Ok(())
     }
 
+    fn look_for_soft_limits(&mut self) -> Result<(), PlanError> {
+        let leaves = match &mut self.soft_limits {
+            Some(limits) => limits.look(&mut self.planner),
+            None => false,
+        };
+        if leaves {
+            return Err(PlanError::Stopped {
+                file: self.file.to_owned(),
+                line: self.last_line,
+                reason: "a joint would go beyond a soft limit ([JOINT_n]MIN_LIMIT, MAX_LIMIT)"
+                    .to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    /// What LinuxCNC would refuse for a soft limit is planned all the same.
+    fn admit(&mut self, shape: Result<Shape, ShapeError>) {
+        if let (Some(limits), Ok(shape)) = (&mut self.soft_limits, shape) {
+            limits.admit(&shape);
+        }
+    }
+
     fn set_termination(&mut self, mode: PathMode, tolerance: f64) {
         self.planner.set_termination(match mode {
             PathMode::ExactStop => TerminationCondition::Stop,
@@ -348,8 +377,11 @@ impl<'a> Drive<'a> {
         }
         let vector = |values: [f64; 3]| Vector3::from(values);
         let added = match a_move.shape {
-            Shape::Line => self.planner.add_line(&end, &request),
-            Shape::Arc {
+            program::Shape::Line => {
+                self.admit(self.planner.line_to(&end));
+                self.planner.add_line(&end, &request)
+            }
+            program::Shape::Arc {
                 centre,
                 normal,
                 turn,
@@ -359,9 +391,11 @@ impl<'a> Drive<'a> {
                     normal: vector(normal),
                     revolutions: turn,
                 };
+                self.admit(self.planner.arc_to(&end, &circle));
                 self.planner.add_circle(&end, &circle, &request)
             }
-            Shape::Tap => {
+            program::Shape::Tap => {
+                self.admit(self.planner.line_to(&end));
                 let request = MoveRequest {
                     feed: request.max_velocity,
                     wait_for_spindle: true,

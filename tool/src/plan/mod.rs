@@ -28,6 +28,7 @@ mod polyline;
 mod profile;
 mod progress;
 mod setup;
+mod soft_limits;
 mod source;
 mod spindle;
 mod svg;
@@ -111,6 +112,9 @@ pub struct PlanArguments {
     /// [default: 0.02]
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub default_tolerance: Option<f64>,
+    /// blendtp.corners-inside: corners are rounded on their inner side only
+    #[arg(long)]
+    pub corners_inside: bool,
     /// The longest program, bytes
     #[arg(long, value_name = "BYTES", default_value_t = 1_000_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub most_bytes: u64,

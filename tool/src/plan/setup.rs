@@ -2,6 +2,7 @@
 
 use super::PlanArguments;
 use super::error::PlanError;
+use super::soft_limits::SoftLimits;
 use super::spindle::SpeedLimits;
 use crate::canon::Surroundings;
 use crate::canon::tool_table::{Tool, read_tool_table};
@@ -34,6 +35,8 @@ pub struct Setup {
     pub jerk: [f64; AXIS_COUNT],
     /// What is known of the joints.
     pub(super) joints: Joints,
+    /// Soft limits, where the joints are the axes.
+    pub(super) soft_limits: Option<SoftLimits>,
     /// The axis that tilts the tool while C turns it, with the tool centre point on.
     pub(super) tool_tilt_axis: Option<usize>,
     /// Which axes the machine has.
@@ -46,6 +49,8 @@ pub struct Setup {
     pub rotary_tolerance: f64,
     /// Tolerance of short moves under G64 without P, mm.
     pub default_tolerance: f64,
+    /// Whether corners are rounded on their inner side only.
+    pub corners_inside: bool,
     /// What the interpreter finds around it.
     pub surroundings: Surroundings,
     /// What the INI file does not say, and what LinuxCNC takes instead: for the user to be told.
@@ -98,6 +103,10 @@ impl Setup {
             setup.default_tolerance = tolerance * setup.millimetres;
             changed.push(format!("--default-tolerance {tolerance}"));
         }
+        if arguments.corners_inside {
+            setup.corners_inside = true;
+            changed.push("--corners-inside".to_owned());
+        }
         if !changed.is_empty() {
             setup.origin = format!("{}, changed by {}", setup.origin, changed.join(" "));
         }
@@ -148,12 +157,14 @@ fn without_ini() -> Setup {
         limits: Limits::default(),
         jerk: [f64::INFINITY; AXIS_COUNT],
         joints: Joints::Axes,
+        soft_limits: None,
         tool_tilt_axis: None,
         axes: [true; AXIS_COUNT],
         velocity_limit: f64::INFINITY,
         spindle: SpeedLimits::default(),
         rotary_tolerance: 0.0,
         default_tolerance: DEFAULT_TOLERANCE,
+        corners_inside: false,
         surroundings: Surroundings::default(),
         assumed: Vec::new(),
     }
@@ -197,6 +208,7 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     joints.turned_on = arguments.tool_centre_point;
     joints.kinematics_type = arguments.kinematics_type;
     setup.joints = Joints::from_settings(&joints, &ini, setup.period, 1.0)?;
+    setup.soft_limits = SoftLimits::from_ini(&ini, &machine, &joints)?;
     setup.tool_tilt_axis = tool_tilt_axis(&joints, &ini);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
     setup.surroundings = surroundings(&ini, file, &machine, millimetres, &mut setup.assumed)?;

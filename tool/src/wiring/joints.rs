@@ -64,7 +64,8 @@ impl JointSettings {
         limited && !self.is_trivial()
     }
 
-    fn is_trivial(&self) -> bool {
+    /// Whether the joints are the axes.
+    pub fn is_trivial(&self) -> bool {
         match self.kinematics.as_str() {
             "trivkins" => true,
             "framekins" => ["", "identity"].contains(&self.machine.as_str()),

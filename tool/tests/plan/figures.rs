@@ -196,10 +196,12 @@ fn a_plan_names_the_options_that_changed_it() {
         "--feed-at-least=3000",
         "--rotary-tolerance=0.5",
         "--default-tolerance=0.1",
+        "--corners-inside",
         "--fill-queue",
     ];
     let changed = bench.figures(program, &options);
-    let named = "changed by --feed-at-least 3000 --rotary-tolerance 0.5 --default-tolerance 0.1";
+    let named = "changed by --feed-at-least 3000 --rotary-tolerance 0.5 --default-tolerance 0.1 \
+                 --corners-inside";
     assert!(limits(&changed).contains(named), "{changed}");
     let handed_over = changed["handed_over"].as_str().expect("text");
     assert!(

@@ -15,6 +15,7 @@ mod long_programs;
 mod page;
 #[path = "../common/pages.rs"]
 mod pages;
+mod soft_limits;
 mod support;
 #[path = "../common/surface.rs"]
 mod surface;
