@@ -16,14 +16,14 @@ use crate::common::{Machine, at, feed_move, with_room};
 /// What more costs at most without being listed: widths are chosen in steps.
 const ROUNDING: f64 = 1.01;
 
-/// What more costs at most ..
-const GREATEST: f64 = 1.02;
-
-/// .. and what share of the pairs is listed: 1 was of 1900.
-const LISTED: f64 = 0.0125;
-
 /// Servo periods that it may cost besides: those of its beginning and end are whole ones.
 const PERIODS: f64 = 2.0;
+
+/// What more costs at most: the look-ahead finds a local optimum only at some sharp corners (DESIGN) ..
+const GREATEST: f64 = 1.12;
+
+/// .. and how many pairs are listed, at most: one, and of many this share. 4 were of 2400.
+const LISTED: f64 = 0.005;
 
 /// Velocity of each axis, mm/s.
 const VELOCITY: f64 = 100.0;
@@ -259,7 +259,7 @@ fn more_of_anything_costs_no_time() {
     let greatest = inversions.first().map_or(0.0, |(ratio, _)| *ratio);
     assert!(greatest <= GREATEST, "{inversions:#?}");
     assert!(
-        inversions.len() as f64 <= LISTED * f64::from(cases),
+        inversions.len() as f64 <= 1.0 + LISTED * f64::from(cases),
         "{inversions:#?}"
     );
 }
