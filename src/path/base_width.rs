@@ -1,6 +1,7 @@
 //! How wide a vertex should be: the widest kernel within the tolerance, if all its neighbours had
 //! the same width.
 
+use super::blame::MANY_KERNELS;
 use super::chain::Chain;
 use super::jump::JumpSum;
 use super::lone_corner::OUTER_REACH;
@@ -58,11 +59,13 @@ pub(super) fn widen(
         too_wide = allowed < 1.0;
         searched = too_wide;
         goes_on = !too_wide;
-        // On a curve the deviation grows with the square of the widths.
-        let found = if too_wide {
+        // On a curve the deviation grows with the square of the widths. Among many kernels it would be too wide all the same.
+        let found = if !too_wide {
+            width
+        } else if terms <= MANY_KERNELS {
             width * allowed.sqrt()
         } else {
-            width
+            vertex.scanned
         };
         let vertex = chain.vertex_mut(number);
         vertex.scanned = vertex.scanned.max(found);

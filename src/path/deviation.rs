@@ -31,6 +31,8 @@ pub(super) struct Violation {
     pub s: f64,
     /// What is allowed there over the deviation, 0 to 1; 1 where nothing is known of it.
     pub allowed: f64,
+    /// How many kernels reach the leg.
+    pub kernels: usize,
 }
 
 /// The answer of a check.
@@ -103,7 +105,11 @@ impl Search<'_> {
 
     fn violation(&self, s: f64, deviation: f64) -> Violation {
         let allowed = self.tolerance / deviation;
-        Violation { s, allowed }
+        Violation {
+            s,
+            allowed,
+            kernels: self.reaching.count(),
+        }
     }
 
     /// Goes from left to right, each time over the largest half of halves that the bound allows.
