@@ -7,7 +7,8 @@ use super::jump::JumpSum;
 use super::lone_corner::OUTER_REACH;
 use super::metric::Metric;
 use super::settings::BlendSettings;
-use super::vertex::{KERNEL_SHARE, Vertex};
+use super::vertex::Vertex;
+use super::vertex_widths::KERNEL_SHARE;
 use super::widths::Widths;
 use super::window::Window;
 

@@ -54,6 +54,7 @@ mod orientation;
 mod reaching;
 mod settings;
 mod vertex;
+mod vertex_widths;
 mod views;
 mod width_optimizer;
 mod widths;

@@ -2,6 +2,7 @@
 
 use wide::f64x2;
 
+use super::easement;
 use super::jump::{Factors, Jump, JumpSum, PointSum};
 use super::kernel::{Kernel, Side};
 use super::leg::Leg;
@@ -9,8 +10,6 @@ use super::lone_corner::LoneCorner;
 use super::metric::Metric;
 use super::settings::BlendSettings;
 use super::widths::Widths;
-use super::{easement, kernel};
-use crate::axes::Axes;
 
 /// A turn of the direction below this is rounding.
 const NO_TANGENT_JUMP: f64 = 1e-9;
@@ -18,31 +17,9 @@ const NO_TANGENT_JUMP: f64 = 1e-9;
 /// A jump of the curvature below this, 1 per machine unit, is rounding.
 const NO_CURVATURE_JUMP: f64 = 1e-6;
 
-/// Of the tolerance, what the middle of a corner uses.
-pub(super) const KERNEL_SHARE: f64 = 0.97;
-
-/// Of the tolerance, what an easement uses.
-const EASEMENT_SHARE: f64 = 0.9;
-
-/// The same for a kernel and an easement where moves are to be followed exactly.
-const EXACT_KERNEL_SHARE: f64 = 0.35;
-const EXACT_EASEMENT_SHARE: f64 = 0.6;
-
-/// Of the room for it, the least width over which a tangent that is not quite one is rounded.
-const LEAST_ROUNDING: f64 = 0.01;
-
 /// Up to this turn of the direction, radians, two moves meet in a tangent: programs round their
 /// coordinates.
 const TANGENT: f64 = 0.01;
-
-/// Halves of the shorter leg, of an arc not more than a radian, that an easement reaches at most. Those
-/// at both ends of an arc much shorter than they are wide nearly cancel each other, but for their edges:
-/// there the third derivative rises within the length of the arc, which is too short for the nodes of the
-/// plan. Those at an arc of several turns would lead many radii away from it.
-const WIDEST_EASEMENT: f64 = 64.0;
-
-/// A kernel this much narrower than half the shorter leg makes an isolated corner.
-const ISOLATED: f64 = 0.5;
 
 /// The start of a leg, where it meets the leg before.
 #[derive(Clone, Copy, Debug)]
@@ -224,131 +201,6 @@ impl Vertex {
             vertex.find_base_widths(before, after, settings);
         }
         vertex
-    }
-
-    /// Where moves that are to be followed exactly meet in a tangent: within a tolerance of a
-    /// micrometre. An easement leaves the point itself alone.
-    fn find_exact_widths(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
-        let room = self.half_leg.min(settings.greatest_design_width());
-        if self.tangent_jump_size > 0.0 {
-            let slower = before.speed.min(after.speed);
-            let wanted = settings
-                .free_width(&self.tangent_jump.axes(), slower, 0.0)
-                .max(LEAST_ROUNDING * room);
-            let within = EXACT_KERNEL_SHARE * self.tolerance / self.tangent_jump_size;
-            self.corner.width = within / kernel::peak(0.0);
-            self.corner.biweight_width = self.corner.width;
-            self.isolated = true;
-            self.base.kernel = self.corner.width.min(room).min(wanted);
-        }
-        if self.curvature_jump_size > 0.0 {
-            let within = EXACT_EASEMENT_SHARE * self.tolerance
-                / (self.easement_peak() * self.curvature_jump_size);
-            self.base.easement = within.sqrt().min(room);
-        }
-    }
-
-    fn find_base_widths(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
-        let speed = before.speed.max(after.speed);
-        let design_width = before.design_width.max(after.design_width);
-        if before.allows_half_legs() && after.allows_half_legs() {
-            self.free_limit = before.half_for_corner().min(after.half_for_corner());
-        }
-        if self.tangent_jump_size > 0.0 {
-            let within = KERNEL_SHARE * self.tolerance / self.tolerance_jump_size;
-            let biweight_width = within / kernel::peak(0.0);
-            // In the slower leg's half the other's feed does not matter.
-            let slower = before.speed.min(after.speed);
-            let tangent_jump = self.tangent_jump.axes();
-            let (mix, free) = self.mix_alone(&tangent_jump, biweight_width, slower, settings);
-            self.corner = LoneCorner {
-                mix,
-                width: within / kernel::peak(mix),
-                biweight_width,
-                may_swing_out: before.may_swing_out
-                    && after.may_swing_out
-                    && !self.at_limit
-                    && self.free_limit <= 0.0
-                    && settings.gains_by_swinging_out(&tangent_jump, biweight_width, slower),
-                clear: 2.0 * self.half_leg,
-                greatest_width: settings.greatest_swing(2.0 * self.half_leg),
-            };
-            self.free_kernel = free.min(self.free_limit);
-            self.isolated = if self.at_limit {
-                true
-            } else if self.free_limit > 0.0 {
-                free <= self.free_limit
-            } else {
-                biweight_width <= ISOLATED * self.half_leg
-            };
-            self.scan_done = self.isolated;
-            self.searched = self.isolated;
-            self.scanned = self.half_leg.min(biweight_width);
-            self.design_width = settings
-                .full_speed_width(self.tangent_jump_size, speed)
-                .min(self.longer_leg)
-                .max(design_width)
-                .min(settings.greatest_design_width());
-            self.base = self.widths_alone();
-        }
-        if self.curvature_jump_size > 0.0 {
-            self.find_base_easement(before, after, settings);
-        }
-    }
-
-    /// The mix of its kernel where it keeps clear of its neighbours', and the width that its feed wants where half legs may be
-    /// cut.
-    fn mix_alone(
-        &self,
-        tangent_jump: &Axes,
-        biweight_width: f64,
-        speed: f64,
-        settings: &BlendSettings,
-    ) -> (f64, f64) {
-        // What leads an arc back to the inner side is meant for the biweight kernel.
-        let biweight = self.at_limit && self.curvature_jump_size > 0.0;
-        let mix_of = |width: f64, by_tolerance: bool| {
-            if biweight {
-                0.0
-            } else {
-                settings.corner_mix(tangent_jump, width, by_tolerance)
-            }
-        };
-        if self.free_limit > 0.0 {
-            let width = settings.free_width(tangent_jump, speed, 0.0);
-            let mix = mix_of(width.min(self.free_limit), false);
-            (mix, settings.free_width(tangent_jump, speed, mix))
-        } else {
-            let by_tolerance = biweight_width < self.half_leg;
-            (mix_of(biweight_width.min(self.half_leg), by_tolerance), 0.0)
-        }
-    }
-
-    fn find_base_easement(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
-        let speed = before.speed.max(after.speed);
-        let design_width = before.design_width.max(after.design_width);
-        let within =
-            EASEMENT_SHARE * self.tolerance / (self.easement_peak() * self.curvature_jump_size);
-        let halves = before.half_for_corner().min(after.half_for_corner());
-        let wanted = if self.at_limit {
-            halves
-        } else {
-            settings
-                .full_speed_easement(self.curvature_jump_size, speed)
-                .max(design_width)
-                .min(WIDEST_EASEMENT * halves)
-        };
-        self.free_easement = wanted.min(self.free_limit);
-        self.base.easement = within.sqrt().min(wanted).max(self.free_easement);
-    }
-
-    /// The greatest value of its easement for a width of 1.
-    fn easement_peak(&self) -> f64 {
-        if self.at_limit {
-            easement::INNER_PEAK
-        } else {
-            easement::PEAK
-        }
     }
 
     /// The width of the kernel where it keeps clear of its neighbours' and does not swing out.
@@ -604,6 +456,7 @@ impl Vertex {
         }
     }
 
+    // As above.
     #[inline(never)]
     fn inner_factors(&self, distance: f64, side: Side) -> Factors {
         let width = self.stored.easement;

@@ -44,7 +44,20 @@ pub fn seen_from(call: Call, origin: &Position) -> Call {
             greatest,
             centre: centre - origin[0],
         },
-        others => others,
+        // No places: named one by one, since one that is added may have some.
+        Call::Rate(..)
+        | Call::PerRevolution(..)
+        | Call::Unit(..)
+        | Call::Mode(..)
+        | Call::NaiveCam(..)
+        | Call::Tag(..)
+        | Call::Synchronise { .. }
+        | Call::Spindle { .. }
+        | Call::Speed(..)
+        | Call::ToolLength(..)
+        | Call::Dwell(..)
+        | Call::Wait
+        | Call::Flush => call,
     }
 }
 
