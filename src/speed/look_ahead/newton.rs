@@ -33,10 +33,9 @@ const RESISTANCE_GROWTH: f64 = 3.0;
 /// What it is multiplied by when a step succeeds.
 const RESISTANCE_DECAY: f64 = 0.6;
 const GREATEST_RESISTANCE: f64 = 1e6;
-/// What the weight of the barrier is multiplied by after a step of at least [`GOOD_STEP`].
-const BARRIER_DECAY: f64 = 0.6;
+/// What the weight of the barrier is multiplied by after a whole step; after a part of one by as much less.
+const BARRIER_DECAY: f64 = 0.5;
 const LEAST_BARRIER: f64 = 0.0015;
-const GOOD_STEP: f64 = 0.3;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NewtonPhase {
@@ -301,9 +300,6 @@ impl NewtonStep {
             if self.share > 0.0 {
                 interval.coefficient += step;
             }
-            if self.share > GOOD_STEP {
-                interval.barrier = (interval.barrier * BARRIER_DECAY).max(LEAST_BARRIER);
-            }
             if refusals > 1.0 {
                 let grown = (interval.resistance * refusals).min(GREATEST_RESISTANCE);
                 interval.resistance = grown;
@@ -312,8 +308,13 @@ impl NewtonStep {
                     let interval = plan.at_mut(neighbour);
                     interval.resistance = interval.resistance.max(beside);
                 }
-            } else if self.share > 0.05 {
-                interval.resistance = (interval.resistance * RESISTANCE_DECAY).max(1.0);
+            } else {
+                // With less of a barrier an interval that ended a step ends the next ones sooner still.
+                let decay = 1.0 - (1.0 - BARRIER_DECAY) * self.share;
+                interval.barrier = (interval.barrier * decay).max(LEAST_BARRIER);
+                if self.share > 0.05 {
+                    interval.resistance = (interval.resistance * RESISTANCE_DECAY).max(1.0);
+                }
             }
         }
         self.phase = NewtonPhase::Done;
