@@ -206,13 +206,13 @@ class Planned(unittest.TestCase):
         own = planned(limited(OWN), TURNS + "M2\n")[1]
         self.assertLessEqual(abs(own["cycles"] - figures["cycles"]), 0.005 * own["cycles"])
         refused: list[tuple[list[str], str]] = [
-            ([], "part.ngc:3: a move with kinematics of type 1, .*: write --kinematics-type 1"),
+            ([], "part.ngc:3: a move with kinematics of type 1 in a plan with type 0 .write --kinematics-type 1"),
             (["--kinematics-type", "9"], "--kinematics-type 9: it has no type 9")]
         for options, words in refused:
             with self.assertRaisesRegex(RuntimeError, words):
                 planned(limited(switched), program, *options)
         several = program.replace("M429", "M429\nG1 X0 F1000")
-        with self.assertRaisesRegex(RuntimeError, "a move with kinematics of type 0 behind moves with type 1: plan the part"):
+        with self.assertRaisesRegex(RuntimeError, "a move with kinematics of type 0 behind moves with type 1 .plan the part .* with --kinematics-type"):
             planned(limited(switched), several, "--kinematics-type", "1")
         with self.assertRaisesRegex(RuntimeError, "--kinematics-type: the HAL files of .* set no limits of joints"):
             planned(OWN, program, "--kinematics-type", "1")

@@ -24,9 +24,9 @@ pub struct Surroundings {
     pub tools: Option<Vec<Tool>>,
     /// Number of the tool that the spindle holds at the start, 0 for none.
     pub held: i32,
-    /// The analog output that switches the kinematics, and the type of those in force, where that matters: moves with another
-    /// type are refused.
-    pub kinematics_switch: Option<(u32, i32)>,
+    /// The analog output that switches the kinematics, and the type that moves are planned with, `None` for that of the first
+    /// one: moves with another type are refused.
+    pub kinematics_switch: Option<(u32, Option<i32>)>,
 }
 
 impl Default for Surroundings {
@@ -76,7 +76,7 @@ impl Surroundings {
             text += &format!("HELD {}\n", self.held);
         }
         if let Some((output, kind)) = self.kinematics_switch {
-            text += &format!("SWITCH {output} {kind}\n");
+            text += &format!("SWITCH {output} {}\n", kind.unwrap_or(-1));
         }
         if let Some(tools) = &self.tools {
             text += "TABLE\n";

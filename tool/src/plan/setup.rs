@@ -214,10 +214,12 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     setup.surroundings = surroundings(&ini, file, &machine, millimetres, &mut setup.assumed)?;
     if let Some(home) = setup.joints.limited().and_then(|joints| joints.home()) {
         setup.surroundings.start = std::array::from_fn(|axis| home[axis] / setup.scale(axis));
-        let output = joints.switch_output();
-        setup.surroundings.kinematics_switch =
-            output.map(|output| (output, joints.kinematics_type.unwrap_or(0)));
     }
+    // Limits of axes hold with each type.
+    let planned = setup.joints.limited();
+    let kind = planned.map(|_| joints.kinematics_type.unwrap_or(0));
+    let output = joints.switch_output();
+    setup.surroundings.kinematics_switch = output.map(|output| (output, kind));
     setup.ini.clone_from(&setup.surroundings.ini);
     Ok(setup)
 }

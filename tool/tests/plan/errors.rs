@@ -287,3 +287,63 @@ fn frames_are_refused() {
     bench.write("part.ngc", "G21 F1000 G61.1\nG77\nG1 X5\nM2\n");
     assert!(bench.plan(&["part.ngc", "--ini", ini]).status.success());
 }
+
+/// A remap as LinuxCNC's samples have it: what does not find the pin ends the program.
+fn switch_to(kind: u8) -> String {
+    format!(
+        "o<type_{kind}> sub\no1 if [EXISTS[#<_hal[motion.switchkins-type]>]]\no1 else\nM2\no1 endif\nM68 E3 Q{kind}\nM66 E0 L0\n\
+         o<type_{kind}> endsub\n"
+    )
+}
+
+/// Limits of axes hold with each type; but the machine stands elsewhere in the coordinates of another one.
+#[test]
+fn moves_behind_a_switch_of_the_kinematics_are_refused() {
+    let bench = Bench::new();
+    let remaps = "[RS274NGC]\nHAL_PIN_VARS = 1\nSUBROUTINE_PATH = .\nREMAP = M428 modalgroup=10 ngc=type_1\n\
+                  REMAP = M429 modalgroup=10 ngc=type_0\n";
+    let net = "[HAL]\nHALCMD = net kinds motion.analog-out-03 => motion.switchkins-type\n";
+    let ini = MILL.replace("[RS274NGC]\n", remaps);
+    bench.write("mill.ini", &format!("{ini}{net}"));
+    for kind in [0, 1] {
+        bench.write(&format!("type_{kind}.ngc"), &switch_to(kind));
+    }
+    let moves = |program: &str| {
+        bench.write("part.ngc", program);
+        bench.plan(&["part.ngc", "--ini", "mill.ini"]).status
+    };
+    assert!(moves("G21 F6000\nM428\nG1 X5\nX9\nM429\nM2\n").success());
+    bench.write("part.ngc", "G21 F6000\nG1 X5\nM428\nX9\nM2\n");
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.starts_with(
+            "part.ngc:4: a move with kinematics of type 1 behind moves with type 0 (plan the part with each type by itself)"
+        ),
+        "{error}"
+    );
+    bench.write("mill.ini", &ini);
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.starts_with(
+            "part.ngc:3: in type_1.ngc, line 2: a program that asks for the type of the kinematics"
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_switch_of_the_tool_centre_point_says_what_to_write() {
+    let bench = Bench::new();
+    let ini = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../hal-component/configs/framepath-xyzac/framepath-xyzac.ini"
+    );
+    for switch in ["G43.4 H1", "o<tool_centre_off> call"] {
+        bench.write("part.ngc", &format!("G21 F1000\nG1 X5\n{switch}\nX9\nM2\n"));
+        let error = bench.refused(&["part.ngc", "--ini", ini]);
+        assert!(
+            error.starts_with("part.ngc:3: in frame_send.ngc, line 1: a switch of the tool centre point (write G43 "),
+            "{error}"
+        );
+    }
+}

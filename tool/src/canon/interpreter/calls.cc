@@ -43,6 +43,11 @@ const char *unsupported_call()
     return refused;
 }
 
+void refuse_call(const char *what)
+{
+    refused = what;
+}
+
 static void rotate(double &x, double &y, double degrees)
 {
     if (degrees == 0)
@@ -103,16 +108,18 @@ static void numbers(const double *values, int count)
 static void check_kinematics()
 {
     static char text[160];
-    static bool moved;
+    static bool moved, any = machine.kinematics_type < 0;
+    if (any && !moved)
+        machine.kinematics_type = now.kinematics_type;
     if (now.kinematics_type == machine.kinematics_type) {
         moved = true;
         return;
     }
     if (moved)
-        snprintf(text, sizeof text, "a move with kinematics of type %g behind moves with type %d: plan the part with each type by itself, "
-                 "with --kinematics-type", now.kinematics_type, machine.kinematics_type);
+        snprintf(text, sizeof text, "a move with kinematics of type %g behind moves with type %d (plan the part with each type by itself%s)",
+                 now.kinematics_type, machine.kinematics_type, any ? "" : ", with --kinematics-type");
     else
-        snprintf(text, sizeof text, "a move with kinematics of type %g, and the plan is one with type %d: write --kinematics-type %g",
+        snprintf(text, sizeof text, "a move with kinematics of type %g in a plan with type %d (write --kinematics-type %g)",
                  now.kinematics_type, machine.kinematics_type, now.kinematics_type);
     refused = text;
 }

@@ -16,3 +16,6 @@ bool read_settings(const char *file);
 
 /* Name of the first call that cannot be printed, or a null pointer. */
 const char *unsupported_call();
+
+/* Names one that is none of the interpreter's calls. */
+void refuse_call(const char *what);

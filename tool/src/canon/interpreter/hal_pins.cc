@@ -7,6 +7,7 @@
 #include <cstring>
 #include <dlfcn.h>
 #include <hal.h>
+#include "calls.hh"
 #include "state.hh"
 
 static const char *const type_pins[] = {"motion.switchkins-type", "framekins.inner-type"};
@@ -14,7 +15,7 @@ static const char *const type_pins[] = {"motion.switchkins-type", "framekins.inn
 static bool is_type(const char *name)
 {
     for (const char *pin : type_pins)
-        if (machine.switch_output >= 0 && !strcmp(name, pin))
+        if (!strcmp(name, pin))
             return true;
     return false;
 }
@@ -24,6 +25,9 @@ extern "C" int hal_get_pin_value_by_name(const char *name, hal_type_t *type, hal
 {
     static hal_data_u value;
     if (is_type(name)) {
+        /* Remaps that do not find it end the program there, and no move behind them would be planned. */
+        if (machine.switch_output < 0)
+            refuse_call("a program that asks for the type of the kinematics (no HAL file leads an analog output of motion to it)");
         value.s = now.kinematics_type;
         *type = HAL_S32;
         *data = &value;

@@ -89,12 +89,21 @@ static bool failed(int status)
     return status > INTERP_MIN_ERROR;
 }
 
+/* Where X Y Z become the tool centre point, or stop to be it, in the middle of a program. */
+static const char tool_centre[] = "a switch of the tool centre point (write G43 in place of G43.4, leave out o<tool_centre_off>, and plan "
+                                  "with --tool-centre-point, or --kinematics-type behind inner=)";
+static bool sent_by_tool_centre;
+
 /* Whether the line that was read hands a frame to framekins: its subroutine frame_send, on behalf of any but those that
  * take a frame away. Without HAL it would return at once, and the frame would be passed over in silence. */
 static bool sends_frame(InterpBase &interpreter)
 {
     static std::string caller;
     std::string name = subroutine_file(interpreter);
+    if (name.empty())
+        sent_by_tool_centre = false;
+    else if (name == "code_tool_centre.ngc" || name == "tool_centre_off.ngc")
+        sent_by_tool_centre = true;
     if (name != "frame_send.ngc") {
         caller = name;
         return false;
@@ -132,7 +141,7 @@ static int interpret(InterpBase &interpreter, const char *file)
             return refuse(interpreter, status);
         note_line(interpreter);
         if (sends_frame(interpreter))
-            return unsupported(interpreter, "a programmed frame (framekins)");
+            return unsupported(interpreter, sent_by_tool_centre ? tool_centre : "a programmed frame (framekins)");
         if (status == INTERP_OK)
             status = interpreter.execute();
         if (failed(status))

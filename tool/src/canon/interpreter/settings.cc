@@ -5,11 +5,13 @@
  *   STARTUP code                 runs before the program ([RS274NGC]RS274NGC_STARTUP_CODE)
  *   TABLE                        the tools that follow are all there are
  *   TOOL number pocket offset(9) diameter front back orientation     machine units
- *   SWITCH output type           the analog output that switches the kinematics, and the type for which moves are supported
+ *   SWITCH output type           the analog output that switches the kinematics, and the type for which moves are supported,
+ *                                -1: the one of the first move
  *   HELD number                  the tool that the spindle holds at the start
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -50,7 +52,7 @@ static bool read_setting(const std::string &line)
         return read_tool(words);
     } else if (name == "SWITCH") {
         words >> machine.switch_output >> machine.kinematics_type;
-        now.kinematics_type = machine.kinematics_type;
+        now.kinematics_type = std::max(machine.kinematics_type, 0);
     } else if (name == "HELD") {
         words >> now.tool_number;
     } else {

@@ -42,7 +42,7 @@ struct Machine {
     bool has_table = false;
     std::vector<CANON_TOOL_TABLE> tools;
     int switch_output = -1;         /* the analog output that switches the kinematics, -1: none that matters */
-    int kinematics_type = 0;        /* the type with which programs move */
+    int kinematics_type = 0;        /* the type with which programs move, -1: that of the first move */
 };
 
 extern Machine machine;
