@@ -63,7 +63,7 @@ mod window;
 pub use blended_path::BlendedPath;
 pub use error::BlendError;
 pub use leg::ProgrammedMove;
-pub use orientation::Orientation;
+pub use orientation::{GREATEST_TURN, Orientation};
 pub use settings::BlendSettings;
 pub use views::{LegView, MoveProgress, VertexView};
 pub use width_optimizer::GREATEST_EXCESS;

@@ -12,7 +12,7 @@
 use crate::axes::Axes;
 
 /// C leaves the program by no more than this, however little it turns the tool; degrees.
-const GREATEST_TURN: f64 = 45.0;
+pub const GREATEST_TURN: f64 = 45.0;
 
 /// The axis that tilts the tool, with C turning it, and how far the tool may lean from the program.
 #[derive(Clone, Copy, Debug)]

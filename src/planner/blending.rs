@@ -2,9 +2,10 @@
 
 use core::ops::RangeInclusive;
 
+use super::range::Deviation;
 use crate::axes::AxisLimits;
-use crate::moves::{MoveQueue, TerminationCondition};
-use crate::path::BlendSettings;
+use crate::moves::{Move, MoveQueue, TerminationCondition};
+use crate::path::{BlendSettings, Orientation};
 
 /// Moves that are looked at for the first tolerance of a program, of those that have come when its
 /// path begins.
@@ -106,17 +107,35 @@ impl Blending {
         }
     }
 
-    /// How far the path may be from a move that ends so, but for corners that are cut by half of a leg; machine units.
-    pub(super) fn greatest_deviation(&self, termination: TerminationCondition) -> f64 {
+    /// How far the path may be from a move, but for corners that are cut by half of a leg.
+    pub(super) fn greatest_deviation(&self, queued: &Move) -> Deviation {
         let exact = BlendSettings::EXACT_TOLERANCE * self.millimetre;
-        match termination {
+        let tolerance = match queued.termination {
             TerminationCondition::Stop => 0.0,
             TerminationCondition::Exact => exact,
             TerminationCondition::Continuous { tolerance } if tolerance > 0.0 => {
-                tolerance.max(exact)
+                tolerance.min(self.greatest_tolerance()).max(exact)
             }
             TerminationCondition::Continuous { .. } => self.default_tolerance.max(exact),
+        };
+        let rotary = tolerance / self.weight;
+        let turn_share = self.orientation().map_or(1.0, |orientation| {
+            orientation.share(&queued.shape.position(0.0), &queued.shape.end())
+        });
+        Deviation {
+            linear: tolerance,
+            rotary,
+            turn: rotary / turn_share,
         }
+    }
+
+    /// How the tool is kept to its tolerance, where the machine tells.
+    fn orientation(&self) -> Option<Orientation> {
+        let tilt = self.tilt.filter(|_| self.rotary_tolerance > 0.0)?;
+        Some(Orientation {
+            tilt,
+            tolerance: self.rotary_tolerance,
+        })
     }
 
     /// The settings of a path that begins with the first move of the queue. Finds the weight of
@@ -132,6 +151,22 @@ impl Blending {
         queue: &MoveQueue,
         limits: &AxisLimits,
     ) -> Option<BlendSettings> {
+        self.find_weight(queue);
+        let settings =
+            BlendSettings::new(self.millimetre, self.weight, self.default_tolerance, limits)?;
+        let settings = if self.corners_inside {
+            settings.without_swings()
+        } else {
+            settings
+        };
+        Some(match self.orientation() {
+            Some(orientation) => settings.with_tilt(orientation.tilt, orientation.tolerance),
+            None => settings,
+        })
+    }
+
+    /// Finds the weight of rotary axes on a path that begins with the first move of the queue.
+    pub(super) fn find_weight(&mut self, queue: &MoveQueue) {
         self.weight = self.millimetre;
         if self.rotary_tolerance > 0.0 {
             let first = queue.first_serial();
@@ -146,19 +181,6 @@ impl Blending {
             let tolerance = given.unwrap_or(self.default_tolerance.max(1e-4 * self.millimetre));
             self.weight = (tolerance / self.rotary_tolerance).clamp(LEAST_WEIGHT, GREATEST_WEIGHT);
         }
-        let settings =
-            BlendSettings::new(self.millimetre, self.weight, self.default_tolerance, limits)?;
-        let settings = if self.corners_inside {
-            settings.without_swings()
-        } else {
-            settings
-        };
-        Some(match self.tilt {
-            Some(tilt) if self.rotary_tolerance > 0.0 => {
-                settings.with_tilt(tilt, self.rotary_tolerance)
-            }
-            _ => settings,
-        })
     }
 }
 

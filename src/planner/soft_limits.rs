@@ -3,6 +3,7 @@
 use super::error_stop::ErrorStop;
 use super::planner::Planner;
 use super::range::{Finding, JointRange, JointSolver, Joints};
+use crate::moves::Move;
 
 impl Planner {
     /// Chooses whether moves wait until [`Self::check_range`] has looked at them. At rest only.
@@ -27,8 +28,12 @@ impl Planner {
         if !self.range_check.is_on() || self.status.aborting {
             return None;
         }
+        // Where no path is under way, the one that begins will have it.
+        if !self.reference.is_active() {
+            self.blending.find_weight(&self.queue);
+        }
         let blending = self.blending;
-        let deviation = |termination| blending.greatest_deviation(termination);
+        let deviation = |queued: &Move| blending.greatest_deviation(queued);
         let finding = self
             .range_check
             .go_on(&mut self.queue, range, machine, deviation, solver);

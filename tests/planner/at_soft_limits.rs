@@ -15,16 +15,24 @@ use framepath::planner::range::{JointRange, JointSolver, Joints};
 use nalgebra::{Vector2, Vector3};
 
 /// What rounding takes a position beyond a limit by at most, mm.
-const ROUNDING: f64 = 1e-12;
+pub const ROUNDING: f64 = 1e-12;
 
-/// A machine whose joints are its axes.
-struct Cartesian;
+/// A machine whose joints are its axes, behind a frame that may scale.
+pub struct Cartesian {
+    pub scale: f64,
+}
+
+impl Cartesian {
+    pub fn joints(&self, position: &Axes) -> Joints {
+        joints_at(&(self.scale * position))
+    }
+}
 
 impl JointSolver for Cartesian {
     fn begin(&mut self, _position: &Axes, _joints: &Joints) {}
 
     fn solve(&mut self, position: &Axes, _near: &Joints) -> Option<Joints> {
-        Some(joints_at(position))
+        Some(self.joints(position))
     }
 
     fn calls_a_cycle(&self) -> usize {
@@ -32,7 +40,7 @@ impl JointSolver for Cartesian {
     }
 
     fn keeps_lines(&self) -> bool {
-        true
+        self.scale == 1.0
     }
 }
 
@@ -133,7 +141,8 @@ fn beyond(start: Point, steps: &[Step], setting: &Setting) -> Point {
             }
         }
         let joints = joints_at(&machine.planner.status().position);
-        let finding = machine.planner.check_range(&range, &joints, &mut Cartesian);
+        let mut plain = Cartesian { scale: 1.0 };
+        let finding = machine.planner.check_range(&range, &joints, &mut plain);
         assert!(finding.is_none(), "{finding:?}");
         let status = machine.cycle();
         greatest = greatest.sup(&Point::new(status.position[0], status.position[1]));

@@ -223,7 +223,9 @@ fn dense_moves_do_not_wait() {
             }
         }
         assert!(machine.planner.status().done);
-        assert!(!looks || solver.calls <= 5 + 4 * 600, "{}", solver.calls);
+        // Beside the program ten times for each 2 mm.
+        let most = 5 + 4 * 600 + 10 * 16;
+        assert!(!looks || solver.calls <= most, "{}", solver.calls);
         machine.positions
     };
     with_room(|| assert_eq!(trace(true), trace(false)));

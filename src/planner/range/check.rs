@@ -1,6 +1,7 @@
 //! The look along the queued moves, one behind the other.
 
 use super::joints::{Finding, JointRange, JointSolver, Joints, OutOfRange};
+use super::margin::{Beside, Deviation};
 use super::sweep::{RangeVerdict, Sweep};
 use crate::machine::JOINT_COUNT;
 use crate::moves::shape::Shape;
@@ -8,10 +9,6 @@ use crate::moves::{Move, MoveQueue, NearLimit, TerminationCondition};
 
 /// Moves that need no look inside are passed over, so many in a servo period.
 const MOVES_A_CYCLE: usize = 16;
-
-/// A joint is near to a limit that is less than this many tolerances of the path away: kinematics may make more of a deviation
-/// than it is.
-const TOLERANCES: f64 = 4.0;
 
 /// How far the queued moves have been looked at.
 #[derive(Debug)]
@@ -26,6 +23,8 @@ pub struct RangeCheck {
     near: Joints,
     at_start: bool,
     sweep: Option<Sweep>,
+    /// What the joints do beside the program.
+    beside: Beside,
     range: JointRange,
 }
 
@@ -38,6 +37,7 @@ impl RangeCheck {
         near: [0.0; JOINT_COUNT],
         at_start: false,
         sweep: None,
+        beside: Beside::UNKNOWN,
         range: JointRange::NONE,
     };
 
@@ -53,7 +53,7 @@ impl RangeCheck {
 
     /// Looks at more of the moves, as much as the solver may be asked in a servo period, and releases
     /// those that have been looked at. `machine` are the joints of the machine, `deviation` is how far the path may be from
-    /// a move that ends so, machine units.
+    /// a move.
     ///
     /// Where the limits of the joints have changed it begins again with the move that runs.
     pub fn go_on(
@@ -61,7 +61,7 @@ impl RangeCheck {
         queue: &mut MoveQueue,
         range: &JointRange,
         machine: &Joints,
-        deviation: impl Fn(TerminationCondition) -> f64,
+        deviation: impl Fn(&Move) -> Deviation,
         solver: &mut impl JointSolver,
     ) -> Option<Finding> {
         let changed = !self.range.is(range);
@@ -83,15 +83,19 @@ impl RangeCheck {
                 (self.near, self.at_start) = (*machine, false);
                 solver.begin(&queued.shape.position(0.0), machine);
                 self.origin = Some(queue.cleared());
+                self.beside = Beside::UNKNOWN;
             }
-            let margin = TOLERANCES * deviation(queued.termination);
-            let Some(verdict) = self.look(&queued.shape, margin, &mut calls, solver) else {
+            let deviation = deviation(queued);
+            let Some(margins) = self.margins(&queued.shape, &deviation, &mut calls, solver) else {
+                break;
+            };
+            let Some(verdict) = self.look(&queued.shape, &margins, &mut calls, solver) else {
                 break;
             };
             let near_limit = match verdict {
                 Passed::Stays { comes_near: true } => NearLimit::BOTH,
                 Passed::Stays { comes_near: false } => NearLimit {
-                    end: self.ends_near(queued, margin, solver),
+                    end: self.ends_near(queued, &margins, solver),
                     ..NearLimit::NONE
                 },
                 Passed::Leaves(found) => {
@@ -109,9 +113,24 @@ impl RangeCheck {
         finding
     }
 
-    /// Whether joints are nearer than `margin` to a limit where a move ends. Where the machine comes to rest no path leads beyond
-    /// one.
-    fn ends_near(&self, queued: &Move, margin: f64, solver: &mut impl JointSolver) -> bool {
+    /// How near a limit counts as near on a move, `None` if finding that takes longer.
+    fn margins(
+        &mut self,
+        shape: &Shape,
+        deviation: &Deviation,
+        calls: &mut usize,
+        solver: &mut impl JointSolver,
+    ) -> Option<Joints> {
+        let start = shape.position(0.0);
+        let known = self.sweep.is_some()
+            || deviation.is_none()
+            || self.beside.find(&start, &self.near, calls, solver);
+        known.then(|| self.beside.margins(deviation))
+    }
+
+    /// Whether joints are nearer to a limit than their margins where a move ends. Where the machine comes to rest no path leads
+    /// beyond one.
+    fn ends_near(&self, queued: &Move, margins: &Joints, solver: &mut impl JointSolver) -> bool {
         if queued.termination == TerminationCondition::Stop {
             return false;
         }
@@ -123,8 +142,9 @@ impl RangeCheck {
         };
         let is_near = |joints: Joints| {
             let limits = self.range.least.iter().zip(&self.range.greatest);
-            let mut limited = joints.iter().zip(limits).take(self.range.count);
-            limited.any(|(joint, (least, greatest))| {
+            let joints = joints.iter().zip(margins);
+            let mut limited = joints.zip(limits).take(self.range.count);
+            limited.any(|((joint, margin), (least, greatest))| {
                 !(least + margin < *joint && *joint < greatest - margin)
             })
         };
@@ -149,7 +169,7 @@ impl RangeCheck {
     fn look(
         &mut self,
         shape: &Shape,
-        margin: f64,
+        margins: &Joints,
         calls: &mut usize,
         solver: &mut impl JointSolver,
     ) -> Option<Passed> {
@@ -162,7 +182,7 @@ impl RangeCheck {
             None if self.at_start => Sweep::behind_start(shape, &self.range, &self.near),
             None => Sweep::new(shape, &self.range, &self.near),
         }
-        .with_margin(margin);
+        .with_margins(*margins);
         while *calls > 0 {
             *calls -= 1;
             match sweep.step(shape, solver) {

@@ -9,8 +9,10 @@
 
 mod check;
 mod joints;
+mod margin;
 mod sweep;
 
 pub use check::RangeCheck;
 pub use joints::{Finding, JointRange, JointSolver, Joints, OutOfRange};
+pub use margin::Deviation;
 pub use sweep::{RangeVerdict, Sweep};

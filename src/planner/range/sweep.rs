@@ -71,8 +71,8 @@ pub struct Sweep {
     allowed: JointRange,
     /// The joint that leaves its range, and the furthest that is known of it.
     found: Option<OutOfRange>,
-    /// A joint is near a limit that is less than this away, machine units or degrees.
-    margin: f64,
+    /// Each joint is near a limit that is less than this away, machine units or degrees.
+    margins: Joints,
     /// Whether one comes near.
     near: bool,
     /// Places that may still be asked for.
@@ -95,7 +95,7 @@ impl Sweep {
             filled: 0,
             allowed: *range,
             found: None,
-            margin: 0.0,
+            margins: [0.0; JOINT_COUNT],
             near: false,
             calls: spans * INTERVALS + FURTHER_CALLS,
             precision: 0.0,
@@ -110,13 +110,13 @@ impl Sweep {
         sweep
     }
 
-    /// The same that looks whether a joint comes nearer to a limit than `margin`, machine units or degrees.
+    /// The same that looks whether a joint comes nearer to a limit than its margin, machine units or degrees.
     #[must_use]
-    pub fn with_margin(self, margin: f64) -> Self {
-        Self { margin, ..self }
+    pub fn with_margins(self, margins: Joints) -> Self {
+        Self { margins, ..self }
     }
 
-    /// Whether one does, as far as is known. What is between the places counts as much as half of the margin.
+    /// Whether one does, as far as is known. What is between the places counts as much as half of its margin.
     pub fn comes_near(&self) -> bool {
         self.near
     }
@@ -263,9 +263,13 @@ impl Sweep {
             && (bend.greatest + bend.second > greatest || bend.least - bend.second < least)
     }
 
+    fn margin(&self, joint: usize) -> f64 {
+        self.margins.get(joint).copied().unwrap_or(0.0)
+    }
+
     /// Whether a joint is near a limit at one of the places of the span, or would be if it went so much further.
     fn is_near(&self, joint: usize, bend: &BentKinematics, further: f64) -> bool {
-        let margin = self.margin + further;
+        let margin = self.margin(joint) + further;
         let least = self.allowed.least.get(joint);
         let greatest = self.allowed.greatest.get(joint);
         least.is_some_and(|least| bend.least < least + margin)
@@ -274,8 +278,9 @@ impl Sweep {
 
     /// Whether one may be between the places, and that can be told by more of them.
     fn may_come_near(&self, joint: usize, bend: &BentKinematics) -> bool {
-        let least = (0.5 * self.margin).max(TOLERANCE.max(NOISE * self.precision));
-        self.margin > 0.0 && bend.second > least && self.is_near(joint, bend, bend.second)
+        let margin = self.margin(joint);
+        let least = (0.5 * margin).max(TOLERANCE.max(NOISE * self.precision));
+        margin > 0.0 && bend.second > least && self.is_near(joint, bend, bend.second)
     }
 
     /// Looks at the first half of the span. `false` if that would be too small.
