@@ -37,6 +37,17 @@ pub enum BlendingError {
 /// What a machine's configuration says about blending, and the weight of rotary axes that follows.
 #[derive(Clone, Copy, Debug)]
 pub struct Blending {
+    /// What is asked for now.
+    asked: Asked,
+    /// What was asked for when the path began that is under way.
+    in_force: Asked,
+    /// Machine units that count as much as a degree of A B C.
+    weight: f64,
+}
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Asked {
     /// The length of a millimetre in machine units.
     millimetre: f64,
     /// How far rotary axes may leave the program where P is given, degrees; 0: by as many degrees
@@ -48,8 +59,16 @@ pub struct Blending {
     tilt: Option<usize>,
     /// Whether corners are rounded on their inner side only.
     corners_inside: bool,
-    /// Machine units that count as much as a degree of A B C.
-    weight: f64,
+}
+
+impl Asked {
+    const DEFAULT: Self = Self {
+        millimetre: 1.0,
+        rotary_tolerance: 0.0,
+        default_tolerance: Blending::DEFAULT_TOLERANCE,
+        tilt: None,
+        corners_inside: false,
+    };
 }
 
 impl Blending {
@@ -58,11 +77,8 @@ impl Blending {
 
     /// A machine in millimetres.
     pub const DEFAULT: Self = Self {
-        millimetre: 1.0,
-        rotary_tolerance: 0.0,
-        default_tolerance: Self::DEFAULT_TOLERANCE,
-        tilt: None,
-        corners_inside: false,
+        asked: Asked::DEFAULT,
+        in_force: Asked::DEFAULT,
         weight: 1.0,
     };
 
@@ -82,26 +98,26 @@ impl Blending {
         if !not_negative(default_tolerance) {
             return Err(BlendingError::DefaultTolerance);
         }
-        self.millimetre = millimetre;
-        self.rotary_tolerance = rotary_tolerance;
-        self.default_tolerance = default_tolerance;
+        self.asked.millimetre = millimetre;
+        self.asked.rotary_tolerance = rotary_tolerance;
+        self.asked.default_tolerance = default_tolerance;
         Ok(())
     }
 
     /// Which axis tilts the tool while C turns it. Others than A and B count as none.
     pub(super) fn set_tilt(&mut self, tilt: Option<usize>) {
-        self.tilt = tilt.filter(|axis| (3..5).contains(axis));
+        self.asked.tilt = tilt.filter(|axis| (3..5).contains(axis));
     }
 
     /// Whether corners are rounded on their inner side only.
     pub(super) fn set_corners_inside(&mut self, inside: bool) {
-        self.corners_inside = inside;
+        self.asked.corners_inside = inside;
     }
 
     /// What no tolerance P may exceed so that rotary axes keep theirs, machine units.
     pub(super) fn greatest_tolerance(&self) -> f64 {
-        if self.rotary_tolerance > 0.0 {
-            self.weight * self.rotary_tolerance
+        if self.in_force.rotary_tolerance > 0.0 {
+            self.weight * self.in_force.rotary_tolerance
         } else {
             f64::INFINITY
         }
@@ -109,14 +125,14 @@ impl Blending {
 
     /// How far the path may be from a move, but for corners that are cut by half of a leg.
     pub(super) fn greatest_deviation(&self, queued: &Move) -> Deviation {
-        let exact = BlendSettings::EXACT_TOLERANCE * self.millimetre;
+        let exact = BlendSettings::EXACT_TOLERANCE * self.in_force.millimetre;
         let tolerance = match queued.termination {
             TerminationCondition::Stop => 0.0,
             TerminationCondition::Exact => exact,
             TerminationCondition::Continuous { tolerance } if tolerance > 0.0 => {
                 tolerance.min(self.greatest_tolerance()).max(exact)
             }
-            TerminationCondition::Continuous { .. } => self.default_tolerance.max(exact),
+            TerminationCondition::Continuous { .. } => self.in_force.default_tolerance.max(exact),
         };
         let rotary = tolerance / self.weight;
         let turn_share = self.orientation().map_or(1.0, |orientation| {
@@ -131,10 +147,13 @@ impl Blending {
 
     /// How the tool is kept to its tolerance, where the machine tells.
     fn orientation(&self) -> Option<Orientation> {
-        let tilt = self.tilt.filter(|_| self.rotary_tolerance > 0.0)?;
+        let tilt = self
+            .in_force
+            .tilt
+            .filter(|_| self.in_force.rotary_tolerance > 0.0)?;
         Some(Orientation {
             tilt,
-            tolerance: self.rotary_tolerance,
+            tolerance: self.in_force.rotary_tolerance,
         })
     }
 
@@ -151,10 +170,14 @@ impl Blending {
         queue: &MoveQueue,
         limits: &AxisLimits,
     ) -> Option<BlendSettings> {
-        self.find_weight(queue);
-        let settings =
-            BlendSettings::new(self.millimetre, self.weight, self.default_tolerance, limits)?;
-        let settings = if self.corners_inside {
+        self.take(queue);
+        let settings = BlendSettings::new(
+            self.in_force.millimetre,
+            self.weight,
+            self.in_force.default_tolerance,
+            limits,
+        )?;
+        let settings = if self.in_force.corners_inside {
             settings.without_swings()
         } else {
             settings
@@ -165,10 +188,16 @@ impl Blending {
         })
     }
 
-    /// Finds the weight of rotary axes on a path that begins with the first move of the queue.
-    pub(super) fn find_weight(&mut self, queue: &MoveQueue) {
-        self.weight = self.millimetre;
-        if self.rotary_tolerance > 0.0 {
+    /// Whether something else is asked for than the path under way began with.
+    pub(super) fn has_changed(&self) -> bool {
+        self.asked != self.in_force
+    }
+
+    /// What is asked for holds on a path that begins with the first move of the queue. Finds its weight of rotary axes.
+    pub(super) fn take(&mut self, queue: &MoveQueue) {
+        self.in_force = self.asked;
+        self.weight = self.in_force.millimetre;
+        if self.in_force.rotary_tolerance > 0.0 {
             let first = queue.first_serial();
             let given = (first..first + MOVES)
                 .filter_map(|serial| queue.get(serial))
@@ -178,8 +207,13 @@ impl Blending {
                     }
                     _ => None,
                 });
-            let tolerance = given.unwrap_or(self.default_tolerance.max(1e-4 * self.millimetre));
-            self.weight = (tolerance / self.rotary_tolerance).clamp(LEAST_WEIGHT, GREATEST_WEIGHT);
+            let tolerance = given.unwrap_or(
+                self.in_force
+                    .default_tolerance
+                    .max(1e-4 * self.in_force.millimetre),
+            );
+            self.weight =
+                (tolerance / self.in_force.rotary_tolerance).clamp(LEAST_WEIGHT, GREATEST_WEIGHT);
         }
     }
 }

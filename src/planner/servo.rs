@@ -63,7 +63,7 @@ impl Planner {
         if !backwards {
             self.axes.set_move_jerk(next.axis_jerk);
         }
-        let stale = self.axes.limits_changed() || inputs.stepping != self.reference.is_single();
+        let stale = self.settings_changed() || inputs.stepping != self.reference.is_single();
         if self.queue.released(self.queue.first_serial()).is_none() {
             return;
         }
@@ -170,8 +170,13 @@ impl Planner {
             velocity_share: self.slider.share(),
             greatest_tolerance: self.blending.greatest_tolerance(),
             stepping: inputs.stepping,
-            limits_changed: self.axes.limits_changed(),
+            settings_changed: self.settings_changed(),
         }
+    }
+
+    /// Whether limits or tolerances are others than when the motion began.
+    fn settings_changed(&self) -> bool {
+        self.axes.limits_changed() || self.blending.has_changed()
     }
 
     /// Hands the executor as much of the reference as it wants to see. `false` if it refused some.

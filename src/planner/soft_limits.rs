@@ -30,7 +30,7 @@ impl Planner {
         }
         // Where no path is under way, the one that begins will have it.
         if !self.reference.is_active() {
-            self.blending.find_weight(&self.queue);
+            self.blending.take(&self.queue);
         }
         let blending = self.blending;
         let deviation = |queued: &Move| blending.greatest_deviation(queued);

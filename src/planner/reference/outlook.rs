@@ -38,8 +38,8 @@ pub struct Conditions {
     pub greatest_tolerance: f64,
     /// Whether the machine is to come to rest at the next place where the program asks for a rest.
     pub stepping: bool,
-    /// Whether other limits are to be taken at the next rest.
-    pub limits_changed: bool,
+    /// Whether other limits or tolerances are to be taken at the next rest.
+    pub settings_changed: bool,
 }
 
 impl Outlook<'_> {
