@@ -89,7 +89,7 @@ static bool failed(int status)
     return status > INTERP_MIN_ERROR;
 }
 
-/* Where X Y Z become the tool centre point, or stop to be it, in the middle of a program. */
+/* Where X Y Z become the tool centre point, or cease to be it, in the middle of a program. */
 static const char tool_centre[] = "a switch of the tool centre point (write G43 in place of G43.4, leave out o<tool_centre_off>, and plan "
                                   "with --tool-centre-point, or --kinematics-type behind inner=)";
 static bool sent_by_tool_centre;
