@@ -92,7 +92,7 @@ impl Conditions {
             ..Conditions::without_machine()
         };
         conditions.limits.take_from(&machine);
-        if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
+        if let Some(velocity) = ini.path_velocity()? {
             conditions.velocity_limit = velocity * machine.millimetres();
         }
         // Below 1 it only slows the operator down.

@@ -194,6 +194,22 @@ impl Ini {
         }
     }
 
+    /// The greatest speed along the path, `[TRAJ]MAX_LINEAR_VELOCITY`; missing means "not limited".
+    ///
+    /// # Errors
+    /// [`IniError::Value`] if it is no number above 0: LinuxCNC moves nothing with 0.
+    #[cfg(feature = "linuxcnc")]
+    pub fn path_velocity(&self) -> Result<Option<f64>, IniError> {
+        let (section, key) = ("TRAJ", "MAX_LINEAR_VELOCITY");
+        match self.number(section, key)? {
+            Some(number) if number <= 0.0 => {
+                let problem = "nothing moves with it; leave the line out where the axes alone limit the speed";
+                Err(self.bad_value(section, key, problem))
+            }
+            other => Ok(other),
+        }
+    }
+
     /// The error for a key that is not there.
     pub fn missing(&self, section: &str, key: &str, remedy: &str) -> IniError {
         IniError::Missing {

@@ -272,6 +272,7 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
         limit.note(shown.line)?;
     }
     progress.finish();
+    crate::machine::warn_of(drive.warnings());
     let collected = collector.finish();
     if collected.cycles == 0 {
         return Err(PlanError::NoMoves(file.to_owned()));

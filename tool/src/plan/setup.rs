@@ -201,7 +201,7 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
         setup.axes[axis] = true;
         setup.jerk[axis] = member.limits.jerk.unwrap_or(f64::INFINITY) * unit;
     }
-    if let Some(velocity) = ini.optional_limit("TRAJ", "MAX_LINEAR_VELOCITY")? {
+    if let Some(velocity) = ini.path_velocity()? {
         setup.velocity_limit = velocity * millimetres;
     }
     let mut joints = JointSettings::read(&ini);

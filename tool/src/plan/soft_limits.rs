@@ -9,7 +9,9 @@ use framepath::axes::Axes;
 use framepath::machine::JOINT_COUNT;
 use framepath::moves::shape::Shape;
 use framepath::planner::Planner;
-use framepath::planner::range::{Finding, JointRange, JointSolver, Joints, RangeVerdict, Sweep};
+use framepath::planner::range::{
+    Finding, JointRange, JointSolver, Joints, OutOfRange, RangeVerdict, Sweep,
+};
 
 /// What blendtp asks in a servo period.
 const CALLS_A_CYCLE: usize = 16;
@@ -58,9 +60,10 @@ impl SoftLimits {
         Ok(Some(limits))
     }
 
-    /// A limit that a move goes beyond, which LinuxCNC refuses, is none from there on: the rest is planned as well.
-    pub fn admit(&mut self, shape: &Shape) {
+    /// A limit that a move goes beyond, which LinuxCNC refuses, is none from there on: the rest is planned as well. Answers which.
+    pub fn admit(&mut self, shape: &Shape) -> Vec<OutOfRange> {
         let start = self.joints(&shape.position(0.0));
+        let mut passed = Vec::new();
         for _ in 0..2 * JOINT_COUNT {
             let mut sweep = Sweep::new(shape, &self.range, &start);
             let verdict = loop {
@@ -69,14 +72,16 @@ impl SoftLimits {
                 }
             };
             let RangeVerdict::Leaves(found) = verdict else {
-                return;
+                break;
             };
             if found.position > found.limit {
                 self.range.greatest[found.joint] = f64::INFINITY;
             } else {
                 self.range.least[found.joint] = f64::NEG_INFINITY;
             }
+            passed.push(found);
         }
+        passed
     }
 
     /// Looks at more of the moves, before each servo period. Answers whether one goes beyond a limit, which none does that was

@@ -26,6 +26,15 @@ fn ini_files_that_cannot_be_used() {
     bench.write("mill.ini", &negative);
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(error.contains("[AXIS_Z]MAX_JERK = -5"), "{error}");
+    bench.write(
+        "mill.ini",
+        &MILL.replace("[TRAJ]\n", "[TRAJ]\nMAX_LINEAR_VELOCITY = 0\n"),
+    );
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.contains("[TRAJ]MAX_LINEAR_VELOCITY = 0: nothing moves with it"),
+        "{error}"
+    );
     let with_table = MILL.to_owned() + "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
     bench.write("mill.ini", &with_table);
     bench.write("tools.tbl", "T1 P1\nT2 P2 Znan\n");

@@ -47,6 +47,20 @@ fn limits_are_those_of_the_machine() {
 }
 
 #[test]
+fn what_goes_beyond_a_soft_limit_is_told_once() {
+    let bench = Bench::new();
+    bench.write("mill.ini", &mill(30.0));
+    bench.write("part.ngc", &format!("{CORNER}\n").replace("M2", "X40\nM2"));
+    let output = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(output.status.success());
+    assert_eq!(
+        String::from_utf8_lossy(&output.stderr),
+        "warning: part.ngc:3: joint 0 goes to 40.000, beyond [JOINT_0]MAX_LIMIT = 30: LinuxCNC refuses the program (is the work \
+         offset set?); planned without that limit\n"
+    );
+}
+
+#[test]
 fn what_goes_beyond_a_soft_limit_is_planned_all_the_same() {
     assert!(greatest_x(&mill(30.0), CORNER, &[]) > 40.0);
     let arc = "G21 G64 P0.05 F3000\nG1 X20 Y20\nG3 X20 Y40 I0 J10\nG1 X0\nM2\n";
