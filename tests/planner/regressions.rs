@@ -54,6 +54,7 @@ regressions! {
     merged_lines_between_rests_keep_the_limits_when_their_feed_is_raised
     steps_of_the_feed_ask_for_no_rest
     the_velocity_is_kept_between_two_places
+    tiny_circles_behind_coarse_chords_ask_for_no_rest
     turns_between_two_nodes_keep_the_acceleration
     two_corners_that_meet_keep_the_jerk
 }

@@ -11,7 +11,8 @@ const LONGEST_LEAD: f64 = 128e-3;
 /// Intervals that an extension is meant to add.
 const EXTENSION: f64 = 64.0;
 
-/// Lengths with which an extension is tried in turn: whole, a half, a third. What is refused once is refused again
+/// Lengths with which an extension is tried in turn: whole, a half, a third, and then half as much in each further round, since what
+/// follows may be finer than anything before. What is refused once is refused again
 /// from there. In programs that run undisturbed a shorter one hardly ever helps; where an operator raises an override
 /// it does: arcspiral takes 2 to 13 % longer without.
 const EXTENSION_LENGTHS: u32 = 3;
@@ -20,7 +21,7 @@ const EXTENSION_LENGTHS: u32 = 3;
 /// behind each more. A plan that comes to its end as fast as it may is at times too fast for whatever goes on behind
 /// that: there no length helps.
 const EARLIER: usize = 8;
-/// It was doubled so often at most: that is all of a plan.
+/// It was doubled, or the length halved, so often at most: that is all of a plan.
 const MOST_DOUBLINGS: u32 = 8;
 
 /// An extension by fewer intervals than this waits for more, but no longer than [`PATIENCE`].
@@ -96,7 +97,8 @@ impl Extensions {
             (1.0, MOST_INTERVALS)
         };
         let length = EXTENSION / f64::from(1 + self.failures % EXTENSION_LENGTHS);
-        let step = hurry * length * self.spacing;
+        let rounds = (self.failures / EXTENSION_LENGTHS).min(MOST_DOUBLINGS);
+        let step = hurry * length * self.spacing / f64::from(1 << rounds);
         let end = if known_end - plan_end > 1.5 * step {
             plan_end + step
         } else {
@@ -136,11 +138,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_refused_is_tried_shorter_and_then_from_the_whole_length_on() {
+    fn what_is_refused_is_tried_shorter_and_then_from_half_the_length_on() {
         let mut extensions = adopted();
-        for parts in [1.0, 2.0, 3.0, 1.0] {
+        for parts in [1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 4.0] {
             let reach = extensions.begin(0.0, 1e3, false);
-            assert_eq!(reach.end, EXTENSION / parts * SPACING);
+            assert!((reach.end * parts / (EXTENSION * SPACING) - 1.0).abs() < 1e-12);
             assert_eq!(reach.intervals, MOST_INTERVALS);
             extensions.note_refusal();
         }
