@@ -103,7 +103,6 @@ pub struct Drive<'a> {
     setup: &'a Setup,
     planner: Box<Planner>,
     soft_limits: Option<SoftLimits>,
-    warnings: Vec<String>,
     spindle: Spindle,
     turn_feeds: TurnFeeds,
     inputs: CycleInputs,
@@ -167,7 +166,6 @@ impl<'a> Drive<'a> {
             setup,
             planner,
             soft_limits: setup.soft_limits.clone(),
-            warnings: Vec::new(),
             spindle: Spindle::new(setup.spindle),
             turn_feeds: TurnFeeds::default(),
             inputs: CycleInputs::default(),
@@ -320,30 +318,14 @@ impl<'a> Drive<'a> {
 
     /// What LinuxCNC would refuse for a soft limit is planned all the same, with a word.
     fn admit(&mut self, shape: Result<Shape, ShapeError>) {
-        let (Some(limits), Ok(shape)) = (&mut self.soft_limits, shape) else {
-            return;
-        };
-        for passed in limits.admit(&shape) {
-            let key = if passed.position > passed.limit {
-                "MAX_LIMIT"
-            } else {
-                "MIN_LIMIT"
-            };
-            self.warnings.push(format!(
-                "{}:{}: joint {} goes to {:.3}, beyond [JOINT_{2}]{key} = {4}: LinuxCNC refuses the program (is the work offset \
-                 set?); planned without that limit",
-                self.file.display(),
-                self.last_line,
-                passed.joint,
-                passed.position,
-                passed.limit,
-            ));
+        if let (Some(limits), Ok(shape)) = (&mut self.soft_limits, shape) {
+            limits.admit(&shape, self.file, self.last_line);
         }
     }
 
     /// What the user should know of the program.
     pub fn warnings(&self) -> &[String] {
-        &self.warnings
+        self.soft_limits.as_ref().map_or(&[], SoftLimits::warnings)
     }
 
     fn set_termination(&mut self, mode: PathMode, tolerance: f64) {

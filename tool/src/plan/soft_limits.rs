@@ -9,9 +9,8 @@ use framepath::axes::Axes;
 use framepath::machine::JOINT_COUNT;
 use framepath::moves::shape::Shape;
 use framepath::planner::Planner;
-use framepath::planner::range::{
-    Finding, JointRange, JointSolver, Joints, OutOfRange, RangeVerdict, Sweep,
-};
+use framepath::planner::range::{Finding, JointRange, JointSolver, Joints, RangeVerdict, Sweep};
+use std::path::Path;
 
 /// What blendtp asks in a servo period.
 const CALLS_A_CYCLE: usize = 16;
@@ -25,6 +24,7 @@ pub struct SoftLimits {
     range: JointRange,
     /// Whether the kinematics say that they keep lines, so that blendtp does not look into these.
     keeps_lines: bool,
+    warnings: Vec<String>,
 }
 
 impl SoftLimits {
@@ -45,6 +45,7 @@ impl SoftLimits {
             axes: Vec::new(),
             range: JointRange::NONE,
             keeps_lines: settings.kinematics == "trivkins",
+            warnings: Vec::new(),
         };
         for (number, joint) in machine.joints.iter().enumerate().take(JOINT_COUNT) {
             let Some(axis) = AXIS_LETTERS.find(joint.letter) else {
@@ -60,10 +61,10 @@ impl SoftLimits {
         Ok(Some(limits))
     }
 
-    /// A limit that a move goes beyond, which LinuxCNC refuses, is none from there on: the rest is planned as well. Answers which.
-    pub fn admit(&mut self, shape: &Shape) -> Vec<OutOfRange> {
+    /// A limit that a move goes beyond, which LinuxCNC refuses, is none from there on: the rest is planned as well, with a
+    /// [warning](Self::warnings). The move stands in a line of a file.
+    pub fn admit(&mut self, shape: &Shape, file: &Path, line: i32) {
         let start = self.joints(&shape.position(0.0));
-        let mut passed = Vec::new();
         for _ in 0..2 * JOINT_COUNT {
             let mut sweep = Sweep::new(shape, &self.range, &start);
             let verdict = loop {
@@ -72,16 +73,29 @@ impl SoftLimits {
                 }
             };
             let RangeVerdict::Leaves(found) = verdict else {
-                break;
+                return;
             };
-            if found.position > found.limit {
+            let key = if found.position > found.limit {
                 self.range.greatest[found.joint] = f64::INFINITY;
+                "MAX_LIMIT"
             } else {
                 self.range.least[found.joint] = f64::NEG_INFINITY;
-            }
-            passed.push(found);
+                "MIN_LIMIT"
+            };
+            self.warnings.push(format!(
+                "{}:{line}: joint {} goes to {:.3}, beyond [JOINT_{1}]{key} = {}: LinuxCNC refuses the program (is the work offset \
+                 set?); planned without that limit",
+                file.display(),
+                found.joint,
+                found.position,
+                found.limit,
+            ));
         }
-        passed
+    }
+
+    /// The limits that moves go beyond, a sentence for each.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// Looks at more of the moves, before each servo period. Answers whether one goes beyond a limit, which none does that was
