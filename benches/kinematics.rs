@@ -1,6 +1,7 @@
 //! What the kinematics cost in the servo thread, next to LinuxCNC's own: goals 100 ns for an inverse
 //! with a frame, 200 ns for a forward.
 
+mod machines;
 mod stock;
 
 use std::hint::black_box;
@@ -8,48 +9,21 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use framepath::abi::linuxcnc::{EmcPose, PmCartesian};
 use framepath::axes::Axes;
-use framepath::frame::{ActiveFrame, Operation, OperationList, ToolLength, WorkOffset};
-use framepath::machine::{
-    Coordinates, Identity, JOINT_COUNT, Machine, TableTilting, TableTiltingParameters, TiltAxis,
-};
-use nalgebra::Vector3;
+use framepath::machine::{Coordinates, Identity, JOINT_COUNT, Machine, TiltAxis};
+use machines::{frame, table};
 use stock::StockKinematics;
-
-fn frame() -> ActiveFrame {
-    let mut list = OperationList::new();
-    list.set(&Operation::translate(Vector3::new(10.0, 20.0, 30.0)).unwrap());
-    list.append(&Operation::rotate_zyx(Vector3::new(30.0, 20.0, 10.0)).unwrap())
-        .unwrap();
-    list.append(&Operation::scale(Vector3::new(1.5, 1.5, 1.5)).unwrap())
-        .unwrap();
-    let work = WorkOffset::new(Axes::repeat(50.0), Axes::zeros(), 15.0).unwrap();
-    let tool = Axes::from([0.0, 0.0, 80.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let folded = list.fold().unwrap();
-    ActiveFrame::new(&folded, [false; 6], &work, &tool, ToolLength::Machine).unwrap()
-}
 
 fn identity() -> Machine {
     Machine::Identity(Identity::new(Coordinates::parse(b"XYZ").unwrap()))
 }
 
-fn table_tilting() -> Machine {
-    let coordinates = Coordinates::parse(b"XYZAC").unwrap();
-    let mut machine = TableTilting::new(TiltAxis::A, coordinates).unwrap();
-    let parameters = TableTiltingParameters {
-        rotation_point: Vector3::new(1.0, 2.0, 3.0),
-        offset: Vector3::new(0.0, 4.0, 5.0),
-        tool_offset: 80.0,
-        tool_centre_point: true,
-        ..TableTiltingParameters::default()
-    };
-    machine.set_parameters(parameters).unwrap();
-    Machine::TableTilting(machine)
-}
-
 fn kinematics(c: &mut Criterion) {
     let frame = frame();
     let world = Axes::from([12.0, 34.0, 56.0, 27.0, 0.0, 123.0, 0.0, 0.0, 0.0]);
-    for (name, machine) in [("identity", identity()), ("table tilting", table_tilting())] {
+    for (name, machine) in [
+        ("identity", identity()),
+        ("table tilting", table(TiltAxis::A, b"XYZAC")),
+    ] {
         let mut joints = [0.0; JOINT_COUNT];
         c.bench_function(&format!("inverse, {name}"), |b| {
             b.iter(|| machine.inverse(black_box(&world), &mut joints));

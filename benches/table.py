@@ -28,6 +28,11 @@ KINEMATICS = [
      "forward, LinuxCNC's xyzac-trt-kins"),
 ]
 
+#: what a jet is measured for, nanoseconds at most
+JET = 900
+EXACT_JETS = ["identity", "xyzac", "xyzbc"]
+NUMERICAL_JETS = ["xyzac-trt-kins", "xyzbc-trt-kins", "5axiskins"]
+
 
 def load(folder):
     """{name of the benchmark: (mean time in ns, bytes of one run or None)}"""
@@ -72,6 +77,17 @@ def kinematics(found):
         yield row(name, time(a), time(b), f"{a / b:.2f}")
 
 
+def jets(found):
+    yield row("three derivatives of the joints at a place", "mean", f"over {JET} ns", "over one inverse")
+    yield row("---", "---:", "---:", "---:")
+    for name in EXACT_JETS:
+        mean = found[f"jet, exact, {name}"][0]
+        yield row(f"framekins, {name}, with a frame", time(mean), f"{mean / JET:.2f}", "")
+    for name in NUMERICAL_JETS:
+        mean, inverse = found[f"jet, by numbers, {name}"][0], found[f"jet, one inverse, {name}"][0]
+        yield row(f"LinuxCNC's {name}, by numbers", time(mean), f"{mean / JET:.2f}", f"{mean / inverse:.2f}")
+
+
 def others(found, prefixes):
     yield row("besides", "mean")
     yield row("---", "---:")
@@ -97,7 +113,7 @@ def main():
     found = load(sys.argv[1])
     try:
         tables = [list(table) for table in (
-            planner(found, "servo period"), planner(found, "move added"), kinematics(found),
+            planner(found, "servo period"), planner(found, "move added"), kinematics(found), jets(found),
             others(found, ("cycle/", "cycle, ", "look-ahead/", "zigzag", "lines of")), dialects(found))]
     except KeyError as missing:
         sys.exit(f"table.py: {missing} has not been measured: run cargo bench --workspace first")
