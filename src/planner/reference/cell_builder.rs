@@ -34,7 +34,27 @@ struct StretchEnd {
     s: f64,
     /// By how much another place may be off that is the same but for rounding.
     beside: f64,
+    place: Place,
+}
+
+/// A place of the path.
+#[derive(Clone, Copy, Debug)]
+struct Place {
     point: PathPoint,
+    /// Three derivatives of the joints by the path, where these have limits.
+    joints: Option<[Axes; 3]>,
+}
+
+impl Place {
+    fn of(point: &PathPoint, map: &MachineMap) -> Self {
+        let by_path = [&point.first, &point.second, &point.third];
+        let joints = map.joints();
+        let joints = joints.map(|_| map.derivatives(&point.position, by_path));
+        Self {
+            point: *point,
+            joints,
+        }
+    }
 }
 
 /// What lies under a cell.
@@ -88,19 +108,14 @@ impl CellBuilder {
     fn add_phase(&mut self, segment: &ReferenceSegment, ground: &Ground, from: f64, to: f64) {
         let middle = 0.5 * (from + to);
         let [start, inside, end] = [from, middle, to].map(|t| segment.state(t, middle));
-        let seen = |along: &ProfileState, point: &PathPoint| {
-            MotionDerivatives::of(ground.path, point, along).behind(ground.map)
+        let seen = |along: &ProfileState, place: &Place| {
+            MotionDerivatives::of(ground.path, place, along).behind(ground.map)
         };
-        let first = seen(
-            &start,
-            &self.start_point(segment, ground.path, start.distance),
-        );
-        let second = seen(&inside, &segment.point(ground.path, inside.distance));
+        let first = seen(&start, &self.start_place(segment, ground, start.distance));
+        let point = segment.point(ground.path, inside.distance);
+        let second = seen(&inside, &Place::of(&point, ground.map));
         let back = BESIDE * (inside.distance - start.distance);
-        let third = seen(
-            &end,
-            &self.end_point(segment, ground.path, end.distance, back),
-        );
+        let third = seen(&end, &self.end_place(segment, ground, end.distance, back));
         let start_velocity = &mut self.start_velocity;
         let cell = self.cell.get_or_insert_with(|| {
             *start_velocity = first.along.velocity;
@@ -129,40 +144,35 @@ impl CellBuilder {
     }
 
     /// The path where a stretch begins.
-    fn start_point(
-        &mut self,
-        segment: &ReferenceSegment,
-        path: &BlendedPath,
-        distance: f64,
-    ) -> PathPoint {
+    fn start_place(&mut self, segment: &ReferenceSegment, ground: &Ground, distance: f64) -> Place {
         match self.end.take() {
-            Some(end) if segment.is_run() && (distance - end.s).abs() <= end.beside => end.point,
-            _ => segment.point(path, distance),
+            Some(end) if segment.is_run() && (distance - end.s).abs() <= end.beside => end.place,
+            _ => Place::of(&segment.point(ground.path, distance), ground.map),
         }
     }
 
     /// The path where a stretch ends. Where it ends with a leg, the third derivative of the path may jump: it is looked
     /// at `back` before.
-    fn end_point(
+    fn end_place(
         &mut self,
         segment: &ReferenceSegment,
-        path: &BlendedPath,
+        ground: &Ground,
         distance: f64,
         back: f64,
-    ) -> PathPoint {
-        let leg = path.leg(distance);
+    ) -> Place {
+        let leg = ground.path.leg(distance);
         let is_inside =
             leg.is_some_and(|leg| leg.start < distance - back && distance + back < leg.end);
         if !(segment.is_run() && is_inside) {
-            return segment.point(path, distance - back);
+            return Place::of(&segment.point(ground.path, distance - back), ground.map);
         }
-        let point = segment.point(path, distance);
+        let place = Place::of(&segment.point(ground.path, distance), ground.map);
         self.end = Some(StretchEnd {
             s: distance,
             beside: back,
-            point,
+            place,
         });
-        point
+        place
     }
 }
 
@@ -186,7 +196,6 @@ fn widen(
 
 /// Derivatives of a reference by its time.
 struct MotionDerivatives {
-    position: Axes,
     velocity: Axes,
     acceleration: Axes,
     jerk: Axes,
@@ -196,33 +205,33 @@ struct MotionDerivatives {
 }
 
 impl MotionDerivatives {
-    /// Where the path has this `point` and the motion along it this state.
-    fn of(path: &BlendedPath, point: &PathPoint, along: &ProfileState) -> Self {
-        let PathPoint {
-            position,
-            first,
-            second,
-            third,
-        } = point;
+    /// Where the path has this `place` and the motion along it this state: of the joints where these have limits, else of
+    /// the program.
+    fn of(path: &BlendedPath, place: &Place, along: &ProfileState) -> Self {
+        let point = &place.point;
+        let [first, second, third] = match &place.joints {
+            Some(joints) => joints.each_ref(),
+            None => [&point.first, &point.second, &point.third],
+        };
         let (v, a, j) = (along.velocity, along.acceleration, along.jerk);
         Self {
-            position: *position,
             velocity: first * v,
             acceleration: first * a + second * (v * v),
             jerk: first * j + second * (3.0 * v * a) + third * (v * v * v),
-            slope: path.distance(first),
+            slope: path.distance(&point.first),
             along: *along,
         }
     }
 
-    /// The same for what the limits hold for: the axes of the machine, or its joints.
+    /// The same for what the limits hold for: the axes of the machine instead of those of the program.
     fn behind(self, map: &MachineMap) -> Self {
-        let by_time = [&self.velocity, &self.acceleration, &self.jerk];
-        let [velocity, acceleration, jerk] = map.derivatives(&self.position, by_time);
+        if map.joints().is_some() {
+            return self;
+        }
         Self {
-            velocity,
-            acceleration,
-            jerk,
+            velocity: map.apply(&self.velocity),
+            acceleration: map.apply(&self.acceleration),
+            jerk: map.apply(&self.jerk),
             ..self
         }
     }
@@ -340,7 +349,8 @@ mod tests {
                 let cell = builder.take().expect("a cell");
                 let t = begin + inside * (finish - begin);
                 let along = segment.state(t, t);
-                let here = MotionDerivatives::of(path, &segment.point(path, along.distance), &along);
+                let place = Place::of(&segment.point(path, along.distance), &MachineMap::IDENTITY);
+                let here = MotionDerivatives::of(path, &place, &along);
                 for axis in 0..9 {
                     // A parabola stands for the curve: a thousandth of the limits is left to it.
                     let (a, j) = (here.acceleration[axis], here.jerk[axis]);
