@@ -67,6 +67,11 @@ pub fn scaled(value: &Axes, scale: f64) -> Lanes {
     lanes
 }
 
+/// The nine axes, as far as single precision tells them.
+pub fn axes_of(lanes: &Lanes) -> Axes {
+    Axes::from_fn(|axis, _| f64::from(lanes[axis]))
+}
+
 /// One number in single precision, held within finite bounds; NaN and noise become 0.
 pub fn single(value: f64) -> f32 {
     if value.abs() > LEAST_MAGNITUDE {
@@ -144,5 +149,7 @@ mod tests {
         assert_eq!(quad(&lanes, 0), &[-4.0, -3.0, -2.0, -1.0]);
         assert_eq!(quad(&lanes, 1), &[0.0, 1.0, 2.0, 3.0]);
         assert_eq!(quad(&lanes, 2), &[0.0; 4]);
+        axes[8] = 0.0;
+        assert_eq!(axes_of(&lanes), axes);
     }
 }

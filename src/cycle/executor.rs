@@ -10,7 +10,8 @@ use super::goal::Goal;
 use super::rows::PeriodLimits;
 use super::state::State;
 use super::table::{CloseError, PushError, Table, USABLE};
-use crate::axes::AxisLimits;
+use crate::axes::{Axes, AxisLimits};
+use crate::lanes::axes_of;
 
 /// Servo periods that may be simulated in one cycle: bounds its cost.
 pub(super) const BUDGET: usize = 384;
@@ -200,6 +201,21 @@ impl Executor {
     pub fn is_dry(&self) -> bool {
         let moves = self.state.rate > 0.0 || self.state.rate_acceleration != 0.0;
         self.started && moves && self.table.end().is_none() && self.table.length() < 2
+    }
+
+    /// Velocity and acceleration of what the limits hold for, units and seconds, behind the last servo period.
+    pub fn motion(&self) -> [Axes; 2] {
+        if self.end_reached || !self.started {
+            return [Axes::zeros(); 2];
+        }
+        let node = self.table.node(self.state.time);
+        let (velocity, acceleration) = (axes_of(&node.velocity), axes_of(&node.acceleration));
+        let (rate, period) = (self.state.rate, self.servo_period);
+        let by_rate = velocity * self.state.rate_acceleration;
+        [
+            velocity * (rate / period),
+            (acceleration * (rate * rate) + by_rate) / (period * period),
+        ]
     }
 
     /// How often the stored backup trajectory ended before the rate acceleration was 0: a count of numerical

@@ -79,13 +79,15 @@ pub(super) struct Asked {
 }
 
 /// How the axes of the machine move, or those of the program where joints have limits: differences of the positions of
-/// servo periods.
+/// servo periods. And how these joints do.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AxisMotion {
     position: Axes,
     velocity: Axes,
     acceleration: Axes,
     jerk: Axes,
+    /// Velocity, acceleration and jerk.
+    joints: [Axes; 3],
 }
 
 const ZEROS: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
@@ -96,6 +98,7 @@ impl AxisMotion {
         velocity: ZEROS,
         acceleration: ZEROS,
         jerk: ZEROS,
+        joints: [ZEROS; 3],
     };
 
     /// The machine stands at `position`, and nothing is known of how it came there.
@@ -117,22 +120,28 @@ impl AxisMotion {
         self.position = *position;
     }
 
+    /// In that period joints with limits came to this velocity and acceleration.
+    pub fn pass_joints(&mut self, [velocity, acceleration]: [Axes; 2], period: f64) {
+        let jerk = (acceleration - self.joints[1]) / period;
+        self.joints = [velocity, acceleration, jerk];
+    }
+
     /// Whether it stands still.
     pub fn stands(&self) -> bool {
         self.velocity == ZEROS
     }
 
     /// The share of the limit that is used up most, and which one it is: of the axes, or of the joints behind `map` if
-    /// these have limits. Positions are then those of the program.
+    /// these have limits.
     fn nearest(&self, axes: &AxisLimits, map: &MachineMap) -> (f64, SpeedLimit) {
         let mut found = (0.0, SpeedLimit::Between);
         let by_time = [&self.velocity, &self.acceleration, &self.jerk];
         let limits = map.limits(axes);
         let values = match map.joints() {
-            Some(_) => map.derivatives(&self.position, by_time),
-            None => by_time.map(|values| *values),
+            Some(_) => self.joints.each_ref(),
+            None => by_time,
         };
-        for (values, (quantity, limits)) in values.iter().zip([
+        for (values, (quantity, limits)) in values.into_iter().zip([
             (Quantity::Velocity, &limits.velocity),
             (Quantity::Acceleration, &limits.acceleration),
             (Quantity::Jerk, &limits.jerk),

@@ -60,6 +60,10 @@ impl Planner {
             return SpeedLimit::Nothing;
         };
         self.axis_motion.pass(&position, self.period);
+        if map.joints().is_some() {
+            let joints = self.executor.motion();
+            self.axis_motion.pass_joints(joints, self.period);
+        }
         let waits = self.status.waiting_for_spindle || self.status.waiting_for_index;
         if self.status.following_spindle || waits {
             return SpeedLimit::Spindle;

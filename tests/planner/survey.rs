@@ -1,6 +1,7 @@
 //! What an operator sees, against the motion as it was recorded.
 
 use crate::common::{Machine, PERIOD, at, feed_move, with_machine};
+use crate::joint_models::{EXACT_TABLE, joint_limits, joints_of, table};
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS, Axes};
 use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, TerminationCondition};
@@ -335,4 +336,55 @@ fn looking_changes_nothing() {
     assert!(runs[0].len() > 500);
     let [one, other] = &mut runs;
     assert_eq!(one, other);
+}
+
+/// By how much the share that is told may be below the greatest one of the recording, but where one limit follows on another:
+/// third differences are means over three periods.
+const BESIDE: f64 = 0.1;
+
+#[test]
+fn joints_with_limits_limit_the_machine_in_place_of_axes() {
+    with_machine(|machine| {
+        assert!(machine.planner.set_joints(Some(joints_of(EXACT_TABLE, 5))));
+        blended(machine);
+        let ends = [
+            [60.0, 20.0, 0.0, 30.0, 90.0],
+            [0.0, 50.0, 10.0, -20.0, 200.0],
+        ];
+        for [x, y, z, a, c] in ends {
+            let end = Axes::from([x, y, z, a, 0.0, c, 0.0, 0.0, 0.0]);
+            machine.line(end, &feed_move(1e5)).expect("a line");
+        }
+        let seen = run(machine, 1.0);
+        machine.limits = joint_limits(5, [100.0, 1000.0, 20_000.0]);
+        for position in &mut machine.positions {
+            *position = table(position);
+        }
+        let (mut told, mut beside) = ([0; 3], 0);
+        let windows = machine.positions.windows(4);
+        for (window, seen) in windows
+            .skip(machine.positions.len() - 3 - seen.len())
+            .zip(&seen)
+        {
+            let SpeedLimit::Joint { joint, quantity } = seen.survey.limit else {
+                continue;
+            };
+            let limits = &machine.limits;
+            let [a, b, c, d] = window else {
+                panic!("four positions");
+            };
+            let shares = [
+                ((d - c) / PERIOD).component_div(&limits.velocity),
+                ((d - c * 2.0 + b) / PERIOD.powi(2)).component_div(&limits.acceleration),
+                ((d - c * 3.0 + b * 3.0 - a) / PERIOD.powi(3)).component_div(&limits.jerk),
+            ];
+            let greatest = shares.iter().map(Axes::amax).fold(0.0, f64::max);
+            let order = quantity as usize;
+            let share = shares[order][joint].abs();
+            told[order] += 1;
+            beside += usize::from(share < greatest - BESIDE);
+        }
+        assert!(20 * beside < told.iter().sum(), "{beside} of {told:?}");
+        assert!(told.iter().all(|count| *count > 20), "{told:?}");
+    });
 }
