@@ -126,7 +126,7 @@
 #define FRAMEPATH_LIMITED_JOINTS 9
 
 /*
- Microseconds that the kinematics may take for the joints of a place. Some 50 places are asked for in a servo period.
+ Microseconds that the kinematics may take for the joints of a place. Some 20 places are asked for in a servo period.
  */
 #define FRAMEPATH_MOST_MICROSECONDS 2.0
 

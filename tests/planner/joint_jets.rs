@@ -69,6 +69,27 @@ proptest! {
         prop_assert!(differs < ALIKE, "{differs} {exact:?} {numerical:?}");
     }
 
+    /// Each order by itself may be as small as it likes beside the others: a corner bends where it hardly moves. The places of
+    /// the numbers lie where the joints are not off by the products of these, over the limits at the speed that all allow.
+    #[test]
+    fn the_numbers_hold_where_the_path_bends_more_than_it_moves(
+        (position, derivatives) in (any_position(), any_derivatives()),
+        smaller in prop::array::uniform3(0.0..3.0f64),
+    ) {
+        let mut scaled = derivatives;
+        for (derivative, smaller) in scaled.iter_mut().zip(smaller) {
+            *derivative *= 10f64.powf(-smaller);
+        }
+        let shares = *joints_of(EXACT_TABLE, 5).shares();
+        let exact = EXACT_TABLE(&position, &scaled, &shares);
+        let numerical = NUMERICAL_TABLE(&position, &scaled, &shares);
+        let share = |order: usize| exact[order].component_mul(&shares[order]).amax();
+        let taken = share(0).max(share(1).sqrt()).max(share(2).cbrt());
+        let at_speed: [Axes; 3] = core::array::from_fn(|order| shares[order] / taken.powi(order as i32 + 1));
+        let differs = difference(&exact, &numerical, &at_speed);
+        prop_assert!(differs < ALIKE, "{differs} {exact:?} {numerical:?}");
+    }
+
     #[test]
     fn a_frame_turns_derivatives_as_it_turns_ways(
         position in any_position(),

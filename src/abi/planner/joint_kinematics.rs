@@ -22,7 +22,7 @@ pub(super) type ExactJet =
 /// Calls of which the quickest says how long one takes.
 const CALLS_TIMED: usize = 8;
 
-/// Calls of the inverse kinematics for one numerical jet.
+/// Calls of the inverse kinematics that one numerical jet is reckoned with: five are enough mostly.
 const CALLS_OF_A_JET: f64 = 7.0;
 
 /// Places beside each other that tell how much answers differ by that should not: sixth differences of what is smooth are

@@ -7,7 +7,7 @@ use super::joint_kinematics::{self, Measured};
 use super::soft_limits::commanded_joints;
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
 use crate::machine_map::JointMap;
-use crate::numerical_jet::STEP;
+use crate::numerical_jet::{BEND, STEP};
 use crate::planner::JerkLimit;
 
 /// The limits are taken, or there are none.
@@ -36,7 +36,7 @@ pub const FRAMEPATH_JOINTS_SINGULAR: c_int = 9;
 pub const FRAMEPATH_LIMITED_JOINTS: usize = 9;
 const _: () = assert!(FRAMEPATH_LIMITED_JOINTS == AXIS_COUNT);
 
-/// Microseconds that the kinematics may take for the joints of a place. Some 50 places are asked for in a servo period.
+/// Microseconds that the kinematics may take for the joints of a place. Some 20 places are asked for in a servo period.
 pub const FRAMEPATH_MOST_MICROSECONDS: c_double = 2.0;
 
 /// The share of a limit that noise may take at full speed.
@@ -152,11 +152,13 @@ pub fn check(
         .take(count.min(AXIS_COUNT))
     {
         let velocity = limits.velocity[joint];
-        let steps = if velocity.is_finite() {
+        let velocity = if velocity.is_finite() {
             velocity
         } else {
             fastest
-        } / STEP;
+        };
+        let bend = (limits.acceleration[joint] / (2.0 * BEND)).sqrt();
+        let steps = (velocity / STEP).max(bend);
         let acceleration = IN_ACCELERATION * noise * steps * steps / limits.acceleration[joint];
         let jerk = IN_JERK * noise * steps * steps * steps / limits.jerk[joint];
         if acceleration > NOISE_SHARE || jerk > NOISE_SHARE {
