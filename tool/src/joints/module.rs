@@ -239,6 +239,10 @@ impl ModuleJoints {
 
     /// The joints for a position; `None` where there are none.
     pub(super) fn joints(&self, position: &Axes) -> Option<[f64; JOINT_COUNT]> {
+        // The planner asks several times in a servo period, and what that takes is measured with it.
+        if self.settings.lengths == 1.0 {
+            return self.loaded.joints(position, &self.loaded.home().0);
+        }
         let position = in_lengths(position, 1.0 / self.settings.lengths);
         let mut joints = self.loaded.joints(&position, &self.loaded.home().0)?;
         for (number, joint) in joints.iter_mut().enumerate() {
