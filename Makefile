@@ -250,9 +250,14 @@ figures: modules tool
 	$(TOOL) compare $(RAISED) $(BLENDTP) --jerk 20A,100A --optimum
 
 # A tilting table with the tool centre point: LinuxCNC's five-axis programs, without the M428 and M429 that switch it there, a
-# generated one and ten random ones; then with a restless operator.
+# generated one and ten random ones; then with a restless operator. What a servo period costs with exact jets and with those by numbers:
+# the same machine behind LinuxCNC's kinematics of such a table, the least of some runs.
 TABLE_PROGRAMS ?= /usr/share/doc/linuxcnc/examples/sample-configs/sim/axis/vismach/5axis/table-rotary-tilting/demos
-TABLE = --ini hal-component/configs/framepath-xyzac/framepath-xyzac.ini --tool-centre-point --feed-at-least 6000 --jerk 20A
+TABLE_SAMPLE = hal-component/configs/framepath-xyzac/framepath-xyzac
+TABLE_FEED = --feed-at-least 6000 --jerk 20A
+TABLE = --ini $(TABLE_SAMPLE).ini --tool-centre-point $(TABLE_FEED)
+TABLE_KINEMATICS = xyzac-trt-kins
+BY_NUMBERS = --ini $(TARGET)/five-axes/by-numbers.ini $(TABLE_FEED)
 RANDOM_SEEDS = 1 2 3 4 5 6 7 8 9 10
 FIVE_AXES = $(patsubst %,$(TARGET)/five-axes/%.ngc,boat-xyzac impeller-7bl-xyzac $(addprefix random-,$(RANDOM_SEEDS))) --generated blade
 
@@ -266,6 +271,11 @@ five-axes: modules tool
 	    > $(TARGET)/five-axes/random-$$seed.ngc || exit 1; done
 	$(TOOL) compare $(FIVE_AXES) $(TABLE) --optimum
 	$(TOOL) compare $(FIVE_AXES) $(TABLE) --operator 1
+	sed 's/^KINEMATICS = .*/KINEMATICS = $(TABLE_KINEMATICS) coordinates=XYZAC/; s/^HALFILE = framepath-xyzac/HALFILE = by-numbers/' \
+	    $(TABLE_SAMPLE).ini > $(TARGET)/five-axes/by-numbers.ini
+	sed 's/^loadrt \[KINS\]/loadrt framekins inner=$(TABLE_KINEMATICS)\n&/; s/framekins\.\(.-rot-point\|.-offset\|tool-offset\)\( \|$$\)/$(TABLE_KINEMATICS).\1\2/' \
+	    $(TABLE_SAMPLE).hal > $(TARGET)/five-axes/by-numbers.hal
+	$(PYTHON) -B benches/five_axes_cost.py --exact '$(TABLE)' --by-numbers '$(BY_NUMBERS)' $(TOOL) $(BLENDTP) $(FIVE_AXES)
 
 # What each constant that tunes does, written into docs/tuning.md: an hour.
 tuning: modules tool
