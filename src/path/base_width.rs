@@ -7,6 +7,7 @@ use super::jump::JumpSum;
 use super::lone_corner::OUTER_REACH;
 use super::metric::Metric;
 use super::settings::BlendSettings;
+use super::shift;
 use super::vertex::Vertex;
 use super::vertex_widths::KERNEL_SHARE;
 use super::widths::Widths;
@@ -214,5 +215,7 @@ fn deviation_at_equal_widths(
         sum.add(&vertex.tangent_jump, &[value]);
     }
     let share = chain.vertex(number).turn_share;
-    (metric.deviation(&sum.axes(), share), terms)
+    let mut deviation = sum.axes();
+    shift::add(&mut deviation, &chain.leg(number).shift_at(here));
+    (metric.deviation(&deviation, share), terms)
 }

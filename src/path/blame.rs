@@ -7,6 +7,7 @@ use super::chain::{Chain, NEIGHBOURS};
 use super::deviation::Violation;
 use super::jump::JumpSum;
 use super::metric::Metric;
+use super::shift;
 use super::vertex::Vertex;
 use super::window::Window;
 
@@ -58,7 +59,8 @@ pub(super) fn mark(
         let vertex = chain.vertex(number);
         vertex.add_deviation(&vertex.counted, s - vertex.s, &mut total);
     }
-    let total = total.axes();
+    let mut total = total.axes();
+    shift::add(&mut total, &chain.leg(leg).shift_at(s));
     let mut blames = [0.0; MOST];
     let mut greatest = 0.0;
     for (blame, number) in blames.iter_mut().zip(from..to) {

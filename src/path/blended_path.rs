@@ -5,6 +5,7 @@ use nalgebra::ArrayStorage;
 use super::chain::Chain;
 use super::curve;
 use super::error::BlendError;
+use super::fairing::{Fairing, MOST_PIECES};
 use super::jump::{LinearSum, WholeSum};
 use super::leg::{Leg, ProgrammedMove};
 use super::line_merger::LineMerger;
@@ -44,6 +45,7 @@ pub struct BlendedPath {
     metric: Metric,
     chain: Chain,
     merger: LineMerger,
+    fairing: Fairing,
     optimizer: WidthOptimizer,
     /// Where the path starts.
     start: Axes,
@@ -65,6 +67,7 @@ impl BlendedPath {
             metric: Metric::new(BlendSettings::DEFAULT.rotary_weight()),
             chain: Chain::new(),
             merger: LineMerger::new(),
+            fairing: Fairing::new(),
             optimizer: WidthOptimizer::new(),
             start: ORIGIN,
             goal: ORIGIN,
@@ -80,6 +83,7 @@ impl BlendedPath {
         self.metric = Metric::new(settings.rotary_weight());
         self.chain.clear();
         self.merger.clear();
+        self.fairing.clear();
         self.optimizer.restart(&self.chain);
         self.start = *position;
         self.goal = *position;
@@ -106,7 +110,8 @@ impl BlendedPath {
         {
             return Err(BlendError::Serial);
         }
-        if self.chain.room() < LEGS_A_MOVE {
+        let room = LEGS_A_MOVE * MOST_PIECES + self.fairing.waiting();
+        if self.chain.room() < room || self.fairing.is_full() {
             return Err(BlendError::Full);
         }
         let leg = Leg {
@@ -135,7 +140,17 @@ impl BlendedPath {
     /// with these as far as the path is not yet final.
     pub fn flush(&mut self) {
         self.release_waiting();
+        self.press();
         self.hurry = true;
+    }
+
+    /// More of the path is needed now: vertices are where they are to be, whatever comes. Lines that wait to be merged go on
+    /// waiting. Answers whether there was anything to be pressed for.
+    pub fn press(&mut self) -> bool {
+        let waited = self.fairing.waiting() > 0;
+        self.fairing.flush(&self.settings);
+        self.put_in_place();
+        waited
     }
 
     /// The machine will come to rest at the end of all moves: as [`flush`](Self::flush), and all
@@ -150,15 +165,16 @@ impl BlendedPath {
     /// [`GREATEST_EXCESS`](super::GREATEST_EXCESS) more. Answers what it took: less than the
     /// budget if there is nothing more to do.
     pub fn step(&mut self, budget: usize) -> usize {
+        let faired = self.fair(budget / 2);
         let spent = self.optimizer.step(
             &mut self.chain,
             &self.settings,
             &self.metric,
             self.hurry,
-            budget,
+            budget.saturating_sub(faired),
         );
         self.freeze_at_rest();
-        spent
+        faired + spent
     }
 
     /// Where the machine rests at the end nothing to come changes the path.
@@ -168,9 +184,31 @@ impl BlendedPath {
         }
     }
 
+    /// Moves vertices, for about `budget` kernel terms. Answers what it took.
+    fn fair(&mut self, budget: usize) -> usize {
+        let mut spent = 0;
+        while spent < budget {
+            let cost = self.fairing.step();
+            if cost == 0 {
+                break;
+            }
+            spent += cost;
+            self.put_in_place();
+        }
+        spent
+    }
+
     fn push(&mut self, leg: Leg) {
-        let leg = curve::with_its_width(leg, &self.chain, &self.settings, &self.metric);
-        self.chain.push(leg, &self.settings, &self.metric);
+        self.fairing.take(leg, &self.settings);
+        self.put_in_place();
+    }
+
+    /// Puts what is to be where it is at the end of the chain.
+    fn put_in_place(&mut self) {
+        while let Some(leg) = self.fairing.next() {
+            let leg = curve::with_its_width(leg, &self.chain, &self.settings, &self.metric);
+            self.chain.push(leg, &self.settings, &self.metric);
+        }
     }
 
     fn release_waiting(&mut self) {
@@ -179,14 +217,14 @@ impl BlendedPath {
         }
     }
 
-    /// Where the moves that were added end, without lines that wait to be merged; path distance.
+    /// Where the moves that were added end, without lines that wait to be merged, or for what comes behind them; path distance.
     pub fn programmed_end(&self) -> f64 {
         self.chain.end()
     }
 
-    /// Where the moves that were added end, with lines that wait to be merged; path distance.
+    /// Where the moves that were added end, with all that waits; path distance.
     pub fn added_end(&self) -> f64 {
-        self.chain.end() + self.merger.waiting_length()
+        self.chain.end() + self.fairing.waiting_length() + self.merger.waiting_length()
     }
 
     /// Up to where the path is within its tolerance, path distance.
@@ -232,7 +270,7 @@ impl BlendedPath {
         if self.chain.is_empty() {
             return self.rest();
         }
-        self.chain.leg(self.chain.locate(s)).point(s)
+        self.chain.leg(self.chain.locate(s)).programmed_point(s)
     }
 
     fn rest(&self) -> PathPoint {
@@ -324,8 +362,12 @@ impl BlendedPath {
         LegView {
             serial: leg.serial,
             first: leg.first,
-            start: leg.start,
-            end: leg.end(),
+            start: leg.start - leg.lead,
+            end: if leg.is_last_part {
+                leg.end()
+            } else {
+                leg.start - leg.lead + leg.whole
+            },
             speed: leg.speed,
             greatest_speed: leg.greatest_speed,
             turning: leg.turning,
@@ -361,7 +403,8 @@ impl BlendedPath {
             number.checked_sub(1)?
         };
         let leg = self.chain.leg(number);
-        (number >= self.chain.first() && leg.end() == s).then(|| (leg.serial, leg.shape.end()))
+        let ends = leg.is_last_part && leg.end() == s;
+        (number >= self.chain.first() && ends).then(|| (leg.serial, leg.shape.end()))
     }
 
     /// How far the path may be from the programmed one on the leg at `s`, machine units; 0 if
@@ -489,7 +532,7 @@ impl BlendedPath {
 
     /// Whether [`step`](Self::step) has taken the known end to the programmed one.
     pub fn is_settled(&self) -> bool {
-        self.optimizer.is_settled(&self.chain)
+        self.fairing.waiting() == 0 && self.optimizer.is_settled(&self.chain)
     }
 
     /// A shape's length in path distance.

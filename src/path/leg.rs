@@ -1,7 +1,10 @@
 //! One leg of the programmed path: a move, or several short lines merged into one.
 
+use nalgebra::Vector3;
+
 use super::metric::Metric;
 use super::settings::{Allowance, BlendSettings};
+use super::shift::Shift;
 use crate::moves::shape::measure::{self, Measure};
 use crate::moves::shape::{PathPoint, Shape};
 use crate::moves::{NearLimit, TerminationCondition};
@@ -51,6 +54,14 @@ pub(super) struct Leg {
     pub start: f64,
     /// Path distance.
     pub length: f64,
+    /// How much of the whole leg lies before this part of it, path distance.
+    pub lead: f64,
+    /// Length of the whole leg, path distance.
+    pub whole: f64,
+    /// Whether it ends where the whole leg does.
+    pub is_last_part: bool,
+    /// What it is moved by.
+    pub shift: Shift,
     /// How much F counts for a unit of path distance.
     pub measure_rate: f64,
     /// What F counts.
@@ -88,6 +99,10 @@ impl Leg {
         first: 0,
         start: 0.0,
         length: 0.0,
+        lead: 0.0,
+        whole: 0.0,
+        is_last_part: true,
+        shift: Shift::NONE,
         measure_rate: 1.0,
         measure: Measure::Linear,
         turning: 0.0,
@@ -119,6 +134,7 @@ impl Leg {
             serial: programmed.serial,
             first: programmed.serial,
             length,
+            whole: length,
             measure_rate: 1.0 / per_measure,
             measure: match &programmed.shape {
                 Shape::Line(line) => {
@@ -138,6 +154,34 @@ impl Leg {
             near_limit: programmed.near_limit,
             stop_after: programmed.termination == TerminationCondition::Stop,
             ..Self::VACANT
+        }
+    }
+
+    /// The part of it between two distances from its start.
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        Self {
+            lead: from,
+            length: to - from,
+            is_last_part: to >= self.length,
+            stop_before: self.stop_before && from <= 0.0,
+            stop_after: self.stop_after && to >= self.length,
+            ..*self
+        }
+    }
+
+    /// What it is moved by at path distance `s`, held within it; XYZ.
+    #[inline]
+    pub fn shift_at(&self, s: f64) -> Vector3<f64> {
+        self.shift.at(self.distance(s))
+    }
+
+    /// How far path distance `s` is from its start, held within it.
+    #[inline]
+    fn distance(&self, s: f64) -> f64 {
+        if s < self.end() {
+            (s - self.start).max(0.0)
+        } else {
+            self.length
         }
     }
 
@@ -207,19 +251,28 @@ impl Leg {
 
     /// How much F has counted at path distance `s`, held within the leg.
     pub fn measured(&self, s: f64) -> f64 {
-        if s >= self.end() {
+        if self.is_last_part && s >= self.end() {
             self.shape.length()
         } else {
-            ((s - self.start) * self.measure_rate)
+            ((s - self.start + self.lead) * self.measure_rate)
                 .max(0.0)
                 .min(self.shape.length())
         }
     }
 
+    /// Where the program is at path distance `s`, held within the leg, moved by what [fairing](super::fairing) moves it by,
+    /// with derivatives by path distance: what kernels round.
+    #[inline]
+    pub fn point(&self, s: f64) -> PathPoint {
+        let mut point = self.programmed_point(s);
+        self.shift.move_point(&mut point, self.distance(s));
+        point
+    }
+
     /// The programmed path at path distance `s`, held within the leg, with derivatives by path
     /// distance.
     #[inline]
-    pub fn point(&self, s: f64) -> PathPoint {
+    pub fn programmed_point(&self, s: f64) -> PathPoint {
         let (at, rate) = (self.measured(s), self.measure_rate);
         let mut point = match &self.shape {
             Shape::Line(line) => {

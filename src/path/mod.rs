@@ -29,7 +29,7 @@
 //!   remaining turn of the direction by less than half of that.
 //!
 //! The order of the parts: a move becomes a `leg`, short lines after the `line_merger` has joined
-//! them; legs meet in a `vertex` and lie in a `chain`; the `optimizer` gives the vertices of a
+//! them; `fairing` moves runs of lines a little off the program, a `shift`; legs meet in a `vertex` and lie in a `chain`; the `optimizer` gives the vertices of a
 //! `window` their `widths`, beginning with the `base_width`, on a `curve` for what it allows, and a
 //! `lone_corner` swings out; the
 //! `deviation` is checked, what is to `blame` is narrowed, and `hardening` stands behind it all.
@@ -43,6 +43,7 @@ mod curve;
 mod deviation;
 mod easement;
 mod error;
+mod fairing;
 mod hardening;
 mod jump;
 mod kernel;
@@ -53,6 +54,7 @@ mod metric;
 mod orientation;
 mod reaching;
 mod settings;
+mod shift;
 mod vertex;
 mod vertex_widths;
 mod views;

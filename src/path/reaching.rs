@@ -7,6 +7,7 @@ use super::chain::{Chain, NEIGHBOURS};
 use super::jump::{GROUP_SIZE, GROUPS, JumpSum};
 use super::kernel;
 use super::metric::Metric;
+use super::shift;
 use super::vertex::Vertex;
 
 /// The most vertices that reach into a leg.
@@ -109,6 +110,8 @@ pub(super) struct Reaching {
     in_others: usize,
     /// Up to where those on the left reach, and from where on those on the right do, within the leg.
     ends: [f64; 2],
+    /// Number of the leg.
+    leg: u64,
 }
 
 impl Reaching {
@@ -118,6 +121,7 @@ impl Reaching {
         others: [0; MOST],
         in_others: 0,
         ends: [0.0; 2],
+        leg: 0,
     };
 
     /// Collects those of a leg that are below `next`.
@@ -153,6 +157,7 @@ impl Reaching {
                 from_right = if near < from_right { near } else { from_right };
             }
         }
+        self.leg = number;
         self.ends = [from_left.min(end), from_right.max(start)];
     }
 
@@ -199,7 +204,7 @@ impl Reaching {
         numbers.map(|number| chain.vertex(*number))
     }
 
-    /// How far the blended path is from the programmed one at `s`, where a degree of C counts a share.
+    /// How far the blended path is from the programmed one at `s`, within the leg, where a degree of C counts a share.
     pub fn deviation(&self, chain: &Chain, s: f64, metric: &Metric, turn_share: f64) -> f64 {
         let mut sum = if chain.is_linear() {
             self.sum_of_pairs::<1>(s)
@@ -209,7 +214,9 @@ impl Reaching {
         for vertex in self.others(chain) {
             vertex.add_deviation(&vertex.counted, s - vertex.s, &mut sum);
         }
-        metric.deviation(&sum.axes(), turn_share)
+        let mut deviation = sum.axes();
+        shift::add(&mut deviation, &chain.leg(self.leg).shift_at(s));
+        metric.deviation(&deviation, turn_share)
     }
 
     #[inline(always)]

@@ -162,6 +162,22 @@ impl BlendSettings {
         self.millimetre * width.clamp(LEAST_DESIGN_WIDTH, GREATEST_DESIGN_WIDTH)
     }
 
+    /// The third derivative of a path that is run through at `speed` within acceleration and jerk of XYZ, 1 per square
+    /// machine unit: with more of it the path limits the speed. Jerk counts as no more than what builds up the acceleration
+    /// of the circle that it allows while its radius is passed.
+    pub(super) fn even_third(&self, speed: f64) -> f64 {
+        let square = speed * speed;
+        let by_jerk = self.linear_jerk / (square * speed);
+        let acceleration = self.per_acceleration.fixed_rows::<3>(0).max().recip();
+        let by_acceleration = acceleration / square;
+        by_jerk.min(by_acceleration * by_acceleration)
+    }
+
+    /// Whether the path may be led to the outer side of the program.
+    pub(super) fn swings(&self) -> bool {
+        self.swings
+    }
+
     /// The speed at which a curve can be run that turns the direction by `turn`, shape (9), of this `size`, over
     /// `length`: within acceleration and jerk of all axes; machine units per second. Infinite without limits.
     pub(super) fn curve_speed(&self, turn: &Axes, size: f64, length: f64) -> f64 {

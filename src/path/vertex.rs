@@ -42,7 +42,7 @@ pub(super) struct Vertex {
     pub tolerance: f64,
     /// Half of its shorter leg.
     pub half_leg: f64,
-    /// Length of the longer of its legs.
+    /// Length of the longer of its legs, whole ones where they are divided.
     pub longer_leg: f64,
     /// Mean length of its legs.
     pub mean_leg: f64,
@@ -187,7 +187,7 @@ impl Vertex {
             tolerance_jump_size,
             tolerance: before.tolerance().min(after.tolerance()),
             half_leg: 0.5 * before.length.min(after.length),
-            longer_leg: before.length.max(after.length),
+            longer_leg: before.whole.max(after.whole),
             mean_leg: 0.5 * (before.length + after.length),
             stop,
             wall: stop || exact || at_limit,

@@ -1,5 +1,7 @@
 //! The base widths of a vertex that follow from its two legs alone.
 
+use nalgebra::Vector3;
+
 use super::leg::Leg;
 use super::lone_corner::LoneCorner;
 use super::settings::BlendSettings;
@@ -64,7 +66,7 @@ impl Vertex {
             self.free_limit = before.half_for_corner().min(after.half_for_corner());
         }
         if self.tangent_jump_size > 0.0 {
-            let within = KERNEL_SHARE * self.tolerance / self.tolerance_jump_size;
+            let within = self.jumps_within(&after.shift_at(self.s));
             let biweight_width = within / kernel::peak(0.0);
             // In the slower leg's half the other's feed does not matter.
             let slower = before.speed.min(after.speed);
@@ -103,6 +105,19 @@ impl Vertex {
         if self.curvature_jump_size > 0.0 {
             self.find_base_easement(before, after, settings);
         }
+    }
+
+    /// How many jumps of its tangent lead so far from the program as the middle of a corner may be, where it is moved.
+    fn jumps_within(&self, shift: &Vector3<f64>) -> f64 {
+        let allowed = KERNEL_SHARE * self.tolerance;
+        let [linear, ..] = self.tangent_jump.groups();
+        let towards = shift.dot(&Vector3::from(*linear));
+        if towards == 0.0 {
+            return allowed / self.tolerance_jump_size;
+        }
+        let left = (allowed * allowed - shift.norm_squared()).max(0.0);
+        let square = self.tolerance_jump_size * self.tolerance_jump_size;
+        ((towards * towards + square * left).sqrt() - towards) / square
     }
 
     /// The mix of its kernel where it keeps clear of its neighbours', and the width that its feed wants where half legs may be

@@ -153,6 +153,17 @@ impl MoveFeeder {
         self.silence >= SHORTEST_SILENCE && (overdue || far)
     }
 
+    /// Whether moves come so slowly that the machine may have to wait for the next one.
+    pub fn is_slow(&self) -> bool {
+        let interval = self.interval.max(self.silence);
+        self.expected() != Expected::Anything || interval >= SHORTEST_SILENCE
+    }
+
+    /// Whether no move came in this servo period, nor in the one before.
+    pub fn pauses(&self, period: f64) -> bool {
+        self.silence > 1.5 * period
+    }
+
     /// Whether nothing more is to be expected for a while.
     pub fn is_silent(&self) -> bool {
         let silence = (SILENCE * self.interval).min(LONGEST_SILENCE);
@@ -187,7 +198,10 @@ impl MoveFeeder {
             }
             match path.add(&self.programmed(queued, follows, outlook)) {
                 Ok(()) => {}
-                Err(BlendError::Full) => break,
+                Err(BlendError::Full) => {
+                    self.silence = 0.0;
+                    break;
+                }
                 Err(error) => return Err(error),
             }
             self.kind = kind(queued);

@@ -33,6 +33,10 @@ const LAST_CALL: f64 = 0.08;
 /// of the last move is better than one in the middle of it.
 const LAST_MOMENT: f64 = 0.04;
 
+/// Where moves come slowly, nothing waits for the next one on the path while less than so many times what is not final is
+/// final behind the plan.
+const SHORT_OF_PATH: f64 = 4.0;
+
 /// A path that is final up to its end within this share of the path distance is final up to there: rounding.
 const ROUNDING: f64 = 1e-8;
 
@@ -91,9 +95,22 @@ impl Reference {
         } else {
             self.current()
         };
-        let waits = self.lacks_path_behind(last.planned().unwrap_or(self.rest));
+        let planned = last.planned().unwrap_or(self.rest);
+        let waits = self.lacks_path_behind(planned);
         let last_moment =
             self.feeder.is_late(LAST_MOMENT) && last.is_ready() && last.brakes_within(LAST_MOMENT);
+        // What is final and not planned yet will be.
+        let all_planned = last.is_ready() || planned >= self.path.final_end();
+        let last_call = waits && all_planned && last.brakes_within(LAST_CALL);
+        let pauses = if self.resting {
+            // A single move has nothing to wait for.
+            self.feeder.pauses(outlook.now.period)
+        } else {
+            self.feeder.is_slow()
+        };
+        if pauses && self.is_short_of_path_behind(planned) && self.path.press() {
+            return;
+        }
         if self.feeder.is_barred() {
             return self.path.finish();
         }
@@ -104,7 +121,7 @@ impl Reference {
             Expected::NothingBeforeOneLeaves | Expected::OneAtOnce => {}
             Expected::Anything if last_moment && waits => self.path.finish(),
             Expected::Anything if self.feeder.is_silent() => {
-                if waits && last.brakes_within(LAST_CALL) {
+                if last_call {
                     self.path.finish();
                 } else {
                     self.path.flush();
@@ -120,6 +137,12 @@ impl Reference {
     fn lacks_path_behind(&self, planned: f64) -> bool {
         let (known, end) = (self.path.final_end(), self.path.added_end());
         known - planned <= end - known + ROUNDING * (1.0 + end)
+    }
+
+    /// Whether a plan up to the path distance `planned` is soon going to wait for the path.
+    fn is_short_of_path_behind(&self, planned: f64) -> bool {
+        let (known, end) = (self.path.final_end(), self.path.added_end());
+        known - planned <= SHORT_OF_PATH * (end - known) + ROUNDING * (1.0 + end)
     }
 
     /// Whether no move would leave the queue before the machine rests, so that whoever waits for that would wait for ever.

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::shape::{Arc9, Circle, Line9, PathPoint, Shape};
 use framepath::moves::{NearLimit, TerminationCondition};
-use framepath::path::{BlendSettings, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
+use framepath::path::{BlendError, BlendSettings, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -234,6 +234,17 @@ struct Witness {
     third: Axes,
 }
 
+/// Adds a move, when the work is done that has to be done before.
+pub fn add(path: &mut BlendedPath, queued: &ProgrammedMove) {
+    for _ in 0..10_000 {
+        match path.add(queued) {
+            Err(BlendError::Full) => path.step(100),
+            added => return assert_eq!(added, Ok(()), "move {}", queued.serial),
+        };
+    }
+    panic!("move {} is not taken", queued.serial);
+}
+
 /// Adds moves one at a time with a budget each, and finishes. Checks budgets, the order of the
 /// three ends, and that what was called final stays.
 pub fn build(
@@ -246,7 +257,7 @@ pub fn build(
     let mut witnesses: Vec<Witness> = Vec::new();
     let mut seen = 0.0f64;
     for (k, queued) in moves.iter().enumerate() {
-        assert_eq!(path.add(queued), Ok(()), "move {k}");
+        add(path, queued);
         let budget = budgets[k % budgets.len()];
         let spent = path.step(budget);
         assert!(spent <= budget + GREATEST_EXCESS);

@@ -1,0 +1,137 @@
+//! A piece of a leg that waits, with the vertex at its end.
+
+use nalgebra::Vector3;
+
+use super::division;
+use crate::axes::Axes;
+use crate::moves::shape::Shape;
+use crate::moves::shape::measure::Measure;
+use crate::path::leg::Leg;
+use crate::path::settings::{Allowance, BlendSettings};
+
+/// XYZ.
+pub(super) type Point = Vector3<f64>;
+
+/// Pieces that there is room for, and those before them that the first ones depend on.
+pub(super) const ROOM: usize = 128;
+
+/// Vertices that a third divided difference spans.
+pub(super) const SPAN: usize = 4;
+
+/// What of the tolerance a vertex is moved by at most: the rest is for the kernels.
+const SHARE: f64 = 0.7;
+
+/// A path bends evenly enough with so many times the third derivative that its feed allows. Circles made of chords would
+/// shrink by as much as they may, since that makes them a little more even.
+const EVEN: f64 = 3.0;
+
+/// A line, or a part of one, and the vertex at its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub leg: Leg,
+    /// Where the program starts and ends it.
+    pub start: Point,
+    pub end: Point,
+    /// Whether another line follows it without a stop that vertices are moved on as well.
+    pub joined: bool,
+    /// How far its vertex is moved at most.
+    pub room: f64,
+    /// What a unit of that costs, however even the path is.
+    pub keep: f64,
+    /// What the vertices count from which on three pieces end with this one; zeros where they are no run.
+    pub third: [f64; SPAN],
+    /// What its vertex is moved by.
+    pub shift: Point,
+    /// What holds that within its room; negative where that is not known yet.
+    pub multiplier: f64,
+}
+
+impl Piece {
+    pub const VACANT: Self = {
+        const ORIGIN: Point = Point::new(0.0, 0.0, 0.0);
+        Self {
+            leg: Leg::VACANT,
+            start: ORIGIN,
+            end: ORIGIN,
+            joined: false,
+            room: 0.0,
+            keep: 0.0,
+            third: [0.0; SPAN],
+            shift: ORIGIN,
+            multiplier: -1.0,
+        }
+    };
+
+    pub fn new(leg: Leg) -> Self {
+        Self {
+            start: xyz(&leg.programmed_point(leg.start).position),
+            end: xyz(&leg.programmed_point(leg.end()).position),
+            leg,
+            ..Self::VACANT
+        }
+    }
+
+    /// Takes note of what follows.
+    pub fn join(&mut self, next: &Leg, settings: &BlendSettings) {
+        let (leg, follows) = (&self.leg, is_moved(next, settings));
+        self.joined = is_moved(leg, settings)
+            && follows
+            && !leg.stop_after
+            && !next.stop_before
+            && !division::is_lone(leg, next);
+        if self.joined {
+            self.room = SHARE * leg.tolerance().min(next.tolerance());
+            let even = EVEN * settings.even_third(leg.speed.max(next.speed)) / self.room;
+            self.keep = 0.5 * (leg.length + next.length) * even * even;
+        }
+    }
+}
+
+/// Whether vertices at the ends of a leg may be moved: lines in XYZ alone that have a tolerance, and may be left to either
+/// side.
+pub(super) fn is_moved(leg: &Leg, settings: &BlendSettings) -> bool {
+    // The length of what moves other axes as well is not what F counts.
+    let linear = leg.measure == Measure::Linear && (leg.measure_rate - 1.0).abs() < 1e-12;
+    matches!(leg.shape, Shape::Line(_))
+        && matches!(leg.allowance, Allowance::Tolerance(_))
+        && linear
+        && leg.may_swing_out
+        && settings.swings()
+        && !leg.near_limit.start
+        && !leg.near_limit.end
+}
+
+/// What the vertices count in the square root of what a third divided difference costs that spans pieces of these lengths.
+pub(super) fn third(lengths: [f64; SPAN - 1]) -> [f64; SPAN] {
+    let [a, b, c] = lengths;
+    let weight = 6.0 * ((a + b + c) / 3.0).sqrt();
+    [
+        -weight / (a * (a + b) * (a + b + c)),
+        weight / (a * b * (b + c)),
+        -weight / ((a + b) * b * c),
+        weight / ((a + b + c) * (b + c) * c),
+    ]
+}
+
+fn xyz(position: &Axes) -> Point {
+    Point::new(position[0], position[1], position[2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_has_its_third_derivative_everywhere() {
+        let lengths = [0.5, 2.0, 0.25];
+        let places = [1.0, 1.5, 3.5, 3.75];
+        let cubic = |s: f64| 2.0 * s * s * s - s * s + 7.0;
+        let counted: f64 = third(lengths)
+            .iter()
+            .zip(places)
+            .map(|(counts, s)| counts * cubic(s))
+            .sum();
+        let expected = 12.0 * (2.75f64 / 3.0).sqrt();
+        assert!((counted - expected).abs() < 1e-9, "{counted} {expected}");
+    }
+}
