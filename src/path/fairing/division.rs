@@ -17,7 +17,7 @@ const FIRST: f64 = 0.3;
 const GROWTH: f64 = 1.5;
 
 /// A corner stands alone if the kernel that uses up the tolerance is narrower than this share of its shorter line.
-const LONE: f64 = 0.25;
+const LONE: f64 = 0.4;
 
 /// What is not longer than so many of the pieces to come is not divided further.
 const LEAST_LEFT: f64 = 1.6;
