@@ -25,19 +25,18 @@ def zigzag(legs, width=10.0, height=20.0):
     return [(width * n, height * (n % 2), 0.0) for n in range(1, legs + 1)]
 
 
-def deviations(executed, vertices):
+def deviations(executed, vertices, tolerance):
     """Greatest distance of an executed point from the program, and of a vertex from what was executed.
 
-    Both are run through in order, so that a place that the path comes by twice is compared with the right one.
+    Both are run through in order, so that a place that the path comes by twice is compared with the right one: a leg is
+    left for another one when it is farther away than the tolerance, and not ahead to one that is nearer by chance.
     """
     away, n = 0.0, 0
     for point in executed:
-        near = min(range(n, min(n + 40, len(vertices) - 1)),
-                   key=lambda k: to_segment(point, vertices[k], vertices[k + 1]))
-        # not ahead to a leg that is as near by chance
-        here = to_segment(point, vertices[n], vertices[n + 1])
-        if to_segment(point, vertices[near], vertices[near + 1]) < here:
-            n = near
+        ahead = range(n, min(n + 40, len(vertices) - 1))
+        distances = [to_segment(point, vertices[k], vertices[k + 1]) for k in ahead]
+        within = (k for k, distance in zip(ahead, distances, strict=True) if distance <= tolerance)
+        n = next(within, n + distances.index(min(distances)))
         away = max(away, to_segment(point, vertices[n], vertices[n + 1]))
     missed = max(min(to_segment(vertex, a, b) for a, b in pairwise(executed)) for vertex in vertices)
     return away, missed
@@ -56,7 +55,7 @@ class LookAhead(Case):
         return sum(1 for before, now in pairwise(still) if now and not before)
 
     def follows(self, points, vertices, tolerance):
-        away, missed = deviations(points, vertices)
+        away, missed = deviations(points, vertices, tolerance)
         self.assertLess(away, tolerance + MICROMETRE)
         self.assertLess(missed, tolerance + MICROMETRE)
         self.assertLess(math.dist(points[-1], vertices[-1]), 1e-9)
