@@ -36,8 +36,11 @@ use crate::ring::Ring;
 /// A vertex with so many behind it is final.
 const AHEAD: u64 = 24;
 
-/// At least as many become final at a time.
+/// As many become final at a time.
 const BATCH: u64 = 4;
+
+/// Pieces that are looked at for that.
+const WINDOW: u64 = AHEAD + BATCH;
 
 /// How often the [`Solver`] is run for them.
 const ITERATIONS: u32 = 10;
@@ -61,8 +64,6 @@ pub(super) struct Fairing {
     due: u64,
     /// How often the solver is still to be run for those that are to be.
     iterations: u32,
-    /// How many waited when that began.
-    solved: u64,
     solver: Solver,
 }
 
@@ -75,7 +76,6 @@ impl Fairing {
             held: None,
             due: 0,
             iterations: 0,
-            solved: 0,
             solver: Solver::new(),
         }
     }
@@ -127,33 +127,43 @@ impl Fairing {
 
     /// What waits before the piece with the number `end` is final.
     fn close(&mut self, end: u64) {
-        if (self.first..end).any(|number| number + 1 < end && self.pieces.at(number).joined) {
-            self.solver.prepare(&self.pieces, self.first, end);
+        // As if there had been time for it before, or the shape would depend on when moves come.
+        while end.saturating_sub(self.settled()) >= WINDOW {
+            while self.step() > 0 && self.iterations > 0 {}
+        }
+        self.iterations = 0;
+        let settled = self.settled();
+        if (settled..end).any(|number| number + 1 < end && self.pieces.at(number).joined) {
+            self.solver.prepare(&self.pieces, settled, end);
             for _ in 0..ITERATIONS {
                 self.solver.iterate();
             }
             self.solver.store(&mut self.pieces);
         }
-        self.iterations = 0;
         self.due = self.due.max(end.saturating_sub(self.first));
+    }
+
+    /// Number of the first piece whose vertex may still be moved.
+    fn settled(&self) -> u64 {
+        self.first + self.due
     }
 
     /// Moves the vertices that wait a little nearer to where they should be. Answers the kernel terms that it took, 0 if there
     /// is nothing to do.
     pub fn step(&mut self) -> usize {
         if self.iterations == 0 {
-            if self.next - self.first < AHEAD + BATCH {
+            let settled = self.settled();
+            if self.next.saturating_sub(settled) < WINDOW {
                 return 0;
             }
-            self.solver.prepare(&self.pieces, self.first, self.next);
+            self.solver.prepare(&self.pieces, settled, settled + WINDOW);
             self.iterations = ITERATIONS;
-            self.solved = self.next - self.first;
         }
         let vertices = self.solver.iterate();
         self.iterations -= 1;
         if self.iterations == 0 {
             self.solver.store(&mut self.pieces);
-            self.due = self.due.max(self.solved - AHEAD);
+            self.due += BATCH;
         }
         COST * vertices
     }
@@ -175,8 +185,6 @@ impl Fairing {
         };
         self.first += 1;
         self.due -= 1;
-        // What is at hand begins with a vertex that is final now.
-        self.iterations = 0;
         Some(leg)
     }
 

@@ -40,6 +40,8 @@ pub(super) struct MoveFeeder {
     silence: f64,
     /// Seconds between two moves, in the mean.
     interval: f64,
+    /// The same on this path: its shape depends on nothing that was before.
+    own_interval: f64,
     /// How many moves are queued where no more come.
     depth: SupplyDepth,
     /// What the last move added was like.
@@ -105,6 +107,7 @@ impl MoveFeeder {
             barred: false,
             silence: 0.0,
             interval: 0.0,
+            own_interval: 0.0,
             depth: SupplyDepth::new(),
             kind: Kind {
                 rapid: false,
@@ -155,7 +158,7 @@ impl MoveFeeder {
 
     /// Whether moves come so slowly that the machine may have to wait for the next one.
     pub fn is_slow(&self) -> bool {
-        let interval = self.interval.max(self.silence);
+        let interval = self.own_interval.max(self.silence);
         self.expected() != Expected::Anything || interval >= SHORTEST_SILENCE
     }
 
@@ -209,12 +212,14 @@ impl MoveFeeder {
             self.coupling = coupling;
             if follows {
                 let gap = self.silence.min(LONGEST_SILENCE);
-                let share = if gap > self.interval {
-                    LEARNING
-                } else {
-                    FORGETTING
-                };
-                self.interval += share * (gap - self.interval);
+                for interval in [&mut self.interval, &mut self.own_interval] {
+                    let share = if gap > *interval {
+                        LEARNING
+                    } else {
+                        FORGETTING
+                    };
+                    *interval += share * (gap - *interval);
+                }
             }
             self.next += 1;
             self.silence = 0.0;
