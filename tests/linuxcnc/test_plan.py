@@ -20,8 +20,6 @@ from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, motion, program, reco
 
 INI = os.path.join(harness.SAMPLES, "configs", "framepath-sim", "framepath-sim.ini")
 PERIOD = 1e-3
-#: mm
-SAME = 1e-9
 
 
 def plan(*arguments, check=True):
