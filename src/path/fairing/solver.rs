@@ -121,32 +121,28 @@ impl Solver {
         // The vertex before three pieces is where the first of them starts.
         let vertex = |k: usize| number.wrapping_sub((SPAN - 1 - k) as u64);
         let mut fixed = ORIGIN;
-        for (k, counts) in third.iter().enumerate() {
+        // What those count that are moved.
+        let mut moved = [0.0; SPAN];
+        for (k, (moved, counts)) in moved.iter_mut().zip(third).enumerate() {
             let place = if k == 0 {
                 pieces.at(vertex(1)).start
             } else {
                 pieces.at(vertex(k)).end
             };
-            fixed += place * *counts;
-            if !self.is_moved(vertex(k)) {
-                fixed += pieces.at(vertex(k)).shift * *counts;
+            fixed += place * counts;
+            if self.is_moved(vertex(k)) {
+                *moved = counts;
+            } else {
+                fixed += pieces.at(vertex(k)).shift * counts;
             }
         }
-        for (k, counts) in third.iter().enumerate() {
-            if !self.is_moved(vertex(k)) {
-                continue;
-            }
-            let others = third.iter().enumerate().skip(k);
-            let coupled =
-                others.map(|(other, counts)| self.is_moved(vertex(other)).then_some(counts));
-            let mut products = [0.0; SPAN];
-            for (product, other) in products.iter_mut().zip(coupled) {
-                *product = counts * other.copied().unwrap_or(0.0);
-            }
-            let row = self.rows.at_mut(vertex(k));
-            row.right -= fixed * *counts;
-            for (form, product) in row.form.iter_mut().zip(products) {
-                *form += product;
+        for (k, counts) in moved.iter().enumerate() {
+            if *counts != 0.0 {
+                let row = self.rows.at_mut(vertex(k));
+                row.right -= fixed * *counts;
+                for (form, other) in row.form.iter_mut().zip(moved.iter().skip(k)) {
+                    *form += counts * other;
+                }
             }
         }
     }
