@@ -20,6 +20,8 @@ from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, motion, program, reco
 
 INI = os.path.join(harness.SAMPLES, "configs", "framepath-sim", "framepath-sim.ini")
 PERIOD = 1e-3
+#: mm
+SAME = 1e-9
 
 
 def plan(*arguments, check=True):
@@ -37,9 +39,8 @@ class AgainstLinuxCnc(unittest.TestCase):
     steady = math.inf
     #: Such up to which a program takes the time that was planned.
     prompt = PROMPT
-    #: mm, and cycles from the first motion to the last. What the path hands on when it is pressed for depends on the period in
-    #: which a move comes, and its vertices with it: 6e-5 mm in one of the programs.
-    same, same_cycles = 2e-4, 1
+    #: mm, and cycles from the first motion to the last
+    same, same_cycles = SAME, 1
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -102,13 +102,14 @@ impl Reference {
         // What is final and not planned yet will be.
         let all_planned = last.is_ready() || planned >= self.path.final_end();
         let last_call = waits && all_planned && last.brakes_within(LAST_CALL);
-        let pauses = if self.resting {
-            // A single move has nothing to wait for.
-            self.feeder.pauses(outlook.now.period)
-        } else {
-            self.feeder.is_slow()
-        };
-        if pauses && self.is_short_of_path_behind(planned) && self.path.press() {
+        // A single move has nothing to wait for.
+        let is_single = self.resting
+            && self.path.programmed_end() <= self.rest
+            && self.feeder.pauses(outlook.now.period);
+        if (is_single || self.feeder.is_slow())
+            && self.is_short_of_path_behind(planned)
+            && self.path.press()
+        {
             return;
         }
         if self.feeder.is_barred() {
