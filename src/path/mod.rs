@@ -48,6 +48,7 @@ mod hardening;
 mod jump;
 mod kernel;
 mod leg;
+mod legs_and_vertices;
 mod line_merger;
 mod lone_corner;
 mod metric;
