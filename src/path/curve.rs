@@ -93,8 +93,9 @@ fn design_width(
     found
 }
 
+/// Pieces of an arc that vertices are moved on turn as little as chords do.
 fn is_line(leg: &Leg) -> bool {
-    matches!(leg.shape, Shape::Line(_))
+    matches!(leg.shape, Shape::Line(_)) || leg.length < leg.whole
 }
 
 #[cfg(test)]

@@ -151,8 +151,8 @@ impl Vertex {
     fn find_base_easement(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
         let speed = before.speed.max(after.speed);
         let design_width = before.design_width.max(after.design_width);
-        let within =
-            EASEMENT_SHARE * self.tolerance / (self.easement_peak() * self.curvature_jump_size);
+        let left = self.tolerance - after.shift_at(self.s).norm();
+        let within = EASEMENT_SHARE * left / (self.easement_peak() * self.curvature_jump_size);
         let halves = before.half_for_corner().min(after.half_for_corner());
         let wanted = if self.at_limit {
             halves

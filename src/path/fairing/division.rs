@@ -19,6 +19,16 @@ const GROWTH: f64 = 1.5;
 /// A corner stands alone if the kernel that uses up the tolerance is narrower than this share of its shorter line.
 const LONE: f64 = 0.4;
 
+/// The same behind one that does not: where corners are now a little wider and now a little narrower than that, all are
+/// moved or none.
+const LONE_IN_RUN: f64 = 0.15;
+
+/// Two legs that turn by no more, length of the difference of unit vectors, go straight on.
+const STRAIGHT: f64 = 1e-3;
+
+/// Radians that a piece of an arc turns by at most.
+const LONGEST_ON_ARC: f64 = 0.35;
+
 /// What is not longer than so many of the pieces to come is not divided further.
 const LEAST_LEFT: f64 = 1.6;
 
@@ -30,21 +40,26 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Cuts a line so that the pieces at its ends have these lengths, which may be infinite.
-    pub fn new(length: f64, [mut left, mut right]: [f64; 2]) -> Self {
+    /// Cuts a line so that the pieces at its ends have these lengths, and none is much longer than `longest`; nowhere if both
+    /// are infinite.
+    pub fn new(length: f64, ends: [f64; 2], longest: f64) -> Self {
         let mut cuts = Self {
             places: [length; MOST_PIECES],
             count: 1,
         };
         let (mut from, mut to) = (0.0, length);
+        let [mut left, mut right] = ends;
+        if left.min(right).is_finite() {
+            (left, right) = (left.min(longest), right.min(longest));
+        }
         while cuts.count < MOST_PIECES && to - from >= LEAST_LEFT * left.min(right) {
             let place = if left <= right {
                 from += left;
-                left *= GROWTH;
+                left = (left * GROWTH).min(longest);
                 from
             } else {
                 to -= right;
-                right *= GROWTH;
+                right = (right * GROWTH).min(longest);
                 to
             };
             if let Some(free) = cuts.places.get_mut(cuts.count) {
@@ -64,28 +79,52 @@ impl Cuts {
     }
 }
 
-/// The length of the piece of a leg beside a corner that turns the direction by `turn`, length of the difference of unit
-/// vectors; infinite where that does not limit the speed.
-pub(super) fn first_piece(leg: &Leg, turn: f64, settings: &BlendSettings) -> f64 {
-    let widest = leg.tolerance() / (kernel::peak(0.0) * turn);
-    if settings.full_speed_width(turn, leg.speed) > FIRST * widest {
-        FIRST * widest
-    } else {
-        f64::INFINITY
+/// The longest piece of a leg, path distance; infinite on a line.
+pub(super) fn longest(leg: &Leg) -> f64 {
+    LONGEST_ON_ARC / leg.turning
+}
+
+/// Where two legs meet whose vertex may be moved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    /// By how much the program turns, length of the difference of unit vectors.
+    turn: f64,
+    /// The kernel that uses up the tolerance.
+    widest: f64,
+    /// The shorter leg.
+    shorter: f64,
+}
+
+impl Corner {
+    pub fn between(before: &Leg, after: &Leg) -> Self {
+        let from = before.programmed_point(before.end()).first;
+        let to = after.programmed_point(after.start).first;
+        let turn = (to - from).norm();
+        Self {
+            turn,
+            widest: before.tolerance().min(after.tolerance()) / (kernel::peak(0.0) * turn),
+            shorter: before.whole.min(after.whole),
+        }
     }
-}
 
-/// Whether two lines meet in a corner that stands alone: it has its own way to use the tolerance.
-pub(super) fn is_lone(before: &Leg, after: &Leg) -> bool {
-    let turn = turn_between(before, after);
-    let tolerance = before.tolerance().min(after.tolerance());
-    turn > 0.0 && tolerance / (kernel::peak(0.0) * turn) < LONE * before.whole.min(after.whole)
-}
+    pub fn is_straight(&self) -> bool {
+        self.turn <= STRAIGHT
+    }
 
-/// By how much the program turns between two lines, length of the difference of unit vectors.
-pub(super) fn turn_between(before: &Leg, after: &Leg) -> f64 {
-    let direction = |leg: &Leg| leg.programmed_point(leg.start).first;
-    (direction(after) - direction(before)).norm()
+    /// Whether it stands alone: it has its own way to use the tolerance.
+    pub fn is_lone(&self, in_run: bool) -> bool {
+        self.widest < if in_run { LONE_IN_RUN } else { LONE } * self.shorter
+    }
+
+    /// The length of the piece of a leg beside it; infinite where it does not limit the speed.
+    pub fn first_piece(&self, leg: &Leg, settings: &BlendSettings) -> f64 {
+        let first = FIRST * self.widest;
+        if settings.full_speed_width(self.turn, leg.speed) > first {
+            first
+        } else {
+            f64::INFINITY
+        }
+    }
 }
 
 #[cfg(test)]
@@ -93,7 +132,7 @@ mod tests {
     use super::*;
 
     fn cut(length: f64, ends: [f64; 2]) -> Vec<f64> {
-        Cuts::new(length, ends).ends().collect()
+        Cuts::new(length, ends, f64::INFINITY).ends().collect()
     }
 
     #[test]

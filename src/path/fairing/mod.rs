@@ -16,16 +16,17 @@
 //! The kernels of the path find their widths afterwards, within what is left of the tolerance. Nothing depends on how well
 //! vertices were moved: none is moved by more than a share of the tolerance, so that a kernel narrow enough always keeps it.
 //!
-//! Moved are lines in XYZ under G64 with P, in runs. What is more than two dozen lines away hardly matters, so that vertices
-//! become final soon behind the newest one. Long lines beside a corner are [divided](division), or there were nothing to be
-//! moved.
+//! Moved are lines and arcs in XYZ under G64 with P, in runs. What is more than two dozen lines away hardly matters, so that
+//! vertices become final soon behind the newest one. Long lines beside a corner, and arcs, are [divided](division), or there
+//! were nothing to be moved. What bends much anyway [counts less](weights).
 
 mod division;
 mod piece;
 mod solver;
+mod weights;
 
-use self::division::Cuts;
 pub(super) use self::division::MOST_PIECES;
+use self::division::{Corner, Cuts};
 use self::piece::{Piece, Point, ROOM, is_moved};
 use self::solver::Solver;
 use super::leg::Leg;
@@ -42,16 +43,19 @@ const BATCH: u64 = 4;
 /// Pieces that are looked at for that.
 const WINDOW: u64 = AHEAD + BATCH;
 
-/// How often the [`Solver`] is run for them.
+/// How often the [`Solver`] is run for them, half of it before weights are determined anew.
 const ITERATIONS: u32 = 10;
 
 /// While more than these wait no leg is taken: there is work to be done first.
 const MOST_WAITING: u64 = AHEAD + 3 * BATCH;
 
+/// The vertex that a path begins with has the number before the first.
+const BEFORE_FIRST: u64 = u64::MAX;
+
 /// Kernel terms that an iteration takes for a vertex.
 const COST: usize = 4;
 
-/// Lines whose vertices are being moved.
+/// Legs whose vertices are being moved.
 #[derive(Debug)]
 pub(super) struct Fairing {
     pieces: Ring<Piece, ROOM>,
@@ -60,6 +64,10 @@ pub(super) struct Fairing {
     next: u64,
     /// A leg whose next one is not known.
     held: Option<Leg>,
+    /// Where it starts, if that vertex may be moved.
+    corner: Option<Corner>,
+    /// Whether that one, or one before it with nothing but straight lines between them, is a corner.
+    in_run: bool,
     /// How many of those that wait are final.
     due: u64,
     /// How often the solver is still to be run for those that are to be.
@@ -74,6 +82,8 @@ impl Fairing {
             first: 0,
             next: 0,
             held: None,
+            corner: None,
+            in_run: false,
             due: 0,
             iterations: 0,
             solver: Solver::new(),
@@ -82,9 +92,9 @@ impl Fairing {
 
     pub fn clear(&mut self) {
         (self.first, self.next) = (0, 0);
-        // The vertex that a path begins with has the number before the first.
-        *self.pieces.at_mut(0u64.wrapping_sub(1)) = Piece::VACANT;
         self.held = None;
+        self.corner = None;
+        self.in_run = false;
         self.due = 0;
         self.iterations = 0;
     }
@@ -108,9 +118,15 @@ impl Fairing {
 
     /// Takes the leg that comes next.
     pub fn take(&mut self, leg: Leg, settings: &BlendSettings) {
-        if let Some(held) = self.held.take() {
-            self.divide(&held, Some(&leg), settings);
+        let held = self.held.take();
+        let corner = held
+            .or_else(|| self.last())
+            .and_then(|before| self.corner(&before, &leg, settings));
+        if let Some(held) = held {
+            self.divide(&held, corner, settings);
         }
+        self.corner = corner;
+        self.in_run = corner.is_some_and(|corner| self.in_run || !corner.is_straight());
         if is_moved(&leg, settings) && !leg.stop_after {
             self.held = Some(leg);
         } else {
@@ -127,6 +143,22 @@ impl Fairing {
         self.close(self.next);
     }
 
+    /// The piece before those to come.
+    fn last(&self) -> Option<Leg> {
+        let number = self.next.checked_sub(1)?;
+        Some(self.pieces.at(number).leg)
+    }
+
+    /// Where two legs meet, if the vertex in between may be moved.
+    fn corner(&self, before: &Leg, after: &Leg, settings: &BlendSettings) -> Option<Corner> {
+        let moved = is_moved(before, settings) && is_moved(after, settings);
+        if !moved || before.stop_after || after.stop_before {
+            return None;
+        }
+        let corner = Corner::between(before, after);
+        (!corner.is_lone(self.in_run)).then_some(corner)
+    }
+
     /// What waits before the piece with the number `end` is final.
     fn close(&mut self, end: u64) {
         // As if there had been time for it before, or the shape would depend on when moves come.
@@ -137,7 +169,11 @@ impl Fairing {
         let settled = self.settled();
         if (settled..end).any(|number| number + 1 < end && self.pieces.at(number).joined) {
             self.solver.prepare(&self.pieces, settled, end);
-            for _ in 0..ITERATIONS {
+            for _ in 0..ITERATIONS / 2 {
+                self.solver.iterate();
+            }
+            self.weigh(settled, end);
+            for _ in ITERATIONS / 2..ITERATIONS {
                 self.solver.iterate();
             }
             self.solver.store(&mut self.pieces);
@@ -163,6 +199,10 @@ impl Fairing {
         }
         let vertices = self.solver.iterate();
         self.iterations -= 1;
+        if self.iterations == ITERATIONS / 2 {
+            let settled = self.settled();
+            self.weigh(settled, settled + WINDOW);
+        }
         if self.iterations == 0 {
             self.solver.store(&mut self.pieces);
             self.due += BATCH;
@@ -190,37 +230,42 @@ impl Fairing {
         Some(leg)
     }
 
-    /// Divides a leg that is followed by `next`, if that is known.
-    fn divide(&mut self, leg: &Leg, next: Option<&Leg>, settings: &BlendSettings) {
-        let before = self
-            .next
-            .checked_sub(1)
-            .map(|number| self.pieces.at(number).leg);
-        let ends = [
-            before.map_or(f64::INFINITY, |before| {
-                first_piece(leg, &before, leg, settings)
-            }),
-            next.map_or(f64::INFINITY, |next| first_piece(leg, leg, next, settings)),
-        ];
-        let cuts = Cuts::new(leg.length, ends);
+    /// Determines the weights of the pieces between two numbers anew.
+    fn weigh(&mut self, first: u64, next: u64) {
+        self.solver.store(&mut self.pieces);
+        weights::weigh(&mut self.pieces, first, next);
+        self.solver.prepare(&self.pieces, first, next);
+    }
+
+    /// Divides a leg that ends with a `corner`, if that is moved.
+    fn divide(&mut self, leg: &Leg, corner: Option<Corner>, settings: &BlendSettings) {
+        let joined = self.corner.is_some();
+        let ends = [self.corner, corner]
+            .map(|corner| corner.map_or(f64::INFINITY, |corner| corner.first_piece(leg, settings)));
+        let cuts = Cuts::new(leg.length, ends, division::longest(leg));
         let mut lead = 0.0;
         for end in cuts.ends() {
-            self.push(leg.part(lead, end), settings);
+            self.push(leg.part(lead, end), joined || lead > 0.0, settings);
             lead = end;
         }
     }
 
-    fn push(&mut self, leg: Leg, settings: &BlendSettings) {
+    /// Takes a piece. `joined`: the vertex at its start may be moved.
+    fn push(&mut self, leg: Leg, joined: bool, settings: &BlendSettings) {
         let number = self.next;
+        let mut piece = Piece::new(leg);
         if let Some(before) = number.checked_sub(1) {
             let before = self.pieces.at_mut(before);
-            before.join(&leg, settings);
-            if !before.joined {
+            before.join(&leg, joined, settings);
+            if before.joined {
+                (piece.even, piece.weight) = (before.even, before.weight);
+            } else {
                 // Nothing to come changes what lies before.
                 self.close(number);
             }
+        } else {
+            *self.pieces.at_mut(BEFORE_FIRST) = Piece::before(&leg);
         }
-        let mut piece = Piece::new(leg);
         if let Some(earliest) = number.checked_sub(2) {
             let (one, two) = (self.pieces.at(earliest), self.pieces.at(earliest + 1));
             if one.joined && two.joined {
@@ -232,28 +277,16 @@ impl Fairing {
     }
 }
 
-/// How long the piece of `leg` is beside the vertex where `before` and `after` meet; infinite if vertices are not moved there.
-fn first_piece(leg: &Leg, before: &Leg, after: &Leg, settings: &BlendSettings) -> f64 {
-    let moved = is_moved(before, settings) && is_moved(after, settings);
-    if !moved || before.stop_after || after.stop_before {
-        return f64::INFINITY;
-    }
-    let turn = division::turn_between(before, after);
-    if turn > 0.0 && !division::is_lone(before, after) {
-        division::first_piece(leg, turn, settings)
-    } else {
-        f64::INFINITY
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::leg::ProgrammedMove;
     use super::super::metric::Metric;
     use super::*;
     use crate::axes::{Axes, AxisLimits};
-    use crate::moves::shape::{Line9, Shape};
+    use crate::moves::shape::{Arc9, Circle, Line9, Shape};
     use crate::moves::{NearLimit, TerminationCondition};
+
+    use core::f64::consts::PI;
 
     const TOLERANCE: f64 = 0.05;
 
@@ -263,6 +296,19 @@ mod tests {
     }
 
     fn faired_by(fairing: &mut Fairing, points: &[[f64; 2]]) -> Vec<Leg> {
+        let line = |ends: &[[f64; 2]]| {
+            let line = Line9::new(&at(ends[0]), &at(ends[1]));
+            Shape::Line(line.expect("a line"))
+        };
+        let lines: Vec<_> = points.windows(2).map(line).collect();
+        faired_shapes(fairing, &lines)
+    }
+
+    fn at(point: [f64; 2]) -> Axes {
+        Axes::from_fn(|axis, _| point.get(axis).copied().unwrap_or(0.0))
+    }
+
+    fn faired_shapes(fairing: &mut Fairing, shapes: &[Shape]) -> Vec<Leg> {
         let limits = AxisLimits {
             velocity: Axes::repeat(100.0),
             acceleration: Axes::repeat(1000.0),
@@ -271,11 +317,10 @@ mod tests {
         let settings = BlendSettings::new(1.0, 0.1, 0.02, &limits).expect("sound");
         let metric = Metric::new(settings.rotary_weight());
         let mut legs = Vec::new();
-        let at = |point: [f64; 2]| Axes::from_fn(|axis, _| point.get(axis).copied().unwrap_or(0.0));
-        for (serial, ends) in (1..).zip(points.windows(2)) {
+        for (serial, shape) in (1..).zip(shapes) {
             let programmed = ProgrammedMove {
                 serial,
-                shape: Shape::Line(Line9::new(&at(ends[0]), &at(ends[1])).expect("a line")),
+                shape: *shape,
                 feed: 100.0,
                 greatest_feed: 100.0,
                 termination: TerminationCondition::Continuous {
@@ -292,7 +337,6 @@ mod tests {
             }
             legs.extend(core::iter::from_fn(|| fairing.next()));
         }
-        assert!(fairing.waiting() > 0 && fairing.waiting_length() > 0.0);
         fairing.flush(&settings);
         legs.extend(core::iter::from_fn(|| fairing.next()));
         assert_eq!((fairing.waiting(), fairing.waiting_length()), (0, 0.0));
@@ -388,6 +432,72 @@ mod tests {
         let legs = faired(&square);
         assert_eq!(legs.len(), 4);
         assert_eq!(shifts(&legs), [0.0; 4]);
+    }
+
+    #[test]
+    fn corners_are_moved_together_with_denser_ones_before_them() {
+        // Their kernels are a quarter as wide as the lines are long.
+        let wave = |k: u32| [f64::from(k), 0.6 * f64::from(k % 2)];
+        let alone: Vec<_> = (0..20).map(wave).collect();
+        assert!(shifts(&faired(&alone)).iter().all(|shift| *shift == 0.0));
+        let mut behind = staircase(10);
+        let [x, y] = behind[behind.len() - 1];
+        behind.extend((1..20).map(wave).map(|[dx, dy]| [x + dx, y + dy]));
+        let legs = faired(&behind);
+        let of_wave = legs.iter().filter(|leg| leg.serial > 21 && leg.serial < 39);
+        assert!(of_wave.filter(|leg| leg.is_last_part).count() == 17);
+        let moved = legs
+            .iter()
+            .filter(|leg| leg.serial > 21 && leg.is_last_part);
+        let moved = moved.map(|leg| leg.shift_at(leg.end()).norm());
+        assert!(moved.take(17).all(|shift| shift > 0.1 * TOLERANCE));
+    }
+
+    /// An arc of a radius of 1 mm about a place, counter-clockwise between two angles.
+    fn arc([x, y]: [f64; 2], from: f64, to: f64) -> Shape {
+        let place = |angle: f64| at([x + angle.cos(), y + angle.sin()]);
+        let circle = Circle {
+            center: Point::new(x, y, 0.0),
+            normal: Point::new(0.0, 0.0, 1.0),
+            revolutions: 0,
+        };
+        Shape::Arc(Arc9::new(&place(from), &place(to), &circle).expect("an arc"))
+    }
+
+    #[test]
+    fn arcs_are_divided_beside_corners_and_moved() {
+        // A scalloped edge.
+        let scallops: Vec<_> = (0..12)
+            .map(|k| {
+                arc(
+                    [-2.0 * 0.4f64.sin() * f64::from(k), 0.0],
+                    PI / 2.0 - 0.4,
+                    PI / 2.0 + 0.4,
+                )
+            })
+            .collect();
+        let mut fairing = Box::new(Fairing::new());
+        let legs = faired_shapes(&mut fairing, &scallops);
+        assert!(legs.len() > 3 * scallops.len());
+        assert!(legs.iter().all(|leg| leg.turning * leg.length < 0.6));
+        let shifts = shifts(&legs);
+        assert!(shifts.iter().all(|shift| *shift <= TOLERANCE));
+        assert!(shifts.iter().filter(|shift| **shift > 0.0).count() > 2 * scallops.len());
+        for legs in legs.windows(2) {
+            let [before, after] = legs else {
+                return;
+            };
+            let gap = before.point(before.end()).position - after.point(after.start).position;
+            assert!(gap.norm() < 1e-12, "{gap}");
+        }
+    }
+
+    #[test]
+    fn a_circle_stays_as_it_is() {
+        let halves = [arc([0.0, 0.0], 0.0, PI), arc([0.0, 0.0], PI, 2.0 * PI)];
+        let mut fairing = Box::new(Fairing::new());
+        let legs = faired_shapes(&mut fairing, &halves);
+        assert_eq!(shifts(&legs), [0.0; 2]);
     }
 
     #[test]

@@ -2,9 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::division;
 use crate::axes::Axes;
-use crate::moves::shape::Shape;
 use crate::moves::shape::measure::Measure;
 use crate::path::leg::Leg;
 use crate::path::settings::{Allowance, BlendSettings};
@@ -25,12 +23,17 @@ const SHARE: f64 = 0.7;
 /// shrink by as much as they may, since that makes them a little more even.
 const EVEN: f64 = 3.0;
 
+/// Radians that an arc turns by at most, whose vertices are moved: it is divided.
+const MOST_TURN: f64 = 7.0;
+
+/// The same of a piece: three of them tell a third derivative.
+const MOST_TURN_OF_PIECE: f64 = 0.6;
+
 /// A line, or a part of one, and the vertex at its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub leg: Leg,
-    /// Where the program starts and ends it.
-    pub start: Point,
+    /// Where the program ends it.
     pub end: Point,
     /// Whether another line follows it without a stop that vertices are moved on as well.
     pub joined: bool,
@@ -40,6 +43,12 @@ pub(super) struct Piece {
     pub keep: f64,
     /// What the vertices count from which on three pieces end with this one; zeros where they are no run.
     pub third: [f64; SPAN],
+    /// The third derivative that the feed allows here.
+    pub even: f64,
+    /// Square of what its third divided difference is, see [`weights`](super::weights).
+    pub square: f64,
+    /// Square root of what the third derivative [counts](super::weights) here.
+    pub weight: f64,
     /// What its vertex is moved by.
     pub shift: Point,
     /// What holds that within its room; negative where that is not known yet.
@@ -51,12 +60,14 @@ impl Piece {
         const ORIGIN: Point = Point::new(0.0, 0.0, 0.0);
         Self {
             leg: Leg::VACANT,
-            start: ORIGIN,
             end: ORIGIN,
             joined: false,
             room: 0.0,
             keep: 0.0,
             third: [0.0; SPAN],
+            even: 1.0,
+            square: 0.0,
+            weight: 1.0,
             shift: ORIGIN,
             multiplier: -1.0,
         }
@@ -64,41 +75,54 @@ impl Piece {
 
     pub fn new(leg: Leg) -> Self {
         Self {
-            start: xyz(&leg.programmed_point(leg.start).position),
             end: xyz(&leg.programmed_point(leg.end()).position),
             leg,
             ..Self::VACANT
         }
     }
 
-    /// Takes note of what follows.
-    pub fn join(&mut self, next: &Leg, settings: &BlendSettings) {
-        let (leg, follows) = (&self.leg, is_moved(next, settings));
-        self.joined = is_moved(leg, settings)
-            && follows
-            && !leg.stop_after
-            && !next.stop_before
-            && !division::is_lone(leg, next);
+    /// None, where this leg starts.
+    pub fn before(leg: &Leg) -> Self {
+        Self {
+            end: xyz(&leg.programmed_point(leg.start).position),
+            ..Self::VACANT
+        }
+    }
+
+    /// Takes note of what follows, and whether the vertex in between may be moved.
+    pub fn join(&mut self, next: &Leg, joined: bool, settings: &BlendSettings) {
+        let leg = &self.leg;
+        self.joined = joined && is_short(leg) && is_short(next);
         if self.joined {
             self.room = SHARE * leg.tolerance().min(next.tolerance());
-            let even = EVEN * settings.even_third(leg.speed.max(next.speed)) / self.room;
+            self.even = settings.even_third(leg.speed.max(next.speed));
+            let even = EVEN * self.even / self.room;
             self.keep = 0.5 * (leg.length + next.length) * even * even;
         }
     }
 }
 
-/// Whether vertices at the ends of a leg may be moved: lines in XYZ alone that have a tolerance, and may be left to either
-/// side.
+fn is_short(piece: &Leg) -> bool {
+    piece.turning * piece.length <= MOST_TURN_OF_PIECE
+}
+
+/// Whether vertices at the ends of a leg may be moved: lines and arcs in XYZ alone that have a tolerance, and may be left to
+/// either side.
 pub(super) fn is_moved(leg: &Leg, settings: &BlendSettings) -> bool {
     // The length of what moves other axes as well is not what F counts.
     let linear = leg.measure == Measure::Linear && (leg.measure_rate - 1.0).abs() < 1e-12;
-    matches!(leg.shape, Shape::Line(_))
+    leg.turning * leg.whole <= MOST_TURN
         && matches!(leg.allowance, Allowance::Tolerance(_))
         && linear
         && leg.may_swing_out
         && settings.swings()
         && !leg.near_limit.start
         && !leg.near_limit.end
+}
+
+/// Number of a vertex, 0 to 3, that the third divided difference spans which ends with a piece.
+pub(super) fn vertex(piece: u64, k: usize) -> u64 {
+    piece.wrapping_sub((SPAN - 1 - k) as u64)
 }
 
 /// What the vertices count in the square root of what a third divided difference costs that spans pieces of these lengths.

@@ -5,7 +5,7 @@
 //! the optimum. Multipliers are kept from one time to the next, when the window has moved on by a few vertices. With all
 //! given, the sum is a quadratic form with four diagonals, the same for all three axes.
 
-use super::piece::{Piece, Point, ROOM, SPAN};
+use super::piece::{Piece, Point, ROOM, SPAN, vertex};
 use crate::ring::Ring;
 
 /// What a multiplier begins with, of what the vertex counts itself.
@@ -91,7 +91,7 @@ impl Solver {
         for number in first..self.last {
             let piece = pieces.at(number);
             *self.rows.at_mut(number) = Row {
-                form: [piece.keep, 0.0, 0.0, 0.0],
+                form: [piece.weight * piece.weight * piece.keep, 0.0, 0.0, 0.0],
                 room: piece.room,
                 ..Row::NONE
             };
@@ -114,31 +114,27 @@ impl Solver {
 
     /// Adds the third divided difference that ends with a piece.
     fn add_third(&mut self, pieces: &Ring<Piece, ROOM>, number: u64) {
-        let third = pieces.at(number).third;
-        if third == [0.0; SPAN] {
+        let piece = pieces.at(number);
+        if piece.third == [0.0; SPAN] {
             return;
         }
-        // The vertex before three pieces is where the first of them starts.
-        let vertex = |k: usize| number.wrapping_sub((SPAN - 1 - k) as u64);
+        let third = piece.third.map(|counts| piece.weight * counts);
         let mut fixed = ORIGIN;
         // What those count that are moved.
         let mut moved = [0.0; SPAN];
         for (k, (moved, counts)) in moved.iter_mut().zip(third).enumerate() {
-            let place = if k == 0 {
-                pieces.at(vertex(1)).start
-            } else {
-                pieces.at(vertex(k)).end
-            };
-            fixed += place * counts;
-            if self.is_moved(vertex(k)) {
+            let vertex = vertex(number, k);
+            let piece = pieces.at(vertex);
+            fixed += piece.end * counts;
+            if self.is_moved(vertex) {
                 *moved = counts;
             } else {
-                fixed += pieces.at(vertex(k)).shift * counts;
+                fixed += piece.shift * counts;
             }
         }
         for (k, counts) in moved.iter().enumerate() {
             if *counts != 0.0 {
-                let row = self.rows.at_mut(vertex(k));
+                let row = self.rows.at_mut(vertex(number, k));
                 row.right -= fixed * *counts;
                 for (form, other) in row.form.iter_mut().zip(moved.iter().skip(k)) {
                     *form += counts * other;
@@ -236,7 +232,6 @@ mod tests {
         let point = |k: u64| Point::new(k as f64, height * (k % 2) as f64, 0.0);
         for number in 0..40 {
             *pieces.at_mut(number) = Piece {
-                start: point(number),
                 end: point(number + 1),
                 joined: number < 39,
                 room: if number < 39 { room } else { 0.0 },

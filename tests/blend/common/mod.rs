@@ -267,7 +267,13 @@ pub fn build(
         assert!(path.final_end() >= seen, "the final end went back");
         assert!(path.final_end() <= path.known_end());
         assert!(path.known_end() <= path.programmed_end());
-        for share in [0.1, 0.5, 0.9, 1.0] {
+        // Of a first arc that waits nothing is known, but that it is there.
+        let shares: &[f64] = if path.programmed_end() > 0.0 {
+            &[0.1, 0.5, 0.9, 1.0]
+        } else {
+            &[]
+        };
+        for share in shares {
             let s = (seen + share * (path.final_end() - seen)).min(path.final_end());
             let point = path.point_before(s);
             witnesses.push(Witness {
