@@ -1,5 +1,6 @@
 //! One servo period of the reference, put together from stretches of segments.
 
+use super::bulge::Bulge;
 use super::reference_segment::{ReferenceSegment, SegmentMotion};
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::cycle::Cell;
@@ -34,6 +35,8 @@ struct StretchEnd {
     s: f64,
     /// By how much another place may be off that is the same but for rounding.
     beside: f64,
+    /// Where the leg starts that it lies on.
+    leg_start: f64,
     place: Place,
 }
 
@@ -112,26 +115,33 @@ impl CellBuilder {
             MotionDerivatives::of(ground.path, place, along).behind(ground.map)
         };
         let first = seen(&start, &self.start_place(segment, ground, start.distance));
-        let point = segment.point(ground.path, inside.distance);
-        let second = seen(&inside, &Place::of(&point, ground.map));
         let back = BESIDE * (inside.distance - start.distance);
-        let third = seen(&end, &self.end_place(segment, ground, end.distance, back));
+        let last_place = self.end_place(segment, ground, end.distance, back);
+        let last = seen(&end, &last_place);
+        // What bends is asked for where it has to be alone.
+        let by_ends = if ground.map.joints().is_some() && self.is_smooth_from(start.distance) {
+            let accelerations = [&first.acceleration, &last.acceleration];
+            Bulge::between(accelerations, [&first.jerk, &last.jerk], to - from)
+        } else {
+            None
+        };
+        let bulge = by_ends.unwrap_or_else(|| {
+            let point = segment.point(ground.path, inside.distance);
+            let second = seen(&inside, &Place::of(&point, ground.map));
+            let accelerations = [
+                &first.acceleration,
+                &second.acceleration,
+                &last.acceleration,
+            ];
+            Bulge::through(accelerations, [&first.jerk, &second.jerk, &last.jerk])
+        });
         let start_velocity = &mut self.start_velocity;
         let cell = self.cell.get_or_insert_with(|| {
             *start_velocity = first.along.velocity;
-            first.cell(segment, ground, &second)
+            first.cell(segment, ground, inside.distance)
         });
-        // A parabola through three values exceeds its ends by no more than the middle value
-        // exceeds their mean; a smooth curve over a small angle hardly differs from it.
-        let bulge = |a: &Axes, b: &Axes, c: &Axes| (b - (a + c) * 0.5).abs();
-        let acceleration = bulge(
-            &first.acceleration,
-            &second.acceleration,
-            &third.acceleration,
-        );
-        let jerk = bulge(&first.jerk, &second.jerk, &third.jerk);
-        for end in [&first, &third] {
-            widen(cell, &end.acceleration, &acceleration, &end.jerk, &jerk);
+        for end in [&first, &last] {
+            widen(cell, end, &bulge);
             // Where a rounded corner ends, the path velocity falls as the slope rises: the greatest
             // slope times the velocity before would be a feed that there never is.
             let share = if end.along.velocity < *start_velocity {
@@ -160,35 +170,38 @@ impl CellBuilder {
         distance: f64,
         back: f64,
     ) -> Place {
-        let leg = ground.path.leg(distance);
-        let is_inside =
-            leg.is_some_and(|leg| leg.start < distance - back && distance + back < leg.end);
-        if !(segment.is_run() && is_inside) {
+        let leg = ground.path.leg(distance).filter(|leg| {
+            let is_inside = leg.start < distance - back && distance + back < leg.end;
+            segment.is_run() && is_inside
+        });
+        let Some(leg) = leg else {
             return Place::of(&segment.point(ground.path, distance - back), ground.map);
-        }
+        };
         let place = Place::of(&segment.point(ground.path, distance), ground.map);
         self.end = Some(StretchEnd {
             s: distance,
             beside: back,
+            leg_start: leg.start,
             place,
         });
         place
     }
+
+    /// Whether the stretch that ended last has no place where the third derivative of the path may jump, if it began
+    /// at this distance.
+    fn is_smooth_from(&self, distance: f64) -> bool {
+        let end = self.end.as_ref();
+        end.is_some_and(|end| end.leg_start <= distance + end.beside)
+    }
 }
 
-/// Makes the bounds of a cell hold for two values, each give or take its margin.
-fn widen(
-    cell: &mut Cell,
-    acceleration: &Axes,
-    acceleration_margin: &Axes,
-    jerk: &Axes,
-    jerk_margin: &Axes,
-) {
+/// Makes the bounds of a cell hold for the motion at an end of a stretch, give or take its bulge.
+fn widen(cell: &mut Cell, end: &MotionDerivatives, bulge: &Bulge) {
     for axis in 0..AXIS_COUNT {
-        let [value, margin] = [acceleration[axis], acceleration_margin[axis]];
+        let [value, margin] = [end.acceleration[axis], bulge.acceleration[axis]];
         cell.acceleration_min[axis] = lesser(cell.acceleration_min[axis], value - margin);
         cell.acceleration_max[axis] = greater(cell.acceleration_max[axis], value + margin);
-        let [value, margin] = [jerk[axis], jerk_margin[axis]];
+        let [value, margin] = [end.jerk[axis], bulge.jerk[axis]];
         cell.jerk_min[axis] = lesser(cell.jerk_min[axis], value - margin);
         cell.jerk_max[axis] = greater(cell.jerk_max[axis], value + margin);
     }
@@ -236,12 +249,10 @@ impl MotionDerivatives {
         }
     }
 
-    /// A cell that starts here; `inside` lies in its first stretch.
-    fn cell(&self, segment: &ReferenceSegment, ground: &Ground, inside: &Self) -> Cell {
+    /// A cell that starts here; the distance `inside` lies in its first stretch.
+    fn cell(&self, segment: &ReferenceSegment, ground: &Ground, inside: f64) -> Cell {
         // In the first stretch, since at its start the move before may end.
-        let leg = ground
-            .path
-            .leg(segment.path_distance(inside.along.distance));
+        let leg = ground.path.leg(segment.path_distance(inside));
         let rate = leg.map_or(1.0, |leg| leg.measure_rate);
         let serial = match &segment.motion {
             SegmentMotion::Move(motion) => Some(motion.serial),

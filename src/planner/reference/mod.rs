@@ -9,6 +9,7 @@
 //! what it was given whether or not more moves arrive.
 
 mod backwards;
+mod bulge;
 mod cell_builder;
 mod coast;
 mod creep;
