@@ -60,9 +60,9 @@ impl JointMap {
         &self.shares
     }
 
-    /// Whether both are the same machine with the same limits, however long a jet takes.
-    pub fn is(&self, other: &Self) -> bool {
-        self.limits == other.limits && core::ptr::fn_addr_eq(self.jet, other.jet)
+    /// Whether with these limits they are the other ones, however long a jet takes.
+    pub fn is_with(&self, limits: &AxisLimits, other: &Self) -> bool {
+        *limits == other.limits && core::ptr::fn_addr_eq(self.jet, other.jet)
     }
 }
 
@@ -197,8 +197,9 @@ mod tests {
         assert_eq!(map.limits(&limits(1.0)), &limits(2.0));
         assert_eq!(joints.shares()[1][8], 0.05);
         assert_eq!(joints.shares()[2][8], 0.0);
-        assert!(joints.is(&JointMap::new(jet, &limits(2.0), 300.0)));
-        assert!(!joints.is(&joints.with_limits(&limits(3.0))));
+        assert!(joints.is_with(&limits(2.0), &JointMap::new(jet, &limits(2.0), 300.0)));
+        assert!(!joints.is_with(&limits(3.0), &joints));
+        assert!(joints.is_with(&limits(3.0), &joints.with_limits(&limits(3.0))));
         assert_eq!(MachineMap::IDENTITY.limits(&limits(1.0)), &limits(1.0));
     }
 }

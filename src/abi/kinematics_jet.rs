@@ -5,7 +5,6 @@ use libc::{c_double, c_int};
 use super::kinematics::{Kinematics, module};
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::kinematics::Behind;
-use crate::machine::JOINT_COUNT;
 
 /// Three derivatives of the joints 0 to 8 for a position and its derivatives by the same parameter: nine numbers, three times
 /// nine, and room for three times nine. 0, or -1 where the kinematics behind the frame are another module's.
@@ -39,14 +38,8 @@ pub unsafe extern "C" fn framepath_kinematics_jet(
         position = frame.to_machine(&position);
         derivatives = derivatives.map(|derivative| frame.derivative_to_machine(&derivative));
     }
-    let moved = machine.derivatives(&position, &derivatives);
-    for (out, axes) in out.iter_mut().zip(&moved) {
-        let mut joints = [0.0; JOINT_COUNT];
-        machine.coordinates().distribute(axes, &mut joints);
-        for (out, joint) in out.iter_mut().zip(joints) {
-            *out = joint;
-        }
-    }
+    let joints = machine.joint_derivatives(&position, &derivatives);
+    *out = joints.map(<[f64; AXIS_COUNT]>::from);
     0
 }
 

@@ -124,6 +124,23 @@ impl Coordinates {
         }
     }
 
+    /// Values of the joints 0 to 8 for those of the axes; 0 for what is no joint.
+    #[inline]
+    pub fn first_joints<const N: usize>(&self, axes: &[Axes; N]) -> [Axes; N] {
+        let mut joints = [Axes::zeros(); N];
+        for (joint, axis) in self.axis_of_joint.iter().take(AXIS_COUNT).enumerate() {
+            let Some(axis) = axis.map(usize::from) else {
+                break;
+            };
+            for (joints, axes) in joints.iter_mut().zip(axes) {
+                if let (Some(joint), Some(value)) = (joints.get_mut(joint), axes.get(axis)) {
+                    *joint = *value;
+                }
+            }
+        }
+        joints
+    }
+
     /// The value of each axis, from its first joint; 0 for an axis without a joint.
     #[inline]
     pub fn collect(&self, joints: &[f64; JOINT_COUNT]) -> Axes {
@@ -172,6 +189,8 @@ mod tests {
         coordinates.distribute(&axes, &mut joints);
         assert_eq!(joints[..7], [1.0, 2.0, 3.0, 5.0, 6.0, 9.0, 2.0]);
         assert_eq!(joints[7..], [-1.0; 9]);
+        let first = Axes::from([1.0, 2.0, 3.0, 5.0, 6.0, 9.0, 2.0, 0.0, 0.0]);
+        assert_eq!(coordinates.first_joints(&[axes, -axes]), [first, -first]);
         joints[6] = 77.0;
         let back = coordinates.collect(&joints);
         let expected = Axes::from([1.0, 2.0, 3.0, 0.0, 5.0, 6.0, 0.0, 0.0, 9.0]);

@@ -45,6 +45,13 @@ impl Machine {
         }
     }
 
+    /// The same of the joints 0 to 8 themselves; 0 for what is no joint.
+    #[inline]
+    pub fn joint_derivatives(&self, position: &Axes, derivatives: &[Axes; 3]) -> [Axes; 3] {
+        self.coordinates()
+            .first_joints(&self.derivatives(position, derivatives))
+    }
+
     /// Which joint is which axis.
     pub fn coordinates(&self) -> &Coordinates {
         match self {

@@ -109,8 +109,8 @@ impl MachineAxes {
 
     /// Whether axes or joints are able to do something else than when the motion began.
     pub fn limits_changed(&self) -> bool {
-        let same = match (&self.wanted_joints(), self.map.joints()) {
-            (Some(wanted), Some(joints)) => wanted.is(joints),
+        let same = match (&self.next_joints, self.map.joints()) {
+            (Some(next), Some(joints)) => next.is_with(&self.as_moves_ask(next.limits()), joints),
             (None, None) => true,
             _ => false,
         };

@@ -30,17 +30,8 @@ pub fn table(axes: &Axes) -> Axes {
     Axes::from_fn(|joint, _| joints[joint])
 }
 
-/// Joint n is the n-th of these axes.
-fn table_joints(axes: &Axes) -> Axes {
-    let mut joints = [0.0; JOINT_COUNT];
-    TABLE.coordinates().distribute(axes, &mut joints);
-    Axes::from_fn(|joint, _| joints[joint])
-}
-
-pub const EXACT_TABLE: JointJet = |position, derivatives, _| {
-    let moved = TABLE.derivatives(position, derivatives);
-    moved.map(|axes| table_joints(&axes))
-};
+pub const EXACT_TABLE: JointJet =
+    |position, derivatives, _| TABLE.joint_derivatives(position, derivatives);
 
 pub const NUMERICAL_TABLE: JointJet =
     |position, derivatives, shares| numerical_jet(table, position, derivatives, shares);

@@ -12,7 +12,7 @@ use crate::path::Position;
 use crate::wiring::blendtp::LIMITED_JOINTS;
 use crate::wiring::joints::JointSettings;
 use framepath::axes::Axes;
-use framepath::machine::{JOINT_COUNT, Machine};
+use framepath::machine::JOINT_COUNT;
 use framepath::planner::JerkLimit;
 use module::ModuleJoints;
 use serde::{Deserialize, Serialize};
@@ -299,7 +299,7 @@ impl LimitedJoints {
     ) -> [Axes; 3] {
         let position = &self.on_machine(position);
         match &self.behind {
-            Behind::Table(_, machine) => of_table(&machine.now(), position, derivatives),
+            Behind::Table(_, machine) => machine.derivatives(position, derivatives),
             Behind::Module(module) => module.derivatives(position, derivatives, shares),
         }
     }
@@ -312,18 +312,10 @@ impl LimitedJoints {
     ) -> Option<[Axes; 3]> {
         let position = &self.on_machine(position);
         match &self.behind {
-            Behind::Table(_, machine) => Some(of_table(&machine.now(), position, derivatives)),
+            Behind::Table(_, machine) => Some(machine.derivatives(position, derivatives)),
             Behind::Module(_) => None,
         }
     }
-}
-
-fn of_table(machine: &Machine, position: &Axes, derivatives: &[Axes; 3]) -> [Axes; 3] {
-    machine.derivatives(position, derivatives).map(|axes| {
-        let mut joints = [0.0; JOINT_COUNT];
-        machine.coordinates().distribute(&axes, &mut joints);
-        Axes::from_fn(|joint, _| joints[joint])
-    })
 }
 
 /// Whether the kinematics are a tilting table of framekins.

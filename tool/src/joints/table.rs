@@ -1,6 +1,7 @@
 //! The tilting tables of framekins, as the planner asks them here.
 
 use crate::wiring::joints::JointSettings;
+use framepath::axes::Axes;
 use framepath::frame::FrameError;
 use framepath::machine::{
     ConfigurationError, Machine, RotaryDirection, TableTiltingParameters, TiltAxis,
@@ -42,6 +43,12 @@ impl TableMachine {
 
     pub(super) fn now(&self) -> Machine {
         *self.0.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// See [`super::LimitedJoints::derivatives`].
+    pub(super) fn derivatives(&self, position: &Axes, derivatives: &[Axes; 3]) -> [Axes; 3] {
+        let machine = self.0.read().unwrap_or_else(PoisonError::into_inner);
+        machine.joint_derivatives(position, derivatives)
     }
 
     /// Whether it is a machine with a tool of this length.
