@@ -2,26 +2,34 @@
 //!
 //! With q the position and d1 d2 d3 its derivatives, the joints are asked for at places of
 //! q + d1 t + d2 t^2/2 + d3 t^3/6 and not of the path itself: that has the same three derivatives, and no kink beside
-//! the place. Five places are enough where the joints hardly bend between them, and that is nearly everywhere. With o_k and
-//! e_k the difference and the sum of the joints at t = +-kh, and f0 those of the place itself:
+//! the place. Four places are enough where neither the path nor the joints bend much between them, see [`STRAIGHT`]. With o_k and
+//! e_k the difference and the sum of the joints at t = +-kh:
 //!
 //! ```text
-//! f'   = (8 o1 - o2) / 12h
-//! f''  = (16 e1 - e2 - 30 f0) / 12h^2
-//! f''' = (o2 - 2 o1) / 2h^3
+//! f'   = (27 o_1/2 - o_3/2) / 24h
+//! f''  = (e_3/2 - e_1/2) / 2h^2
+//! f''' = (o_3/2 - 3 o_1/2) / h^3
 //! ```
 //!
-//! Where this f'' and (e1 - 2 f0) / h^2, the formula of two orders less, differ by more than [`SMOOTH`], two places more are
+//! Nothing in these formulas tells how good they are. Elsewhere five places are asked for, with f0 the joints of the place itself:
+//!
+//! ```text
+//! f'   = (8 o_1 - o_2) / 12h
+//! f''  = (16 e_1 - e_2 - 30 f0) / 12h^2
+//! f''' = (o_2 - 2 o_1) / 2h^3
+//! ```
+//!
+//! Where this f'' and (e_1 - 2 f0) / h^2, the formula of two orders less, differ by more than [`SMOOTH`], two places more are
 //! asked for:
 //!
 //! ```text
-//! f'   = (45 o1 - 9 o2 + o3) / 60h
-//! f''  = (270 e1 - 27 e2 + 2 e3 - 490 f0) / 180h^2
-//! f''' = (8 o2 - 13 o1 - o3) / 8h^3
+//! f'   = (45 o_1 - 9 o_2 + o_3) / 60h
+//! f''  = (270 e_1 - 27 e_2 + 2 e_3 - 490 f0) / 180h^2
+//! f''' = (8 o_2 - 13 o_1 - o_3) / 8h^3
 //! ```
 //!
 //! Too large a step leaves out what the joints do beside the place, too small a one is lost in rounding. The step
-//! begins at [`STEP`], and is halved until the last two agree with (e1 - 2 f0) / h^2 and (o2 - 2 o1) / 2h^3, the formulas of
+//! begins at [`STEP`], and is halved until the last two agree with (e_1 - 2 f0) / h^2 and (o_2 - 2 o_1) / 2h^3, the formulas of
 //! two orders less: near a singularity that takes a few times.
 
 use crate::axes::Axes;
@@ -37,6 +45,16 @@ pub const BEND: f64 = 1e-4;
 
 /// How often the step is halved at most.
 const HALVINGS: usize = 10;
+
+/// How far the places of four are from each other, in steps: with that they lie no further away than those of five.
+const SPACING: f64 = 1.2;
+
+/// By how much the position may turn in a step, the second derivative over the first one, where four places are enough, and joints
+/// more than that. The third derivative may be four times the square of it, and change the acceleration of a joint by this
+/// share of its limit. With a singular place r steps away joints turn by 1 / 2r and their third derivative is 1 / r^2 of the
+/// first one; the second one is off by 1.5 / r^2 of itself, which is 6e-5 then. A table turns by 5e-4.
+const STRAIGHT: f64 = 1.0 / 256.0;
+const STRAIGHT_TWICE: f64 = 4.0 * STRAIGHT * STRAIGHT;
 
 /// What the formulas of two orders may differ by, over the limits, at the speed that the derivatives themselves allow. The
 /// error of the better one is a small part of that.
@@ -71,10 +89,20 @@ pub fn numerical_jet(
     derivatives: &[Axes; 3],
     shares: &[Axes; 3],
 ) -> [Axes; 3] {
-    numerical_estimate(inverse, position, derivatives, shares).jet
+    let first = FirstStep::of(derivatives);
+    let places = Places {
+        inverse: &inverse,
+        position,
+        derivatives,
+        shares,
+    };
+    let of_four = first.is_straight().then(|| places.where_straight(&first));
+    of_four
+        .flatten()
+        .unwrap_or_else(|| places.surest(first.step).jet)
 }
 
-/// The same with how sure it is.
+/// The same from five places at least, with how sure it is.
 #[inline]
 pub fn numerical_estimate(
     inverse: impl Fn(&Axes) -> Axes,
@@ -82,55 +110,46 @@ pub fn numerical_estimate(
     derivatives: &[Axes; 3],
     shares: &[Axes; 3],
 ) -> Estimate {
-    let mut step = first_step(derivatives);
-    if !step.is_finite() {
-        return Estimate {
-            jet: [Axes::zeros(); 3],
-            disagreement: 0.0,
-            taken: 0.0,
-        };
-    }
-    let here = inverse(position);
     let places = Places {
         inverse: &inverse,
         position,
         derivatives,
-        here: &here,
         shares,
     };
-    let near = places.near(step);
-    if let Some(smooth) = places.where_smooth(step, &near) {
-        return smooth;
-    }
-    let mut best = places.estimate(step, &near);
-    for _ in 0..HALVINGS {
-        if best.disagreement <= AGREEMENT {
-            break;
-        }
-        step *= 0.5;
-        // In a smaller step rounding alone would be more than that.
-        let rounding = ROUNDING * here.amax() * shares[2].amax();
-        if rounding > AGREEMENT * (step * best.taken).powi(3) {
-            break;
-        }
-        let finer = places.estimate(step, &places.near(step));
-        if finer.disagreement < best.disagreement {
-            best = finer;
-        }
-    }
-    best
+    places.surest(FirstStep::of(derivatives).step)
 }
 
-/// The parameter in which the first derivative moves no axis further than [`STEP`], and no other one further than [`BEND`];
-/// infinite if they are 0.
-fn first_step(derivatives: &[Axes; 3]) -> f64 {
-    let [first, second, third] = derivatives.each_ref().map(Axes::amax);
-    let step = (STEP / first).min((2.0 * BEND / second).sqrt());
-    // The root takes longer than all of the rest.
-    if third * (step * step * step) > 6.0 * BEND {
-        cube_root(6.0 * BEND / third)
-    } else {
-        step
+/// The step that places are tried with first.
+struct FirstStep {
+    /// The parameter in which the first derivative moves no axis further than [`STEP`], and no other one further than [`BEND`];
+    /// infinite if they are 0.
+    step: f64,
+    /// What the second and the third derivative change the first one by in it, over that.
+    turn: f64,
+    twist: f64,
+}
+
+impl FirstStep {
+    fn of(derivatives: &[Axes; 3]) -> Self {
+        let [first, second, third] = derivatives.each_ref().map(Axes::amax);
+        let step = (STEP / first).min((2.0 * BEND / second).sqrt());
+        // The root takes longer than all of the rest.
+        let step = if third * (step * step * step) > 6.0 * BEND {
+            cube_root(6.0 * BEND / third)
+        } else {
+            step
+        };
+        let share = step / first;
+        Self {
+            step,
+            turn: second * share,
+            twist: third * step * share,
+        }
+    }
+
+    /// Whether the position hardly bends in it, see [`STRAIGHT`].
+    fn is_straight(&self) -> bool {
+        self.turn <= STRAIGHT && self.twist <= STRAIGHT_TWICE
     }
 }
 
@@ -142,8 +161,6 @@ struct Places<'a, F> {
     inverse: &'a F,
     position: &'a Axes,
     derivatives: &'a [Axes; 3],
-    /// The joints of the place itself.
-    here: &'a Axes,
     shares: &'a [Axes; 3],
 }
 
@@ -160,6 +177,66 @@ impl<F: Fn(&Axes) -> Axes> Places<'_, F> {
         (on - back, on + back)
     }
 
+    /// From four places, where second and third differences do not say that the joints bend more than the position does.
+    #[inline]
+    fn where_straight(&self, first: &FirstStep) -> Option<[Axes; 3]> {
+        let h = SPACING * first.step;
+        let ((o1, e1), (o3, e3)) = (self.pair(0.5 * h), self.pair(1.5 * h));
+        let (bend, twist) = (e3 - e1, o3 - o1 * 3.0);
+        let [velocity, acceleration, _] = self.shares;
+        let way = share(&o1, velocity);
+        let turn = SPACING * first.turn + STRAIGHT;
+        let path_twist = SPACING * SPACING * first.twist;
+        let bends = share(&bend, velocity) > 2.0 * turn * way
+            || share(&twist, velocity) > (path_twist + STRAIGHT_TWICE) * way;
+        // A joint that is slower than others may bend all the same, at the speed that the derivatives allow.
+        let taken = (way * way).max(0.5 * share(&bend, acceleration));
+        let most_change = path_twist * share(&o1, acceleration) + STRAIGHT * taken;
+        let changes = share(&twist, acceleration);
+        let (rate, rate_squared) = (1.0 / h, 1.0 / (h * h));
+        let is_straight = !bends && changes <= most_change && bend.sum().is_finite();
+        is_straight.then(|| {
+            [
+                (o1 * 27.0 - o3) * (rate / 24.0),
+                bend * (rate_squared / 2.0),
+                twist * (rate_squared * rate),
+            ]
+        })
+    }
+
+    /// From five places or more, in smaller and smaller steps where that is needed.
+    fn surest(&self, mut step: f64) -> Estimate {
+        if !step.is_finite() {
+            return Estimate {
+                jet: [Axes::zeros(); 3],
+                disagreement: 0.0,
+                taken: 0.0,
+            };
+        }
+        let here = (self.inverse)(self.position);
+        let near = self.near(step);
+        if let Some(smooth) = self.where_smooth(step, &here, &near) {
+            return smooth;
+        }
+        let mut best = self.estimate(step, &here, &near);
+        for _ in 0..HALVINGS {
+            if best.disagreement <= AGREEMENT {
+                break;
+            }
+            step *= 0.5;
+            // In a smaller step rounding alone would be more than that.
+            let rounding = ROUNDING * here.amax() * self.shares[2].amax();
+            if rounding > AGREEMENT * (step * best.taken).powi(3) {
+                break;
+            }
+            let finer = self.estimate(step, &here, &self.near(step));
+            if finer.disagreement < best.disagreement {
+                best = finer;
+            }
+        }
+        best
+    }
+
     /// One step and two steps away.
     #[inline]
     fn near(&self, step: f64) -> [Pair; 2] {
@@ -168,12 +245,17 @@ impl<F: Fn(&Axes) -> Axes> Places<'_, F> {
 
     /// From five places, where these are enough.
     #[inline]
-    fn where_smooth(&self, step: f64, [(o1, e1), (o2, e2)]: &[Pair; 2]) -> Option<Estimate> {
+    fn where_smooth(
+        &self,
+        step: f64,
+        here: &Axes,
+        [(o1, e1), (o2, e2)]: &[Pair; 2],
+    ) -> Option<Estimate> {
         let (rate, rate_squared) = (1.0 / step, 1.0 / (step * step));
         let by_velocity = (o1 * 8.0 - o2) * (rate / 12.0);
-        let by_acceleration = (e1 * 16.0 - e2 - self.here * 30.0) * (rate_squared / 12.0);
+        let by_acceleration = (e1 * 16.0 - e2 - here * 30.0) * (rate_squared / 12.0);
         let by_jerk = (o2 - o1 * 2.0) * (rate_squared * rate / 2.0);
-        let coarse = (e1 - self.here * 2.0) * rate_squared;
+        let coarse = (e1 - here * 2.0) * rate_squared;
         let jet = [by_velocity, by_acceleration, by_jerk];
         let estimate = Estimate::new(jet, [&coarse, &by_jerk], self.shares);
         (estimate.disagreement <= SMOOTH).then_some(estimate)
@@ -181,15 +263,15 @@ impl<F: Fn(&Axes) -> Axes> Places<'_, F> {
 
     /// From seven.
     #[inline]
-    fn estimate(&self, step: f64, [(o1, e1), (o2, e2)]: &[Pair; 2]) -> Estimate {
+    fn estimate(&self, step: f64, here: &Axes, [(o1, e1), (o2, e2)]: &[Pair; 2]) -> Estimate {
         let (o3, e3) = self.pair(3.0 * step);
         let (rate, rate_squared) = (1.0 / step, 1.0 / (step * step));
         let by_velocity = (o1 * 45.0 - o2 * 9.0 + o3) * (rate / 60.0);
         let by_acceleration =
-            (e1 * 270.0 - e2 * 27.0 + e3 * 2.0 - self.here * 490.0) * (rate_squared / 180.0);
+            (e1 * 270.0 - e2 * 27.0 + e3 * 2.0 - here * 490.0) * (rate_squared / 180.0);
         let by_jerk = (o2 * 8.0 - o1 * 13.0 - o3) * (rate_squared * rate / 8.0);
         let coarse = [
-            (e1 - self.here * 2.0) * rate_squared,
+            (e1 - here * 2.0) * rate_squared,
             (o2 - o1 * 2.0) * (rate_squared * rate / 2.0),
         ];
         let jet = [by_velocity, by_acceleration, by_jerk];
@@ -197,11 +279,16 @@ impl<F: Fn(&Axes) -> Axes> Places<'_, F> {
     }
 }
 
+/// The greatest of some values, each over its limit.
+#[inline]
+fn share(of: &Axes, by: &Axes) -> f64 {
+    of.component_mul(by).amax()
+}
+
 impl Estimate {
     /// `coarse`: the second and third derivative as the formulas of two orders less say.
     #[inline]
     fn new(jet: [Axes; 3], coarse: [&Axes; 2], shares: &[Axes; 3]) -> Self {
-        let share = |of: &Axes, by: &Axes| of.component_mul(by).amax();
         let [velocity, acceleration, jerk] = shares;
         let taken = share(&jet[0], velocity).max(share(&jet[1], acceleration).sqrt());
         let by_jerk = share(&jet[2], jerk);

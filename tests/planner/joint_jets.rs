@@ -1,11 +1,13 @@
 //! How joints move: exact and numerical derivatives say the same.
 
-use crate::joint_models::{EXACT_TABLE, NUMERICAL_ROBOT, NUMERICAL_TABLE, REACH, joints_of, robot};
+use crate::joint_models::{
+    EXACT_TABLE, NUMERICAL_ROBOT, NUMERICAL_TABLE, REACH, joints_of, robot, table,
+};
 use framepath::axes::Axes;
 use framepath::frame::{ActiveFrame, LinearAxis, Operation, OperationList, ToolLength, WorkOffset};
 use framepath::machine::{JOINT_COUNT, Machine, RotaryDirection, TableTiltingParameters};
 use framepath::machine_map::JointJet;
-use framepath::numerical_jet::numerical_jet;
+use framepath::numerical_jet::{numerical_estimate, numerical_jet};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -59,11 +61,7 @@ proptest! {
             machine.inverse(axes, &mut joints);
             Axes::from_fn(|joint, _| joints[joint])
         };
-        let exact = machine.derivatives(&position, &derivatives).map(|axes| {
-            let mut joints = [0.0; JOINT_COUNT];
-            machine.coordinates().distribute(&axes, &mut joints);
-            Axes::from_fn(|joint, _| joints[joint])
-        });
+        let exact = machine.joint_derivatives(&position, &derivatives);
         let numerical = numerical_jet(joints, &position, &derivatives, &shares);
         let differs = difference(&exact, &numerical, &shares);
         prop_assert!(differs < ALIKE, "{differs} {exact:?} {numerical:?}");
@@ -83,10 +81,7 @@ proptest! {
         let shares = *joints_of(EXACT_TABLE, 5).shares();
         let exact = EXACT_TABLE(&position, &scaled, &shares);
         let numerical = NUMERICAL_TABLE(&position, &scaled, &shares);
-        let share = |order: usize| exact[order].component_mul(&shares[order]).amax();
-        let taken = share(0).max(share(1).sqrt()).max(share(2).cbrt());
-        let at_speed: [Axes; 3] = core::array::from_fn(|order| shares[order] / taken.powi(order as i32 + 1));
-        let differs = difference(&exact, &numerical, &at_speed);
+        let differs = difference(&exact, &numerical, &at_speed(&exact, &shares));
         prop_assert!(differs < ALIKE, "{differs} {exact:?} {numerical:?}");
     }
 
@@ -134,6 +129,128 @@ fn near_a_singular_place_the_step_becomes_smaller() {
     }
 }
 
+/// The jet, and how often the joints were asked for.
+fn counted(
+    joints: impl Fn(&Axes) -> Axes,
+    position: &Axes,
+    derivatives: &[Axes; 3],
+    shares: &[Axes; 3],
+) -> ([Axes; 3], usize) {
+    let calls = std::cell::Cell::new(0);
+    let asked = |axes: &Axes| {
+        calls.set(calls.get() + 1);
+        joints(axes)
+    };
+    let jet = numerical_jet(asked, position, derivatives, shares);
+    (jet, calls.get())
+}
+
+/// What a unit of each derivative is of the limits at the speed that they allow.
+fn at_speed(jet: &[Axes; 3], shares: &[Axes; 3]) -> [Axes; 3] {
+    let share = |order: usize| jet[order].component_mul(&shares[order]).amax();
+    let taken = share(0).max(share(1).sqrt()).max(share(2).cbrt());
+    core::array::from_fn(|order| shares[order] / taken.powi(order as i32 + 1))
+}
+
+/// Along this way on a circle of this radius at least, or on a line.
+fn along(way: [f64; 9], radius: f64, bends: &[[f64; 9]; 2]) -> [Axes; 3] {
+    let way = Axes::from(way);
+    let curvature = way.amax() / radius;
+    let [second, third] = bends.map(Axes::from);
+    [
+        way,
+        second * (way.amax() * curvature),
+        third * (way.amax() * curvature * curvature),
+    ]
+}
+
+fn any_way() -> impl Strategy<Value = [Axes; 3]> {
+    let signs = || prop::array::uniform9(-1.0..1.0f64);
+    let radius = prop_oneof![Just(f64::INFINITY), 9.0..300.0f64];
+    (signs(), radius, [signs(), signs()])
+        .prop_map(|(way, radius, bends)| along(way.map(|part| part * 100.0), radius, &bends))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn four_places_say_the_same_where_nothing_bends((position, derivatives) in (any_position(), any_way())) {
+        let shares = *joints_of(EXACT_TABLE, 5).shares();
+        let (numerical, calls) = counted(table, &position, &derivatives, &shares);
+        prop_assert!(calls == 4 || calls == 9, "{calls}");
+        let exact = EXACT_TABLE(&position, &derivatives, &shares);
+        let differs = difference(&exact, &numerical, &at_speed(&exact, &shares));
+        prop_assert!(differs < ALIKE, "{differs} {exact:?} {numerical:?}");
+    }
+
+    /// Both arms nearly in line: what four places say there is what more of them say, or more are asked for.
+    #[test]
+    fn near_a_singular_place_four_places_are_not_enough(
+        (below, angle) in ((-7.0..6.0f64).prop_map(f64::exp), -3.0..3.0f64),
+        derivatives in any_way(),
+    ) {
+        let mut position = Axes::zeros();
+        (position[0], position[1]) = ((REACH - below) * angle.cos(), (REACH - below) * angle.sin());
+        let derivatives = derivatives.map(|axes| robot_axes().component_mul(&axes));
+        let shares = *joints_of(NUMERICAL_ROBOT, 4).shares();
+        let (jet, _) = counted(robot, &position, &derivatives, &shares);
+        let sure = numerical_estimate(robot, &position, &derivatives, &shares).jet;
+        let at_speed = at_speed(&sure, &shares);
+        let differs = difference(&jet, &sure, &[0, 1, 2].map(|order| at_speed[order].inf(&shares[order])));
+        let most = if below > 2.0 { ALIKE } else { 3.0 * ALIKE };
+        prop_assert!(differs < most, "{differs} {below}");
+    }
+}
+
+/// Those that move the robot.
+fn robot_axes() -> Axes {
+    Axes::from([1.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+}
+
+#[test]
+fn four_places_are_enough_along_a_circle() {
+    let shares = *joints_of(EXACT_TABLE, 5).shares();
+    for turn in 0..100 {
+        let (sine, cosine) = f64::from(turn).sin_cos();
+        // Of 20 mm, while both rotary axes turn.
+        let mut position = Axes::from([cosine, sine, 0.0, 1.0, 0.0, 2.0, 0.0, 0.0, 0.0]) * 20.0;
+        position[2] = f64::from(turn);
+        let around = Axes::from([-sine, cosine, 0.2, 0.5, 0.0, 1.0, 0.0, 0.0, 0.0]);
+        let inwards = Axes::from([-cosine, -sine, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]) / 20.0;
+        let back = Axes::from([sine, -cosine, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]) / 400.0;
+        let (_, calls) = counted(table, &position, &[around, inwards, back], &shares);
+        assert_eq!(calls, 4, "{turn}");
+    }
+}
+
+/// Beside the end of what the machine reaches the places are taken nearer.
+#[test]
+fn where_joints_end_they_are_looked_for_nearer() {
+    let ends = |axes: &Axes| {
+        if axes[0] > 1.0 {
+            Axes::repeat(f64::NAN)
+        } else {
+            axes * 2.0
+        }
+    };
+    let along = [Axes::x(), Axes::zeros(), Axes::zeros()];
+    let shares = *joints_of(EXACT_TABLE, 5).shares();
+    let [first, ..] = numerical_jet(ends, &(Axes::x() * 0.99), &along, &shares);
+    assert!((first[0] - 2.0).abs() < 1e-9, "{}", first[0]);
+}
+
+#[test]
+fn where_arms_are_nearly_in_line_more_places_are_asked_for() {
+    let shares = *joints_of(NUMERICAL_ROBOT, 4).shares();
+    for below in [100.0, 30.0, 3.0, 0.3, 0.03] {
+        let position = Axes::x() * (REACH - below);
+        let outwards = [Axes::x(), Axes::zeros(), Axes::zeros()];
+        let (_, calls) = counted(robot, &position, &outwards, &shares);
+        assert_eq!(calls > 4, below < 5.0, "{below}: {calls}");
+    }
+}
+
 #[test]
 fn where_rounding_is_in_the_way_no_smaller_step_is_tried() {
     let calls = std::cell::Cell::new(0);
@@ -143,7 +260,8 @@ fn where_rounding_is_in_the_way_no_smaller_step_is_tried() {
     };
     let shares = *joints_of(EXACT_TABLE, 5).shares();
     let along = [Axes::x(), Axes::zeros(), Axes::zeros()];
-    let [first, ..] = numerical_jet(far, &Axes::repeat(1.0 / 3.0), &along, &shares);
+    let found = numerical_estimate(far, &Axes::repeat(1.0 / 3.0), &along, &shares);
+    let [first, ..] = found.jet;
     assert!((first[0] - 1.1).abs() < 1e-6, "{}", first[0]);
     assert_eq!(calls.get(), 7);
 }

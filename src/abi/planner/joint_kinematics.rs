@@ -11,13 +11,15 @@ use super::kinematics_module::KinematicsModule;
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::machine::JOINT_COUNT;
 use crate::machine_map::JointJet;
-use crate::numerical_jet::{Estimate, numerical_estimate};
+use crate::numerical_jet::{numerical_estimate, numerical_jet};
 use crate::planner::range::{JointSolver, Joints};
 
 /// How the joints of a position move, in closed form: nine numbers of the position, three times nine derivatives of it, and
 /// room for as many of the joints 0 to 8. Not 0 where that is not known.
 pub(super) type ExactJet =
     Option<unsafe extern "C" fn(*const c_double, *const c_double, *mut c_double) -> c_int>;
+
+const _: () = assert!(size_of::<Axes>() == AXIS_COUNT * size_of::<c_double>());
 
 /// Calls of which the quickest says how long one takes.
 const CALLS_TIMED: usize = 8;
@@ -39,7 +41,7 @@ const BESIDE: f64 = 1e-4;
 /// How far such places are from the next ones: at a singular place they would tell nothing.
 const ELSEWHERE: f64 = 0.37;
 
-/// From this disagreement on nothing is known of how joints move, see [`Estimate`].
+/// From this disagreement on nothing is known of how joints move, see [`Estimate`](crate::numerical_jet::Estimate).
 const UNSURE: f64 = 0.1;
 
 /// What asking the kinematics is like.
@@ -107,7 +109,7 @@ fn exact_jet(position: &Axes, derivatives: &[Axes; 3], _: &[Axes; 3]) -> [Axes; 
 }
 
 fn jet_by_numbers(position: &Axes, derivatives: &[Axes; 3], shares: &[Axes; 3]) -> [Axes; 3] {
-    asked().by_numbers(position, derivatives, shares).jet
+    asked().by_numbers(position, derivatives, shares)
 }
 
 /// The joints that have a place among axes.
@@ -170,9 +172,8 @@ impl JointKinematics {
 
     fn in_closed_form(&self, position: &Axes, derivatives: &[Axes; 3]) -> Option<[Axes; 3]> {
         let exact = self.exact?;
-        let mut joints = [[0.0; AXIS_COUNT]; 3];
-        let derivatives = derivatives.map(<[f64; AXIS_COUNT]>::from);
-        // SAFETY: framekins's own function, with as many numbers as it reads and writes.
+        let mut joints = [Axes::zeros(); 3];
+        // SAFETY: framekins's own function, with as many numbers as it reads and writes: those of axes lie side by side.
         let result = unsafe {
             exact(
                 position.as_slice().as_ptr(),
@@ -180,21 +181,26 @@ impl JointKinematics {
                 joints.as_mut_ptr().cast(),
             )
         };
-        (result == 0).then(|| joints.map(Axes::from))
+        (result == 0).then_some(joints)
     }
 
-    /// How joints move at a position, see [`numerical_estimate`]: not a number where there are no joints.
+    /// How joints move at a position, see [`numerical_jet`]: not a number where there are no joints.
     pub fn by_numbers(
         &self,
         position: &Axes,
         derivatives: &[Axes; 3],
         shares: &[Axes; 3],
-    ) -> Estimate {
-        let joints = |position: &Axes| match self.joints(position, &self.near) {
+    ) -> [Axes; 3] {
+        let joints = |position: &Axes| self.first_joints(position);
+        numerical_jet(joints, position, derivatives, shares)
+    }
+
+    /// The joints for a position that have a place among axes, not a number if there are none.
+    fn first_joints(&self, position: &Axes) -> Axes {
+        match self.joints(position, &self.near) {
             Some(joints) => first_of(&joints),
             None => Axes::repeat(f64::NAN),
-        };
-        numerical_estimate(joints, position, derivatives, shares)
+        }
     }
 
     /// Whether joints move without end at `position` for a small way along an axis X Y Z. `shares` as of a
@@ -203,7 +209,8 @@ impl JointKinematics {
         let still = Axes::zeros();
         let along = [Axes::x(), Axes::y(), Axes::z()];
         along.iter().any(|way| {
-            let found = self.by_numbers(position, &[*way, still, still], shares);
+            let joints = |position: &Axes| self.first_joints(position);
+            let found = numerical_estimate(joints, position, &[*way, still, still], shares);
             found.disagreement > UNSURE
         })
     }

@@ -276,7 +276,7 @@ impl ModuleJoints {
                 .map(|axes| in_lengths(axes, to_machine)),
             &shares.map(|share| share.component_mul(&units)),
         );
-        found.jet.map(|joints| joints.component_mul(&units))
+        found.map(|joints| joints.component_mul(&units))
     }
 }
 
