@@ -21,6 +21,17 @@ const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]))
 /// Legs that a single move may need room for: the lines that were waiting, and itself.
 const LEGS_A_MOVE: usize = 2;
 
+/// Kernel terms that it takes to put a leg in its place.
+const PUT_IN_PLACE: usize = 64;
+
+/// The kernel terms that moving vertices took.
+struct Faired {
+    /// For what nothing to come changes any more.
+    due: usize,
+    /// For what may still wait.
+    ahead: usize,
+}
+
 /// The path through the queued moves, over path distance s.
 ///
 /// s is the arc length of the programmed path in machine units, a degree of A B C counting as much
@@ -54,7 +65,7 @@ pub struct BlendedPath {
     /// Widths are to be chosen up to the end, however little is new.
     hurry: bool,
     /// The machine comes to rest at the end of what was added.
-    pub(super) finished: bool,
+    finished: bool,
 }
 
 impl BlendedPath {
@@ -142,12 +153,11 @@ impl BlendedPath {
         self.hurry = true;
     }
 
-    /// More of the path is needed now: vertices are where they are to be, whatever comes. Lines that wait to be merged go on
-    /// waiting. Answers whether there was anything to be pressed for.
+    /// More of the path is needed now: [`step`](Self::step) puts vertices where they are to be, whatever comes. Lines that wait
+    /// to be merged go on waiting. Answers whether there is anything to be pressed for.
     pub fn press(&mut self) -> bool {
         let waited = self.fairing.waiting() > 0;
         self.fairing.flush(&self.settings);
-        self.put_in_place();
         waited
     }
 
@@ -155,24 +165,26 @@ impl BlendedPath {
     /// of the path becomes final.
     pub fn finish(&mut self) {
         self.flush();
-        self.finished = !self.chain.is_empty();
+        self.finished = !self.chain.is_empty() || self.fairing.waiting() > 0;
         self.freeze_at_rest();
     }
 
-    /// Chooses widths, for about `budget` kernel terms of 5 ns or so; at most
+    /// Moves vertices and chooses widths, for about `budget` kernel terms of 5 ns or so; at most
     /// [`GREATEST_EXCESS`](super::GREATEST_EXCESS) more. Answers what it took: less than the
     /// budget if there is nothing more to do.
     pub fn step(&mut self, budget: usize) -> usize {
-        let faired = self.fair(budget / 2);
+        let faired = self.fair(budget);
+        // What is due is little mostly, and widths do not come later for it.
+        let taken = faired.ahead + faired.due.saturating_sub(budget / 2);
         let spent = self.optimizer.step(
             &mut self.chain,
             &self.settings,
             &self.metric,
             self.hurry,
-            budget.saturating_sub(faired),
+            budget.saturating_sub(taken),
         );
         self.freeze_at_rest();
-        faired + spent
+        faired.ahead + faired.due + spent
     }
 
     /// Where the machine rests at the end nothing to come changes the path.
@@ -182,31 +194,36 @@ impl BlendedPath {
         }
     }
 
-    /// Moves vertices, for about `budget` kernel terms. Answers what it took.
-    fn fair(&mut self, budget: usize) -> usize {
-        let mut spent = 0;
-        while spent < budget {
-            let cost = self.fairing.step();
-            if cost == 0 {
+    /// Moves vertices and puts what is final of them at the end of the chain.
+    fn fair(&mut self, budget: usize) -> Faired {
+        let mut faired = Faired { due: 0, ahead: 0 };
+        while faired.due < budget {
+            if let Some(leg) = self.fairing.next() {
+                self.put_in_place(leg);
+                faired.due += PUT_IN_PLACE;
+            } else if self.fairing.is_pressed() {
+                faired.due += self.fairing.step();
+            } else if faired.ahead < budget / 2 {
+                let cost = self.fairing.step();
+                faired.ahead += cost;
+                if cost == 0 {
+                    break;
+                }
+            } else {
                 break;
             }
-            spent += cost;
-            self.put_in_place();
         }
-        spent
+        faired
     }
 
     fn push(&mut self, leg: Leg) {
         self.fairing.take(leg, &self.settings);
-        self.put_in_place();
     }
 
-    /// Puts what is to be where it is at the end of the chain.
-    fn put_in_place(&mut self) {
-        while let Some(leg) = self.fairing.next() {
-            let leg = curve::with_its_width(leg, &self.chain, &self.settings, &self.metric);
-            self.chain.push(leg, &self.settings, &self.metric);
-        }
+    /// Puts a leg that is to be where it is at the end of the chain.
+    fn put_in_place(&mut self, leg: Leg) {
+        let leg = curve::with_its_width(leg, &self.chain, &self.settings, &self.metric);
+        self.chain.push(leg, &self.settings, &self.metric);
     }
 
     fn release_waiting(&mut self) {
@@ -324,7 +341,8 @@ impl BlendedPath {
 
     /// Whether the machine comes to rest at the [programmed end](Self::programmed_end).
     pub fn rests_at_end(&self) -> bool {
-        self.finished || self.chain.last().is_some_and(|leg| leg.stop_after)
+        let finished = self.finished && self.fairing.waiting() == 0;
+        finished || self.chain.last().is_some_and(|leg| leg.stop_after)
     }
 
     /// The length of a displacement, shape (9), as path distance counts it.

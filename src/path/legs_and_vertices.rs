@@ -190,7 +190,7 @@ impl BlendedPath {
         let after = number.saturating_add(1);
         let rests = leg.stop_after
             || after < self.chain.next() && self.chain.vertex(after).stop
-            || after == self.chain.next() && self.finished;
+            || after == self.chain.next() && self.rests_at_end();
         let starts = view.start == s && self.chain.vertex(number).stop;
         (starts && rests && self.final_end() >= view.end).then_some((leg.shape, view))
     }

@@ -403,6 +403,8 @@ fn a_full_path_goes_on_once_there_is_room() {
         };
         let mut k = 0;
         while path.add(&zigzag(k)) == Ok(()) {
+            // Enough to put it in its place, and nothing for widths.
+            path.step(2);
             k += 1;
         }
         assert!(k > 2000);
@@ -460,6 +462,7 @@ fn a_line_that_waits_to_be_merged_is_counted_at_the_end() {
         assert_eq!(path.programmed_end(), 0.0);
         assert!((path.added_end() - 10.02).abs() < 1e-12);
         path.flush();
+        path.step(1000);
         assert_eq!(path.programmed_end(), path.added_end());
     });
 }

@@ -68,9 +68,14 @@ pub(super) struct Fairing {
     corner: Option<Corner>,
     /// Whether that one, or one before it with nothing but straight lines between them, is a corner.
     in_run: bool,
+    /// Number behind the last piece that [closes](Piece::closes).
+    closed: u64,
     /// How many of those that wait are final.
     due: u64,
-    /// How often the solver is still to be run for those that are to be.
+    /// How many are to become final next, behind which piece nothing is looked at for that, and how often the solver is still to be
+    /// run.
+    batch: u64,
+    end: u64,
     iterations: u32,
     solver: Solver,
 }
@@ -84,7 +89,10 @@ impl Fairing {
             held: None,
             corner: None,
             in_run: false,
+            closed: 0,
             due: 0,
+            batch: 0,
+            end: 0,
             iterations: 0,
             solver: Solver::new(),
         }
@@ -95,6 +103,7 @@ impl Fairing {
         self.held = None;
         self.corner = None;
         self.in_run = false;
+        self.closed = 0;
         self.due = 0;
         self.iterations = 0;
     }
@@ -131,7 +140,7 @@ impl Fairing {
             self.held = Some(leg);
         } else {
             self.divide(&leg, None, settings);
-            self.close(self.next);
+            self.close();
         }
     }
 
@@ -140,7 +149,7 @@ impl Fairing {
         if let Some(held) = self.held.take() {
             self.divide(&held, None, settings);
         }
-        self.close(self.next);
+        self.close();
     }
 
     /// The piece before those to come.
@@ -159,26 +168,17 @@ impl Fairing {
         (!corner.is_lone(self.in_run)).then_some(corner)
     }
 
-    /// What waits before the piece with the number `end` is final.
-    fn close(&mut self, end: u64) {
-        // As if there had been time for it before, or the shape would depend on when moves come.
-        while end.saturating_sub(self.settled()) >= WINDOW {
-            while self.step() > 0 && self.iterations > 0 {}
+    /// Nothing to come changes what waits: it is to become final, as it would have if it had come sooner.
+    fn close(&mut self) {
+        if self.first < self.next {
+            self.pieces.at_mut(self.next - 1).closes = true;
+            self.closed = self.next;
         }
-        self.iterations = 0;
-        let settled = self.settled();
-        if (settled..end).any(|number| number + 1 < end && self.pieces.at(number).joined) {
-            self.solver.prepare(&self.pieces, settled, end);
-            for _ in 0..ITERATIONS / 2 {
-                self.solver.iterate();
-            }
-            self.weigh(settled, end);
-            for _ in ITERATIONS / 2..ITERATIONS {
-                self.solver.iterate();
-            }
-            self.solver.store(&mut self.pieces);
-        }
-        self.due = self.due.max(end.saturating_sub(self.first));
+    }
+
+    /// Whether there is work that waits for nothing to come.
+    pub fn is_pressed(&self) -> bool {
+        self.due > 0 || self.closed > self.first
     }
 
     /// Number of the first piece whose vertex may still be moved.
@@ -186,26 +186,44 @@ impl Fairing {
         self.first + self.due
     }
 
+    /// Behind which piece nothing matters to the one with the number `settled`, if that is known.
+    fn end_of_run(&self, settled: u64) -> Option<u64> {
+        let mut closed = settled..self.closed;
+        let last = closed.find(|number| self.pieces.at(*number).closes)?;
+        Some(last + 1)
+    }
+
     /// Moves the vertices that wait a little nearer to where they should be. Answers the kernel terms that it took, 0 if there
     /// is nothing to do.
     pub fn step(&mut self) -> usize {
+        let settled = self.settled();
         if self.iterations == 0 {
-            let settled = self.settled();
-            if self.next.saturating_sub(settled) < WINDOW {
+            let end_of_run = self.end_of_run(settled);
+            let end = end_of_run.unwrap_or(self.next);
+            if end.saturating_sub(settled) >= WINDOW {
+                (self.batch, self.end) = (BATCH, settled + WINDOW);
+            } else if end_of_run.is_none() {
                 return 0;
+            } else if (settled..end - 1).any(|number| self.pieces.at(number).joined) {
+                (self.batch, self.end) = (end - settled, end);
+            } else {
+                self.due = end - self.first;
+                return 1;
             }
-            self.solver.prepare(&self.pieces, settled, settled + WINDOW);
+            weights::begin(&mut self.pieces, settled, self.end);
+            self.solver.prepare(&self.pieces, settled, self.end);
             self.iterations = ITERATIONS;
         }
         let vertices = self.solver.iterate();
         self.iterations -= 1;
         if self.iterations == ITERATIONS / 2 {
-            let settled = self.settled();
-            self.weigh(settled, settled + WINDOW);
+            self.solver.store(&mut self.pieces);
+            weights::weigh(&mut self.pieces, settled, self.end);
+            self.solver.prepare(&self.pieces, settled, self.end);
         }
         if self.iterations == 0 {
             self.solver.store(&mut self.pieces);
-            self.due += BATCH;
+            self.due += self.batch;
         }
         COST * vertices
     }
@@ -230,13 +248,6 @@ impl Fairing {
         Some(leg)
     }
 
-    /// Determines the weights of the pieces between two numbers anew.
-    fn weigh(&mut self, first: u64, next: u64) {
-        self.solver.store(&mut self.pieces);
-        weights::weigh(&mut self.pieces, first, next);
-        self.solver.prepare(&self.pieces, first, next);
-    }
-
     /// Divides a leg that ends with a `corner`, if that is moved.
     fn divide(&mut self, leg: &Leg, corner: Option<Corner>, settings: &BlendSettings) {
         let joined = self.corner.is_some();
@@ -253,15 +264,12 @@ impl Fairing {
     /// Takes a piece. `joined`: the vertex at its start may be moved.
     fn push(&mut self, leg: Leg, joined: bool, settings: &BlendSettings) {
         let number = self.next;
-        let mut piece = Piece::new(leg);
+        let mut piece = Piece::new(leg, settings);
         if let Some(before) = number.checked_sub(1) {
             let before = self.pieces.at_mut(before);
             before.join(&leg, joined, settings);
-            if before.joined {
-                (piece.even, piece.weight) = (before.even, before.weight);
-            } else {
-                // Nothing to come changes what lies before.
-                self.close(number);
+            if !before.joined {
+                self.close();
             }
         } else {
             *self.pieces.at_mut(BEFORE_FIRST) = Piece::before(&leg);
@@ -285,30 +293,30 @@ mod tests {
     use crate::axes::{Axes, AxisLimits};
     use crate::moves::shape::{Arc9, Circle, Line9, Shape};
     use crate::moves::{NearLimit, TerminationCondition};
-
     use core::f64::consts::PI;
 
     const TOLERANCE: f64 = 0.05;
 
     /// Lines through these points at 100 mm/s, faired while they come, one by one.
     fn faired(points: &[[f64; 2]]) -> Vec<Leg> {
-        faired_by(&mut Box::new(Fairing::new()), points)
+        faired_by(&mut Box::new(Fairing::new()), points, false)
     }
 
-    fn faired_by(fairing: &mut Fairing, points: &[[f64; 2]]) -> Vec<Leg> {
+    fn faired_by(fairing: &mut Fairing, points: &[[f64; 2]], waits: bool) -> Vec<Leg> {
         let line = |ends: &[[f64; 2]]| {
             let line = Line9::new(&at(ends[0]), &at(ends[1]));
             Shape::Line(line.expect("a line"))
         };
         let lines: Vec<_> = points.windows(2).map(line).collect();
-        faired_shapes(fairing, &lines)
+        faired_shapes(fairing, &lines, waits)
     }
 
     fn at(point: [f64; 2]) -> Axes {
         Axes::from_fn(|axis, _| point.get(axis).copied().unwrap_or(0.0))
     }
 
-    fn faired_shapes(fairing: &mut Fairing, shapes: &[Shape]) -> Vec<Leg> {
+    /// `waits`: with nothing done before there is no room for another one.
+    fn faired_shapes(fairing: &mut Fairing, shapes: &[Shape], waits: bool) -> Vec<Leg> {
         let limits = AxisLimits {
             velocity: Axes::repeat(100.0),
             acceleration: Axes::repeat(1000.0),
@@ -332,18 +340,28 @@ mod tests {
                 near_limit: NearLimit::NONE,
             };
             fairing.take(Leg::new(&programmed, &settings, &metric), &settings);
-            while fairing.step() > 0 {
-                legs.extend(core::iter::from_fn(|| fairing.next()));
+            if !waits || fairing.is_full() {
+                legs.extend(settled(fairing));
             }
-            legs.extend(core::iter::from_fn(|| fairing.next()));
         }
         fairing.flush(&settings);
-        legs.extend(core::iter::from_fn(|| fairing.next()));
+        assert!(fairing.is_pressed());
+        legs.extend(settled(fairing));
+        assert!(!fairing.is_pressed());
         assert_eq!((fairing.waiting(), fairing.waiting_length()), (0, 0.0));
         let mut start = 0.0;
         for leg in &mut legs {
             leg.start = start;
             start = leg.end();
+        }
+        legs
+    }
+
+    /// What becomes final by all the work that there is.
+    fn settled(fairing: &mut Fairing) -> Vec<Leg> {
+        let mut legs = Vec::new();
+        while fairing.step() > 0 {
+            legs.extend(core::iter::from_fn(|| fairing.next()));
         }
         legs
     }
@@ -407,13 +425,27 @@ mod tests {
         let mut fairing = Box::new(Fairing::new());
         for steps in [60, 63, 64, 65, 60] {
             fairing.clear();
-            let again = faired_by(&mut fairing, &staircase(steps));
+            let again = faired_by(&mut fairing, &staircase(steps), false);
             assert_eq!(
                 shifts(&again),
                 shifts(&faired(&staircase(steps))),
                 "{steps}"
             );
         }
+    }
+
+    #[test]
+    fn when_the_work_is_done_does_not_matter() {
+        // Runs of less than a window and of more, with lone corners between them.
+        let mut points = Vec::new();
+        for (run, steps) in (0u32..).zip([3, 40, 5, 13, 14, 15, 16, 1]) {
+            let offset = 20.0 * f64::from(run);
+            points.extend(staircase(steps).iter().map(|[x, y]| [x + offset, *y]));
+            points.push([offset + 10.0, -5.0]);
+        }
+        let mut fairing = Box::new(Fairing::new());
+        let waiting = faired_by(&mut fairing, &points, true);
+        assert_eq!(shifts(&waiting), shifts(&faired(&points)));
     }
 
     #[test]
@@ -477,7 +509,7 @@ mod tests {
             })
             .collect();
         let mut fairing = Box::new(Fairing::new());
-        let legs = faired_shapes(&mut fairing, &scallops);
+        let legs = faired_shapes(&mut fairing, &scallops, false);
         assert!(legs.len() > 3 * scallops.len());
         assert!(legs.iter().all(|leg| leg.turning * leg.length < 0.6));
         let shifts = shifts(&legs);
@@ -496,7 +528,7 @@ mod tests {
     fn a_circle_stays_as_it_is() {
         let halves = [arc([0.0, 0.0], 0.0, PI), arc([0.0, 0.0], PI, 2.0 * PI)];
         let mut fairing = Box::new(Fairing::new());
-        let legs = faired_shapes(&mut fairing, &halves);
+        let legs = faired_shapes(&mut fairing, &halves, false);
         assert_eq!(shifts(&legs), [0.0; 2]);
     }
 

@@ -35,6 +35,8 @@ pub(super) struct Piece {
     pub leg: Leg,
     /// Where the program ends it.
     pub end: Point,
+    /// Whether nothing to come changes what lies before its end.
+    pub closes: bool,
     /// Whether another line follows it without a stop that vertices are moved on as well.
     pub joined: bool,
     /// How far its vertex is moved at most.
@@ -47,7 +49,7 @@ pub(super) struct Piece {
     pub even: f64,
     /// Square of what its third divided difference is, see [`weights`](super::weights).
     pub square: f64,
-    /// Square root of what the third derivative [counts](super::weights) here.
+    /// Square root of what the third derivative [counts](super::weights) here; negative where that is not known yet.
     pub weight: f64,
     /// What its vertex is moved by.
     pub shift: Point,
@@ -61,20 +63,22 @@ impl Piece {
         Self {
             leg: Leg::VACANT,
             end: ORIGIN,
+            closes: false,
             joined: false,
             room: 0.0,
             keep: 0.0,
             third: [0.0; SPAN],
             even: 1.0,
             square: 0.0,
-            weight: 1.0,
+            weight: -1.0,
             shift: ORIGIN,
             multiplier: -1.0,
         }
     };
 
-    pub fn new(leg: Leg) -> Self {
+    pub fn new(leg: Leg, settings: &BlendSettings) -> Self {
         Self {
+            even: settings.even_third(leg.speed),
             end: xyz(&leg.programmed_point(leg.end()).position),
             leg,
             ..Self::VACANT
@@ -95,8 +99,7 @@ impl Piece {
         self.joined = joined && is_short(leg) && is_short(next);
         if self.joined {
             self.room = SHARE * leg.tolerance().min(next.tolerance());
-            self.even = settings.even_third(leg.speed.max(next.speed));
-            let even = EVEN * self.even / self.room;
+            let even = EVEN * settings.even_third(leg.speed.max(next.speed)) / self.room;
             self.keep = 0.5 * (leg.length + next.length) * even * even;
         }
     }

@@ -236,6 +236,7 @@ mod tests {
                 joined: number < 39,
                 room: if number < 39 { room } else { 0.0 },
                 keep: 1e-6,
+                weight: 1.0,
                 third: if number >= 2 {
                     third([1.0; 3])
                 } else {

@@ -10,6 +10,19 @@ use crate::ring::Ring;
 /// Over so many pieces to both sides the third derivative is averaged: kernels smooth as far.
 const BESIDE: u64 = 2;
 
+/// Gives the pieces from `first` to before `next` that have none the weight of the one before.
+pub(super) fn begin(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64) {
+    let before = pieces.at(first.wrapping_sub(1));
+    let mut known = if before.joined { before.weight } else { -1.0 };
+    for number in first..next {
+        let piece = pieces.at_mut(number);
+        if piece.weight < 0.0 {
+            piece.weight = if known < 0.0 { 1.0 } else { known };
+        }
+        known = piece.weight;
+    }
+}
+
 /// Determines the weights of the pieces from `first` to before `next` from where their vertices are.
 pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64) {
     let from = first.saturating_sub(BESIDE + 1);
