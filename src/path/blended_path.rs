@@ -311,6 +311,25 @@ impl BlendedPath {
         point
     }
 
+    /// The second and the third derivative of [that](Self::point) alone.
+    pub fn bend(&self, s: f64) -> [Axes; 2] {
+        if self.chain.is_empty() {
+            return [ORIGIN; 2];
+        }
+        let number = self.chain.locate(s);
+        let leg = self.chain.leg(number);
+        let s = s.max(leg.start).min(leg.end());
+        let [mut second, mut third] = leg.bend(s);
+        if self.chain.is_linear() {
+            let sum: LinearSum = self.chain.jumps(number, s);
+            sum.add_high_to([&mut second, &mut third]);
+        } else {
+            let sum: WholeSum = self.chain.jumps(number, s);
+            sum.add_high_to([&mut second, &mut third]);
+        }
+        [second, third]
+    }
+
     /// The places behind `from` and before `to` where the third derivative or its slope may jump, both sides of a jump of the
     /// third derivative itself, as many as there is room for; answers how many. In no order.
     pub fn breakpoints(&self, from: f64, to: f64, places: &mut [f64]) -> usize {

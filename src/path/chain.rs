@@ -2,6 +2,7 @@
 
 use core::cell::Cell;
 
+use super::contribution::Contribution;
 use super::jump::PointSum;
 use super::kernel::Side;
 use super::leg::Leg;
@@ -29,6 +30,8 @@ const HISTORY: u64 = 512 + REACHING;
 pub(super) struct Chain {
     legs: Ring<Leg, SLOTS>,
     vertices: Ring<Vertex, SLOTS>,
+    /// What the vertices add to the path.
+    contributions: Ring<Contribution, SLOTS>,
     first: u64,
     next: u64,
     /// Number of the leg that the path began with.
@@ -46,6 +49,7 @@ impl Chain {
         Self {
             legs: Ring::filled_with(Leg::VACANT),
             vertices: Ring::filled_with(Vertex::VACANT),
+            contributions: Ring::filled_with(Contribution::NONE),
             first: 0,
             next: 0,
             begin: 0,
@@ -118,6 +122,14 @@ impl Chain {
         self.vertices.at_mut(number)
     }
 
+    /// Puts the widths of a vertex under examination in force.
+    pub fn store_trial(&mut self, number: u64) {
+        let vertex = self.vertices.at_mut(number);
+        if vertex.store_trial() {
+            *self.contributions.at_mut(number) = Contribution::of(vertex);
+        }
+    }
+
     /// The newest leg.
     pub fn last(&self) -> Option<&Leg> {
         (!self.is_empty()).then(|| self.leg(self.next.wrapping_sub(1)))
@@ -152,6 +164,7 @@ impl Chain {
         self.linear &= vertex.is_linear();
         *self.leg_mut(self.next) = leg;
         *self.vertex_mut(self.next) = vertex;
+        *self.contributions.at_mut(self.next) = Contribution::of(&vertex);
         self.next = self.next.wrapping_add(1);
     }
 
@@ -267,14 +280,39 @@ impl Chain {
         let leg = self.leg(number);
         let mut sum = PointSum::ZERO;
         for k in 0..u64::from(leg.reached_from_left) {
-            let vertex = self.vertex(number.wrapping_sub(k));
-            vertex.add_to(&mut sum, s - vertex.s, Side::Right);
+            let number = number.wrapping_sub(k);
+            let near = self.contributions.at(number);
+            self.add_to(&mut sum, number, near, s - near.s, Side::Right);
         }
         for k in 1..=u64::from(leg.reached_from_right) {
-            let vertex = self.vertex(number.wrapping_add(k));
-            vertex.add_to(&mut sum, vertex.s - s, Side::Left);
+            let number = number.wrapping_add(k);
+            let near = self.contributions.at(number);
+            self.add_to(&mut sum, number, near, near.s - s, Side::Left);
         }
         sum
+    }
+
+    /// Adds what one of them contributes at a `distance` from it, 0 and above, on this `side`.
+    #[inline(always)]
+    fn add_to<const N: usize>(
+        &self,
+        sum: &mut PointSum<N>,
+        number: u64,
+        near: &Contribution,
+        distance: f64,
+        side: Side,
+    ) {
+        if distance < near.width {
+            let factors = near.kernel.factors(distance, side);
+            if N == 1 {
+                sum.add_linear(&near.linear_jump, &factors);
+            } else {
+                sum.add(&self.vertex(number).tangent_jump, &factors);
+            }
+        }
+        if near.more {
+            self.vertex(number).add_more(sum, distance, side);
+        }
     }
 
     /// Takes note that a vertex reaches `reach` to both sides on trial, or did: its legs have to be
@@ -417,7 +455,7 @@ mod tests {
                 kernel: 1.5,
                 ..Widths::NONE
             });
-            chain.vertex_mut(11).store_trial();
+            chain.store_trial(11);
             chain.settle(20, 14.0);
             let reached = |leg| {
                 let leg = chain.leg(leg);

@@ -21,6 +21,11 @@
 //! Where the direction jumps too, its kernel is the biweight one and as wide as the easement: that leads an arc beyond its
 //! own extreme place by less than this leads it back, and a corner whose arc curves to the outer side back by more.
 
+use wide::f64x2;
+
+use super::jump::Factors;
+use super::kernel::Side;
+
 /// The greatest value of |f|, rounded up.
 pub(super) const PEAK: f64 = 0.0079;
 
@@ -35,7 +40,7 @@ pub(super) const INNER_GREATEST_SECOND: f64 = 0.64;
 
 /// A function of x with three derivatives by x.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct EasementDerivatives {
+struct EasementDerivatives {
     pub value: f64,
     pub first: f64,
     pub second: f64,
@@ -55,7 +60,7 @@ pub(super) fn value(x: f64) -> f64 {
 
 /// f at `x`, 0 to 1, with its derivatives.
 #[inline]
-pub(super) fn derivatives(x: f64) -> EasementDerivatives {
+fn derivatives(x: f64) -> EasementDerivatives {
     let rest = 1.0 - x;
     let rest2 = rest * rest;
     let rest3 = rest2 * rest;
@@ -80,7 +85,7 @@ pub(super) fn inner_value(x: f64) -> f64 {
 
 /// b at `x`, 0 to 1, with its derivatives.
 #[inline]
-pub(super) fn inner_derivatives(x: f64) -> EasementDerivatives {
+fn inner_derivatives(x: f64) -> EasementDerivatives {
     let square = x * x;
     let rest = 1.0 - square;
     let rest2 = rest * rest;
@@ -89,6 +94,30 @@ pub(super) fn inner_derivatives(x: f64) -> EasementDerivatives {
         first: -8.0 * INNER * x * rest2 * rest,
         second: 8.0 * INNER * rest2 * (7.0 * square - 1.0),
         third: 48.0 * INNER * x * rest * (3.0 - 7.0 * square),
+    }
+}
+
+/// What of a jump of the curvature is to be added to the path at a `distance` from it, 0 to the `width`, on this `side`.
+// Not where it is called: few vertices have an easement.
+#[inline(never)]
+pub(super) fn factors(width: f64, distance: f64, side: Side) -> Factors {
+    let side = side.sign();
+    let f = derivatives(distance / width);
+    Factors {
+        low: f64x2::new([side * width * width * f.value, width * f.first]),
+        high: f64x2::new([side * f.second, f.third / width]),
+    }
+}
+
+/// The same of both curvatures added up, for what leads to the inner side.
+// As above.
+#[inline(never)]
+pub(super) fn inner_factors(width: f64, distance: f64, side: Side) -> Factors {
+    let side = side.sign();
+    let b = inner_derivatives(distance / width);
+    Factors {
+        low: f64x2::new([width * width * b.value, side * width * b.first]),
+        high: f64x2::new([b.second, side * b.third / width]),
     }
 }
 

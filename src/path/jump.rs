@@ -60,10 +60,10 @@ impl Jump {
 /// What of a jump is added to a point of the path and its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Factors {
-    /// To the position and the second derivative.
-    pub even: f64x2,
-    /// To the first and the third derivative.
-    pub odd: f64x2,
+    /// To the position and the first derivative.
+    pub low: f64x2,
+    /// To the second and the third derivative.
+    pub high: f64x2,
 }
 
 /// A sum of jumps, each times so many factors.
@@ -136,23 +136,22 @@ pub(super) type WholeSum = PointSum<GROUPS>;
 /// The same of one group, by axis.
 #[derive(Clone, Copy, Debug)]
 struct GroupSum {
-    even: [f64x2; GROUP_SIZE],
-    odd: [f64x2; GROUP_SIZE],
+    low: [f64x2; GROUP_SIZE],
+    high: [f64x2; GROUP_SIZE],
 }
 
 impl GroupSum {
     const ZERO: Self = Self {
-        even: [f64x2::ZERO; GROUP_SIZE],
-        odd: [f64x2::ZERO; GROUP_SIZE],
+        low: [f64x2::ZERO; GROUP_SIZE],
+        high: [f64x2::ZERO; GROUP_SIZE],
     };
 
     #[inline(always)]
-    fn add(&mut self, group: &[f64; GROUP_SIZE], factors: &Factors) {
-        let sums = self.even.iter_mut().zip(&mut self.odd);
-        for ((even, odd), axis) in sums.zip(group) {
-            let axis = f64x2::splat(*axis);
-            *even += axis * factors.even;
-            *odd += axis * factors.odd;
+    fn add(&mut self, group: &[f64x2; GROUP_SIZE], factors: &Factors) {
+        let sums = self.low.iter_mut().zip(&mut self.high);
+        for ((low, high), axis) in sums.zip(group) {
+            *low += *axis * factors.low;
+            *high += *axis * factors.high;
         }
     }
 }
@@ -168,7 +167,31 @@ impl<const N: usize> PointSum<N> {
         let groups = self.groups.iter_mut().zip(&jump.groups);
         for ((sum, group), present) in groups.zip(jump.present) {
             if N == 1 || present {
-                sum.add(group, factors);
+                sum.add(&group.map(f64x2::splat), factors);
+            }
+        }
+    }
+
+    /// The same of a jump of X, Y and Z alone, each twice.
+    #[inline(always)]
+    pub fn add_linear(&mut self, jump: &[f64x2; GROUP_SIZE], factors: &Factors) {
+        let [linear, ..] = self.groups.as_mut_slice() else {
+            return;
+        };
+        linear.add(jump, factors);
+    }
+
+    /// Adds to the second and the third derivative of the path.
+    #[inline]
+    pub fn add_high_to(&self, [second, third]: [&mut Axes; 2]) {
+        let [second] = &mut second.data.0;
+        let [third] = &mut third.data.0;
+        for (number, sum) in self.groups.iter().enumerate() {
+            for of_group in 0..GROUP_SIZE {
+                let axis = GROUP_SIZE * number + of_group;
+                let [bend, twist] = sum.high[of_group].to_array();
+                second[axis] += bend;
+                third[axis] += twist;
             }
         }
     }
@@ -179,19 +202,15 @@ impl<const N: usize> PointSum<N> {
         // Arrays, since iterators of the linear algebra step by a stride.
         let [position] = &mut point.position.data.0;
         let [first] = &mut point.first.data.0;
-        let [second] = &mut point.second.data.0;
-        let [third] = &mut point.third.data.0;
         for (number, sum) in self.groups.iter().enumerate() {
             for of_group in 0..GROUP_SIZE {
                 let axis = GROUP_SIZE * number + of_group;
-                let [place, bend] = sum.even[of_group].to_array();
-                let [slope, twist] = sum.odd[of_group].to_array();
+                let [place, slope] = sum.low[of_group].to_array();
                 position[axis] += place;
                 first[axis] += slope;
-                second[axis] += bend;
-                third[axis] += twist;
             }
         }
+        self.add_high_to([&mut point.second, &mut point.third]);
     }
 }
 
@@ -218,13 +237,13 @@ mod tests {
             assert_eq!(one.axes(), axes * 1.5);
             let mut sum = WholeSum::ZERO;
             let factors = Factors {
-                even: f64x2::new([1.0, 3.0]),
-                odd: f64x2::new([2.0, 4.0]),
+                low: f64x2::new([1.0, 2.0]),
+                high: f64x2::new([3.0, 4.0]),
             };
             sum.add(&jump, &factors);
             let once = Factors {
-                even: f64x2::splat(1.0),
-                odd: f64x2::splat(1.0),
+                low: f64x2::splat(1.0),
+                high: f64x2::splat(1.0),
             };
             sum.add(&Jump::new(&all), &once);
             let mut point = PathPoint {

@@ -142,31 +142,29 @@ impl Side {
     }
 }
 
-/// phi of a width and a mix, prepared to be evaluated with its derivatives.
+/// phi of a width and a mix from 0 up, prepared to be evaluated with its derivatives.
 ///
 /// Without their term `-x / 2` phi2 and phi4 are polynomials of `y = x^2`, and so are their
 /// derivatives, the odd ones times x.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kernel {
     inverse_width: f64,
-    mix: f64,
-    /// How many times the kernel is taken.
-    times: f64,
-    /// Coefficients of y^0 to y^4 for the value and the second derivative by distance. Side by
+    /// Coefficients of y^0 to y^4 for the value and the first derivative by distance. Side by
     /// side, since processors calculate in pairs.
-    even: [[f64; 2]; POWERS],
-    /// Of y^0 to y^3 for the first and the third.
-    odd: [[f64; 2]; POWERS - 1],
+    low: [f64x2; POWERS],
+    /// Of y^0 to y^3 for the second and the third.
+    high: [f64x2; POWERS - 1],
+    /// What is left of the value for a unit of distance, and of the first derivative.
+    corner: f64x2,
 }
 
 impl Kernel {
     /// One that is nowhere.
     pub const NONE: Self = Self {
         inverse_width: 0.0,
-        mix: 0.0,
-        times: 0.0,
-        even: [[0.0; 2]; POWERS],
-        odd: [[0.0; 2]; POWERS - 1],
+        low: [f64x2::ZERO; POWERS],
+        high: [f64x2::ZERO; POWERS - 1],
+        corner: f64x2::ZERO,
     };
 
     /// `width`: positive, or 0 for [`Self::NONE`]. `times`: what phi is multiplied by.
@@ -184,21 +182,22 @@ impl Kernel {
         let square = inverse * inverse;
         Self {
             inverse_width: inverse,
-            mix,
-            times,
-            even: [
-                [c0 * width, 2.0 * c1 * inverse],
-                [c1 * width, 12.0 * c2 * inverse],
-                [c2 * width, 30.0 * c3 * inverse],
-                [c3 * width, 56.0 * c4 * inverse],
+            low: [
+                [c0 * width, 2.0 * c1],
+                [c1 * width, 4.0 * c2],
+                [c2 * width, 6.0 * c3],
+                [c3 * width, 8.0 * c4],
                 [c4 * width, 0.0],
-            ],
-            odd: [
-                [2.0 * c1, 24.0 * c2 * square],
-                [4.0 * c2, 120.0 * c3 * square],
-                [6.0 * c3, 336.0 * c4 * square],
-                [8.0 * c4, 0.0],
-            ],
+            ]
+            .map(f64x2::new),
+            high: [
+                [2.0 * c1 * inverse, 24.0 * c2 * square],
+                [12.0 * c2 * inverse, 120.0 * c3 * square],
+                [30.0 * c3 * inverse, 336.0 * c4 * square],
+                [56.0 * c4 * inverse, 0.0],
+            ]
+            .map(f64x2::new),
+            corner: f64x2::splat(-0.5 * times),
         }
     }
 
@@ -206,25 +205,35 @@ impl Kernel {
     /// this `side`.
     #[inline(always)]
     pub fn factors(&self, distance: f64, side: Side) -> Factors {
-        if self.mix < 0.0 {
-            return self.flat_factors(side.sign() * distance);
-        }
         let x = side.sign() * distance * self.inverse_width;
         let y = f64x2::splat(x * x);
-        let even = polynomial(&self.even, y);
-        let odd = polynomial(&self.odd, y);
-        let corner = f64x2::new([-0.5 * self.times * distance, 0.0]);
-        let slope = f64x2::new([-0.5 * self.times * side.sign(), 0.0]);
+        let odd = f64x2::new([1.0, x]);
         Factors {
-            even: even + corner,
-            odd: odd * f64x2::splat(x) + slope,
+            low: polynomial(&self.low, y) * odd + self.corner * f64x2::new([distance, side.sign()]),
+            high: polynomial(&self.high, y) * odd,
         }
     }
+}
 
-    /// The same at a signed distance with a share of K8; -0 is to the left. Corners with such a kernel stand alone.
+/// phi of a width and a mix with a share of K8. Corners with such a kernel stand alone.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FlatKernel {
+    width: f64,
+    mix: f64,
+    /// How many times the kernel is taken.
+    times: f64,
+}
+
+impl FlatKernel {
+    /// `width`: positive. `mix`: below 0. `times`: what phi is multiplied by.
+    pub fn new(width: f64, mix: f64, times: f64) -> Self {
+        Self { width, mix, times }
+    }
+
+    /// As [`Kernel::factors`], at a signed distance; -0 is to the left.
     #[inline(never)]
-    fn flat_factors(&self, distance: f64) -> Factors {
-        let inverse = self.inverse_width;
+    pub fn factors(&self, distance: f64) -> Factors {
+        let inverse = 1.0 / self.width;
         let x = distance.abs() * inverse;
         let y = x * x;
         let rest = 1.0 - y;
@@ -239,22 +248,21 @@ impl Kernel {
         let second = mixed(0.9375 * rest * rest, FLAT * flat_rest * flat_rest);
         let third = mixed(-3.75 * x * rest, -16.0 * FLAT * y * y * y * x * flat_rest);
         Factors {
-            even: f64x2::new([value(x, self.mix) / inverse, second * inverse]) * self.times,
-            odd: f64x2::new([side * first, side * third * inverse * inverse]) * self.times,
+            low: f64x2::new([value(x, self.mix) / inverse, side * first]) * self.times,
+            high: f64x2::new([second * inverse, side * third * inverse * inverse]) * self.times,
         }
     }
 }
 
 /// Two polynomials of y, by the coefficients of its powers.
 #[inline(always)]
-fn polynomial<const N: usize>(powers: &[[f64; 2]; N], y: f64x2) -> f64x2 {
+fn polynomial<const N: usize>(powers: &[f64x2; N], y: f64x2) -> f64x2 {
     let mut sum = f64x2::ZERO;
     for (from_highest, coefficients) in powers.iter().rev().enumerate() {
-        let coefficients = f64x2::new(*coefficients);
         sum = if from_highest == 0 {
-            coefficients
+            *coefficients
         } else {
-            sum * y + coefficients
+            sum * y + *coefficients
         };
     }
     sum
@@ -297,9 +305,18 @@ mod tests {
         third: f64,
     }
 
+    /// Of either kind.
+    fn factors(width: f64, mix: f64, distance: f64, side: Side) -> Factors {
+        if mix < 0.0 {
+            FlatKernel::new(width, mix, 1.0).factors(side.sign() * distance)
+        } else {
+            Kernel::new(width, mix, 1.0).factors(distance, side)
+        }
+    }
+
     fn derivatives(x: f64, mix: f64) -> KernelDerivatives {
-        let Factors { even, odd } = Kernel::new(1.0, mix, 1.0).factors(x, Side::Right);
-        let ([value, second], [first, third]) = (even.to_array(), odd.to_array());
+        let Factors { low, high } = factors(1.0, mix, x, Side::Right);
+        let ([value, first], [second, third]) = (low.to_array(), high.to_array());
         KernelDerivatives {
             value,
             first,
@@ -396,23 +413,22 @@ mod tests {
     fn width_and_side_scale_the_derivatives() {
         let width = 0.25;
         for mix in MIXES {
-            let kernel = Kernel::new(width, mix, 1.0);
             for k in 0..100 {
                 let x = 0.01 * f64::from(k);
                 let unit = derivatives(x, mix);
                 assert!((unit.value - value(x, mix)).abs() < 1e-15);
                 let even = [unit.value * width, unit.second / width];
                 let odd = [unit.first, unit.third / (width * width)];
-                let right = kernel.factors(x * width, Side::Right);
-                let left = kernel.factors(x * width, Side::Left);
-                let [right, left] =
-                    [right, left].map(|side| [side.even, side.odd].map(f64x2::to_array));
+                let [right, left] = [Side::Right, Side::Left].map(|side| {
+                    let Factors { low, high } = factors(width, mix, x * width, side);
+                    [low, high].map(f64x2::to_array)
+                });
                 for i in 0..2 {
                     for (is, expected) in [
-                        (right[0][i], even[i]),
-                        (left[0][i], even[i]),
-                        (right[1][i], odd[i]),
-                        (left[1][i], -odd[i]),
+                        (right[i][0], even[i]),
+                        (left[i][0], even[i]),
+                        (right[i][1], odd[i]),
+                        (left[i][1], -odd[i]),
                     ] {
                         assert!((is - expected).abs() < 1e-12, "{mix} {x}: {is} {expected}");
                     }

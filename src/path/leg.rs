@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::metric::Metric;
 use super::settings::{Allowance, BlendSettings};
 use super::shift::Shift;
+use crate::axes::Axes;
 use crate::moves::shape::measure::{self, Measure};
 use crate::moves::shape::{PathPoint, Shape};
 use crate::moves::{NearLimit, TerminationCondition};
@@ -267,6 +268,18 @@ impl Leg {
         let mut point = self.programmed_point(s);
         self.shift.move_point(&mut point, self.distance(s));
         point
+    }
+
+    /// The second and the third derivative of [that](Self::point) alone.
+    #[inline]
+    pub fn bend(&self, s: f64) -> [Axes; 2] {
+        match &self.shape {
+            Shape::Line(_) => [PathPoint::ZERO.second, PathPoint::ZERO.third],
+            Shape::Arc(_) => {
+                let PathPoint { second, third, .. } = self.programmed_point(s);
+                [second, third]
+            }
+        }
     }
 
     /// The programmed path at path distance `s`, held within the leg, with derivatives by path

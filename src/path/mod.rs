@@ -29,7 +29,8 @@
 //!   remaining turn of the direction by less than half of that.
 //!
 //! The order of the parts: a move becomes a `leg`, short lines after the `line_merger` has joined
-//! them; `fairing` moves runs of lines a little off the program, a `shift`; legs meet in a `vertex` and lie in a `chain`; the `optimizer` gives the vertices of a
+//! them; `fairing` moves runs of lines a little off the program, a `shift`; legs meet in a `vertex` and lie in a `chain`, with
+//! the `contribution` of each vertex to the path; the `optimizer` gives the vertices of a
 //! `window` their `widths`, beginning with the `base_width`, on a `curve` for what it allows, and a
 //! `lone_corner` swings out; the
 //! `deviation` is checked, what is to `blame` is narrowed, and `hardening` stands behind it all.
@@ -39,6 +40,7 @@ mod base_width;
 mod blame;
 mod blended_path;
 mod chain;
+mod contribution;
 mod curve;
 mod deviation;
 mod easement;

@@ -1,10 +1,8 @@
 //! A vertex of the programmed path: where two legs meet.
 
-use wide::f64x2;
-
 use super::easement;
-use super::jump::{Factors, Jump, JumpSum, PointSum};
-use super::kernel::{Kernel, Side};
+use super::jump::{Jump, JumpSum, PointSum};
+use super::kernel::{FlatKernel, Kernel, Side};
 use super::leg::Leg;
 use super::lone_corner::LoneCorner;
 use super::metric::Metric;
@@ -92,9 +90,7 @@ pub(super) struct Vertex {
     stored: Widths,
     /// The factor that belongs to the stored widths.
     stored_factor: f64,
-    /// What belongs to the stored widths.
-    kernel: Kernel,
-    /// What of it is taken off.
+    /// What of the kernel in force is taken off.
     outer: Kernel,
     /// What its widths are to be narrowed to, since it is to blame for a place that violates the tolerance; 1 if it is not.
     pub narrowing: f64,
@@ -136,7 +132,6 @@ impl Vertex {
         trial: Widths::NONE,
         counted: Widths::NONE,
         stored: Widths::NONE,
-        kernel: Kernel::NONE,
         outer: Kernel::NONE,
         stored_factor: 1.0,
         narrowing: 1.0,
@@ -361,21 +356,44 @@ impl Vertex {
         bound
     }
 
-    /// Puts the widths under examination in force.
-    pub fn store_trial(&mut self) {
-        if self.trial != self.stored {
-            self.stored = self.trial;
-            let Widths {
-                kernel,
-                mix,
-                outer,
-                outer_share,
-                ..
-            } = self.stored;
-            self.kernel = Kernel::new(kernel, mix, 1.0 + outer_share);
-            self.outer = Kernel::new(outer, 0.0, -outer_share);
-        }
+    /// Puts the widths under examination in force. Answers whether these are others than before.
+    pub fn store_trial(&mut self) -> bool {
         self.stored_factor = self.factor;
+        if self.trial == self.stored {
+            return false;
+        }
+        self.stored = self.trial;
+        let Widths {
+            outer, outer_share, ..
+        } = self.stored;
+        self.outer = Kernel::new(outer, 0.0, -outer_share);
+        true
+    }
+
+    /// The kernel in force and its width, unless it has a share of K8: then one that is nowhere.
+    pub fn stored_kernel(&self) -> (Kernel, f64) {
+        let Widths {
+            kernel,
+            mix,
+            outer_share,
+            ..
+        } = self.stored;
+        if mix < 0.0 {
+            (Kernel::NONE, 0.0)
+        } else {
+            (Kernel::new(kernel, mix, 1.0 + outer_share), kernel)
+        }
+    }
+
+    /// Whether it adds more to the path than that.
+    pub fn has_more(&self) -> bool {
+        let Widths {
+            mix,
+            outer,
+            easement,
+            ..
+        } = self.stored;
+        mix < 0.0 || outer > 0.0 || easement > 0.0
     }
 
     /// Widths in force.
@@ -426,45 +444,33 @@ impl Vertex {
         }
     }
 
-    /// Adds what it contributes in force to a point of the path at a `distance` from it, 0 and above, on this
-    /// `side`.
+    /// Adds what it contributes in force besides its [kernel](Self::stored_kernel) to a point of the path at a `distance` from it,
+    /// 0 and above, on this `side`.
     #[inline(always)]
-    pub fn add_to<const N: usize>(&self, sum: &mut PointSum<N>, distance: f64, side: Side) {
-        if distance < self.stored.kernel {
-            sum.add(&self.tangent_jump, &self.kernel.factors(distance, side));
+    pub fn add_more<const N: usize>(&self, sum: &mut PointSum<N>, distance: f64, side: Side) {
+        let Widths {
+            kernel,
+            mix,
+            outer_share,
+            ..
+        } = self.stored;
+        if mix < 0.0 && distance < kernel {
+            let flat = FlatKernel::new(kernel, mix, 1.0 + outer_share);
+            let factors = flat.factors(side.sign() * distance);
+            sum.add(&self.tangent_jump, &factors);
         }
         if distance < self.stored.outer {
             sum.add(&self.tangent_jump, &self.outer.factors(distance, side));
         }
         if distance < self.stored.easement {
-            sum.add(&self.curvature_jump, &self.easement_factors(distance, side));
+            let width = self.stored.easement;
+            sum.add(
+                &self.curvature_jump,
+                &easement::factors(width, distance, side),
+            );
             if self.at_limit {
-                sum.add(&self.inner, &self.inner_factors(distance, side));
+                sum.add(&self.inner, &easement::inner_factors(width, distance, side));
             }
-        }
-    }
-
-    // Not where it is called: few vertices have an easement.
-    #[inline(never)]
-    fn easement_factors(&self, distance: f64, side: Side) -> Factors {
-        let width = self.stored.easement;
-        let side = side.sign();
-        let f = easement::derivatives(distance / width);
-        Factors {
-            even: f64x2::new([side * width * width * f.value, side * f.second]),
-            odd: f64x2::new([width * f.first, f.third / width]),
-        }
-    }
-
-    // As above.
-    #[inline(never)]
-    fn inner_factors(&self, distance: f64, side: Side) -> Factors {
-        let width = self.stored.easement;
-        let side = side.sign();
-        let b = easement::inner_derivatives(distance / width);
-        Factors {
-            even: f64x2::new([width * width * b.value, b.second]),
-            odd: f64x2::new([side * width * b.first, side * b.third / width]),
         }
     }
 

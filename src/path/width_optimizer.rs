@@ -421,7 +421,7 @@ impl WidthOptimizer {
     /// Puts the trial assignment in force.
     fn accept(&mut self, chain: &mut Chain, settings: &BlendSettings) -> usize {
         for number in self.window.open..self.window.next {
-            chain.vertex_mut(number).store_trial();
+            chain.store_trial(number);
         }
         self.stored_next = self.window.next;
         self.stored_end = self.window.end;

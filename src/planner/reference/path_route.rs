@@ -24,6 +24,15 @@ impl Route for PathRoute<'_> {
         }
     }
 
+    fn bend(&self, s: f64) -> [Axes; 2] {
+        if s >= self.stop {
+            let PathPoint { second, third, .. } = self.path.point_before(s);
+            [second, third]
+        } else {
+            self.path.bend(s)
+        }
+    }
+
     fn known_end(&self) -> f64 {
         self.path.final_end().min(self.stop)
     }

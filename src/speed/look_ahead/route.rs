@@ -47,6 +47,12 @@ pub trait Route {
     /// The point at `s`, which lies between the start of the plan and the known end.
     fn point(&self, s: f64) -> PathPoint;
 
+    /// The second and the third derivative of [that](Self::point) by s alone.
+    fn bend(&self, s: f64) -> [Axes; 2] {
+        let PathPoint { second, third, .. } = self.point(s);
+        [second, third]
+    }
+
     /// How far the path is known for good.
     fn known_end(&self) -> f64;
 

@@ -182,7 +182,13 @@ impl AxisRows {
 
     /// How the path curves at `s`.
     pub fn curving<R: Route>(&self, route: &R, s: f64) -> Curving {
-        let [_, second, third] = self.place(&route.point(s)).behind;
+        let [second, third] = if self.bends() {
+            let [_, second, third] = self.place(&route.point(s)).behind;
+            [second, third]
+        } else {
+            let [second, third] = route.bend(s);
+            [self.map.apply(&second), self.map.apply(&third)]
+        };
         Curving {
             second: second.component_mul(&self.inverse_jerk) * 3.0,
             third: third.component_mul(&self.inverse_jerk),
