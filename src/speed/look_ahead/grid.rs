@@ -275,14 +275,16 @@ impl Grid {
             if error <= THIRD_DERIVATIVE_ERROR || length <= 0.4 * finest {
                 break;
             }
-            length *= if error > 2.5 * THIRD_DERIVATIVE_ERROR {
-                0.5
-            } else {
-                0.7
-            };
+            let halved = error > 2.5 * THIRD_DERIVATIVE_ERROR;
+            length *= if halved { 0.5 } else { 0.7 };
             end = s + length;
+            // It ends where its middle was.
+            right = if halved && !self.features.is_on_vertex(end) {
+                Seen::with(context, end, middle.place, length)
+            } else {
+                self.look_at_end(context, end, length)
+            };
             middle = Seen::at(context, s + 0.5 * length, length);
-            right = self.look_at_end(context, end, length);
         }
         let step = NextNode {
             length,
@@ -302,8 +304,12 @@ struct Seen {
 impl Seen {
     fn at<R: Route>(context: &PlanContext<R>, s: f64, length: f64) -> Self {
         let PlanContext { route, rows, .. } = *context;
-        let place = rows.place(&route.point(s));
-        let sample = rows.sample_of(route, s, &place, length);
+        Self::with(context, s, rows.place(&route.point(s)), length)
+    }
+
+    /// The same where the path is known to have this `place`.
+    fn with<R: Route>(context: &PlanContext<R>, s: f64, place: Place, length: f64) -> Self {
+        let sample = context.rows.sample_of(context.route, s, &place, length);
         Self { place, sample }
     }
 }
