@@ -30,8 +30,10 @@ pub(super) const NODE_EVALUATIONS: u32 = 3;
 pub(super) fn bounds(axes: u32) -> u32 {
     3 + axes / 2
 }
-/// A coefficient in one direction, or in the hull.
+/// A coefficient in the hull.
 pub(super) const SWEEP: u32 = 1;
+/// A coefficient in each direction.
+pub(super) const SWEEPS: u32 = 2;
 /// The rows of all axes at three places: of three axes, twice as much of nine.
 pub(super) const CHECK: u32 = 2;
 /// Gradient and second derivatives of an interval, and the elimination of a coefficient; the same.

@@ -128,8 +128,12 @@ impl Sweeps {
         let front = self.at(k).backward;
         let next = front.step(before, &self.stretch(spline, k, k - 1));
         self.at_mut(k - 1).backward = next;
-        let swept = self.at_mut(k);
-        swept.lower = lesser(swept.forward.value, swept.backward.value);
+    }
+
+    /// The lower of both sweeps at coefficient k.
+    fn lower_of_both(&self, k: usize) -> f64 {
+        let swept = self.at(k);
+        lesser(swept.forward.value, swept.backward.value)
     }
 
     /// The first coefficient behind `base` and before `cut` from which on the backward sweep is nowhere slower than the plan.
@@ -149,7 +153,7 @@ impl Sweeps {
         if !brakes {
             return Err(SweepFault::Base);
         }
-        let arrives = self.at(last).lower >= end * (1.0 - ROUNDING);
+        let arrives = self.lower_of_both(last) >= end * (1.0 - ROUNDING);
         if !arrives {
             return Err(SweepFault::End);
         }
@@ -164,6 +168,9 @@ impl Sweeps {
 
     /// Appends coefficient k, `base + 1` to `last + 1`.
     pub fn append(&mut self, spline: &Spline, k: usize) {
+        if k < spline.last {
+            self.at_mut(k).lower = self.lower_of_both(k);
+        }
         let before = self.at(k - 1);
         let value = self.at(k).lower;
         let most = greater(greater(self.at(k - 2).lower, before.lower), value);

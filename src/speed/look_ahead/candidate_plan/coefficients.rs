@@ -30,7 +30,7 @@ impl CandidatePlan {
         self.pin(context.plan)
     }
 
-    /// Sets the two coefficients that the candidate starts from, and begins the forward sweep.
+    /// Sets the two coefficients that the candidate starts from, and begins the sweeps.
     pub(super) fn pin(&mut self, plan: &Spline) -> CandidatePhase {
         let base = self.base;
         if self.first {
@@ -45,35 +45,28 @@ impl CandidatePlan {
             }
         }
         self.sweeps.begin_forward(&self.spline, base);
-        CandidatePhase::Forward(base)
+        self.sweeps.begin_backward(&self.spline);
+        CandidatePhase::Sweeps(base)
     }
 
-    pub(super) fn step_forward<R: Route>(
+    /// A step of both sweeps, `k` of the forward one: neither waits for the other, and a processor works on both at a time.
+    pub(super) fn step_sweeps<R: Route>(
         &mut self,
         context: &PlanContext<R>,
         k: usize,
     ) -> CandidatePhase {
         let kept = if self.first { 0 } else { self.cut };
-        if let Err(fault) = self.sweeps.forward(&self.spline, k, kept) {
-            return self.repair(context, CandidateFault::Sweep(fault));
+        let forward = self.sweeps.forward(&self.spline, k, kept);
+        let back = self.spline.last + self.base - k;
+        if back > self.base {
+            self.sweeps.backward(&self.spline, back);
         }
-        if k < self.spline.last {
-            return CandidatePhase::Forward(k + 1);
-        }
-        self.sweeps.begin_backward(&self.spline);
-        CandidatePhase::Backward(self.spline.last)
-    }
-
-    pub(super) fn step_backward<R: Route>(
-        &mut self,
-        context: &PlanContext<R>,
-        k: usize,
-    ) -> CandidatePhase {
-        if k > self.base {
-            self.sweeps.backward(&self.spline, k);
-            return CandidatePhase::Backward(k - 1);
-        }
-        match self.sweeps.begin_hull(&self.spline) {
+        let done = match forward {
+            Ok(()) if back > self.base => return CandidatePhase::Sweeps(k + 1),
+            Ok(()) => self.sweeps.begin_hull(&self.spline),
+            Err(fault) => Err(fault),
+        };
+        match done {
             Ok(()) => CandidatePhase::Hull(self.base + 1),
             Err(fault) => self.repair(context, CandidateFault::Sweep(fault)),
         }
