@@ -3,9 +3,9 @@
 use super::newton::MOST_INTERVALS;
 
 /// Steps of the refinement for what is new ..
-const FRESH_STEPS: u32 = 24;
+const FRESH_STEPS: u32 = 16;
 /// .. and then one more each time that the machine has come on by so many intervals: more gain nothing.
-const PACE: usize = 2;
+const PACE: usize = 4;
 
 /// How far the refinement of a plan has come.
 #[derive(Clone, Copy, Debug)]
