@@ -47,7 +47,7 @@ pub const BEND: f64 = 1e-4;
 const HALVINGS: usize = 10;
 
 /// How far the places of four are from each other, in steps: with that they lie no further away than those of five.
-const SPACING: f64 = 1.2;
+const SPACING: f64 = 4.0 / 3.0;
 
 /// By how much the position may turn in a step, the second derivative over the first one, where four places are enough, and joints
 /// more than that. The third derivative may be four times the square of it, and change the acceleration of a joint by this
