@@ -47,13 +47,13 @@ pub const BEND: f64 = 1e-4;
 const HALVINGS: usize = 10;
 
 /// How far the places of four are from each other, in steps: with that they lie no further away than those of five.
-const SPACING: f64 = 4.0 / 3.0;
+const SPACING: f64 = 1.2;
 
 /// By how much the position may turn in a step, the second derivative over the first one, where four places are enough, and joints
 /// more than that. The third derivative may be four times the square of it, and change the acceleration of a joint by this
 /// share of its limit. With a singular place r steps away joints turn by 1 / 2r and their third derivative is 1 / r^2 of the
-/// first one; the second one is off by 1.5 / r^2 of itself, which is 4e-5 then. A table turns by 5e-4.
-const STRAIGHT: f64 = 1.0 / 400.0;
+/// first one; the second one is off by 1.5 / r^2 of itself, which is 6e-5 then. A table turns by 5e-4.
+const STRAIGHT: f64 = 1.0 / 256.0;
 const STRAIGHT_TWICE: f64 = 4.0 * STRAIGHT * STRAIGHT;
 
 /// What the formulas of two orders may differ by, over the limits, at the speed that the derivatives themselves allow. The

@@ -166,7 +166,7 @@ fn along(way: [f64; 9], radius: f64, bends: &[[f64; 9]; 2]) -> [Axes; 3] {
 
 fn any_way() -> impl Strategy<Value = [Axes; 3]> {
     let signs = || prop::array::uniform9(-1.0..1.0f64);
-    let radius = prop_oneof![Just(f64::INFINITY), 14.0..300.0f64];
+    let radius = prop_oneof![Just(f64::INFINITY), 9.0..300.0f64];
     (signs(), radius, [signs(), signs()])
         .prop_map(|(way, radius, bends)| along(way.map(|part| part * 100.0), radius, &bends))
 }
@@ -198,7 +198,8 @@ proptest! {
         let sure = numerical_estimate(robot, &position, &derivatives, &shares).jet;
         let at_speed = at_speed(&sure, &shares);
         let differs = difference(&jet, &sure, &[0, 1, 2].map(|order| at_speed[order].inf(&shares[order])));
-        prop_assert!(differs < ALIKE, "{differs} {below}");
+        let most = if below > 2.0 { ALIKE } else { 3.0 * ALIKE };
+        prop_assert!(differs < most, "{differs} {below}");
     }
 }
 
