@@ -227,7 +227,7 @@ impl Leg {
             reserve
         } else {
             let swing = if self.may_swing_out && !self.allows_half_legs() {
-                settings.greatest_swing(self.length)
+                settings.greatest_swing(self.length, self.tolerance(), self.speed)
             } else {
                 0.0
             };

@@ -25,6 +25,13 @@ const FREE_RESERVE: f64 = 1.1;
 /// leg comes, or its shape would depend on when that is.
 const LEGS_OF_A_SWING: f64 = 3.0;
 
+/// And over so many widths of the widest kernel within the tolerance that limits the speed: wider ones gain little, and less of
+/// the path is final.
+const WIDTHS_OF_A_SWING: f64 = 3.0;
+
+/// And over so much, mm.
+const GREATEST_SWING: f64 = 30.0;
+
 /// A corner limits the speed if its feed needs it so many times as wide.
 const LIMITING: f64 = 1.05;
 
@@ -247,13 +254,27 @@ impl BlendSettings {
         mix.clamp(-1.0, kernel::GREATEST_PEAKED)
     }
 
-    /// How far a corner beside a leg of this `length` swings out at most; machine units.
-    pub(super) fn greatest_swing(&self, length: f64) -> f64 {
+    /// How far a corner beside a leg of this `length` swings out at most within `tolerance`, where it is run through at most at
+    /// `speed`; machine units.
+    pub(super) fn greatest_swing(&self, length: f64, tolerance: f64, speed: f64) -> f64 {
         if self.swings {
-            (LEGS_OF_A_SWING * length).min(self.greatest_design_width())
+            let room = WIDTHS_OF_A_SWING * self.widest_limiting(tolerance, speed);
+            (LEGS_OF_A_SWING * length)
+                .min(room.max(self.greatest_design_width()))
+                .min(GREATEST_SWING * self.millimetre)
         } else {
             0.0
         }
+    }
+
+    /// The widest biweight kernel within `tolerance` of all corners in XYZ that limit a `speed`, whatever they turn by; machine
+    /// units.
+    fn widest_limiting(&self, tolerance: f64, speed: f64) -> f64 {
+        let width_times_turn = tolerance / kernel::peak(0.0);
+        let bend = self.per_acceleration.fixed_rows::<3>(0).max();
+        let by_acceleration = (kernel::greatest(0.0) * width_times_turn * bend).sqrt();
+        let by_jerk = cube_root(kernel::steepest(0.0) * width_times_turn / self.linear_jerk);
+        speed * by_acceleration.max(by_jerk)
     }
 
     /// How often the time of a ramp from 0 to the greatest acceleration fits into half of a corner, with the biweight kernel of
@@ -403,6 +424,25 @@ mod tests {
         assert!((by_jerk.powi(3) - 10_000.0 * radius * radius).abs() < 1e-6);
         let unlimited = BlendSettings::DEFAULT.curve_speed(&turn, 0.1, 0.1 * radius);
         assert_eq!(unlimited, f64::INFINITY);
+    }
+
+    #[test]
+    fn a_corner_swings_out_as_far_as_its_kernel_can_be_wide() {
+        for jerk in [20_000.0, f64::INFINITY] {
+            let settings = settings(jerk);
+            let swing = |tolerance| settings.greatest_swing(100.0, tolerance, 100.0);
+            assert_eq!(swing(0.005), GREATEST_DESIGN_WIDTH);
+            assert_eq!(swing(100.0), GREATEST_SWING);
+            let width = swing(1.0) / WIDTHS_OF_A_SWING;
+            // A corner with a kernel of this width just limits the speed.
+            let mut turn = Axes::zeros();
+            turn[0] = 1.0 / (kernel::peak(0.0) * width);
+            let wanted = settings.free_width(&turn, 100.0, 0.0) / FREE_RESERVE;
+            assert!((wanted / width - 1.0).abs() < 1e-9, "{wanted} {width}");
+            assert_eq!(settings.greatest_swing(1.0, 1.0, 100.0), LEGS_OF_A_SWING);
+            let still = settings.without_swings();
+            assert_eq!(still.greatest_swing(100.0, 1.0, 100.0), 0.0);
+        }
     }
 
     #[test]

@@ -82,7 +82,11 @@ impl Vertex {
                     && self.free_limit <= 0.0
                     && settings.gains_by_swinging_out(&tangent_jump, biweight_width, slower),
                 clear: 2.0 * self.half_leg,
-                greatest_width: settings.greatest_swing(2.0 * self.half_leg),
+                greatest_width: settings.greatest_swing(
+                    2.0 * self.half_leg,
+                    self.tolerance,
+                    slower,
+                ),
             };
             self.free_kernel = free.min(self.free_limit);
             self.isolated = if self.at_limit {

@@ -17,6 +17,7 @@ mod invariance;
 mod joint_jets;
 mod joint_limits;
 mod joint_models;
+mod last_corner;
 mod limits_changed;
 mod monotone;
 mod move_jerk;

@@ -162,6 +162,11 @@ impl MoveFeeder {
         self.expected() != Expected::Anything || interval >= SHORTEST_SILENCE
     }
 
+    /// Whether there are several moves, and they came without a pause.
+    pub fn came_at_once(&self) -> bool {
+        self.next > self.first + 1 && self.own_interval < SHORTEST_SILENCE
+    }
+
     /// Whether no move came in this servo period, nor in the one before.
     pub fn pauses(&self, period: f64) -> bool {
         self.silence > 1.5 * period

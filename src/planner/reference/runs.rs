@@ -29,6 +29,11 @@ const GREATEST_SHARE: f64 = 2.0;
 /// When the machine is going to brake to the end of the path within so many seconds, and nothing
 /// more has come, the end is final.
 const LAST_CALL: f64 = 0.08;
+/// Where all moves came at once, so many times besides as acceleration takes to be built up: a corner on the way to a rest
+/// that comes sooner is planned to be slower, and mended only in part.
+const RAMPS: f64 = 4.0;
+/// No more than this of that counts, seconds.
+const LONGEST_RAMP: f64 = 0.05;
 /// The same where the next move may still be on its way, but not be here in time: a rest at the end
 /// of the last move is better than one in the middle of it.
 const LAST_MOMENT: f64 = 0.04;
@@ -101,7 +106,8 @@ impl Reference {
             self.feeder.is_late(LAST_MOMENT) && last.is_ready() && last.brakes_within(LAST_MOMENT);
         // What is final and not planned yet will be.
         let all_planned = last.is_ready() || planned >= self.path.final_end();
-        let last_call = waits && all_planned && last.brakes_within(LAST_CALL);
+        let last_call =
+            waits && all_planned && last.brakes_within(self.last_call(planned, outlook));
         // A single move has nothing to wait for.
         let is_single = self.resting
             && self.path.programmed_end() <= self.rest
@@ -130,6 +136,21 @@ impl Reference {
             }
             Expected::Anything => {}
         }
+    }
+
+    /// Seconds before the machine brakes to the end of the path from which on that is final, if nothing more has come and there
+    /// is a plan up to the path distance `planned`.
+    fn last_call(&self, planned: f64, outlook: &Outlook) -> f64 {
+        // Where the path or the plan has just been begun it always ends soon.
+        let begun = !self.path.is_settled() || planned < self.path.final_end();
+        if begun || !self.feeder.came_at_once() {
+            return LAST_CALL;
+        }
+        let limits = outlook.limits_behind();
+        let ramps = limits.acceleration.component_div(&limits.jerk);
+        // Without a limit of jerk, and without one of both, there is none.
+        let ramp = ramps.iter().copied().fold(0.0, f64::max);
+        LAST_CALL + RAMPS * ramp.min(LONGEST_RAMP)
     }
 
     /// Whether it is the path that a plan up to the path distance `planned` waits for: not more of it is final behind that

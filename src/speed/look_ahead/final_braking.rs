@@ -3,14 +3,14 @@
 use super::frozen::Frozen;
 use super::spline::Spline;
 
-/// Seconds to the final braking that are looked at.
+/// Seconds to the final braking that are counted whether anybody asks or not.
 const SEEN: f64 = 0.15;
 
 /// The final braking as seen from the frozen part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FinalBraking {
     start: usize,
-    /// Seconds from the frozen part until then, as far as anybody asks.
+    /// Seconds from the frozen part until then, [`SEEN`] and no more of them.
     seconds: f64,
     /// Up to this interval its seconds are counted in that.
     counted: usize,
@@ -28,9 +28,16 @@ impl FinalBraking {
         self.start
     }
 
-    /// Whether it begins less than `seconds`, at most [`SEEN`], behind the frozen part.
-    pub fn begins_within(&self, seconds: f64) -> bool {
-        self.seconds < seconds
+    /// Whether it begins less than `seconds` behind the frozen part. More than [`SEEN`] take longer to be found out.
+    pub fn begins_within(&self, plan: &Spline, seconds: f64) -> bool {
+        let mut sum = self.seconds;
+        for interval in self.counted..self.start {
+            if sum >= seconds {
+                break;
+            }
+            sum += plan.duration(interval);
+        }
+        sum < seconds
     }
 
     /// Looks how long it is until then: goes on from where it looked before.
@@ -84,14 +91,15 @@ mod tests {
         // From there on coefficients fall; a tenth of a second an interval until then.
         assert_eq!(braking.start(), 4);
         let begins = [
-            (SEEN, f64::INFINITY),
-            (SEEN, 0.21),
-            (SEEN, 0.21),
+            (0.29, 0.31),
+            (0.29, 0.31),
+            (0.19, 0.21),
             (0.09, 0.11),
             (-1.0, 1e-9),
         ];
         for (not_within, within) in begins {
-            assert!(!braking.begins_within(not_within) && braking.begins_within(within));
+            let begins_within = |seconds| braking.begins_within(&plan, seconds);
+            assert!(!begins_within(not_within) && begins_within(within));
             let segment = frozen.freeze(&plan);
             braking.come_nearer(&plan, &frozen, segment.duration);
             braking.look(&plan);

@@ -134,10 +134,9 @@ impl LookAhead {
         self.progress == PlanProgress::Ready && self.frozen.is_whole(&self.plan)
     }
 
-    /// Whether the final braking begins less than `seconds`, at most 0.1, behind the
-    /// frozen part. A path whose end is still open has to be ended then.
+    /// Whether the final braking begins less than `seconds` behind the frozen part. A path whose end is still open has to be ended then.
     pub fn brakes_within(&self, seconds: f64) -> bool {
-        self.braking.begins_within(seconds)
+        self.braking.begins_within(&self.plan, seconds)
     }
 
     /// The next segment, which stays as it is from now on. `None` if there is no plan, or the
