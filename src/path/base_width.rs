@@ -3,7 +3,7 @@
 
 use super::blame::MANY_KERNELS;
 use super::chain::Chain;
-use super::jump::JumpSum;
+use super::equal_widths::EqualWidthsSum;
 use super::lone_corner::OUTER_REACH;
 use super::metric::Metric;
 use super::settings::BlendSettings;
@@ -185,37 +185,21 @@ fn deviation_at_equal_widths(
     metric: &Metric,
 ) -> (f64, usize) {
     let here = chain.vertex(number).s;
-    let mut sum = JumpSum::ZERO;
-    let mut terms = 1;
-    let left = chain
-        .left_of(number)
-        .take_while(|(_, vertex)| here - vertex.s < width);
-    let right = chain
-        .right_of(number, window.next)
-        .take_while(|(_, vertex)| vertex.s - here < width);
-    for (_, vertex) in left.chain(right) {
-        terms += 1;
-        let widths = if vertex.wall || vertex.is_free() {
-            continue;
-        } else if !vertex.isolated {
-            Widths {
-                kernel: width,
-                mix: vertex.overlapping_mix(width),
-                ..Widths::NONE
-            }
-        } else if vertex.base.outer > 0.0 {
-            vertex.base
-        } else {
-            Widths {
-                kernel: vertex.base.kernel.min(width),
-                ..vertex.base
-            }
-        };
-        let value = widths.deviation((here - vertex.s).abs());
-        sum.add(&vertex.tangent_jump, &[value]);
+    let mut sum = EqualWidthsSum::new(here, width);
+    for (_, vertex) in chain.left_of(number) {
+        if here - vertex.s >= width {
+            break;
+        }
+        sum.add(vertex);
     }
+    for (_, vertex) in chain.right_of(number, window.next) {
+        if vertex.s - here >= width {
+            break;
+        }
+        sum.add(vertex);
+    }
+    let (mut deviation, terms) = sum.total();
     let share = chain.vertex(number).turn_share;
-    let mut deviation = sum.axes();
     shift::add(&mut deviation, &chain.leg(number).shift_at(here));
     (metric.deviation(&deviation, share), terms)
 }

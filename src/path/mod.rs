@@ -31,7 +31,7 @@
 //! The order of the parts: a move becomes a `leg`, short lines after the `line_merger` has joined
 //! them; `fairing` moves runs of lines a little off the program, a `shift`; legs meet in a `vertex` and lie in a `chain`, with
 //! the `contribution` of each vertex to the path; the `optimizer` gives the vertices of a
-//! `window` their `widths`, beginning with the `base_width`, on a `curve` for what it allows, and a
+//! `window` their `widths`, beginning with the `base_width` (at `equal_widths` of all that overlap), on a `curve` for what it allows, and a
 //! `lone_corner` swings out; the
 //! `deviation` is checked, what is to `blame` is narrowed, and `hardening` stands behind it all.
 //! [`BlendedPath`] is what the rest of the planner sees.
@@ -44,6 +44,7 @@ mod contribution;
 mod curve;
 mod deviation;
 mod easement;
+mod equal_widths;
 mod error;
 mod fairing;
 mod hardening;

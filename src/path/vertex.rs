@@ -1,5 +1,7 @@
 //! A vertex of the programmed path: where two legs meet.
 
+use wide::f64x2;
+
 use super::easement;
 use super::jump::{Jump, JumpSum, PointSum};
 use super::kernel::{FlatKernel, Kernel, Side};
@@ -289,6 +291,13 @@ impl Vertex {
     pub fn overlapping_mix(&self, width: f64) -> f64 {
         let share = self.mean_leg / width;
         1.0 + (0.29 * share * share).min(0.15)
+    }
+
+    /// The same of two at a time.
+    #[inline(always)]
+    pub fn overlapping_mixes(vertices: [&Self; 2], width: f64x2) -> f64x2 {
+        let share = f64x2::new(vertices.map(|vertex| vertex.mean_leg)) / width;
+        1.0 + (share * 0.29 * share).fast_min(f64x2::splat(0.15))
     }
 
     /// Whether there is anything to be smoothed.
