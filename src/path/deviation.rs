@@ -44,8 +44,19 @@ pub(super) struct DeviationVerdict {
     pub cost: usize,
 }
 
+/// The deviation at the end of a leg: where the next one begins it is the same, as long as no width changes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EndDeviation {
+    /// Number of the leg.
+    leg: u64,
+    /// What a degree of C counts there.
+    turn_share: f64,
+    deviation: f64,
+}
+
 /// Checks that the trial widths keep `share` of the tolerance everywhere on a leg. Vertices from
-/// `next` on do not count. `reaching` is filled for it.
+/// `next` on do not count. `reaching` is filled for it; `known` is what was found at the end of the leg checked last, if
+/// no width has changed since.
 pub(super) fn check(
     chain: &Chain,
     number: u64,
@@ -53,6 +64,7 @@ pub(super) fn check(
     next: u64,
     metric: &Metric,
     reaching: &mut Reaching,
+    known: &mut Option<EndDeviation>,
 ) -> DeviationVerdict {
     reaching.collect(chain, number, next);
     if reaching.count() == 0 {
@@ -62,12 +74,19 @@ pub(super) fn check(
         };
     }
     let leg = chain.leg(number);
+    let before = known
+        .take()
+        .filter(|end| end.leg.wrapping_add(1) == number && end.turn_share == leg.turn_share);
     let mut search = Search {
         chain,
         reaching,
         metric,
         tolerance: leg.tolerance() * share,
         turn_share: leg.turn_share,
+        start: leg.start,
+        end: leg.end(),
+        at_start: before.map(|end| end.deviation),
+        at_end: None,
         halvings: 0,
         cost: 1 + reaching.count(),
     };
@@ -80,6 +99,11 @@ pub(super) fn check(
     } else {
         search.first_violation(start, end)
     };
+    *known = search.at_end.map(|deviation| EndDeviation {
+        leg: number,
+        turn_share: leg.turn_share,
+        deviation,
+    });
     DeviationVerdict {
         violation,
         cost: search.cost,
@@ -92,6 +116,11 @@ struct Search<'a> {
     metric: &'a Metric,
     tolerance: f64,
     turn_share: f64,
+    start: f64,
+    end: f64,
+    /// The deviations at both, where they are known.
+    at_start: Option<f64>,
+    at_end: Option<f64>,
     halvings: u32,
     cost: usize,
 }
@@ -99,8 +128,18 @@ struct Search<'a> {
 impl Search<'_> {
     fn deviation(&mut self, s: f64) -> f64 {
         self.cost += self.reaching.count();
-        self.reaching
-            .deviation(self.chain, s, self.metric, self.turn_share)
+        if s == self.start
+            && let Some(known) = self.at_start
+        {
+            return known;
+        }
+        let deviation = self
+            .reaching
+            .deviation(self.chain, s, self.metric, self.turn_share);
+        if s == self.end {
+            self.at_end = Some(deviation);
+        }
+        deviation
     }
 
     fn violation(&self, s: f64, deviation: f64) -> Violation {

@@ -70,8 +70,9 @@ pub(super) fn harden(
     let reach = vertex.trial.reach();
     let mut cost = chain.touch(number, reach, window.next);
     let mut holds = true;
+    let mut known = None;
     for leg in [number.saturating_sub(1), number] {
-        let verdict = deviation::check(chain, leg, 1.0, window.next, metric, reaching);
+        let verdict = deviation::check(chain, leg, 1.0, window.next, metric, reaching, &mut known);
         cost += verdict.cost;
         holds &= verdict.violation.is_none();
     }
@@ -199,7 +200,7 @@ pub(super) mod tests {
                         assert!(held, "vertex {number}");
                     }
                     (chain.first()..chain.next()).find(|leg| {
-                        deviation::check(&chain, *leg, 1.0, window.next, &metric, &mut reaching)
+                        deviation::check(&chain, *leg, 1.0, window.next, &metric, &mut reaching, &mut None)
                             .violation
                             .is_some()
                     })

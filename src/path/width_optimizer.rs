@@ -11,7 +11,7 @@
 //! Vertices become final from the oldest on, as soon as what is yet to come is beyond their reach.
 
 use super::chain::{Chain, NEIGHBOURS};
-use super::deviation::{self, GREATEST_COST};
+use super::deviation::{self, EndDeviation, GREATEST_COST};
 use super::hardening::{self, ATTEMPTS};
 use super::metric::Metric;
 use super::reaching::Reaching;
@@ -86,6 +86,8 @@ pub(super) struct WidthOptimizer {
     greatest_reach: f64,
     /// Of the leg that is checked.
     reaching: Reaching,
+    /// Of the one that was checked last.
+    known: Option<EndDeviation>,
 }
 
 impl WidthOptimizer {
@@ -101,6 +103,7 @@ impl WidthOptimizer {
             narrowed: false,
             greatest_reach: 0.0,
             reaching: Reaching::NONE,
+            known: None,
         }
     }
 
@@ -285,6 +288,7 @@ impl WidthOptimizer {
 
     fn begin_check(&mut self, chain: &Chain) {
         self.violated = false;
+        self.known = None;
         self.phase = OptimizerPhase::Check(self.first_leg(chain));
     }
 
@@ -321,6 +325,7 @@ impl WidthOptimizer {
             self.window.next,
             metric,
             &mut self.reaching,
+            &mut self.known,
         );
         let marking = match violation {
             None => {
