@@ -50,6 +50,8 @@ pub(super) struct Feature {
     pub unseen: f64,
     /// Whether it stands for a single vertex.
     pub single: bool,
+    /// Whether the next one is known to begin before it ends.
+    pub crowded: bool,
 }
 
 impl Feature {
@@ -63,6 +65,7 @@ impl Feature {
         jumps: false,
         unseen: 0.0,
         single: true,
+        crowded: false,
     };
 
     /// Of a vertex, with up to three evaluations of the path. All features of a `path` are of the same vertex.
@@ -123,6 +126,11 @@ impl Feature {
             (other.spacing, self.spacing)
         };
         coarser <= JOINED * finer
+    }
+
+    /// Whether it stands in the way of another one that would stand alone without it: not a change of its own speed cap.
+    pub fn is_beside(&self, other: &Self) -> bool {
+        self.speed > 0.0 || self.center != other.center
     }
 
     /// Whether a node belongs on its center.

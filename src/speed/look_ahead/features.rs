@@ -96,6 +96,8 @@ impl Features {
         }
         self.next = self.lasting;
         self.taken = self.lasting_taken;
+        // Another one may come behind it.
+        self.slots.at_mut((self.next - 1) as u64).crowded = false;
         self.first = self.oldest;
         while self.first + 1 < self.next && self.at(self.first + 1).center <= s {
             self.first += 1;
@@ -187,6 +189,9 @@ impl Features {
     /// Appends a feature, over the oldest one that does not matter any more.
     fn push(&mut self, feature: Feature) {
         if self.next - self.first < SLOTS {
+            if let Some(last) = self.last_mut() {
+                last.crowded = feature.is_beside(last) && feature.start < last.end;
+            }
             self.before = self.before.max(feature.center - feature.start);
             self.behind = self.behind.max(feature.end - feature.center);
             *self.slots.at_mut(self.next as u64) = feature;
@@ -285,6 +290,10 @@ impl Features {
             if feature.center - self.before - s >= 1.3 * length {
                 break;
             }
+            // Of what is rounded over many vertices nearly all of them.
+            if feature.crowded && !feature.wants_node() {
+                continue;
+            }
             if feature.jumps {
                 let unseen = feature.unseen.max(NEAREST_NODE * length);
                 consider(feature.center, unseen.min(nearest));
@@ -303,8 +312,7 @@ impl Features {
             } else if feature.cap_changes {
                 consider(feature.center, nearest);
             }
-            // A change of its own speed cap is no other change of shape.
-            let is_other = |other: &&Feature| other.speed > 0.0 || other.center != feature.center;
+            let is_other = |other: &&Feature| other.is_beside(feature);
             let free_before = || {
                 let mut before = (self.first..place).rev().map(|other| self.at(other));
                 let other = before.find(is_other);
