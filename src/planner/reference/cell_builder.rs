@@ -119,7 +119,7 @@ impl CellBuilder {
         let last_place = self.end_place(segment, ground, end.distance, back);
         let last = seen(&end, &last_place);
         // What bends is asked for where it has to be alone.
-        let by_ends = if ground.map.joints().is_some() && self.is_smooth_from(start.distance) {
+        let by_ends = if self.is_smooth_from(start.distance) {
             let accelerations = [&first.acceleration, &last.acceleration];
             Bulge::between(accelerations, [&first.jerk, &last.jerk], to - from)
         } else {
