@@ -21,7 +21,7 @@ use super::window::Window;
 use super::{base_width, blame, deviation::DeviationVerdict};
 
 /// Path that has to come, in design widths, before widths are chosen anew.
-const CHUNK: f64 = 0.125;
+const CHUNK: f64 = 0.18;
 
 /// Vertices that have to come, or as many as are taken at a time.
 const GREATEST_CHUNK: u64 = 16;

@@ -37,7 +37,7 @@ pub(super) const SWEEPS: u32 = 2;
 /// The rows of all axes at three places: of three axes, twice as much of nine.
 pub(super) const CHECK: u32 = 2;
 /// Gradient and second derivatives of an interval, and the elimination of a coefficient; the same.
-pub(super) const ASSEMBLE: u32 = 8;
+pub(super) const ASSEMBLE: u32 = 9;
 /// A coefficient of a step.
 pub(super) const SUBSTITUTE: u32 = 1;
 /// Plan and candidate changing places, per plan.
