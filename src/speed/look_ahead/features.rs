@@ -97,7 +97,7 @@ impl Features {
         self.next = self.lasting;
         self.taken = self.lasting_taken;
         // Another one may come behind it.
-        self.slots.at_mut((self.next - 1) as u64).crowded = false;
+        self.slots.at_mut(self.next.wrapping_sub(1) as u64).crowded = false;
         self.first = self.oldest;
         while self.first + 1 < self.next && self.at(self.first + 1).center <= s {
             self.first += 1;
