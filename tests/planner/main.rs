@@ -31,6 +31,7 @@ mod random_program;
 mod range_sweep;
 mod reading;
 mod regressions;
+mod retract;
 mod reverse;
 mod short_program;
 mod short_programs;

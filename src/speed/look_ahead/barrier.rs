@@ -388,6 +388,7 @@ mod tests {
         let route = TestRoute {
             point: bent,
             breakpoints: Vec::new(),
+            vertices: Vec::new(),
         };
         let [start, middle, end] = [0.0, 0.2, 0.4].map(|s| rows.sample(&route, s, 0.0));
         let departure = Departure {

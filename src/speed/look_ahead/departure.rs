@@ -162,6 +162,7 @@ mod tests {
         TestRoute {
             point,
             breakpoints: vec![to, from],
+            vertices: Vec::new(),
         }
     }
 

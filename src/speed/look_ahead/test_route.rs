@@ -4,10 +4,12 @@ use super::route::{MOST_BREAKPOINTS, Route, RouteVertex, SpeedCap};
 use crate::axes::Axes;
 use crate::moves::shape::PathPoint;
 
-/// Without vertices and end, 50 a second, 60 at most.
+/// Without an end, 50 a second, 60 at most.
 pub(super) struct TestRoute<P> {
     pub point: P,
     pub breakpoints: Vec<f64>,
+    /// In the order of the path.
+    pub vertices: Vec<RouteVertex>,
 }
 
 impl<P: Fn(f64) -> PathPoint> Route for TestRoute<P> {
@@ -26,14 +28,17 @@ impl<P: Fn(f64) -> PathPoint> Route for TestRoute<P> {
             greatest: 60.0,
         }
     }
-    fn vertex_after(&self, _: f64) -> Option<RouteVertex> {
-        None
+    fn vertex_after(&self, s: f64) -> Option<RouteVertex> {
+        let mut behind = self.vertices.iter();
+        behind.find(|vertex| vertex.position > s).copied()
     }
-    fn vertex_before(&self, _: f64) -> Option<RouteVertex> {
-        None
+    fn vertex_before(&self, s: f64) -> Option<RouteVertex> {
+        let mut before = self.vertices.iter().rev();
+        before.find(|vertex| vertex.position < s).copied()
     }
     fn greatest_reach(&self) -> f64 {
-        0.0
+        let reaches = self.vertices.iter().map(|vertex| vertex.reach);
+        reaches.fold(0.0, f64::max)
     }
     fn breakpoints(&self, from: f64, to: f64, places: &mut [f64; MOST_BREAKPOINTS]) -> usize {
         let inside = self.breakpoints.iter().filter(|s| (from..to).contains(s));
