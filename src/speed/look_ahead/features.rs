@@ -10,10 +10,13 @@ use crate::lanes::lesser;
 use crate::ring::Ring;
 
 /// Room for features.
-const SLOTS: usize = 256;
+const SLOTS: usize = 1024;
 
 /// The most that a vertex has: its change of shape, the sharpest part of that, and a change of the cap.
 const OF_A_VERTEX: usize = 3;
+
+/// As many vertices that say nothing any more are passed over at a time.
+const SKIPPED: usize = 16;
 
 /// No interval is made shorter than this share of the spacing there, for the sake of a jump.
 const NEAREST_NODE: f64 = 1e-3;
@@ -27,6 +30,8 @@ pub(super) struct Features {
     slots: Ring<Feature, SLOTS>,
     /// The first one that is kept.
     oldest: usize,
+    /// None of those that were not kept for want of room ends behind this.
+    lost: f64,
     /// The first one that matters where the grid is.
     first: usize,
     /// The place behind the last one.
@@ -56,6 +61,7 @@ impl Features {
         Self {
             slots: Ring::filled_with(Feature::NONE),
             oldest: 0,
+            lost: f64::NEG_INFINITY,
             first: 0,
             next: 0,
             begin: f64::INFINITY,
@@ -75,17 +81,18 @@ impl Features {
         self.begin = f64::INFINITY;
     }
 
-    /// Begins with the first vertex behind `s`.
-    pub fn restart(&mut self, s: f64, raise_squared: f64) {
+    /// Begins with the first vertex behind `s`, for a grid from `start` on.
+    pub fn restart(&mut self, s: f64, start: f64, raise_squared: f64) {
         self.exhausted = false;
         self.end = None;
         let kept = self.lasting > self.oldest
             && self.raise_squared == raise_squared
             && self.begin <= s
             && self.lasting_taken > s
-            && (self.oldest == 0 || self.at(self.oldest).center <= s);
+            && self.lost <= start;
         if !kept {
             self.oldest = 0;
+            self.lost = f64::NEG_INFINITY;
             self.first = 0;
             self.next = 0;
             self.begin = s;
@@ -109,34 +116,51 @@ impl Features {
 
     /// Whether all features up to `s` are there, or as many as there is room for: of a vertex all or none.
     pub fn covers(&self, s: f64) -> bool {
-        let is_full = self.next - self.first + OF_A_VERTEX > SLOTS;
-        self.exhausted || self.taken >= s || is_full
+        self.exhausted || self.taken >= s || self.is_full()
     }
 
-    /// Takes one more vertex.
-    pub fn take_next<R: Route>(&mut self, context: &PlanContext<R>) {
+    fn is_full(&self) -> bool {
+        self.next - self.first + OF_A_VERTEX > SLOTS
+    }
+
+    /// Makes room for a vertex at the cost of what lies behind `s`, the farthest first: dense code within the reach of a wide
+    /// corner fills all of it, and what is not known ahead is run through unseen.
+    pub fn make_room(&mut self, s: f64) {
+        while self.is_full() && self.at(self.first).center < s {
+            self.first += 1;
+        }
+    }
+
+    /// Takes one more vertex, behind as many as [`SKIPPED`] that change the path before `needed` only.
+    pub fn take_next<R: Route>(&mut self, context: &PlanContext<R>, needed: f64) {
         let route = context.route;
         let longest = route.known_end();
         // A vertex behind the known end may reach back over it.
         let farthest = longest + route.greatest_reach();
-        let next = route
-            .vertex_after(self.taken)
-            .filter(|vertex| vertex.position > self.taken && vertex.position <= farthest);
-        let Some(vertex) = next else {
-            self.exhausted = true;
-            return;
-        };
-        let all_lasting = self.lasting == self.next && self.lasting_taken == self.taken;
-        let widest = vertex.reach.max(vertex.core);
-        let lasting = all_lasting && vertex.position + TWIST_AT * widest <= longest;
-        self.taken = vertex.position;
-        let changes = vertex.reach > 0.0 || vertex.cap_changes;
-        if changes && vertex.position - vertex.reach <= longest {
-            self.take(&vertex, lasting, context);
-        }
-        if lasting {
-            self.lasting = self.next;
-            self.lasting_taken = self.taken;
+        for _ in 0..=SKIPPED {
+            let next = route
+                .vertex_after(self.taken)
+                .filter(|vertex| vertex.position > self.taken && vertex.position <= farthest);
+            let Some(vertex) = next else {
+                self.exhausted = true;
+                return;
+            };
+            let all_lasting = self.lasting == self.next && self.lasting_taken == self.taken;
+            let widest = vertex.reach.max(vertex.core);
+            let lasting = all_lasting && vertex.position + TWIST_AT * widest <= longest;
+            self.taken = vertex.position;
+            let matters = vertex.position + widest >= needed;
+            let changes = vertex.reach > 0.0 || vertex.cap_changes;
+            if matters && changes && vertex.position - vertex.reach <= longest {
+                self.take(&vertex, lasting, context);
+            }
+            if lasting {
+                self.lasting = self.next;
+                self.lasting_taken = self.taken;
+            }
+            if matters {
+                return;
+            }
         }
     }
 
@@ -198,6 +222,13 @@ impl Features {
             }
             self.before = self.before.max(feature.center - feature.start);
             self.behind = self.behind.max(feature.end - feature.center);
+            if let Some(place) = self
+                .next
+                .checked_sub(SLOTS)
+                .filter(|place| *place >= self.oldest)
+            {
+                self.lost = self.lost.max(self.at(place).end);
+            }
             *self.slots.at_mut(self.next as u64) = feature;
             self.next += 1;
             self.oldest = self.oldest.max(self.next.saturating_sub(SLOTS));
@@ -418,83 +449,4 @@ impl Features {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::axes::{Axes, AxisLimits};
-    use crate::machine_map::MachineMap;
-    use crate::moves::shape::PathPoint;
-    use crate::speed::look_ahead::rows::AxisRows;
-    use crate::speed::look_ahead::spline::Spline;
-    use crate::speed::look_ahead::test_route::TestRoute;
-
-    fn straight(s: f64) -> PathPoint {
-        let x = |value: f64| Axes::from([value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        PathPoint {
-            position: x(s),
-            first: x(1.0),
-            second: x(0.0),
-            third: x(0.0),
-        }
-    }
-
-    /// The features of a corner behind so many vertices that are there before anything is dropped, and when all has been that can be.
-    fn of_a_corner_behind(vertices: usize) -> [usize; 2] {
-        let dense = (1..=vertices).map(|k| RouteVertex {
-            position: 0.02 * k as f64,
-            reach: 0.01,
-            core: 0.0,
-            cap_changes: false,
-            may_jump: false,
-        });
-        let corner = RouteVertex {
-            position: 9.0,
-            reach: 0.5,
-            core: 0.05,
-            cap_changes: true,
-            may_jump: false,
-        };
-        let route = TestRoute {
-            point: straight,
-            breakpoints: Vec::new(),
-            vertices: dense.chain([corner]).collect(),
-        };
-        let limits = AxisLimits {
-            velocity: Axes::repeat(100.0),
-            acceleration: Axes::repeat(1000.0),
-            jerk: Axes::repeat(20_000.0),
-        };
-        let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
-        let plan = Box::new(Spline::NONE);
-        let context = PlanContext {
-            route: &route,
-            rows: &rows,
-            plan: &plan,
-            raise_squared: 1.0,
-            oldest: 0,
-        };
-        let mut features = Box::new(Features::new());
-        features.restart(0.0, 1.0);
-        [0.0, 8.0].map(|s| {
-            features.drop_before(s, 1e-3);
-            while !features.covers(10.0) {
-                features.take_next(&context);
-            }
-            let at_corner = features.before(9.0);
-            at_corner.filter(|feature| feature.center == 9.0).count()
-        })
-    }
-
-    /// Of a corner behind 254 or 255 chords the sharpest part was left out for want of room, and run through at eight times the jerk.
-    #[test]
-    fn of_a_vertex_all_features_are_taken_or_none() {
-        for vertices in SLOTS - 6..SLOTS + 3 {
-            let at_once = if vertices + OF_A_VERTEX <= SLOTS {
-                3
-            } else {
-                0
-            };
-            let found = of_a_corner_behind(vertices);
-            assert_eq!(found, [at_once, 3], "behind {vertices}");
-        }
-    }
-}
+mod tests;

@@ -80,7 +80,8 @@ impl Grid {
         let start = candidate.at(cut).start;
         self.place = context.rows.place(&context.route.point(start));
         let back = context.route.greatest_reach() * 1.01 + 1e-9 * start.abs();
-        self.features.restart(start - back, context.raise_squared);
+        self.features
+            .restart(start - back, start, context.raise_squared);
     }
 
     /// The interval that comes next.
@@ -104,8 +105,9 @@ impl Grid {
         let left = *samples.start(candidate, k);
         let free = FREE_TIME * left.cap.raised(context.raise_squared).sqrt();
         let window = free / GROWTH + route.greatest_reach();
+        self.features.make_room(s);
         if !self.features.covers(s + window) {
-            self.features.take_next(context);
+            self.features.take_next(context, s - free / GROWTH);
             return GridStep::More;
         }
         self.features.drop_before(s, free);
