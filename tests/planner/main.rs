@@ -8,6 +8,7 @@ mod caps;
 mod chord_circles;
 mod common;
 mod corners_inside;
+mod dense_passes;
 mod faults;
 mod feed;
 mod fillets;
