@@ -176,6 +176,7 @@ soak: modules
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner programs:: -- --skip short_programs:: --nocapture
 	FRAMEPATH_CASES=1000000 $(CARGO) test --locked --release --test planner short_programs:: -- --nocapture
 	FRAMEPATH_CASES=10000 $(CARGO) test --locked --release --test planner monotone:: -- --nocapture
+	FRAMEPATH_CASES=2000 $(CARGO) test --locked --release --test planner dense_passes:: -- --nocapture
 	$(PYTHON) -B tests/linuxcnc/soak.py --seconds 7200
 
 bench: prerequisites

@@ -289,8 +289,8 @@ impl Vertex {
 
     /// The mix of a kernel that overlaps with its neighbours.
     pub fn overlapping_mix(&self, width: f64) -> f64 {
-        let share = self.mean_leg / width;
-        1.0 + (0.29 * share * share).min(0.15)
+        let [mix, _] = Self::overlapping_mixes([self; 2], f64x2::splat(width)).to_array();
+        mix
     }
 
     /// The same of two at a time.

@@ -1,17 +1,12 @@
 //! A corner a little before the end of a program.
 
-use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::TerminationCondition;
 
-use crate::common::{Machine, at, feed_move, with_room};
+use crate::common::{Machine, at, equal_limits, feed_move, with_room};
 
 /// Servo periods that two legs of 20 mm take within `tolerance`, 100 mm/s, 1000 mm/s2, 20,000 mm/s3.
 fn periods(degrees: f64, tolerance: f64) -> usize {
-    let mut machine = Machine::new(AxisLimits {
-        velocity: Axes::repeat(100.0),
-        acceleration: Axes::repeat(1000.0),
-        jerk: Axes::repeat(20_000.0),
-    });
+    let mut machine = Machine::new(equal_limits(20_000.0));
     let tolerance = TerminationCondition::Continuous { tolerance };
     machine.planner.set_termination(tolerance);
     let (sin, cos) = degrees.to_radians().sin_cos();
@@ -19,7 +14,7 @@ fn periods(degrees: f64, tolerance: f64) -> usize {
         machine.line(end, &feed_move(100.0)).expect("a line");
         machine.cycle();
     }
-    while !machine.cycle().done {}
+    machine.run(2_000);
     machine.extremes().periods
 }
 

@@ -1,21 +1,12 @@
 //! A rapid away from dense code, as at the end of each pass.
 
-use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::TerminationCondition;
 
-use crate::common::{Extremes, Machine, feed_move, with_room};
-
-fn xyz(x: f64, y: f64, z: f64) -> Axes {
-    Axes::from([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-}
+use crate::common::{Extremes, Machine, equal_limits, feed_move, with_room, xyz};
 
 /// What so many chords of .022 mm of a helix and a retract take: 100 mm/s, 1000 mm/s2, 20,000 mm/s3, P .01.
 fn extremes(chords: u32) -> Extremes {
-    let mut machine = Machine::new(AxisLimits {
-        velocity: Axes::repeat(100.0),
-        acceleration: Axes::repeat(1000.0),
-        jerk: Axes::repeat(20_000.0),
-    });
+    let mut machine = Machine::new(equal_limits(20_000.0));
     let tolerance = TerminationCondition::Continuous { tolerance: 0.01 };
     machine.planner.set_termination(tolerance);
     let place = |chord: u32| {
@@ -30,7 +21,7 @@ fn extremes(chords: u32) -> Extremes {
         machine.line(end, &feed_move(100.0)).expect("a line");
         machine.cycle();
     }
-    while !machine.cycle().done {}
+    machine.run(20_000);
     machine.extremes()
 }
 

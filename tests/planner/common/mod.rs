@@ -54,6 +54,11 @@ pub fn at(x: f64, y: f64) -> Axes {
     Axes::from([x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 }
 
+/// The same with Z.
+pub fn xyz(x: f64, y: f64, z: f64) -> Axes {
+    Axes::from([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+}
+
 /// The joints of a machine whose joints are its axes.
 pub fn joints_at(position: &Axes) -> Joints {
     let mut joints = [0.0; JOINT_COUNT];
