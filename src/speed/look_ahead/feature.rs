@@ -138,6 +138,11 @@ impl Feature {
         self.cap_changes || self.jumps
     }
 
+    /// Whether nodes may belong on its ends, too: those of a jump, and of a change of shape that may stand alone.
+    pub fn may_be_wide(&self) -> bool {
+        self.jumps || self.speed > 0.0 && self.single && !self.crowded
+    }
+
     /// The spacing at `s` outside or within, growing with the distance.
     pub fn spacing_at(&self, s: f64) -> f64 {
         if s < self.start {

@@ -3,14 +3,21 @@
 //! There may be hundreds of them within the reach of the largest spacing, but few say anything about
 //! a place: what is farther away than the spacing that was found so far is left out.
 
+mod groups;
+mod questions;
+
 use super::context::PlanContext;
-use super::feature::{Feature, GROWTH, Look, RoutePlace, TWIST_AT};
+use super::feature::{Feature, Look, RoutePlace, TWIST_AT};
 use super::route::{Route, RouteVertex};
-use crate::lanes::lesser;
 use crate::ring::Ring;
+use groups::{FeatureGroup, GROUP};
+use questions::{FinestAsked, GreatestSpeedAsked, LandmarkAsked, Question, SpacingAsked};
 
 /// Room for features.
 const SLOTS: usize = 1024;
+
+/// Room for groups of them: the newest must not take the place of the oldest where that is still needed in part.
+const GROUPS: usize = 2 * SLOTS / GROUP;
 
 /// The most that a vertex has: its change of shape, the sharpest part of that, and a change of the cap.
 const OF_A_VERTEX: usize = 3;
@@ -28,6 +35,8 @@ const NEAREST_NODE: f64 = 1e-3;
 #[derive(Debug)]
 pub(super) struct Features {
     slots: Ring<Feature, SLOTS>,
+    /// What those in a row say at the utmost.
+    groups: Ring<FeatureGroup, GROUPS>,
     /// The first one that is kept.
     oldest: usize,
     /// None of those that were not kept for want of room ends behind this.
@@ -60,6 +69,7 @@ impl Features {
     pub const fn new() -> Self {
         Self {
             slots: Ring::filled_with(Feature::NONE),
+            groups: Ring::filled_with(FeatureGroup::EMPTY),
             oldest: 0,
             lost: f64::NEG_INFINITY,
             first: 0,
@@ -107,7 +117,7 @@ impl Features {
         self.next = self.lasting;
         self.taken = self.lasting_taken;
         // Another one may come behind it.
-        self.slots.at_mut(self.next.wrapping_sub(1) as u64).crowded = false;
+        self.crowd(|_| false);
         self.first = self.oldest;
         while self.first + 1 < self.next && self.at(self.first + 1).center <= s {
             self.first += 1;
@@ -203,9 +213,8 @@ impl Features {
             last.spacing = last.spacing.min(feature.spacing);
             last.speed = last.speed.max(feature.speed);
             last.single = false;
-            let (before, behind) = (last.center - last.start, last.end - last.center);
-            self.before = self.before.max(before);
-            self.behind = self.behind.max(behind);
+            let joined = *last;
+            self.note(self.next - 1, &joined);
         } else {
             self.push(feature);
         }
@@ -217,11 +226,7 @@ impl Features {
     /// Appends a feature, over the oldest one that does not matter any more.
     fn push(&mut self, feature: Feature) {
         if self.next - self.first < SLOTS {
-            if let Some(last) = self.last_mut() {
-                last.crowded = feature.is_beside(last) && feature.start < last.end;
-            }
-            self.before = self.before.max(feature.center - feature.start);
-            self.behind = self.behind.max(feature.end - feature.center);
+            self.crowd(|last| feature.is_beside(last) && feature.start < last.end);
             if let Some(place) = self
                 .next
                 .checked_sub(SLOTS)
@@ -230,9 +235,35 @@ impl Features {
                 self.lost = self.lost.max(self.at(place).end);
             }
             *self.slots.at_mut(self.next as u64) = feature;
+            if self.next.is_multiple_of(GROUP) {
+                *self.group_mut(self.next) = FeatureGroup::EMPTY;
+            }
+            self.note(self.next, &feature);
             self.next += 1;
             self.oldest = self.oldest.max(self.next.saturating_sub(SLOTS));
         }
+    }
+
+    /// Decides which of those at the end that no other one lies behind yet are crowded.
+    fn crowd(&mut self, is_crowded: impl Fn(&Feature) -> bool) {
+        for place in (self.first..self.next).rev() {
+            let last = self.slots.at_mut(place as u64);
+            last.crowded = is_crowded(last);
+            let last = *last;
+            self.group_mut(place).mark(place, &last);
+            if place == self.first || last.is_beside(self.at(place - 1)) {
+                return;
+            }
+        }
+    }
+
+    /// Takes note of what a feature at a place says.
+    fn note(&mut self, place: usize, feature: &Feature) {
+        self.before = self.before.max(feature.center - feature.start);
+        self.behind = self.behind.max(feature.end - feature.center);
+        let group = self.group_mut(place);
+        group.add(feature);
+        group.mark(place, feature);
     }
 
     /// Leaves those in front that say nothing any more for spacings below `most` from `s` on.
@@ -244,6 +275,15 @@ impl Features {
         {
             self.first += 1;
         }
+    }
+
+    /// The group of the feature at a place.
+    fn group(&self, place: usize) -> &FeatureGroup {
+        self.groups.at((place / GROUP) as u64)
+    }
+
+    fn group_mut(&mut self, place: usize) -> &mut FeatureGroup {
+        self.groups.at_mut((place / GROUP) as u64)
     }
 
     fn at(&self, place: usize) -> &Feature {
@@ -278,93 +318,68 @@ impl Features {
 
     /// The least spacing at `s` and `most`, and whether `s` lies in a change of shape.
     pub fn spacing(&self, s: f64, most: f64) -> (f64, bool) {
-        let (mut least, mut within) = (most, false);
-        let mut consider = |feature: &Feature| {
-            // Nowhere does one ask for less than within.
-            if feature.spacing < least {
-                least = lesser(least, feature.spacing_at(s));
-            }
-            within = within || feature.speed > 0.0 && feature.start <= s && s < feature.end;
-            least
+        let mut asked = SpacingAsked {
+            s,
+            before: self.before,
+            behind: self.behind,
+            least: most,
+            within: false,
         };
-        let mut reached = most;
-        let middle = self.place_behind(s);
-        // Features farther away say nothing about less than this.
-        for place in middle..self.next {
-            let feature = self.at(place);
-            if GROWTH / (1.0 + GROWTH) * (feature.center - self.before - s) > reached {
-                break;
-            }
-            reached = consider(feature);
-        }
-        for place in (self.first..middle).rev() {
-            let feature = self.at(place);
-            if GROWTH * (s - feature.center - self.behind) > reached {
-                break;
-            }
-            reached = consider(feature);
-        }
-        (least, within)
+        self.ask_around(s, &mut asked);
+        (asked.least, asked.within)
     }
 
     /// The next place that a node should be on, if it is near the end of an interval from `s` on:
     /// start, center and end of a blend that stands alone or lies beside an arc, and changes of the
     /// speed cap.
     pub fn landmark(&self, s: f64, length: f64) -> Option<f64> {
-        let (mut best, mut rise): (Option<f64>, Option<f64>) = (None, None);
-        let is_near = |place: f64, nearest: f64| place - s > nearest && place - s < 1.3 * length;
-        let mut consider = |place: f64, nearest: f64| {
-            if is_near(place, nearest) && best.is_none_or(|other| place < other) {
-                best = Some(place);
-            }
-        };
-        let nearest = 0.3 * length;
-        let first = self.place_behind(s.min(s + nearest - self.behind));
-        for place in first..self.next {
-            let feature = self.at(place);
-            if feature.center - self.before - s >= 1.3 * length {
+        let mut asked = LandmarkAsked::new(s, length);
+        for feature in self.behind(s) {
+            if asked.ends_behind(feature, 0.0) {
                 break;
             }
-            // Of what is rounded over many vertices nearly all of them.
-            if feature.crowded && !feature.wants_node() {
-                continue;
-            }
-            if feature.jumps {
-                let unseen = feature.unseen.max(NEAREST_NODE * length);
-                consider(feature.center, unseen.min(nearest));
-                // The changes of shape at both ends of a short arc nearly cancel each other. Where
-                // they begin and end one after the other, the third derivative rises and falls
-                // within the length of the arc: a node belongs behind the rise, and before the fall.
-                consider(feature.end, nearest);
-                let place = feature.start;
-                if is_near(place, nearest) {
-                    rise = Some(match rise {
-                        Some(other) if (place - other).abs() < nearest => place.max(other),
-                        Some(other) => place.min(other),
-                        None => place,
-                    });
-                }
-            } else if feature.cap_changes {
-                consider(feature.center, nearest);
-            }
-            let is_other = |other: &&Feature| other.is_beside(feature);
-            let free_before = || {
-                let mut before = (self.first..place).rev().map(|other| self.at(other));
-                let other = before.find(is_other);
-                other.is_none_or(|other| other.end <= feature.start)
-            };
-            let free_behind = || {
-                let mut behind = (place + 1..self.next).map(|other| self.at(other));
-                let other = behind.find(is_other);
-                other.is_none_or(|other| feature.end <= other.start)
-            };
-            if feature.speed > 0.0 && feature.single && free_before() && free_behind() {
-                consider(feature.start, nearest);
-                consider(feature.center, nearest);
-                consider(feature.end, nearest);
+            if feature.cap_changes && !feature.jumps {
+                asked.ask_center(feature);
             }
         }
-        best.into_iter().chain(rise).reduce(f64::min)
+        let first = self.place_behind(s.min(s + asked.nearest() - self.behind));
+        let mut place = first;
+        while place < self.next && !asked.ends_behind(self.at(place), self.before) {
+            // Of what is rounded over many vertices nearly none.
+            match self.group(place).marked_from(place) {
+                Some(wide) if wide < self.next => {
+                    self.ask_ends(wide, &mut asked);
+                    place = wide + 1;
+                }
+                _ => place = group_behind(place),
+            }
+        }
+        asked.answer()
+    }
+
+    /// Asks for the ends of a feature where nodes should be on these.
+    fn ask_ends(&self, place: usize, asked: &mut LandmarkAsked) {
+        let feature = self.at(place);
+        if asked.ends_behind(feature, self.before) {
+            return;
+        }
+        if feature.jumps {
+            asked.ask_jump(feature, feature.unseen.max(NEAREST_NODE * asked.length));
+        }
+        let is_other = |other: &&Feature| other.is_beside(feature);
+        let free_before = || {
+            let mut before = (self.first..place).rev().map(|other| self.at(other));
+            let other = before.find(is_other);
+            other.is_none_or(|other| other.end <= feature.start)
+        };
+        let free_behind = || {
+            let mut behind = (place + 1..self.next).map(|other| self.at(other));
+            let other = behind.find(is_other);
+            other.is_none_or(|other| feature.end <= other.start)
+        };
+        if feature.speed > 0.0 && feature.single && free_before() && free_behind() {
+            asked.ask_alone(feature);
+        }
     }
 
     /// A change of the speed cap that two intervals of a `length` from `s` on would not quite come
@@ -395,57 +410,87 @@ impl Features {
     /// none.
     pub fn finest(&self, s: f64, end: f64) -> Option<f64> {
         let beside = 0.1 * (end - s);
-        let features = self
-            .behind(s - beside - self.behind)
-            .take_while(|feature| feature.center - self.before < end + beside);
-        let mut finest = f64::INFINITY;
-        for feature in features {
-            if feature.spacing < finest
-                && feature.speed > 0.0
-                && end > feature.start - beside
-                && s < feature.end + beside
-            {
-                finest = feature.spacing;
-            }
-        }
+        let mut asked = FinestAsked {
+            from: s,
+            to: end,
+            beside,
+            before: self.before,
+            finest: f64::INFINITY,
+        };
+        self.ask_behind(self.place_behind(s - beside - self.behind), &mut asked);
         // A change of shape asks for some spacing.
-        finest.is_finite().then_some(finest)
+        asked.finest.is_finite().then_some(asked.finest)
     }
 
     /// About the most that v^2 can be at `s`, and no more than `most`, with this acceleration
     /// between there and where the features are at their limit speeds.
     pub fn greatest_speed_squared(&self, s: f64, acceleration: f64, most: f64) -> f64 {
-        let widest = 0.25 * (self.before + self.behind);
-        let mut least = most;
-        let mut consider = |feature: &Feature| {
-            // Nowhere does one allow less than in its middle.
-            if feature.speed > 0.0 && feature.speed * feature.speed < least {
-                least = lesser(least, feature.greatest_speed_squared(s, acceleration));
-            }
-            least
+        let mut asked = GreatestSpeedAsked {
+            s,
+            acceleration,
+            widest: 0.25 * (self.before + self.behind),
+            least: most,
         };
-        let mut reached = most;
+        self.ask_around(s, &mut asked);
+        asked.least
+    }
+
+    /// Asks the features behind `s` and then those before it, from there outwards.
+    fn ask_around(&self, s: f64, question: &mut impl Question) {
         let middle = self.place_behind(s);
-        for place in middle..self.next {
-            let feature = self.at(place);
-            if 2.0 * acceleration * (feature.center - s - widest) > reached {
-                break;
+        self.ask_behind(middle, question);
+        self.ask_before(middle, question);
+    }
+
+    fn ask_behind(&self, from: usize, question: &mut impl Question) {
+        let mut place = from;
+        while place < self.next {
+            let end = group_behind(place).min(self.next);
+            if question.ends_behind(self.at(place)) {
+                return;
             }
-            reached = consider(feature);
-        }
-        for place in (self.first..middle).rev() {
-            let feature = self.at(place);
-            if 2.0 * acceleration * (s - feature.center - widest) > reached {
-                break;
+            if question.concerns(self.group(place)) {
+                for place in place..end {
+                    let feature = self.at(place);
+                    if question.ends_behind(feature) {
+                        return;
+                    }
+                    question.ask(feature);
+                }
             }
-            reached = consider(feature);
+            place = end;
         }
-        least
+    }
+
+    fn ask_before(&self, to: usize, question: &mut impl Question) {
+        let mut end = to;
+        while end > self.first {
+            let last = end - 1;
+            let start = (last - last % GROUP).max(self.first);
+            if question.ends_before(self.at(last)) {
+                return;
+            }
+            if question.concerns(self.group(last)) {
+                for place in (start..end).rev() {
+                    let feature = self.at(place);
+                    if question.ends_before(feature) {
+                        return;
+                    }
+                    question.ask(feature);
+                }
+            }
+            end = start;
+        }
     }
 
     fn last_mut(&mut self) -> Option<&mut Feature> {
         (self.next > self.first).then(|| self.slots.at_mut((self.next - 1) as u64))
     }
+}
+
+/// The place behind the group that a place is in.
+fn group_behind(place: usize) -> usize {
+    place - place % GROUP + GROUP
 }
 
 #[cfg(test)]

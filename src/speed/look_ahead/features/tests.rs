@@ -79,3 +79,92 @@ fn of_a_vertex_all_features_are_taken_or_none() {
         assert_eq!(found, [at_once, 3], "behind {vertices}");
     }
 }
+
+/// Features of all widths, every fourth one a change of the cap, in the order of the path.
+fn many() -> Box<Features> {
+    let mut features = Box::new(Features::new());
+    features.restart(0.0, 0.0, 1.0);
+    for k in 0..600usize {
+        let share = |period: usize| (k % period) as f64 / period as f64;
+        let center = 0.1 * k as f64 + 0.05 * share(7);
+        let reach = if k % 4 == 3 {
+            0.0
+        } else {
+            0.05 + 4.0 * share(13) * share(29)
+        };
+        features.push(Feature {
+            start: center - reach,
+            center,
+            end: center + reach * (0.5 + share(5)),
+            spacing: 0.02 + 0.3 * share(31) + 0.1 * reach,
+            speed: if reach > 0.0 {
+                1.0 + 9.0 * share(37)
+            } else {
+                0.0
+            },
+            cap_changes: reach == 0.0,
+            jumps: k % 17 == 5,
+            ..Feature::NONE
+        });
+    }
+    features
+}
+
+/// Whole groups are passed over, but none that one of has something to say.
+#[test]
+fn answers_are_those_of_all_features_asked_one_by_one() {
+    let features = many();
+    let all = || (0..features.next).map(|place| features.at(place));
+    let shapes = || all().filter(|feature| feature.speed > 0.0);
+    for step in 0..400 {
+        let s = 0.15 * f64::from(step) + 0.01;
+        for most in [0.01, 0.1, 1.0, 10.0] {
+            let spacings = all().map(|feature| feature.spacing_at(s));
+            let within = shapes().any(|feature| feature.start <= s && s < feature.end);
+            assert_eq!(
+                features.spacing(s, most),
+                (spacings.fold(most, f64::min), within)
+            );
+            let squares = shapes().map(|feature| feature.greatest_speed_squared(s, 2.0));
+            let least = squares.fold(9.0 * most, f64::min);
+            assert_eq!(features.greatest_speed_squared(s, 2.0, 9.0 * most), least);
+            let (end, beside) = (s + most, 0.1 * (s + most - s));
+            let touched =
+                shapes().filter(|feature| end > feature.start - beside && s < feature.end + beside);
+            let finest = touched.map(|feature| feature.spacing).reduce(f64::min);
+            assert_eq!(features.finest(s, end), finest);
+        }
+    }
+}
+
+/// Of what is crowded neither start nor end is a landmark, but those of a jump are, and of what stands alone.
+#[test]
+fn landmarks_are_centers_of_changes_and_the_ends_of_jumps_and_of_what_stands_alone() {
+    let of = |centers: &[f64], jumps: bool| {
+        let mut features = Box::new(Features::new());
+        features.restart(0.0, 0.0, 1.0);
+        for &center in centers {
+            features.push(Feature {
+                start: center - 1.0,
+                center,
+                end: center + 1.0,
+                spacing: 0.2,
+                speed: 1.0,
+                jumps,
+                ..Feature::NONE
+            });
+            features.push(Feature {
+                start: center,
+                center,
+                end: center,
+                spacing: 0.5,
+                cap_changes: true,
+                ..Feature::NONE
+            });
+        }
+        [4.5, 5.5, 6.5].map(|s| features.landmark(s, 1.0))
+    };
+    assert_eq!(of(&[6.0], false), [Some(5.0), Some(6.0), Some(7.0)]);
+    assert_eq!(of(&[6.0, 7.5], false), [None, Some(6.0), Some(7.5)]);
+    assert_eq!(of(&[6.0, 7.5], true), [Some(5.0), Some(6.0), Some(7.0)]);
+}
