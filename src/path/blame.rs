@@ -107,10 +107,11 @@ mod tests {
                 ];
                 lines(&bend, &settings, &mut chain);
                 for (number, kernel) in (1..).zip(widths) {
-                    chain.vertex_mut(number).set_trial(Widths {
+                    let widths = Widths {
                         kernel,
                         ..Widths::NONE
-                    });
+                    };
+                    chain.set_trial(number, widths);
                 }
                 let window = Window {
                     next: chain.next(),

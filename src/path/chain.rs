@@ -8,7 +8,9 @@ use super::kernel::Side;
 use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
+use super::trial_kernel::TrialKernel;
 use super::vertex::Vertex;
+use super::widths::Widths;
 use crate::ring::Ring;
 
 /// How many legs are kept, with those behind the machine.
@@ -32,6 +34,8 @@ pub(super) struct Chain {
     vertices: Ring<Vertex, SLOTS>,
     /// What the vertices add to the path.
     contributions: Ring<Contribution, SLOTS>,
+    /// What they would add on trial.
+    trials: Ring<TrialKernel, SLOTS>,
     first: u64,
     next: u64,
     /// Number of the leg that the path began with.
@@ -50,6 +54,7 @@ impl Chain {
             legs: Ring::filled_with(Leg::VACANT),
             vertices: Ring::filled_with(Vertex::VACANT),
             contributions: Ring::filled_with(Contribution::NONE),
+            trials: Ring::filled_with(TrialKernel::NONE),
             first: 0,
             next: 0,
             begin: 0,
@@ -122,6 +127,19 @@ impl Chain {
         self.vertices.at_mut(number)
     }
 
+    /// Puts widths of a vertex under examination.
+    pub fn set_trial(&mut self, number: u64, widths: Widths) {
+        let vertex = self.vertices.at_mut(number);
+        vertex.set_trial(widths);
+        *self.trials.at_mut(number) = TrialKernel::of(vertex);
+    }
+
+    /// The kernel of a vertex under examination.
+    #[inline]
+    pub fn trial(&self, number: u64) -> &TrialKernel {
+        self.trials.at(number)
+    }
+
     /// Puts the widths of a vertex under examination in force.
     pub fn store_trial(&mut self, number: u64) {
         let vertex = self.vertices.at_mut(number);
@@ -165,6 +183,7 @@ impl Chain {
         *self.leg_mut(self.next) = leg;
         *self.vertex_mut(self.next) = vertex;
         *self.contributions.at_mut(self.next) = Contribution::of(&vertex);
+        *self.trials.at_mut(self.next) = TrialKernel::of(&vertex);
         self.next = self.next.wrapping_add(1);
     }
 
@@ -349,7 +368,6 @@ impl Chain {
 #[cfg(test)]
 mod tests {
     use super::super::settings::Allowance;
-    use super::super::widths::Widths;
     use super::*;
 
     /// A chain of legs of length 1; it is too large for the stack of a test.
@@ -451,10 +469,11 @@ mod tests {
         with_chain(20, |chain| {
             chain.touch(10, 2.5, 20);
             chain.touch(11, 1.5, 20);
-            chain.vertex_mut(11).set_trial(Widths {
+            let widths = Widths {
                 kernel: 1.5,
                 ..Widths::NONE
-            });
+            };
+            chain.set_trial(11, widths);
             chain.store_trial(11);
             chain.settle(20, 14.0);
             let reached = |leg| {

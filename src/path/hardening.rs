@@ -38,7 +38,7 @@ pub(super) fn harden(
     let share = SHARES.get(attempt).copied().unwrap_or(0.01);
     let vertex = chain.vertex_mut(number);
     if !vertex.is_smoothed() {
-        vertex.set_trial(Widths::NONE);
+        chain.set_trial(number, Widths::NONE);
         return (true, 1);
     }
     let room = vertex.half_leg.min(clip);
@@ -58,12 +58,14 @@ pub(super) fn harden(
     // Without a tolerance half legs always hold.
     let free = vertex.free_kernel.min(clip);
     let free_easement = vertex.free_easement.min(clip);
-    vertex.set_trial(Widths {
+    let widths = Widths {
         kernel: free.max(share * kernel),
         mix: vertex.corner.mix,
         easement: free_easement.max(share * easement),
         ..Widths::NONE
-    });
+    };
+    chain.set_trial(number, widths);
+    let vertex = chain.vertex_mut(number);
     if vertex.base.kernel > 0.0 {
         vertex.factor = (vertex.trial.kernel / vertex.base.kernel).min(1.0);
     }
@@ -148,7 +150,7 @@ pub(super) mod tests {
                 let mut deviation = JumpSum::ZERO;
                 first.add_deviation(&wide, second.s - first.s, &mut deviation);
                 let tolerance = metric.norm(&deviation.axes()) / 0.97;
-                chain.vertex_mut(1).set_trial(wide);
+                chain.set_trial(1, wide);
                 let next = chain.next();
                 chain.touch(1, wide.reach(), next);
                 chain.vertex_mut(2).tolerance = tolerance;

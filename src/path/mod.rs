@@ -59,6 +59,7 @@ mod orientation;
 mod reaching;
 mod settings;
 mod shift;
+mod trial_kernel;
 mod vertex;
 mod vertex_widths;
 mod views;

@@ -8,6 +8,7 @@ use super::jump::{GROUP_SIZE, GROUPS, JumpSum};
 use super::kernel;
 use super::metric::Metric;
 use super::shift;
+use super::trial_kernel::TrialKernel;
 use super::vertex::Vertex;
 
 /// The most vertices that reach into a leg.
@@ -70,6 +71,22 @@ impl KernelPair {
             for (lanes, axis) in axes.iter_mut().zip(group) {
                 lanes[lane] = times * axis;
             }
+        }
+    }
+
+    /// Puts a kernel in of which X, Y and Z alone jump. Beside the first one there is no other yet.
+    #[inline(always)]
+    fn set_linear(&mut self, lane: usize, trial: &TrialKernel) {
+        if lane == 0 {
+            self.width = [0.0; LANES];
+        }
+        self.s[lane] = trial.s;
+        self.width[lane] = trial.reach;
+        self.mix[lane] = trial.mix;
+        self.size[lane] = trial.size;
+        let [linear, ..] = &mut self.jump;
+        for (lanes, axis) in linear.iter_mut().zip(trial.linear_jump) {
+            lanes[lane] = axis;
         }
     }
 
@@ -141,19 +158,21 @@ impl Reaching {
         self.in_others = 0;
         let (mut from_left, mut from_right) = (start, end);
         for k in 0..u64::from(leg.reached_from_left) {
-            let vertex = chain.vertex(number.wrapping_sub(k));
-            let far = vertex.s + vertex.counted.reach();
+            let left = number.wrapping_sub(k);
+            let trial = chain.trial(left);
+            let far = trial.s + trial.reach;
             if far > start {
-                self.add::<G>(number.wrapping_sub(k), vertex);
+                self.add::<G>(chain, left, trial);
                 from_left = if far > from_left { far } else { from_left };
             }
         }
         let right = u64::from(leg.reached_from_right).min(next.saturating_sub(number + 1));
         for k in 1..=right {
-            let vertex = chain.vertex(number.wrapping_add(k));
-            let near = vertex.s - vertex.counted.reach();
+            let right = number.wrapping_add(k);
+            let trial = chain.trial(right);
+            let near = trial.s - trial.reach;
             if near < end {
-                self.add::<G>(number.wrapping_add(k), vertex);
+                self.add::<G>(chain, right, trial);
                 from_right = if near < from_right { near } else { from_right };
             }
         }
@@ -162,7 +181,19 @@ impl Reaching {
     }
 
     #[inline(always)]
-    fn add<const G: usize>(&mut self, number: u64, vertex: &Vertex) {
+    fn add<const G: usize>(&mut self, chain: &Chain, number: u64, trial: &TrialKernel) {
+        if G == 1 && trial.is_all {
+            if let Some(pair) = self.pairs.get_mut(self.in_pairs / LANES) {
+                pair.set_linear(self.in_pairs % LANES, trial);
+                self.in_pairs += 1;
+            }
+        } else {
+            self.add_all::<G>(number, chain.vertex(number));
+        }
+    }
+
+    #[inline(never)]
+    fn add_all<const G: usize>(&mut self, number: u64, vertex: &Vertex) {
         let widths = &vertex.counted;
         if !KernelPair::suits(vertex) {
             if let Some(other) = self.others.get_mut(self.in_others) {
@@ -293,7 +324,7 @@ mod tests {
                     outer_share: [0.3, 0.0, 0.0, 1.4, 0.0][number as usize % 5],
                     easement: if number % 5 == 0 { 1.7 } else { 0.0 },
                 };
-                chain.vertex_mut(number).set_trial(widths);
+                chain.set_trial(number, widths);
                 chain.touch(number, widths.reach(), next);
             }
             test(&chain, &metric)

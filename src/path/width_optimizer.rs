@@ -277,13 +277,13 @@ impl WidthOptimizer {
     /// Trial widths as the base widths, the factors and the surroundings allow.
     fn set_trial(&self, chain: &mut Chain, number: u64) {
         let clip = self.window.clip(chain, number);
-        let vertex = chain.vertex_mut(number);
+        let vertex = chain.vertex(number);
         let widths = if vertex.is_smoothed() {
             vertex.widths_within(clip)
         } else {
             Widths::NONE
         };
-        vertex.set_trial(widths);
+        chain.set_trial(number, widths);
     }
 
     fn begin_check(&mut self, chain: &Chain) {
@@ -379,8 +379,8 @@ impl WidthOptimizer {
     /// Back to the stored assignment, which does not know the new vertices yet.
     fn give_up(&mut self, chain: &mut Chain) -> usize {
         for number in self.window.open..self.window.next {
+            chain.set_trial(number, *chain.vertex(number).stored());
             let vertex = chain.vertex_mut(number);
-            vertex.set_trial(*vertex.stored());
             vertex.factor = vertex.stored_factor();
             if number < self.stored_next && vertex.base.kernel > 0.0 {
                 vertex.factor = vertex

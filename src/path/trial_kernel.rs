@@ -1,0 +1,51 @@
+//! The kernel of a vertex on trial, laid out to be collected.
+//!
+//! Dozens of them reach a leg of dense code, and each leg is checked several times before widths are in force: what is asked of
+//! a vertex there lies in one line of a processor's cache.
+
+use super::jump::GROUP_SIZE;
+use super::vertex::Vertex;
+
+/// See the module.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(super) struct TrialKernel {
+    /// Where the vertex is, path distance.
+    pub s: f64,
+    /// How far it reaches, as far as that needs a tolerance: the width of its kernel, if that is [all](Self::is_all).
+    pub reach: f64,
+    /// Mix of its kernels.
+    pub mix: f64,
+    /// Length of the jump of the tangent.
+    pub size: f64,
+    /// That jump in X, Y and Z.
+    pub linear_jump: [f64; GROUP_SIZE],
+    /// Whether this says all of it: it has one kernel without a share of K8, and nothing else.
+    pub is_all: bool,
+}
+
+impl TrialKernel {
+    pub const NONE: Self = Self {
+        s: 0.0,
+        reach: 0.0,
+        mix: 0.0,
+        size: 0.0,
+        linear_jump: [0.0; GROUP_SIZE],
+        is_all: true,
+    };
+
+    /// Of a vertex as it is on trial.
+    pub fn of(vertex: &Vertex) -> Self {
+        let [linear, ..] = vertex.tangent_jump.groups();
+        let counted = &vertex.counted;
+        let times = 1.0 + counted.outer_share;
+        Self {
+            s: vertex.s,
+            reach: counted.reach(),
+            mix: counted.mix,
+            size: times.abs() * vertex.tangent_jump_size,
+            linear_jump: linear.map(|axis| times * axis),
+            is_all: counted.mix >= 0.0 && counted.outer <= 0.0 && counted.easement <= 0.0,
+        }
+    }
+}
