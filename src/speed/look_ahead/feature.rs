@@ -26,6 +26,9 @@ const UNSEEN_TIME: f64 = 3e-5;
 /// The most that the spacings of two changes of shape differ by, one of which stands for both.
 const JOINED: f64 = 2.0;
 
+/// A change of the cap asks for nodes where the curve lets the speed be this share of the lower cap.
+const CAP_SHARE: f64 = 0.7;
+
 /// Where the curvature of most blends changes most, share of their reach.
 pub(super) const TWIST_AT: f64 = 0.45;
 
@@ -187,6 +190,12 @@ impl<R: Route> Look<'_, R> {
         let vertex = self.at(s);
         self.vertex = Some(vertex);
         vertex
+    }
+
+    /// Whether the path lets the speed come near the cap at the vertex.
+    pub fn nears_cap(&mut self, s: f64) -> bool {
+        let vertex = self.at_vertex(s);
+        vertex.speed >= CAP_SHARE * vertex.cap_speed
     }
 
     fn at(&mut self, s: f64) -> RoutePlace {

@@ -182,16 +182,17 @@ impl Features {
             end: &mut self.end,
             vertex: None,
         };
-        // A change of the cap asks for nodes where it is, not all over a wide change of shape there.
+        // A change of the cap asks for nodes where it is, not all over a wide change of shape there, and for none where that is
+        // far slower anyway.
         let point = RouteVertex {
             reach: 0.0,
             core: 0.0,
             ..*vertex
         };
-        let cap_change =
-            (vertex.cap_changes && vertex.reach > 0.0).then(|| Feature::of(&point, &mut path));
+        let counts = vertex.cap_changes && vertex.reach > 0.0 && path.nears_cap(vertex.position);
+        let cap_change = counts.then(|| Feature::of(&point, &mut path));
         let shape = RouteVertex {
-            cap_changes: vertex.cap_changes && cap_change.is_none(),
+            cap_changes: vertex.cap_changes && vertex.reach <= 0.0,
             ..*vertex
         };
         let feature = Feature::of(&shape, &mut path);

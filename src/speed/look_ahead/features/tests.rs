@@ -18,6 +18,25 @@ fn straight(s: f64) -> PathPoint {
     }
 }
 
+fn rows() -> AxisRows {
+    let limits = AxisLimits {
+        velocity: Axes::repeat(100.0),
+        acceleration: Axes::repeat(1000.0),
+        jerk: Axes::repeat(20_000.0),
+    };
+    AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3)
+}
+
+fn context<'a, R: Route>(route: &'a R, rows: &'a AxisRows, plan: &'a Spline) -> PlanContext<'a, R> {
+    PlanContext {
+        route,
+        rows,
+        plan,
+        raise_squared: 1.0,
+        oldest: 0,
+    }
+}
+
 /// The features of a corner behind so many vertices that there are for a grid at its start, and just before the corner.
 fn of_a_corner_behind(vertices: usize) -> [usize; 2] {
     let dense = (1..=vertices).map(|k| RouteVertex {
@@ -39,20 +58,9 @@ fn of_a_corner_behind(vertices: usize) -> [usize; 2] {
         breakpoints: Vec::new(),
         vertices: dense.chain([corner]).collect(),
     };
-    let limits = AxisLimits {
-        velocity: Axes::repeat(100.0),
-        acceleration: Axes::repeat(1000.0),
-        jerk: Axes::repeat(20_000.0),
-    };
-    let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
+    let rows = rows();
     let plan = Box::new(Spline::NONE);
-    let context = PlanContext {
-        route: &route,
-        rows: &rows,
-        plan: &plan,
-        raise_squared: 1.0,
-        oldest: 0,
-    };
+    let context = context(&route, &rows, &plan);
     let mut features = Box::new(Features::new());
     features.restart(0.0, 0.0, 1.0);
     [0.0, 8.0].map(|s| {
@@ -167,4 +175,40 @@ fn landmarks_are_centers_of_changes_and_the_ends_of_jumps_and_of_what_stands_alo
     assert_eq!(of(&[6.0], false), [Some(5.0), Some(6.0), Some(7.0)]);
     assert_eq!(of(&[6.0, 7.5], false), [None, Some(6.0), Some(7.5)]);
     assert_eq!(of(&[6.0, 7.5], true), [Some(5.0), Some(6.0), Some(7.0)]);
+}
+
+/// The features that are changes of the cap, of a vertex where the curve allows this share of the cap.
+fn changes_of_cap_where_the_curve_allows(share: f64) -> usize {
+    let curve = move |s: f64| PathPoint {
+        second: Axes::y() * (0.4 / (share * share)),
+        ..straight(s)
+    };
+    let vertex = RouteVertex {
+        position: 5.0,
+        reach: 1.0,
+        core: 0.0,
+        cap_changes: true,
+        may_jump: false,
+    };
+    let route = TestRoute {
+        point: curve,
+        breakpoints: Vec::new(),
+        vertices: vec![vertex],
+    };
+    let rows = rows();
+    let plan = Box::new(Spline::NONE);
+    let context = context(&route, &rows, &plan);
+    let mut features = Box::new(Features::new());
+    features.restart(0.0, 0.0, 1.0);
+    while !features.covers(10.0) {
+        features.take_next(&context, 0.0);
+    }
+    features.cap_changes(0.0, 10.0).count()
+}
+
+#[test]
+fn a_change_of_the_cap_counts_where_the_curve_lets_the_speed_come_near_it() {
+    for (share, changes) in [(0.3, 0), (0.6, 0), (0.8, 1), (2.0, 1)] {
+        assert_eq!(changes_of_cap_where_the_curve_allows(share), changes);
+    }
 }
