@@ -24,7 +24,7 @@ const RADIUS_SHARE: f64 = 0.25;
 const GREATEST_ANGLE: f64 = 1.0;
 
 /// The share of J that the third derivative of the path may leave its linear interpolation by.
-const THIRD_DERIVATIVE_ERROR: f64 = 0.04;
+const THIRD_DERIVATIVE_ERROR: f64 = 0.08;
 
 /// The share of its length that an interval without a vertex keeps where only the joints bend.
 const LEAST_BEND_SHARE: f64 = 0.3;
