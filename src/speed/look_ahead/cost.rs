@@ -35,9 +35,9 @@ pub(super) const SWEEP: u32 = 1;
 /// A coefficient in each direction.
 pub(super) const SWEEPS: u32 = 2;
 /// The rows of all axes at three places: of three axes, twice as much of nine.
-pub(super) const CHECK: u32 = 2;
+pub(super) const CHECK: u32 = 3;
 /// Gradient and second derivatives of an interval, and the elimination of a coefficient; the same.
-pub(super) const ASSEMBLE: u32 = 9;
+pub(super) const ASSEMBLE: u32 = 11;
 /// A coefficient of a step.
 pub(super) const SUBSTITUTE: u32 = 1;
 /// Plan and candidate changing places, per plan.

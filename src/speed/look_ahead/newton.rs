@@ -83,6 +83,9 @@ pub(super) struct NewtonStep {
     share: f64,
     shortenings: u32,
     clean: bool,
+    /// Whether only intervals that refused a step before are asked for now: these mostly tell how long it may be, and then all
+    /// are asked but once.
+    probing: bool,
     rows: Ring<SystemRow, SLOTS>,
 }
 
@@ -95,6 +98,7 @@ impl NewtonStep {
         share: 1.0,
         shortenings: 0,
         clean: true,
+        probing: true,
         rows: Ring::filled_with(SystemRow::NONE),
     };
 
@@ -258,6 +262,9 @@ impl NewtonStep {
     }
 
     fn check(&mut self, plan: &Spline, samples: &SampleBanks, axes: &AxisRows, raise_squared: f64) {
+        if self.probing && !self.go_on_to_stiff(plan) {
+            return;
+        }
         let k = self.k;
         let moved = |k: usize| plan.at(k).coefficient + self.share * self.row(k).step;
         let parabola = plan.parabola_with(k, [moved(k - 1), moved(k), moved(k + 1)]);
@@ -273,15 +280,36 @@ impl NewtonStep {
             }
             return;
         }
-        if k + 1 < self.end {
-            self.k = k + 1;
-        } else if !self.clean {
+        self.k = k + 1;
+        if self.k == self.end && !self.probing {
+            if self.clean {
+                self.begin_apply();
+            } else {
+                self.begin_to_ask_all();
+            }
+        }
+    }
+
+    /// Goes on to the next interval that refused a step before, from this one on. Answers whether there is one; if not, all are
+    /// asked next.
+    fn go_on_to_stiff(&mut self, plan: &Spline) -> bool {
+        while self.k < self.end {
+            if plan.at(self.k).resistance > 1.0 {
+                return true;
+            }
+            self.k += 1;
+        }
+        self.begin_to_ask_all();
+        false
+    }
+
+    fn begin_to_ask_all(&mut self) {
+        self.probing = false;
+        self.k = self.first;
+        if !self.clean {
             // Intervals before the refusing one have only seen a longer step.
             self.clean = true;
             self.share *= LAST_SHARE;
-            self.k = self.first;
-        } else {
-            self.begin_apply();
         }
     }
 
