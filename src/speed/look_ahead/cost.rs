@@ -6,7 +6,7 @@
 /// and where it takes so many nanoseconds to find what the limits hold for.
 pub(super) fn evaluation(kernels: f64, nanoseconds: f64) -> u32 {
     let behind = UNITS_A_NANOSECOND * nanoseconds.clamp(0.0, MOST_NANOSECONDS);
-    4 + (0.16 * kernels.clamp(0.0, MOST_KERNELS)) as u32 + behind as u32
+    5 + (0.2 * kernels.clamp(0.0, MOST_KERNELS)) as u32 + behind as u32
 }
 /// More never overlap.
 const MOST_KERNELS: f64 = 64.0;
@@ -23,7 +23,7 @@ pub(super) const REST_ARC: u32 = 20;
 /// .. so many evaluations.
 pub(super) const REST_ARC_EVALUATIONS: u32 = 5;
 /// A node of the grid or a vertex that asks for some, besides ..
-pub(super) const NODE: u32 = 8;
+pub(super) const NODE: u32 = 10;
 /// .. so many evaluations: two or three, seldom nine.
 pub(super) const NODE_EVALUATIONS: u32 = 3;
 /// The bounds of an interval in which so many axes move.
