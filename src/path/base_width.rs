@@ -71,6 +71,7 @@ pub(super) fn widen(
         };
         let vertex = chain.vertex_mut(number);
         vertex.scanned = vertex.scanned.max(found);
+        vertex.let_shrink(deviation);
     }
     let vertex = chain.vertex_mut(number);
     vertex.scan_done = too_wide;

@@ -67,7 +67,7 @@ impl<'a> EqualWidthsSum<'a> {
     fn values(&self, vertices: [&Vertex; 2]) -> [f64; 2] {
         let width = f64x2::splat(self.width);
         let distance = (self.place - f64x2::new(vertices.map(|vertex| vertex.s))).abs();
-        let mix = Vertex::overlapping_mixes(vertices, width);
+        let mix = Vertex::full_mixes(vertices, width);
         (width * kernel::values(distance / width, mix)).to_array()
     }
 

@@ -59,6 +59,7 @@ mod orientation;
 mod reaching;
 mod settings;
 mod shift;
+mod shrinkage;
 mod trial_kernel;
 mod vertex;
 mod vertex_widths;

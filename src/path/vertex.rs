@@ -1,7 +1,5 @@
 //! A vertex of the programmed path: where two legs meet.
 
-use wide::f64x2;
-
 use super::easement;
 use super::jump::{Jump, JumpSum, PointSum};
 use super::kernel::{FlatKernel, Kernel, Side};
@@ -46,6 +44,9 @@ pub(super) struct Vertex {
     pub longer_leg: f64,
     /// Mean length of its legs.
     pub mean_leg: f64,
+    /// How much the curve that it belongs to may [shrink](super::shrinkage): by how much less its mix may be, times the square of
+    /// its width.
+    pub shrinkage: f64,
     /// The machine comes to rest here.
     pub stop: bool,
     /// No kernel crosses it. It may have one itself, if it is not a stop.
@@ -113,6 +114,7 @@ impl Vertex {
         half_leg: 0.0,
         longer_leg: 0.0,
         mean_leg: 0.0,
+        shrinkage: 0.0,
         stop: true,
         wall: true,
         left_wall: 0.0,
@@ -274,30 +276,6 @@ impl Vertex {
             easement: counted(widths.easement),
             ..widths
         };
-    }
-
-    /// The mix of kernels for a width: where kernels of neighbours overlap, the curve that they
-    /// stand for must not shrink. What is above 1 balances deviations to the outside and to the
-    /// inside when the legs are so long that the curve lies well outside of them.
-    pub fn mix(&self, width: f64) -> f64 {
-        if width > self.half_leg * 1.001 {
-            self.overlapping_mix(width)
-        } else {
-            self.corner.mix
-        }
-    }
-
-    /// The mix of a kernel that overlaps with its neighbours.
-    pub fn overlapping_mix(&self, width: f64) -> f64 {
-        let [mix, _] = Self::overlapping_mixes([self; 2], f64x2::splat(width)).to_array();
-        mix
-    }
-
-    /// The same of two at a time.
-    #[inline(always)]
-    pub fn overlapping_mixes(vertices: [&Self; 2], width: f64x2) -> f64x2 {
-        let share = f64x2::new(vertices.map(|vertex| vertex.mean_leg)) / width;
-        1.0 + (share * 0.29 * share).fast_min(f64x2::splat(0.15))
     }
 
     /// Whether there is anything to be smoothed.

@@ -23,6 +23,7 @@
 mod division;
 mod piece;
 mod solver;
+mod turning;
 mod weights;
 
 pub(super) use self::division::MOST_PIECES;
@@ -274,6 +275,7 @@ impl Fairing {
         } else {
             *self.pieces.at_mut(BEFORE_FIRST) = Piece::before(&leg);
         }
+        piece.follow(self.pieces.at(number.wrapping_sub(1)));
         if let Some(earliest) = number.checked_sub(2) {
             let (one, two) = (self.pieces.at(earliest), self.pieces.at(earliest + 1));
             if one.joined && two.joined {

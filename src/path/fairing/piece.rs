@@ -35,6 +35,10 @@ pub(super) struct Piece {
     pub leg: Leg,
     /// Where the program ends it.
     pub end: Point,
+    /// Which way it leads there, from its start straight to its end, length 1.
+    pub direction: Point,
+    /// By how much that differs from the one before.
+    pub turn: f64,
     /// Whether nothing to come changes what lies before its end.
     pub closes: bool,
     /// Whether another line follows it without a stop that vertices are moved on as well.
@@ -63,6 +67,8 @@ impl Piece {
         Self {
             leg: Leg::VACANT,
             end: ORIGIN,
+            direction: ORIGIN,
+            turn: 0.0,
             closes: false,
             joined: false,
             room: 0.0,
@@ -83,6 +89,13 @@ impl Piece {
             leg,
             ..Self::VACANT
         }
+    }
+
+    /// Behind another one.
+    pub fn follow(&mut self, before: &Self) {
+        let way = self.end - before.end;
+        self.direction = way / way.norm().max(f64::MIN_POSITIVE);
+        self.turn = (self.direction - before.direction).norm();
     }
 
     /// None, where this leg starts.

@@ -4,11 +4,17 @@
 //! one that is fast may not. So it counts the less the greater it is, and the sum of squares comes to one of absolute
 //! values (iteratively reweighted least squares: Lawson, 1961).
 
+use core::ops::Range;
+
 use super::piece::{Piece, Point, ROOM, SPAN, vertex};
+use super::turning::is_on_curve;
 use crate::ring::Ring;
 
 /// Over so many pieces to both sides the third derivative is averaged: kernels smooth as far.
 const BESIDE: u64 = 2;
+
+/// On a curve over all that are being moved, and so many before them.
+const ALONG: u64 = 24;
 
 /// Gives the pieces from `first` to before `next` that have none the weight of the one before.
 pub(super) fn begin(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64) {
@@ -23,29 +29,50 @@ pub(super) fn begin(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64) {
     }
 }
 
-/// Determines the weights of the pieces from `first` to before `next` from where their vertices are.
+/// Determines the weights of the pieces from `first` to before `next` from where their vertices are: on a curve the same for all.
 pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64) {
-    let from = first.saturating_sub(BESIDE + 1);
+    let from = start_of_run(pieces, first);
     for number in from..next {
         pieces.at_mut(number).square = square(pieces, number);
     }
+    let along = mean_square(pieces, from..next);
     for number in first..next {
-        let beside = number.saturating_sub(BESIDE).max(from)..(number + BESIDE + 1).min(next);
-        let (mut sum, mut length) = (0.0, 0.0);
-        for piece in beside.map(|number| pieces.at(number)) {
-            if piece.third != [0.0; SPAN] {
-                sum += piece.square;
-                length += piece.leg.length;
-            }
-        }
+        let mean = if is_on_curve(pieces, number, from, next) {
+            along
+        } else {
+            let beside = number.saturating_sub(BESIDE).max(from)..(number + BESIDE + 1).min(next);
+            mean_square(pieces, beside)
+        };
         let piece = pieces.at_mut(number);
-        let greatest = piece.even * piece.even * length;
-        piece.weight = if sum > greatest {
-            (greatest / sum).sqrt().sqrt()
+        let greatest = piece.even * piece.even;
+        piece.weight = if mean > greatest {
+            (greatest / mean).sqrt().sqrt()
         } else {
             1.0
         };
     }
+}
+
+/// Number of the first piece of a run that goes on with `first`, or of the first one that is looked at.
+fn start_of_run(pieces: &Ring<Piece, ROOM>, first: u64) -> u64 {
+    let earliest = first.saturating_sub(ALONG);
+    let mut from = first;
+    while from > earliest && pieces.at(from - 1).joined {
+        from -= 1;
+    }
+    from
+}
+
+/// The mean of the square of the third derivative over these pieces, as far as they are runs.
+fn mean_square(pieces: &Ring<Piece, ROOM>, numbers: Range<u64>) -> f64 {
+    let (mut sum, mut length) = (0.0, 0.0);
+    for piece in numbers.map(|number| pieces.at(number)) {
+        if piece.third != [0.0; SPAN] {
+            sum += piece.square;
+            length += piece.leg.length;
+        }
+    }
+    if length > 0.0 { sum / length } else { 0.0 }
 }
 
 /// The square of the third divided difference that ends with a piece, times its length.
@@ -89,5 +116,37 @@ mod tests {
             let weight = pieces.at(number).weight;
             assert!((weight - expected).abs() < 1e-9, "{weight} {expected}");
         }
+    }
+
+    #[test]
+    fn on_a_curve_all_count_the_same() {
+        let mut pieces = Box::new(Ring::filled_with(Piece::VACANT));
+        let mut before = Piece::VACANT;
+        for number in 0..40 {
+            // A circle with a radius of 10 of chords that are divided unevenly.
+            let angle = 0.07 * number as f64 + 0.02 * (number % 3) as f64;
+            let mut piece = Piece {
+                end: Point::new(10.0 * angle.sin(), -10.0 * angle.cos(), 0.0),
+                joined: true,
+                third: if number >= 3 {
+                    third([0.7; 3])
+                } else {
+                    [0.0; SPAN]
+                },
+                even: 1e-4,
+                ..Piece::VACANT
+            };
+            piece.leg.length = 0.7;
+            piece.follow(&before);
+            before = piece;
+            *pieces.at_mut(number) = piece;
+        }
+        weigh(&mut pieces, 0, 40);
+        let weights: Vec<f64> = (10..30).map(|number| pieces.at(number).weight).collect();
+        assert!(weights[0] < 1.0, "{weights:?}");
+        assert!(
+            weights.iter().all(|weight| *weight == weights[0]),
+            "{weights:?}"
+        );
     }
 }

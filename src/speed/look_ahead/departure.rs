@@ -49,29 +49,52 @@ pub(super) struct Between<'a, R: Route> {
 impl<R: Route> Between<'_, R> {
     /// By how much the path departs from what these samples of its start, middle and end say.
     pub fn departure_from(&self, samples: [&Sample; 3]) -> Departure {
-        let mut breakpoints = [0.0; MOST_BREAKPOINTS];
         let end = self.start + self.length;
-        let count = self.route.breakpoints(self.start, end, &mut breakpoints);
-        let places = &mut breakpoints[..count.min(MOST_BREAKPOINTS)];
-        sort(places);
         let mut most = self.smooth(samples);
         let mut look = |place: f64| {
             let [second, third] = self.departure_at(samples, place);
             most = [most[0].max(second), most[1].max(third)];
         };
-        let mut last = self.start;
-        for &place in &*places {
-            if let Some(middle) = middle(last, place) {
-                look(middle);
+        let (mut from, mut last) = (self.start, self.start);
+        while from < end {
+            let mut places = [0.0; MOST_BREAKPOINTS];
+            let (to, count) = self.breakpoints(from, end, &mut places);
+            let places = &mut places[..count];
+            sort(places);
+            // Where the interval is divided there may be one, too.
+            let divided = (to < end).then_some(to);
+            for place in places.iter().copied().chain(divided) {
+                if let Some(middle) = middle(last, place) {
+                    look(middle);
+                }
+                look(place);
+                last = place;
             }
-            look(place);
-            last = place;
+            from = to;
         }
         if let Some(middle) = middle(last, end).filter(|_| last > self.start) {
             look(middle);
         }
         let [second, third] = most.map(|share| share as f32);
         Departure { second, third }
+    }
+
+    /// The breakpoints behind `from` and before `end`, or before a place nearer than that where there is no room for all of them:
+    /// that place, and how many.
+    fn breakpoints(
+        &self,
+        from: f64,
+        end: f64,
+        places: &mut [f64; MOST_BREAKPOINTS],
+    ) -> (f64, usize) {
+        let mut to = end;
+        loop {
+            let count = self.route.breakpoints(from, to, places);
+            match middle(from, to) {
+                Some(middle) if count >= MOST_BREAKPOINTS => to = middle,
+                _ => return (to, count.min(MOST_BREAKPOINTS)),
+            }
+        }
     }
 
     /// How far q'' and q''' leave their parabolas where they are smooth, over A and J. If q''' is a cubic, that changes q''
@@ -200,6 +223,15 @@ mod tests {
         // The parabola through 0, 1 and 0 is .64 where the tooth begins and ends.
         let third = departure(&tooth(0.2, 0.8), &MachineMap::IDENTITY);
         assert!((third - 0.64).abs() < 1e-6, "{third}");
+    }
+
+    #[test]
+    fn none_of_many_breakpoints_is_passed_over() {
+        let mut route = tooth(0.1, 0.4);
+        let others = (1..200).map(|k| 0.5 + 0.002 * f64::from(k));
+        route.breakpoints = others.chain([0.4, 0.1]).collect();
+        let third = departure(&route, &MachineMap::IDENTITY);
+        assert!((third - 1.0).abs() < 1e-3, "{third}");
     }
 
     #[test]
