@@ -219,7 +219,7 @@ impl Fairing {
         self.iterations -= 1;
         if self.iterations == ITERATIONS / 2 {
             self.solver.store(&mut self.pieces);
-            weights::weigh(&mut self.pieces, settled, self.end);
+            weights::weigh(&mut self.pieces, settled, self.end, BATCH);
             self.solver.prepare(&self.pieces, settled, self.end);
         }
         if self.iterations == 0 {

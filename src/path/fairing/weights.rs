@@ -30,9 +30,10 @@ pub(super) fn begin(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64) {
 }
 
 /// Determines the weights of the pieces from `first` to before `next` from where their vertices are: on a curve the same for all.
-pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64) {
+/// `batch`: as many before them have become final since the last time.
+pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64, batch: u64) {
     let from = start_of_run(pieces, first);
-    for number in from..next {
+    for number in first.saturating_sub(batch).max(from)..next {
         pieces.at_mut(number).square = square(pieces, number);
     }
     let along = mean_square(pieces, from..next);
@@ -109,7 +110,7 @@ mod tests {
             };
             pieces.at_mut(number).leg.length = 1.0;
         }
-        weigh(&mut pieces, 0, 40);
+        weigh(&mut pieces, 0, 40, 0);
         // The third derivative of a zigzag of height h is 4 h.
         for (number, height) in [(10, 0.01), (30, 1.0)] {
             let expected = (0.1f64 / (4.0 * height)).sqrt().min(1.0);
@@ -141,7 +142,7 @@ mod tests {
             before = piece;
             *pieces.at_mut(number) = piece;
         }
-        weigh(&mut pieces, 0, 40);
+        weigh(&mut pieces, 0, 40, 0);
         let weights: Vec<f64> = (10..30).map(|number| pieces.at(number).weight).collect();
         assert!(weights[0] < 1.0, "{weights:?}");
         assert!(
