@@ -24,7 +24,7 @@ pub(super) struct BarrierDerivatives {
 }
 
 /// Derivatives by b, a and u, second ones symmetric; of one place, or of [`PLACES`] by lanes.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Local<T> {
     b: T,
     a: T,
@@ -69,9 +69,9 @@ impl Barrier {
         let weight = self.weight * h / b_middle.sqrt();
         let x = f64x4::new(PLACES) * h;
         let places = BarrierPlaces::of(parabola, x);
-        let mut local = places.duration(f64x4::new(SIMPSON) * h);
-        self.add_limits(
-            &mut local,
+        let duration = places.duration(f64x4::new(SIMPSON) * h);
+        let local = self.with_limits(
+            duration,
             rows,
             &places,
             interval,
@@ -80,16 +80,16 @@ impl Barrier {
         local.by_start(x).by_coefficients(lengths)
     }
 
-    /// Adds the barrier at all places.
+    /// Duration and barrier at all places.
     #[inline]
-    fn add_limits(
+    fn with_limits(
         &self,
-        sum: &mut Local<f64x4>,
+        duration: DurationDerivatives,
         rows: &AxisRows,
         places: &BarrierPlaces,
         interval: &IntervalSamples,
         weight: f64x4,
-    ) {
+    ) -> Local<f64x4> {
         let BarrierPlaces {
             b,
             a,
@@ -101,8 +101,6 @@ impl Barrier {
         let left = by_place(samples.map(|sample| sample.cap.raised(self.raise_squared))) - b;
         let inverse_left = (f64x4::ONE / left) & left.simd_gt(f64x4::ZERO);
         let rise = weight * inverse_left;
-        sum.b += rise;
-        sum.bb += rise * inverse_left;
         // The bound of the jerk rows and its derivative by b.
         let third = f64::from(interval.departure.third);
         let whole = root * self.margin * inverse;
@@ -113,21 +111,28 @@ impl Barrier {
         let factors = [b, a, f64x4::splat(u), bound, bound_slope, margin].map(to_single);
         let moving = MovingAxes::at_any(samples);
         let limits = of_axes(rows, samples, moving, &factors);
-        // Axes that stand still at a place have no row there, but the bound of one.
-        let still = samples.map(|sample| moving.more_than(sample.axes));
-        let still = by_place(still);
-        let jump = 2.0 / bound;
-        let jumps = to_double(limits.jumps) - still * jump;
-        let even = to_double(limits.even) - still * 0.5 * jump * jump;
-        sum.u += weight * to_double(limits.u);
-        sum.a += weight * to_double(limits.a);
-        sum.b += weight * (to_double(limits.b) - jumps * bound_slope);
-        sum.uu += weight * to_double(limits.uu);
-        sum.au += weight * to_double(limits.au);
-        sum.bu += weight * to_double(limits.bu);
-        sum.aa += weight * to_double(limits.aa);
-        sum.ba += weight * to_double(limits.ba);
-        sum.bb += weight * (to_double(limits.bb) + even * bound_slope * bound_slope);
+        let (mut jumps, mut even) = (to_double(limits.jumps), to_double(limits.even));
+        if samples.iter().any(|sample| sample.axes != moving) {
+            // Axes that stand still at a place have no row there, but the bound of one.
+            let still = by_place(samples.map(|sample| moving.more_than(sample.axes)));
+            let jump = f64x4::ONE / bound;
+            jumps -= still * jump;
+            even -= still * jump * jump;
+        }
+        let twice = weight + weight;
+        Local {
+            u: twice * to_double(limits.u),
+            a: twice * to_double(limits.a),
+            b: duration.b + rise + twice * (to_double(limits.b) - jumps * bound_slope),
+            uu: twice * to_double(limits.uu),
+            au: twice * to_double(limits.au),
+            bu: twice * to_double(limits.bu),
+            aa: twice * to_double(limits.aa),
+            ba: twice * to_double(limits.ba),
+            bb: duration.bb
+                + rise * inverse_left
+                + twice * (to_double(limits.bb) + even * bound_slope * bound_slope),
+        }
     }
 }
 
@@ -147,11 +152,9 @@ fn of_axes(
                 samples.map(|sample| f32x4::new(*quad(&sample.lanes[order], number)));
             f32x4::transpose([start, middle, end, end])
         });
-        let by_axis = [0, 1, 2, 3].map(|lane| [by_u[lane], by_a[lane], by_b[lane]]);
-        let first = QUAD_LANES * number;
-        for ((axis, row), time) in (first..).zip(&by_axis).zip(times) {
-            if moving.contains(axis) {
-                limits.add(row, *time, factors);
+        for (lane, time) in times.iter().enumerate() {
+            if moving.contains(QUAD_LANES * number + lane) {
+                limits.add(&[by_u[lane], by_a[lane], by_b[lane]], *time, factors);
             }
         }
     }
@@ -174,7 +177,7 @@ fn to_double(values: f32x4) -> f64x4 {
     f64x4::new(values.to_array().map(f64::from))
 }
 
-/// What the limits of the axes add at each place, for a weight of 1.
+/// Half of what the limits of the axes add at each place, for a weight of 1.
 #[derive(Default)]
 struct BarrierLimits {
     b: f32x4,
@@ -195,8 +198,8 @@ struct BarrierLimits {
 impl BarrierLimits {
     /// Adds an axis: its rows by u, a and b at each place, and its time J / A.
     ///
-    /// `1 / (bound - y) - 1 / (bound + y)` is called slope, the sum of both jumps, that of their
-    /// squares even and the difference of the squares odd.
+    /// Half of `1 / (bound - y) - 1 / (bound + y)` is called slope, of the sum of both jumps, of that of their
+    /// squares even and of the difference of the squares odd.
     #[inline(always)]
     fn add(
         &mut self,
@@ -205,10 +208,10 @@ impl BarrierLimits {
         &[b, a, u, bound, bound_slope, margin]: &[f32x4; 6],
     ) {
         let jerk = by_u * u + by_a * a + by_b * b;
-        let inverse = 2.0 / ((bound - jerk) * (bound + jerk));
+        let inverse = 1.0 / ((bound - jerk) * (bound + jerk));
         let (slope, jumps) = (jerk * inverse, bound * inverse);
-        let even = (slope * slope + jumps * jumps) * 0.5;
-        let odd = slope * jumps * bound_slope;
+        let even = slope * slope + jumps * jumps;
+        let odd = slope * jumps * (bound_slope + bound_slope);
         let (even_u, across) = (even * by_u, even * by_b - odd);
         self.jumps += jumps;
         self.even += even;
@@ -216,12 +219,11 @@ impl BarrierLimits {
         self.uu += even_u * by_u;
         self.au += even_u * by_a;
         self.bu += across * by_u;
-
         let (along, over) = (by_u * time, by_a * (time * THIRD));
         let acceleration = along * a + over * b;
-        let inverse = 2.0 / ((margin - acceleration) * (margin + acceleration));
+        let inverse = 1.0 / ((margin - acceleration) * (margin + acceleration));
         let (rise, leaps) = (acceleration * inverse, margin * inverse);
-        let both = (rise * rise + leaps * leaps) * 0.5;
+        let both = rise * rise + leaps * leaps;
         self.a += slope * by_a + rise * along;
         self.b += slope * by_b + rise * over;
         self.aa += even * by_a * by_a + both * along * along;
@@ -258,14 +260,19 @@ impl BarrierPlaces {
 
     /// `weight / sqrt(b)`.
     #[inline(always)]
-    fn duration(&self, weight: f64x4) -> Local<f64x4> {
+    fn duration(&self, weight: f64x4) -> DurationDerivatives {
         let cubed = weight * self.root * self.inverse * self.inverse;
-        Local {
+        DurationDerivatives {
             b: cubed * -0.5,
             bb: cubed * 0.75 * self.inverse,
-            ..Local::default()
         }
     }
+}
+
+/// The derivatives of the duration at each place; those by a and u are 0.
+struct DurationDerivatives {
+    b: f64x4,
+    bb: f64x4,
 }
 
 impl Local<f64x4> {

@@ -1,10 +1,12 @@
 //! Whether an interval keeps the limits of the axes.
 
+use wide::f32x4;
+
 use super::interval::Parabola;
 use super::interval_samples::IntervalSamples;
 use super::rows::{AxisRows, THIRD};
 use super::sample::MovingAxes;
-use crate::lanes::{QUAD_LANES, QUADS, Quad, greater, quad};
+use crate::lanes::{QUADS, greater, quad};
 
 /// Between these places the acceleration may exceed what is allowed there by this share of its
 /// limit ..
@@ -48,57 +50,109 @@ impl AxisRows {
         let for_acceleration = margin - interval.departure.second * fastest;
         let for_jerk = margin - interval.departure.third * fastest * fastest.sqrt();
         let moving = MovingAxes::at_any(samples);
-        // Without a branch, so that all lanes are looked at together: 1 where they keep their limits.
-        let mut kept = [1u32; QUAD_LANES];
         for number in (0..QUADS).filter(|number| moving.in_quad(*number)) {
-            let times = quad(&self.jerk_time_lanes, number);
-            let first = samples.map(|sample| quad(&sample.lanes[0], number));
-            let second = samples.map(|sample| quad(&sample.lanes[1], number));
-            let third = samples.map(|sample| quad(&sample.lanes[2], number));
-            let rows = [first, second, third];
-            let mut bent = [0u32; QUAD_LANES];
-            for lane in 0..QUAD_LANES {
-                let time = times[lane];
-                let [accelerations, changes, jerks] = taken(&rows, lane, time, &places, &speeds, u);
-                let between = halves(accelerations, changes.map(|change| change * time * half));
-                let within = is_within(accelerations, for_acceleration, ACCELERATION_BETWEEN)
-                    & is_within(jerks, for_jerk, JERK_BETWEEN)
-                    & (between <= for_acceleration + ACCELERATION_BETWEEN);
-                kept[lane] &= u32::from(within);
-                bent[lane] |= u32::from(is_bent(jerks));
-            }
-            if bent != [0; QUAD_LANES]
-                && !keeps_jerk_between(parabola, rows, for_jerk + JERK_BETWEEN)
-            {
+            let times = f32x4::new(*quad(&self.jerk_time_lanes, number));
+            let rows = [0, 1, 2]
+                .map(|order| samples.map(|sample| f32x4::new(*quad(&sample.lanes[order], number))));
+            let [accelerations, changes, jerks] = taken(&rows, times, &places, &speeds, u);
+            let over_half = times * half;
+            if !keeps_acceleration(accelerations, changes, over_half, for_acceleration) {
                 return false;
             }
+            match keeps_jerk(jerks, for_jerk) {
+                JerkVerdict::Exceeded => return false,
+                JerkVerdict::Bent
+                    if !keeps_jerk_between(parabola, rows, for_jerk + JERK_BETWEEN) =>
+                {
+                    return false;
+                }
+                JerkVerdict::Bent | JerkVerdict::Kept => {}
+            }
         }
-        kept == [1; QUAD_LANES]
+        true
     }
 }
 
-/// What the axis of a lane takes at start, middle and end: of the acceleration; the jerk over the velocity, which is by
+/// What four axes take at start, middle and end: of the acceleration; the jerk over the velocity, which is by
 /// how much the acceleration changes with s; of the jerk.
 #[inline(always)]
 fn taken(
-    [first, second, third]: &[[&Quad; 3]; 3],
-    lane: usize,
-    time: f32,
+    [first, second, third]: &[[f32x4; 3]; 3],
+    times: f32x4,
     places: &[(f32, f32); 3],
     speeds: &[f32; 3],
     u: f32,
-) -> [[f32; 3]; 3] {
-    let [mut accelerations, mut changes, mut jerks] = [[0.0; 3]; 3];
+) -> [[f32x4; 3]; 3] {
+    let [mut accelerations, mut changes, mut jerks] = [[f32x4::ZERO; 3]; 3];
     for place in 0..3 {
-        let by_u = first[place][lane];
-        let by_a = second[place][lane];
-        let by_b = third[place][lane];
+        let (by_u, by_a, by_b) = (first[place], second[place], third[place]);
         let (b, a) = places[place];
-        accelerations[place] = (by_u * a + by_a * (THIRD * b)) * time;
+        accelerations[place] = (by_u * a + by_a * (THIRD * b)) * times;
         changes[place] = by_u * u + by_a * a + by_b * b;
         jerks[place] = changes[place] * speeds[place];
     }
     [accelerations, changes, jerks]
+}
+
+/// Whether four axes keep this share of their acceleration at start, middle and end, and hardly exceed it between them,
+/// where it changes over a half by `over_half` times these changes.
+#[inline(always)]
+fn keeps_acceleration(
+    accelerations: [f32x4; 3],
+    changes: [f32x4; 3],
+    over_half: f32x4,
+    most: f32,
+) -> bool {
+    let amounts = accelerations.map(f32x4::abs);
+    if !are_within(amounts, most) {
+        return false;
+    }
+    // Neither a parabola through three places nor a cubic with these slopes exceeds them by more than this.
+    let peak = greatest_of(amounts);
+    let steepest = greatest_of(changes.map(f32x4::abs)) * over_half;
+    let excess = peak.fast_max(steepest) * 0.25;
+    if (peak + excess).simd_le(f32x4::splat(most)).all() {
+        return true;
+    }
+    let most_between = f32x4::splat(most + ACCELERATION_BETWEEN);
+    let Turn { slope, bend } = Turn::of(accelerations);
+    let by_parabolas = slope.abs().simd_ge(bend.abs())
+        | extremum(accelerations, slope, bend).simd_le(most_between);
+    let slopes = changes.map(|change| change * over_half);
+    let by_slopes = halves(accelerations, slopes).simd_le(most_between);
+    (by_parabolas & by_slopes).all()
+}
+
+/// What is known of four jerks from three places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum JerkVerdict {
+    /// More than is allowed.
+    Exceeded,
+    Kept,
+    /// Kept, as far as three places tell.
+    Bent,
+}
+
+/// Whether four axes keep this share of their jerk at start, middle and end, and parabolas through these hardly exceed it.
+#[inline(always)]
+fn keeps_jerk(jerks: [f32x4; 3], most: f32) -> JerkVerdict {
+    if !are_within(jerks.map(f32x4::abs), most) {
+        return JerkVerdict::Exceeded;
+    }
+    let Turn { slope, bend } = Turn::of(jerks);
+    let turns = slope.abs().simd_lt(bend.abs());
+    // A turn exceeds the middle by half of the bend at most.
+    if !(turns & bend.abs().simd_gt(f32x4::splat(JERK_BETWEEN))).any() {
+        return JerkVerdict::Kept;
+    }
+    let within = extremum(jerks, slope, bend).simd_le(f32x4::splat(most + JERK_BETWEEN));
+    if (turns & !within).any() {
+        JerkVerdict::Exceeded
+    } else if (turns & bend.abs().simd_gt(f32x4::splat(JERK_BEND))).any() {
+        JerkVerdict::Bent
+    } else {
+        JerkVerdict::Kept
+    }
 }
 
 /// Whether v^2 is above 0 and within its caps at start, middle and end, and between them. `bend`: u times the square
@@ -141,95 +195,150 @@ fn keeps_caps_between(
         && between(last, end, quarters[1], cap_end)
 }
 
-/// Whether a parabola through these values at start, middle and end bends back between them so much that
-/// it does not describe the jerk, which is no parabola.
-#[inline(always)]
-fn is_bent([start, middle, end]: [f32; 3]) -> bool {
-    let slope = 0.5 * (end - start);
-    let bend = start + end - 2.0 * middle;
-    (bend.abs() > JERK_BEND) & (slope.abs() < bend.abs())
-}
-
 /// Whether four axes keep this share of the jerk in the middle of both halves: their rows by u, a and b, at start,
 /// middle and end, are parabolas.
 #[inline(never)]
-fn keeps_jerk_between(parabola: &Parabola, rows: [[&Quad; 3]; 3], most: f32) -> bool {
+fn keeps_jerk_between(parabola: &Parabola, rows: [[f32x4; 3]; 3], most: f32) -> bool {
     let mut kept = true;
     for (share, weights) in [(0.25, [0.375, 0.75, -0.125]), (0.75, [-0.125, 0.75, 0.375])] {
         let (b, a) = parabola.at(share * parabola.length);
         let factors = [parabola.u, a, b].map(|factor| (factor * b.sqrt()) as f32);
-        for lane in 0..QUAD_LANES {
-            let mut jerk = 0.0;
-            for (row, factor) in rows.iter().zip(factors) {
-                for (place, weight) in row.iter().zip(weights) {
-                    jerk += place[lane] * (weight * factor);
-                }
+        let mut jerks = f32x4::ZERO;
+        for (row, factor) in rows.iter().zip(factors) {
+            for (place, weight) in row.iter().zip(weights) {
+                jerks += *place * (weight * factor);
             }
-            kept &= jerk.abs() <= most;
         }
+        kept &= jerks.abs().simd_le(f32x4::splat(most)).all();
     }
     kept
+}
+
+/// Whether amounts at start, middle and end are at most `most`. Not if one is no number.
+#[inline(always)]
+fn are_within([start, middle, end]: [f32x4; 3], most: f32) -> bool {
+    let most = f32x4::splat(most);
+    (start.simd_le(most) & middle.simd_le(most) & end.simd_le(most)).all()
+}
+
+#[inline(always)]
+fn greatest_of([start, middle, end]: [f32x4; 3]) -> f32x4 {
+    start.fast_max(middle).fast_max(end)
+}
+
+/// How parabolas through values at start, middle and end change from the middle on, over half of the way: they turn between the
+/// ends where they bend by more than their slope.
+struct Turn {
+    slope: f32x4,
+    bend: f32x4,
+}
+
+impl Turn {
+    #[inline(always)]
+    fn of([start, middle, end]: [f32x4; 3]) -> Self {
+        Self {
+            slope: (end - start) * 0.5,
+            bend: start + end - middle * 2.0,
+        }
+    }
+}
+
+/// The amounts of parabolas where they turn.
+#[inline(always)]
+fn extremum([_, middle, _]: [f32x4; 3], slope: f32x4, bend: f32x4) -> f32x4 {
+    (middle - slope * 0.5 * slope / bend).abs()
 }
 
 /// The greatest amount at three places in each half of what has these values at start, middle and end:
 /// of the cubic with its slopes there (Hermite), given as changes over a half.
 #[inline(always)]
-fn halves([start, middle, end]: [f32; 3], [slope0, slope1, slope2]: [f32; 3]) -> f32 {
+fn halves([start, middle, end]: [f32x4; 3], [slope0, slope1, slope2]: [f32x4; 3]) -> f32x4 {
     let first = half([start, middle], [slope0, slope1]);
     let second = half([middle, end], [slope1, slope2]);
-    greater(first, second)
+    first.fast_max(second)
 }
 
 /// The same of one half.
 #[inline(always)]
-fn half([start, end]: [f32; 2], [slope0, slope1]: [f32; 2]) -> f32 {
-    let quarter = 0.84375 * start + 0.15625 * end + (0.140625 * slope0 - 0.046875 * slope1);
-    let middle = 0.5 * (start + end) + 0.125 * (slope0 - slope1);
-    let last = 0.15625 * start + 0.84375 * end + (0.046875 * slope0 - 0.140625 * slope1);
-    greater(greater(quarter.abs(), middle.abs()), last.abs())
-}
-
-/// Whether the amounts of three values at start, middle and end are at most `most`, and those of the
-/// parabola through them exceed it by `between` at most. Not if one is no number.
-#[inline(always)]
-fn is_within([start, middle, end]: [f32; 3], most: f32, between: f32) -> bool {
-    let at_places = (start.abs() <= most) & (middle.abs() <= most) & (end.abs() <= most);
-    let slope = 0.5 * (end - start);
-    let bend = start + end - 2.0 * middle;
-    let extremum = (middle - 0.5 * slope * slope / bend).abs();
-    let outside = slope.abs() >= bend.abs();
-    at_places & (outside | (extremum <= most + between))
+fn half([start, end]: [f32x4; 2], [slope0, slope1]: [f32x4; 2]) -> f32x4 {
+    let quarter = start * 0.84375 + end * 0.15625 + (slope0 * 0.140625 - slope1 * 0.046875);
+    let middle = (start + end) * 0.5 + (slope0 - slope1) * 0.125;
+    let last = start * 0.15625 + end * 0.84375 + (slope0 * 0.046875 - slope1 * 0.140625);
+    greatest_of([quarter, middle, last].map(f32x4::abs))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// The verdict where one axis has these jerks, and the others none.
+    fn verdict([start, middle, end]: [f32; 3], most: f32) -> JerkVerdict {
+        keeps_jerk(
+            [start, middle, end].map(|jerk| f32x4::new([0.0, 0.0, jerk, 0.0])),
+            most,
+        )
+    }
+
     #[test]
     fn a_parabola_is_bent_where_it_turns_between_its_ends() {
-        // 1 - x^2 from -1 to 1 turns in the middle; the same from 0 to 2 only falls.
-        assert!(is_bent([0.0, 1.0, 0.0]));
-        assert!(!is_bent([1.0, 0.0, -3.0]));
-        // And from -.4 to 1.6 it rises a little first.
-        assert!(is_bent([0.84, 0.64, -1.56]));
-        // Turns, but so little that no jerk hides in it.
-        assert!(!is_bent([0.0, 0.1, 0.0]));
-        // What is the same at all places does not turn, however large it is.
-        assert!(!is_bent([-5.0, -5.0, -5.0]));
+        for (jerks, expected) in [
+            // 1 - x^2 from -1 to 1 turns in the middle; the same from 0 to 2 only falls.
+            ([0.0, 1.0, 0.0], JerkVerdict::Bent),
+            ([1.0, 0.0, -3.0], JerkVerdict::Kept),
+            // And from -.4 to 1.6 it rises a little first.
+            ([0.84, 0.64, -1.56], JerkVerdict::Bent),
+            // Turns, but so little that no jerk hides in it.
+            ([0.0, 0.1, 0.0], JerkVerdict::Kept),
+            // What is the same at all places does not turn, however large it is.
+            ([-5.0, -5.0, -5.0], JerkVerdict::Kept),
+        ] {
+            assert_eq!(verdict(jerks, 5.0), expected, "{jerks:?}");
+        }
     }
 
     #[test]
     fn what_a_parabola_reaches_between_its_places_counts() {
-        assert!(is_within([0.5, -1.0, 0.5], 1.0, 0.0));
+        assert_eq!(verdict([0.5, -1.0, 0.5], 1.0), JerkVerdict::Bent);
         for too_much in [[1.1, 0.0, 0.0], [0.0, -1.1, 0.0], [0.0, 0.0, 1.1]] {
-            assert!(!is_within(too_much, 1.0, 0.0));
+            assert_eq!(verdict(too_much, 1.0), JerkVerdict::Exceeded);
         }
         // Greatest, .968, shortly behind the start, where no place is.
         let hump = [0.96, 0.56, -0.9];
-        assert!(!is_within(hump, 0.96, 0.0));
-        assert!(is_within(hump, 0.96, 0.1));
+        assert_ne!(verdict(hump, 0.96), JerkVerdict::Exceeded);
+        // And 1.093 here.
+        let high = [0.96, 0.96, -0.1];
+        assert_eq!(verdict(high, 0.96), JerkVerdict::Exceeded);
         // Straight lines have no extremum.
-        assert!(is_within([-1.0, 0.0, 1.0], 1.0, 0.0));
-        assert!(!is_within([f32::NAN, 0.0, 0.0], 1.0, 1.0));
+        assert_eq!(verdict([-1.0, 0.0, 1.0], 1.0), JerkVerdict::Kept);
+        assert_eq!(verdict([f32::NAN, 0.0, 0.0], 1.0), JerkVerdict::Exceeded);
+    }
+
+    #[test]
+    fn accelerations_hold_between_their_places_too() {
+        let keeps = |accelerations: [f32; 3], slopes: [f32; 3], most: f32| {
+            let of_one = |value: f32| f32x4::new([0.0, value, 0.0, 0.0]);
+            keeps_acceleration(
+                accelerations.map(of_one),
+                slopes.map(of_one),
+                f32x4::ONE,
+                most,
+            )
+        };
+        assert!(keeps([0.5, 0.6, 0.5], [0.1, 0.0, -0.1], 1.0));
+        for too_much in [
+            [1.1, 0.0, 0.0],
+            [0.0, -1.1, 0.0],
+            [0.0, 0.0, 1.1],
+            [f32::NAN; 3],
+        ] {
+            assert!(!keeps(too_much, [0.0; 3], 1.0));
+        }
+        // The parabola through these is .968 shortly behind the start.
+        let hump = [0.96, 0.56, -0.9];
+        assert!(!keeps(hump, [0.0, -0.9, -1.5], 0.96));
+        assert!(keeps(hump, [0.0, -0.9, -1.5], 0.968));
+        // Between two places that are the same the slopes alone tell of more.
+        assert!(keeps([0.9; 3], [0.0; 3], 0.96));
+        assert!(!keeps([0.9; 3], [0.3, -0.3, 0.3], 0.96));
     }
 }
