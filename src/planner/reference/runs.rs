@@ -18,6 +18,8 @@ const SPEED_BUDGET: f64 = 300.0;
 
 /// What that is multiplied by while the machine is soon to brake for want of a longer plan.
 const HURRY: f64 = 2.0;
+/// The same where the host keeps the queue short: a plan that comes a period late is a rest there, and the path is little work.
+const HURRY_OF_SHORT_QUEUE: f64 = 3.0;
 
 /// The servo period that the budgets are meant for, seconds. In another one the work of a second is
 /// the same ..
@@ -82,7 +84,11 @@ impl Reference {
         } else {
             current
         };
-        let hurry = if urgent { HURRY } else { 1.0 };
+        let hurry = match self.feeder.expected() {
+            _ if !urgent => 1.0,
+            Expected::Anything => HURRY,
+            Expected::OneAtOnce | Expected::NothingBeforeOneLeaves => HURRY_OF_SHORT_QUEUE,
+        };
         worked.work(&self.path, outlook, (SPEED_BUDGET * share * hurry) as u32);
         Ok(())
     }
