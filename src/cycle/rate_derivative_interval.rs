@@ -41,12 +41,17 @@ impl RateDerivativeInterval {
         }
     }
 
-    /// The rate jerks that keep the rate from 0 to 1 and the rate acceleration within [`RATE_ACCELERATION_LIMIT`] at
-    /// the end of the period. Never empty.
+    /// The rate jerks that keep the rate from 0 to 1, at the end of the period and in the mean over it, and the rate
+    /// acceleration within [`RATE_ACCELERATION_LIMIT`] at its end. Never empty.
     pub fn of_rate(state: State) -> Self {
         let (rate, change) = (state.rate, state.rate_acceleration);
-        let low = (-RATE_ACCELERATION_LIMIT - change).max(-2.0 * (rate + change));
-        let high = (RATE_ACCELERATION_LIMIT - change).min(2.0 * (1.0 - rate - change));
+        let (end, mean) = (rate + change, rate + 0.5 * change);
+        let low = (-RATE_ACCELERATION_LIMIT - change)
+            .max(-2.0 * end)
+            .max(-6.0 * mean);
+        let high = (RATE_ACCELERATION_LIMIT - change)
+            .min(2.0 * (1.0 - end))
+            .min(6.0 * (1.0 - mean));
         Self {
             low: low.min(high),
             high: high.max(low),
@@ -82,5 +87,12 @@ mod tests {
         };
         let of_rate = RateDerivativeInterval::of_rate(standing);
         assert_eq!((of_rate.low, of_rate.high), (0.0, RATE_ACCELERATION_LIMIT));
+        let nearly_full = State {
+            rate: 0.999,
+            rate_acceleration: 0.002,
+            ..standing
+        };
+        let RateDerivativeInterval { high, .. } = RateDerivativeInterval::of_rate(nearly_full);
+        assert!(nearly_full.step(high).rate <= 1.0 && nearly_full.advance(high) <= 1.0);
     }
 }

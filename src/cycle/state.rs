@@ -66,10 +66,12 @@ impl State {
     }
 
     /// Whether this state may come one period after `previous`: with a rate from 0 to 1 but for
-    /// rounding, and a time that did not run backwards in between.
+    /// rounding, and a time that in between ran neither backwards nor further than the reference does in a
+    /// period, as it may where the rate rises above 1 and falls again within it.
     #[inline(always)]
     pub fn follows(self, previous: Self) -> bool {
-        (-ROUNDING..=1.0 + ROUNDING).contains(&self.rate) && self.time >= previous.time - ROUNDING
+        let possible = -ROUNDING..=1.0 + ROUNDING;
+        possible.contains(&self.rate) && possible.contains(&(self.time - previous.time))
     }
 
     /// The state with its rate held from 0 to 1, exactly at the end of this range where it is
@@ -157,5 +159,10 @@ mod tests {
             ..state(0.5, 0.0)
         };
         assert!(!earlier.follows(state(0.5, 0.0)));
+        // The rate is above 1 in the middle of the period, and in the mean.
+        let before = state(0.9999, 0.0022);
+        let behind = before.step(-0.0044);
+        assert!(behind.rate < 1.0 && !behind.follows(before));
+        assert!(before.step(-0.0072).follows(before));
     }
 }

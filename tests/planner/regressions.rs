@@ -29,6 +29,7 @@ regressions! {
     a_crowd_of_nanometre_corners_keeps_the_jerk
     a_first_move_of_nanometres_starves_nobody
     a_first_phase_within_a_corner_keeps_the_jerk
+    a_hold_as_the_rate_comes_to_one_keeps_the_jerk
     a_hold_in_the_last_period_leads_to_the_end
     a_last_move_in_exact_stop_is_run_to_its_end
     a_last_move_in_seldom_exact_stop_is_run_to_its_end
