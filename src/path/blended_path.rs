@@ -6,7 +6,7 @@ use super::chain::Chain;
 use super::curve;
 use super::error::BlendError;
 use super::fairing::{Fairing, MOST_PIECES};
-use super::jump::{LinearSum, WholeSum};
+use super::jump::GROUPS;
 use super::leg::{Leg, ProgrammedMove};
 use super::line_merger::LineMerger;
 use super::metric::Metric;
@@ -301,14 +301,21 @@ impl BlendedPath {
         let leg = self.chain.leg(number);
         let s = s.max(leg.start).min(leg.end());
         let mut point = leg.point(s);
-        if self.chain.is_linear() {
-            let sum: LinearSum = self.chain.jumps(number, s);
-            sum.add_to(&mut point);
-        } else {
-            let sum: WholeSum = self.chain.jumps(number, s);
-            sum.add_to(&mut point);
-        }
+        self.add_jumps::<true, true>(number, s, &mut point);
         point
+    }
+
+    /// The position and the first derivative of [that](Self::point) alone.
+    pub fn position_and_direction(&self, s: f64) -> [Axes; 2] {
+        if self.chain.is_empty() {
+            return [self.start, ORIGIN];
+        }
+        let number = self.chain.locate(s);
+        let leg = self.chain.leg(number);
+        let s = s.max(leg.start).min(leg.end());
+        let mut point = leg.point(s);
+        self.add_jumps::<true, false>(number, s, &mut point);
+        [point.position, point.first]
     }
 
     /// The second and the third derivative of [that](Self::point) alone.
@@ -319,15 +326,31 @@ impl BlendedPath {
         let number = self.chain.locate(s);
         let leg = self.chain.leg(number);
         let s = s.max(leg.start).min(leg.end());
-        let [mut second, mut third] = leg.bend(s);
+        let [second, third] = leg.bend(s);
+        let mut point = PathPoint {
+            second,
+            third,
+            ..PathPoint::ZERO
+        };
+        self.add_jumps::<false, true>(number, s, &mut point);
+        [point.second, point.third]
+    }
+
+    /// Adds what vertices add to the path at `s`, within the leg with this number: to the position and the first derivative
+    /// (`LOW`), and to the second and the third (`HIGH`).
+    #[inline(always)]
+    fn add_jumps<const LOW: bool, const HIGH: bool>(
+        &self,
+        number: u64,
+        s: f64,
+        point: &mut PathPoint,
+    ) {
         if self.chain.is_linear() {
-            let sum: LinearSum = self.chain.jumps(number, s);
-            sum.add_high_to([&mut second, &mut third]);
+            self.chain.jumps::<1, LOW, HIGH>(number, s).add_to(point);
         } else {
-            let sum: WholeSum = self.chain.jumps(number, s);
-            sum.add_high_to([&mut second, &mut third]);
+            let sum = self.chain.jumps::<GROUPS, LOW, HIGH>(number, s);
+            sum.add_to(point);
         }
-        [second, third]
     }
 
     /// The places behind `from` and before `to` where the third derivative or its slope may jump, both sides of a jump of the
@@ -342,14 +365,13 @@ impl BlendedPath {
         let first = start.saturating_add(1).saturating_sub(left);
         let mut room = places.iter_mut();
         let mut count = 0;
-        for number in first..=end.saturating_add(right) {
-            self.chain.vertex(number).breakpoints(from, to, |place| {
+        self.chain
+            .breakpoints(first, end.saturating_add(right), [from, to], |place| {
                 if let Some(free) = room.next() {
                     *free = place;
                     count += 1;
                 }
             });
-        }
         count
     }
 

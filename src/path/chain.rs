@@ -3,8 +3,6 @@
 use core::cell::Cell;
 
 use super::contribution::Contribution;
-use super::jump::PointSum;
-use super::kernel::Side;
 use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
@@ -33,7 +31,7 @@ pub(super) struct Chain {
     legs: Ring<Leg, SLOTS>,
     vertices: Ring<Vertex, SLOTS>,
     /// What the vertices add to the path.
-    contributions: Ring<Contribution, SLOTS>,
+    pub(super) contributions: Ring<Contribution, SLOTS>,
     /// What they would add on trial.
     trials: Ring<TrialKernel, SLOTS>,
     first: u64,
@@ -190,10 +188,17 @@ impl Chain {
     /// Number of the leg at path distance `s`: the later one where two meet. Held within what
     /// there is; the chain must not be empty.
     pub fn locate(&self, s: f64) -> u64 {
-        let (mut low, mut high) = self.around(s);
+        let last = self.next.saturating_sub(1);
+        let near = self.found.get().min(last).max(self.first);
+        let starts = |number: u64| self.leg(number).start <= s;
+        // Mostly it is asked for what was found last.
+        if starts(near) && (near == last || !starts(near.saturating_add(1))) {
+            return near;
+        }
+        let (mut low, mut high) = self.around(near, s);
         while high.saturating_sub(low) > 1 {
             let middle = low + (high - low) / 2;
-            if self.leg(middle).start <= s {
+            if starts(middle) {
                 low = middle;
             } else {
                 high = middle;
@@ -204,10 +209,8 @@ impl Chain {
     }
 
     /// Numbers that the leg at path distance `s` lies between, the first one included: steps from
-    /// the leg that was found last, each twice as long as the one before.
-    fn around(&self, s: f64) -> (u64, u64) {
-        let last = self.next.saturating_sub(1);
-        let near = self.found.get().min(last).max(self.first);
+    /// the leg `near`, each twice as long as the one before.
+    fn around(&self, near: u64, s: f64) -> (u64, u64) {
         let (mut low, mut high) = (near, near);
         let mut step = 1;
         if self.leg(near).start <= s {
@@ -236,8 +239,9 @@ impl Chain {
     /// wall, so that they end with one.
     pub fn left_of(&self, leg: u64) -> impl Iterator<Item = (u64, &Vertex)> + '_ {
         let mut open = true;
-        (0..NEIGHBOURS)
-            .map_while(move |k| leg.checked_sub(k).filter(|number| *number >= self.first))
+        let count = leg.saturating_add(1).saturating_sub(self.first);
+        (0..count.min(NEIGHBOURS))
+            .map(move |k| leg.wrapping_sub(k))
             .map(|number| (number, self.vertex(number)))
             .take_while(move |(_, vertex)| {
                 let taken = open;
@@ -291,47 +295,6 @@ impl Chain {
         let leg = self.leg_mut(number);
         leg.reached_from_left = left;
         leg.reached_from_right = right;
-    }
-
-    /// What all vertices that reach into a leg add to it at path distance `s`, within it.
-    #[inline(always)]
-    pub fn jumps<const N: usize>(&self, number: u64, s: f64) -> PointSum<N> {
-        let leg = self.leg(number);
-        let mut sum = PointSum::ZERO;
-        for k in 0..u64::from(leg.reached_from_left) {
-            let number = number.wrapping_sub(k);
-            let near = self.contributions.at(number);
-            self.add_to(&mut sum, number, near, s - near.s, Side::Right);
-        }
-        for k in 1..=u64::from(leg.reached_from_right) {
-            let number = number.wrapping_add(k);
-            let near = self.contributions.at(number);
-            self.add_to(&mut sum, number, near, near.s - s, Side::Left);
-        }
-        sum
-    }
-
-    /// Adds what one of them contributes at a `distance` from it, 0 and above, on this `side`.
-    #[inline(always)]
-    fn add_to<const N: usize>(
-        &self,
-        sum: &mut PointSum<N>,
-        number: u64,
-        near: &Contribution,
-        distance: f64,
-        side: Side,
-    ) {
-        if distance < near.width {
-            let factors = near.kernel.factors(distance, side);
-            if N == 1 {
-                sum.add_linear(&near.linear_jump, &factors);
-            } else {
-                sum.add(&self.vertex(number).tangent_jump, &factors);
-            }
-        }
-        if near.more {
-            self.vertex(number).add_more(sum, distance, side);
-        }
     }
 
     /// Takes note that a vertex reaches `reach` to both sides on trial, or did: its legs have to be

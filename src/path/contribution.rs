@@ -20,6 +20,9 @@ pub(super) struct Contribution {
     pub width: f64,
     /// Whether it adds more than its kernel: see [`Vertex::add_more`].
     pub more: bool,
+    /// Whether the third derivative of the path or its slope may jump elsewhere than where its kernel ends: see
+    /// [`Vertex::breakpoints`].
+    pub breaks: bool,
     pub kernel: Kernel,
     /// The jump of the tangent: X, Y and Z, each twice.
     pub linear_jump: [f64x2; GROUP_SIZE],
@@ -30,6 +33,7 @@ impl Contribution {
         s: 0.0,
         width: 0.0,
         more: false,
+        breaks: false,
         kernel: Kernel::NONE,
         linear_jump: [f64x2::ZERO; GROUP_SIZE],
     };
@@ -42,6 +46,7 @@ impl Contribution {
             s: vertex.s,
             width,
             more: vertex.has_more(),
+            breaks: vertex.has_more() || vertex.curvature_jumps(),
             kernel,
             linear_jump: linear.map(f64x2::splat),
         }

@@ -120,18 +120,12 @@ impl JumpSum<1> {
     }
 }
 
-/// What all jumps add to a point of the path and its derivatives, of the first so many groups: that of one fits into the
-/// registers of a processor.
+/// What all jumps add to a point of the path, of the first so many groups: that of one fits into the registers of a processor.
+/// `LOW`: to the position and the first derivative; `HIGH`: to the second and the third.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PointSum<const N: usize> {
+pub(super) struct PointSum<const N: usize, const LOW: bool, const HIGH: bool> {
     groups: [GroupSum; N],
 }
-
-/// The sum of XYZ, where nothing else jumps.
-pub(super) type LinearSum = PointSum<1>;
-
-/// The sum of all axes.
-pub(super) type WholeSum = PointSum<GROUPS>;
 
 /// The same of one group, by axis.
 #[derive(Clone, Copy, Debug)]
@@ -147,16 +141,24 @@ impl GroupSum {
     };
 
     #[inline(always)]
-    fn add(&mut self, group: &[f64x2; GROUP_SIZE], factors: &Factors) {
+    fn add<const LOW: bool, const HIGH: bool>(
+        &mut self,
+        group: &[f64x2; GROUP_SIZE],
+        factors: &Factors,
+    ) {
         let sums = self.low.iter_mut().zip(&mut self.high);
         for ((low, high), axis) in sums.zip(group) {
-            *low += *axis * factors.low;
-            *high += *axis * factors.high;
+            if LOW {
+                *low += *axis * factors.low;
+            }
+            if HIGH {
+                *high += *axis * factors.high;
+            }
         }
     }
 }
 
-impl<const N: usize> PointSum<N> {
+impl<const N: usize, const LOW: bool, const HIGH: bool> PointSum<N, LOW, HIGH> {
     pub const ZERO: Self = Self {
         groups: [GroupSum::ZERO; N],
     };
@@ -167,7 +169,7 @@ impl<const N: usize> PointSum<N> {
         let groups = self.groups.iter_mut().zip(&jump.groups);
         for ((sum, group), present) in groups.zip(jump.present) {
             if N == 1 || present {
-                sum.add(&group.map(f64x2::splat), factors);
+                sum.add::<LOW, HIGH>(&group.map(f64x2::splat), factors);
             }
         }
     }
@@ -178,39 +180,32 @@ impl<const N: usize> PointSum<N> {
         let [linear, ..] = self.groups.as_mut_slice() else {
             return;
         };
-        linear.add(jump, factors);
-    }
-
-    /// Adds to the second and the third derivative of the path.
-    #[inline]
-    pub fn add_high_to(&self, [second, third]: [&mut Axes; 2]) {
-        let [second] = &mut second.data.0;
-        let [third] = &mut third.data.0;
-        for (number, sum) in self.groups.iter().enumerate() {
-            for of_group in 0..GROUP_SIZE {
-                let axis = GROUP_SIZE * number + of_group;
-                let [bend, twist] = sum.high[of_group].to_array();
-                second[axis] += bend;
-                third[axis] += twist;
-            }
-        }
+        linear.add::<LOW, HIGH>(jump, factors);
     }
 
     /// Adds the sum to a point of the path.
-    #[inline]
+    #[inline(always)]
     pub fn add_to(&self, point: &mut PathPoint) {
         // Arrays, since iterators of the linear algebra step by a stride.
         let [position] = &mut point.position.data.0;
         let [first] = &mut point.first.data.0;
+        let [second] = &mut point.second.data.0;
+        let [third] = &mut point.third.data.0;
         for (number, sum) in self.groups.iter().enumerate() {
             for of_group in 0..GROUP_SIZE {
                 let axis = GROUP_SIZE * number + of_group;
-                let [place, slope] = sum.low[of_group].to_array();
-                position[axis] += place;
-                first[axis] += slope;
+                if LOW {
+                    let [place, slope] = sum.low[of_group].to_array();
+                    position[axis] += place;
+                    first[axis] += slope;
+                }
+                if HIGH {
+                    let [bend, twist] = sum.high[of_group].to_array();
+                    second[axis] += bend;
+                    third[axis] += twist;
+                }
             }
         }
-        self.add_high_to([&mut point.second, &mut point.third]);
     }
 }
 
@@ -235,7 +230,7 @@ mod tests {
             one.add(&jump, &[2.0]);
             one.add(&jump, &[-0.5]);
             assert_eq!(one.axes(), axes * 1.5);
-            let mut sum = WholeSum::ZERO;
+            let mut sum = PointSum::<GROUPS, true, true>::ZERO;
             let factors = Factors {
                 low: f64x2::new([1.0, 2.0]),
                 high: f64x2::new([3.0, 4.0]),

@@ -56,6 +56,7 @@ mod line_merger;
 mod lone_corner;
 mod metric;
 mod orientation;
+mod path_sums;
 mod reaching;
 mod settings;
 mod shift;

@@ -394,6 +394,11 @@ impl Vertex {
         self.stored_factor
     }
 
+    /// Whether the curvature of the programmed path jumps here by more than rounding.
+    pub fn curvature_jumps(&self) -> bool {
+        self.curvature_jump_size > NO_CURVATURE_JUMP
+    }
+
     /// Where between two places the third derivative of the path or its slope may jump: both sides of a jump.
     #[inline]
     pub fn breakpoints(&self, from: f64, to: f64, mut take: impl FnMut(f64)) {
@@ -419,7 +424,7 @@ impl Vertex {
             look(self.s - easement);
         }
         // The kernel itself has no edge in the middle.
-        if easement > 0.0 || self.curvature_jump_size > NO_CURVATURE_JUMP {
+        if easement > 0.0 || self.curvature_jumps() {
             look(self.s.next_down());
             look(self.s);
         }
@@ -432,9 +437,14 @@ impl Vertex {
     }
 
     /// Adds what it contributes in force besides its [kernel](Self::stored_kernel) to a point of the path at a `distance` from it,
-    /// 0 and above, on this `side`.
-    #[inline(always)]
-    pub fn add_more<const N: usize>(&self, sum: &mut PointSum<N>, distance: f64, side: Side) {
+    /// 0 and above, on this `side`. Few vertices have anything of the kind: apart, it leaves the registers to the others.
+    #[inline(never)]
+    pub fn add_more<const N: usize, const LOW: bool, const HIGH: bool>(
+        &self,
+        sum: &mut PointSum<N, LOW, HIGH>,
+        distance: f64,
+        side: Side,
+    ) {
         let Widths {
             kernel,
             mix,

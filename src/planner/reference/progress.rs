@@ -20,17 +20,17 @@ impl Reference {
         }
         let segment = self.segments.front()?;
         let state = segment.state(self.elapsed, self.elapsed);
-        let point = segment.point(&self.path, state.distance);
+        let [position, direction] = segment.position_and_direction(&self.path, state.distance);
         let s = segment.path_distance(state.distance);
         self.path.discard_before(s);
         let leg = self.path.leg(s)?;
-        let velocity = leg.measure_rate * self.path.distance(&point.first) * state.velocity;
+        let velocity = leg.measure_rate * self.path.distance(&direction) * state.velocity;
         let (serial, distance_to_go) = self.running(queue, s)?;
         Some(ReferencePoint {
             serial,
             distance_to_go,
             velocity,
-            position: point.position,
+            position,
         })
     }
 

@@ -1,6 +1,7 @@
 //! The segments of a reference that were handed out and are not yet behind the machine.
 
 use super::coast::Coast;
+use crate::axes::Axes;
 use crate::moves::shape::PathPoint;
 use crate::path::BlendedPath;
 use crate::ring::Ring;
@@ -105,6 +106,18 @@ impl ReferenceSegment {
             SegmentMotion::Return(_) | SegmentMotion::CreepBack(_) => -distance,
             SegmentMotion::Coast(coast) if coast.backwards => -distance,
             _ => distance,
+        }
+    }
+
+    /// The position and the first derivative of [the path there](Self::point) alone.
+    pub fn position_and_direction(&self, path: &BlendedPath, distance: f64) -> [Axes; 2] {
+        if self.is_run() {
+            path.position_and_direction(distance)
+        } else {
+            let PathPoint {
+                position, first, ..
+            } = self.point(path, distance);
+            [position, first]
         }
     }
 
