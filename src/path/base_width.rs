@@ -42,8 +42,13 @@ pub(super) fn widen(
     if vertex.scan_done || vertex.wall || vertex.tangent_jump_size <= 0.0 {
         return (false, looked);
     }
-    let width =
-        (vertex.scanned * GROWTH).min(greatest_width(chain, number, window, settings, metric));
+    let grown = vertex.scanned * GROWTH;
+    // That much is allowed beside any neighbours.
+    let width = if grown <= vertex.design_width {
+        grown
+    } else {
+        grown.min(greatest_width(chain, number, window, settings, metric))
+    };
     let wider = width > vertex.scanned * 1.0001;
     // Whether nothing that is yet to come can make a greater width possible.
     let mut searched = if wider {

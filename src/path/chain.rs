@@ -132,10 +132,10 @@ impl Chain {
         *self.trials.at_mut(number) = TrialKernel::of(vertex);
     }
 
-    /// The kernel of a vertex under examination.
-    #[inline]
-    pub fn trial(&self, number: u64) -> &TrialKernel {
-        self.trials.at(number)
+    /// The kernels of so many vertices under examination from this one on, in two parts.
+    #[inline(always)]
+    pub fn trials(&self, first: u64, count: u64) -> [&[TrialKernel]; 2] {
+        self.trials.row(first, count)
     }
 
     /// Puts the widths of a vertex under examination in force.

@@ -54,7 +54,7 @@ fn design_width(
     if !is_line(leg) {
         return None;
     }
-    let direction = leg.point(leg.start).first;
+    let direction = leg.direction_at_start();
     let middle = leg.start + 0.5 * leg.length;
     let (mut later, mut sum, mut greatest) = (direction, 0.0, 0.0f64);
     let mut found: Option<f64> = None;
@@ -66,7 +66,7 @@ fn design_width(
         if !is_line(before) {
             break;
         }
-        let earlier = before.point(before.start).first;
+        let earlier = before.direction_at_start();
         let turn = metric.norm(&(later - earlier));
         sum += turn;
         greatest = greatest.max(turn);

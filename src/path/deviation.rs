@@ -11,8 +11,9 @@
 //! programmed one and back.
 
 use super::chain::{Chain, NEIGHBOURS};
+use super::kernel_lanes::KERNELS;
 use super::metric::Metric;
-use super::reaching::{KERNELS, Reaching};
+use super::reaching::Reaching;
 
 /// Deviations evaluated for one leg at most; more count as a violation.
 const HALVINGS: u32 = 24;

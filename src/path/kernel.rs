@@ -43,7 +43,7 @@ const FLAT: f64 = 153.0 / 256.0;
 /// Coefficients of y^0 to y^4 in what follows.
 const POWERS: usize = 5;
 
-/// phi2 without its term `-x / 2`.
+/// phi2 without its term `-x / 2`; the last one is 0.
 const SECOND_ORDER: [f64; POWERS] = [PEAK_SECOND_ORDER, 0.46875, -0.15625, 0.03125, 0.0];
 
 /// phi4 without the same term.
@@ -117,9 +117,11 @@ pub(super) fn value(x: f64, mix: f64) -> f64 {
 #[inline(always)]
 pub(super) fn values(x: f64x2, mix: f64x2) -> f64x2 {
     let y = x * x;
-    let even = |[c0, c1, c2, c3, c4]: [f64; POWERS]| c0 + y * (c1 + y * (c2 + y * (c3 + y * c4)));
-    let second_order = even(SECOND_ORDER);
-    second_order + mix * (even(FOURTH_ORDER) - second_order) - x * 0.5
+    let [c0, c1, c2, c3, _] = SECOND_ORDER;
+    let second_order = c0 + y * (c1 + y * (c2 + y * c3));
+    let [c0, c1, c2, c3, c4] = FOURTH_ORDER;
+    let fourth_order = c0 + y * (c1 + y * (c2 + y * (c3 + y * c4)));
+    second_order + mix * (fourth_order - second_order) - x * 0.5
 }
 
 /// Where a place is as seen from a jump.

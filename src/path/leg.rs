@@ -270,6 +270,17 @@ impl Leg {
         point
     }
 
+    /// The first derivative of [that](Self::point) at its start alone.
+    #[inline]
+    pub fn direction_at_start(&self) -> Axes {
+        let mut direction = match &self.shape {
+            Shape::Line(line) => line.direction() * self.measure_rate,
+            Shape::Arc(_) => self.programmed_point(self.start).first,
+        };
+        self.shift.turn(&mut direction);
+        direction
+    }
+
     /// The second and the third derivative of [that](Self::point) alone.
     #[inline]
     pub fn bend(&self, s: f64) -> [Axes; 2] {

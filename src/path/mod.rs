@@ -50,6 +50,7 @@ mod fairing;
 mod hardening;
 mod jump;
 mod kernel;
+mod kernel_lanes;
 mod leg;
 mod legs_and_vertices;
 mod line_merger;

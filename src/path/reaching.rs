@@ -1,11 +1,8 @@
-//! The vertices that reach into a leg with those of their trial widths that count, laid out to be added up two at a
-//! time.
-
-use wide::f64x2;
+//! The vertices that reach into a leg with those of their trial widths that count.
 
 use super::chain::{Chain, NEIGHBOURS};
-use super::jump::{GROUP_SIZE, GROUPS, JumpSum};
-use super::kernel;
+use super::jump::GROUPS;
+use super::kernel_lanes::KernelLanes;
 use super::metric::Metric;
 use super::shift;
 use super::trial_kernel::TrialKernel;
@@ -14,113 +11,11 @@ use super::vertex::Vertex;
 /// The most vertices that reach into a leg.
 const MOST: usize = 2 * NEIGHBOURS as usize;
 
-/// Kernels in a register.
-const LANES: usize = 2;
-
-/// The most kernels of a vertex.
-pub(super) const KERNELS: usize = 2;
-
-/// Two kernels of vertices, none of them with a share of K8.
-#[derive(Clone, Copy, Debug)]
-struct KernelPair {
-    s: [f64; LANES],
-    /// 0 where there is none.
-    width: [f64; LANES],
-    mix: [f64; LANES],
-    /// Length of the jump of the tangent.
-    size: [f64; LANES],
-    jump: [[[f64; LANES]; GROUP_SIZE]; GROUPS],
-}
-
-impl KernelPair {
-    const NONE: Self = Self {
-        s: [0.0; LANES],
-        width: [0.0; LANES],
-        mix: [0.0; LANES],
-        size: [0.0; LANES],
-        jump: [[[0.0; LANES]; GROUP_SIZE]; GROUPS],
-    };
-
-    /// Whether a vertex has nothing but such kernels.
-    #[inline(always)]
-    fn suits(vertex: &Vertex) -> bool {
-        vertex.counted.mix >= 0.0 && vertex.counted.easement <= 0.0
-    }
-
-    /// Puts a kernel of a vertex in, so many times, of which `G` groups of axes jump. Beside the first one there is no
-    /// other yet.
-    #[inline(always)]
-    fn set<const G: usize>(
-        &mut self,
-        is_second: bool,
-        vertex: &Vertex,
-        width: f64,
-        mix: f64,
-        times: f64,
-    ) {
-        let lane = usize::from(is_second);
-        if !is_second {
-            self.width = [0.0; LANES];
-        }
-        self.s[lane] = vertex.s;
-        self.width[lane] = width;
-        self.mix[lane] = mix;
-        self.size[lane] = times.abs() * vertex.tangent_jump_size;
-        let groups = self.jump.iter_mut().zip(vertex.tangent_jump.groups());
-        for (axes, group) in groups.take(G) {
-            for (lanes, axis) in axes.iter_mut().zip(group) {
-                lanes[lane] = times * axis;
-            }
-        }
-    }
-
-    /// Puts a kernel in of which X, Y and Z alone jump. Beside the first one there is no other yet.
-    #[inline(always)]
-    fn set_linear(&mut self, lane: usize, trial: &TrialKernel) {
-        if lane == 0 {
-            self.width = [0.0; LANES];
-        }
-        self.s[lane] = trial.s;
-        self.width[lane] = trial.reach;
-        self.mix[lane] = trial.mix;
-        self.size[lane] = trial.size;
-        let [linear, ..] = &mut self.jump;
-        for (lanes, axis) in linear.iter_mut().zip(trial.linear_jump) {
-            lanes[lane] = axis;
-        }
-    }
-
-    /// Adds the deviations at `s`.
-    #[inline(always)]
-    fn add_deviation<const G: usize>(&self, s: f64, sum: &mut [[f64x2; GROUP_SIZE]; G]) {
-        let width = f64x2::new(self.width);
-        let distance = (s - f64x2::new(self.s)).abs();
-        let value = width * kernel::values(distance / width, f64x2::new(self.mix));
-        // Beyond the width the polynomial means nothing, and where there is no kernel it is no number.
-        let value = value & distance.simd_lt(width);
-        for (sums, jumps) in sum.iter_mut().zip(&self.jump) {
-            for (sum, jump) in sums.iter_mut().zip(jumps) {
-                *sum += f64x2::new(*jump) * value;
-            }
-        }
-    }
-
-    /// Bounds of the second derivatives of the deviations between `from` and `to`.
-    #[inline(always)]
-    fn bend_bounds(&self, from: f64, to: f64) -> f64x2 {
-        let (s, width) = (f64x2::new(self.s), f64x2::new(self.width));
-        let distance = (from - s).fast_max(s - to).fast_max(f64x2::ZERO);
-        let majorants = kernel::majorants(distance / width, f64x2::new(self.mix));
-        (f64x2::new(self.size) / width * majorants) & distance.simd_lt(width)
-    }
-}
-
 /// The vertices that reach into a leg. Kept, since it takes as long to clear as to fill.
 #[derive(Debug)]
 pub(super) struct Reaching {
-    pairs: [KernelPair; KERNELS * MOST / LANES],
-    /// How many kernels there are in these.
-    in_pairs: usize,
+    /// The kernels of those that have nothing else.
+    kernels: KernelLanes,
     /// The numbers of those with an easement or a share of K8.
     others: [u64; MOST],
     /// How many of those there are.
@@ -133,8 +28,7 @@ pub(super) struct Reaching {
 
 impl Reaching {
     pub const NONE: Self = Self {
-        pairs: [KernelPair::NONE; KERNELS * MOST / LANES],
-        in_pairs: 0,
+        kernels: KernelLanes::NONE,
         others: [0; MOST],
         in_others: 0,
         ends: [0.0; 2],
@@ -154,28 +48,35 @@ impl Reaching {
     fn collect_groups<const G: usize>(&mut self, chain: &Chain, number: u64, next: u64) {
         let leg = chain.leg(number);
         let (start, end) = (leg.start, leg.end());
-        self.in_pairs = 0;
+        self.kernels.clear();
         self.in_others = 0;
         let (mut from_left, mut from_right) = (start, end);
-        for k in 0..u64::from(leg.reached_from_left) {
-            let left = number.wrapping_sub(k);
-            let trial = chain.trial(left);
-            let far = trial.s + trial.reach;
-            if far > start {
-                self.add::<G>(chain, left, trial);
-                from_left = if far > from_left { far } else { from_left };
+        let left = u64::from(leg.reached_from_left);
+        let mut at = number;
+        let farthest = number.wrapping_add(1).wrapping_sub(left);
+        for part in chain.trials(farthest, left).into_iter().rev() {
+            for trial in part.iter().rev() {
+                let far = trial.s + trial.reach;
+                if far > start {
+                    self.add::<G>(chain, at, trial);
+                    from_left = if far > from_left { far } else { from_left };
+                }
+                at = at.wrapping_sub(1);
             }
         }
         let right = u64::from(leg.reached_from_right).min(next.saturating_sub(number + 1));
-        for k in 1..=right {
-            let right = number.wrapping_add(k);
-            let trial = chain.trial(right);
-            let near = trial.s - trial.reach;
-            if near < end {
-                self.add::<G>(chain, right, trial);
-                from_right = if near < from_right { near } else { from_right };
+        let mut at = number;
+        for part in chain.trials(number.wrapping_add(1), right) {
+            for trial in part {
+                at = at.wrapping_add(1);
+                let near = trial.s - trial.reach;
+                if near < end {
+                    self.add::<G>(chain, at, trial);
+                    from_right = if near < from_right { near } else { from_right };
+                }
             }
         }
+        self.kernels.end();
         self.leg = number;
         self.ends = [from_left.min(end), from_right.max(start)];
     }
@@ -183,10 +84,7 @@ impl Reaching {
     #[inline(always)]
     fn add<const G: usize>(&mut self, chain: &Chain, number: u64, trial: &TrialKernel) {
         if G == 1 && trial.is_all {
-            if let Some(pair) = self.pairs.get_mut(self.in_pairs / LANES) {
-                pair.set_linear(self.in_pairs % LANES, trial);
-                self.in_pairs += 1;
-            }
+            self.kernels.push_linear(trial);
         } else {
             self.add_all::<G>(number, chain.vertex(number));
         }
@@ -195,39 +93,30 @@ impl Reaching {
     #[inline(never)]
     fn add_all<const G: usize>(&mut self, number: u64, vertex: &Vertex) {
         let widths = &vertex.counted;
-        if !KernelPair::suits(vertex) {
+        if !has_kernels_alone(vertex) {
             if let Some(other) = self.others.get_mut(self.in_others) {
                 *other = number;
                 self.in_others += 1;
             }
         } else {
-            self.add_kernel::<G>(vertex, widths.kernel, widths.mix, 1.0 + widths.outer_share);
+            let times = 1.0 + widths.outer_share;
+            self.kernels
+                .push::<G>(vertex, widths.kernel, widths.mix, times);
             if widths.outer > 0.0 {
-                self.add_kernel::<G>(vertex, widths.outer, 0.0, -widths.outer_share);
+                self.kernels
+                    .push::<G>(vertex, widths.outer, 0.0, -widths.outer_share);
             }
-        }
-    }
-
-    #[inline(always)]
-    fn add_kernel<const G: usize>(&mut self, vertex: &Vertex, width: f64, mix: f64, times: f64) {
-        if let Some(pair) = self.pairs.get_mut(self.in_pairs / LANES) {
-            pair.set::<G>(self.in_pairs % LANES == 1, vertex, width, mix, times);
-            self.in_pairs += 1;
         }
     }
 
     /// How many kernels they have; one with an easement or a share of K8 counts as one.
     pub fn count(&self) -> usize {
-        self.in_pairs + self.in_others
+        self.kernels.count() + self.in_others
     }
 
     /// Up to where those on the left reach, and from where on those on the right do, within the leg; path distances.
     pub fn ends(&self) -> [f64; 2] {
         self.ends
-    }
-
-    fn pairs(&self) -> impl Iterator<Item = &KernelPair> {
-        self.pairs.iter().take(self.in_pairs.div_ceil(LANES))
     }
 
     fn others<'a>(&self, chain: &'a Chain) -> impl Iterator<Item = &'a Vertex> {
@@ -238,9 +127,9 @@ impl Reaching {
     /// How far the blended path is from the programmed one at `s`, within the leg, where a degree of C counts a share.
     pub fn deviation(&self, chain: &Chain, s: f64, metric: &Metric, turn_share: f64) -> f64 {
         let mut sum = if chain.is_linear() {
-            self.sum_of_pairs::<1>(s)
+            self.kernels.deviation::<1>(s)
         } else {
-            self.sum_of_pairs::<GROUPS>(s)
+            self.kernels.deviation::<GROUPS>(s)
         };
         for vertex in self.others(chain) {
             vertex.add_deviation(&vertex.counted, s - vertex.s, &mut sum);
@@ -250,29 +139,25 @@ impl Reaching {
         metric.deviation(&deviation, turn_share)
     }
 
-    #[inline(always)]
-    fn sum_of_pairs<const G: usize>(&self, s: f64) -> JumpSum<1> {
-        let mut sum = [[f64x2::ZERO; GROUP_SIZE]; G];
-        for pair in self.pairs() {
-            pair.add_deviation(s, &mut sum);
-        }
-        JumpSum::of_groups(&sum.map(|group| group.map(f64x2::reduce_add)))
-    }
-
     /// A bound of the second derivative of the deviation between `from` and `to`.
     pub fn bend_bound(&self, chain: &Chain, from: f64, to: f64) -> f64 {
-        let bounds = self.pairs().map(|pair| pair.bend_bounds(from, to));
-        let of_pairs = bounds.fold(f64x2::ZERO, |sum, bounds| sum + bounds);
         let of_others = self.others(chain).map(|vertex| {
             let distance = (from - vertex.s).max(vertex.s - to).max(0.0);
             vertex.bend_bound(&vertex.counted, distance)
         });
-        of_pairs.reduce_add() + of_others.sum::<f64>()
+        self.kernels.bend_bound(from, to) + of_others.sum::<f64>()
     }
+}
+
+/// Whether a vertex has nothing but kernels without a share of K8.
+#[inline(always)]
+fn has_kernels_alone(vertex: &Vertex) -> bool {
+    vertex.counted.mix >= 0.0 && vertex.counted.easement <= 0.0
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::jump::JumpSum;
     use super::super::leg::{Leg, ProgrammedMove};
     use super::super::settings::BlendSettings;
     use super::super::widths::Widths;
@@ -383,7 +268,7 @@ mod tests {
                 };
                 let all = (1..chain.next()).map(|number| chain.vertex(number));
                 let kernels = all.filter(|vertex| reaches(vertex)).map(|vertex| {
-                    1 + usize::from(KernelPair::suits(vertex) && vertex.counted.outer > 0.0)
+                    1 + usize::from(has_kernels_alone(vertex) && vertex.counted.outer > 0.0)
                 });
                 (reaching.count(), kernels.sum::<usize>())
             })

@@ -46,7 +46,13 @@ impl Shift {
     #[inline]
     pub fn move_point(&self, point: &mut PathPoint, distance: f64) {
         add(&mut point.position, &self.at(distance));
-        add(&mut point.first, &self.slope);
+        self.turn(&mut point.first);
+    }
+
+    /// Turns the first derivative of a leg by path distance.
+    #[inline]
+    pub fn turn(&self, direction: &mut Axes) {
+        add(direction, &self.slope);
     }
 }
 
