@@ -105,6 +105,13 @@ pub fn greater<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
+/// The greatest amount of all axes that are numbers.
+#[inline(always)]
+pub fn greatest_amount(axes: &Axes) -> f64 {
+    axes.iter()
+        .fold(0.0, |most, value| greater(most, value.abs()))
+}
+
 /// The least of all lanes.
 #[inline(always)]
 pub fn least(lanes: &Lanes) -> f32 {

@@ -73,6 +73,8 @@ impl JointMap {
 #[derive(Clone, Copy, Debug)]
 pub struct MachineMap {
     linear: Matrix3<f64>,
+    /// Whether that is more than the identity: mostly it is not, and nothing has to be calculated.
+    is_framed: bool,
     joints: Option<JointMap>,
 }
 
@@ -80,6 +82,7 @@ impl MachineMap {
     /// Without a frame the axes of the program are those of the machine.
     pub const IDENTITY: Self = Self {
         linear: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        is_framed: false,
         joints: None,
     };
 
@@ -93,6 +96,7 @@ impl MachineMap {
             .all(|element| element.abs() <= Self::GREATEST_ELEMENT)
             .then_some(Self {
                 linear: *linear,
+                is_framed: *linear != Self::IDENTITY.linear,
                 joints: None,
             })
     }
@@ -122,6 +126,9 @@ impl MachineMap {
     /// A derivative of the path, shape (9), as the axes of the machine see it.
     #[inline]
     pub fn apply(&self, program: &Axes) -> Axes {
+        if !self.is_framed {
+            return *program;
+        }
         let [x, y, z, a, b, c, u, v, w]: [f64; AXIS_COUNT] = (*program).into();
         let linear = self.linear * Vector3::new(x, y, z);
         Axes::from([linear.x, linear.y, linear.z, a, b, c, u, v, w])

@@ -6,7 +6,7 @@
 //! `|q' u + 3 q'' a + q''' b| <= J / sqrt(b)`; the right side is convex in b, which would make the
 //! barrier's second derivatives indefinite, so that one term of them is left out.
 
-use wide::{f32x4, f64x4};
+use wide::{f32x4, f64x2, f64x4};
 
 use super::interval::Parabola;
 use super::interval_samples::IntervalSamples;
@@ -37,12 +37,15 @@ struct Local<T> {
     uu: T,
 }
 
-/// Where in an interval, shares of its length: a lane each. The last one only fills the register, and weighs nothing.
-const PLACES: [f64; 4] = [0.0, 0.5, 1.0, 1.0];
+/// Where in an interval, shares of its length: a lane each. The last one only fills the register, and weighs nothing. The
+/// start comes behind the others, since it alone has nothing to be [transformed](Local::by_start).
+const PLACES: [f64; 4] = [0.5, 1.0, 0.0, 0.0];
+
 /// What each of them stands for in the barrier ..
-const PARTS: [f64; 4] = [0.25, 0.5, 0.25, 0.0];
+const PARTS: [f64; 4] = [0.5, 0.25, 0.25, 0.0];
+
 /// .. and in the duration, by Simpson's rule.
-const SIMPSON: [f64; 4] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0, 0.0];
+const SIMPSON: [f64; 4] = [4.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0, 0.0];
 
 /// What the barrier is to be assembled with.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +80,7 @@ impl Barrier {
             interval,
             f64x4::new(PARTS) * weight,
         );
-        local.by_start(x).by_coefficients(lengths)
+        local.by_start(h).by_coefficients(lengths)
     }
 
     /// Duration and barrier at all places.
@@ -150,7 +153,7 @@ fn of_axes(
         let [by_u, by_a, by_b] = [0, 1, 2].map(|order| {
             let [start, middle, end] =
                 samples.map(|sample| f32x4::new(*quad(&sample.lanes[order], number)));
-            f32x4::transpose([start, middle, end, end])
+            f32x4::transpose([middle, end, start, start])
         });
         for (lane, time) in times.iter().enumerate() {
             if moving.contains(QUAD_LANES * number + lane) {
@@ -161,10 +164,10 @@ fn of_axes(
     limits
 }
 
-/// What belongs to start, middle and end as lanes.
+/// What belongs to start, middle and end as the lanes of [`PLACES`].
 #[inline(always)]
 fn by_place([start, middle, end]: [f64; 3]) -> f64x4 {
-    f64x4::new([start, middle, end, end])
+    f64x4::new([middle, end, start, start])
 }
 
 #[inline(always)]
@@ -276,29 +279,59 @@ struct DurationDerivatives {
 }
 
 impl Local<f64x4> {
-    /// The sum over all places of what is meant by b, a, u at `x` as seen from the start, where
-    /// `b = b0 + 2 a0 x + u x^2` and `a = a0 + u x`.
+    /// The sum over all places of what is meant by b, a, u there as seen from the start, where
+    /// `b = b0 + 2 a0 x + u x^2` and `a = a0 + u x` at `x` in an interval of the `length`.
     #[inline(always)]
-    fn by_start(&self, x: f64x4) -> Local<f64> {
+    fn by_start(&self, length: f64) -> Local<f64> {
+        let [middle, end, ..] = PLACES;
+        let x = f64x2::new([middle, end]) * length;
         let two_x = x * 2.0;
         let xx = x * x;
+        let [b, a] = [self.b, self.a].map(ByStart::of);
+        let [bb, ba, bu, aa, au] = [self.bb, self.ba, self.bu, self.aa, self.au].map(ByStart::of);
+        let [u, uu] = [self.u, self.uu].map(ByStart::of);
         // Rows of the second derivatives times the columns of the transformation.
-        let b_a = self.bb * two_x + self.ba;
-        let a_a = self.ba * two_x + self.aa;
-        let b_u = self.bb * xx + self.ba * x + self.bu;
-        let a_u = self.ba * xx + self.aa * x + self.au;
-        let u_u = self.bu * xx + self.au * x + self.uu;
+        let b_a = bb.behind * two_x + ba.behind;
+        let a_a = ba.behind * two_x + aa.behind;
+        let b_u = bb.behind * xx + ba.behind * x + bu.behind;
+        let a_u = ba.behind * xx + aa.behind * x + au.behind;
+        let u_u = bu.behind * xx + au.behind * x + uu.behind;
         Local {
-            b: self.b.reduce_add(),
-            a: (self.b * two_x + self.a).reduce_add(),
-            u: (self.b * xx + self.a * x + self.u).reduce_add(),
-            bb: self.bb.reduce_add(),
-            ba: b_a.reduce_add(),
-            bu: b_u.reduce_add(),
-            aa: (two_x * b_a + a_a).reduce_add(),
-            au: (two_x * b_u + a_u).reduce_add(),
-            uu: (xx * b_u + x * a_u + u_u).reduce_add(),
+            b: b.plus(b.behind),
+            a: a.plus(b.behind * two_x + a.behind),
+            u: u.plus(b.behind * xx + a.behind * x + u.behind),
+            bb: bb.plus(bb.behind),
+            ba: ba.plus(b_a),
+            bu: bu.plus(b_u),
+            aa: aa.plus(two_x * b_a + a_a),
+            au: au.plus(two_x * b_u + a_u),
+            uu: uu.plus(xx * b_u + x * a_u + u_u),
         }
+    }
+}
+
+/// A derivative at the start, and at middle and end.
+#[derive(Clone, Copy)]
+struct ByStart {
+    start: f64,
+    behind: f64x2,
+}
+
+impl ByStart {
+    #[inline(always)]
+    fn of(derivative: f64x4) -> Self {
+        let [middle, end, start, _] = derivative.to_array();
+        Self {
+            start,
+            behind: f64x2::new([middle, end]),
+        }
+    }
+
+    /// What is at the start, and what middle and end come to as seen from there.
+    #[inline(always)]
+    fn plus(self, behind: f64x2) -> f64 {
+        let [middle, end] = behind.to_array();
+        self.start + middle + end
     }
 }
 

@@ -12,6 +12,7 @@
 use super::route::{MOST_BREAKPOINTS, Route};
 use super::rows::AxisRows;
 use super::sample::Sample;
+use crate::lanes::greatest_amount;
 
 /// Of the second difference of three places, how far what is smooth may leave the parabola through them.
 const SMOOTH_SHARE: f64 = 0.125;
@@ -106,11 +107,11 @@ impl<R: Route> Between<'_, R> {
         let by_parabola =
             (start.third * 5.0 + middle.third * 8.0 - end.third) * (self.length / 24.0);
         let change = (middle.second - start.second) / 3.0;
-        let cubic = CUBIC * (change - by_parabola).amax() / self.length;
-        let to_acceleration = *self.rows.jerk_time() / 3.0;
+        let cubic = CUBIC * greatest_amount(&(change - by_parabola)) / self.length;
+        let to_acceleration = self.rows.third_of_jerk_time();
         [
-            second.component_mul(&to_acceleration).amax() * SMOOTH_SHARE,
-            (third.amax() * SMOOTH_SHARE).max(cubic),
+            greatest_amount(&second.component_mul(to_acceleration)) * SMOOTH_SHARE,
+            (greatest_amount(&third) * SMOOTH_SHARE).max(cubic),
         ]
     }
 
@@ -132,8 +133,9 @@ impl<R: Route> Between<'_, R> {
         if self.rows.bends() && !(second.sum() + third.sum()).is_finite() {
             return [f64::INFINITY; 2];
         }
-        let to_acceleration = *self.rows.jerk_time() / 3.0;
-        [second.component_mul(&to_acceleration).amax(), third.amax()]
+        let to_acceleration = self.rows.third_of_jerk_time();
+        let second = greatest_amount(&second.component_mul(to_acceleration));
+        [second, greatest_amount(&third)]
     }
 }
 

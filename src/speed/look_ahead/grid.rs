@@ -6,7 +6,6 @@
 use super::context::PlanContext;
 use super::feature::GROWTH;
 use super::features::Features;
-use super::interval_samples::IntervalSamples;
 use super::place::Place;
 use super::rest_arc::RestArc;
 use super::route::{Route, before};
@@ -102,7 +101,7 @@ impl Grid {
             return GridStep::TooLong;
         }
         let s = candidate.at(k).start;
-        let left = *samples.start(candidate, k);
+        let left = samples.start(candidate, k);
         let free = FREE_TIME * left.cap.raised(context.raise_squared).sqrt();
         let window = free / GROWTH + route.greatest_reach();
         self.features.make_room(s);
@@ -113,14 +112,14 @@ impl Grid {
         self.features.drop_before(s, free);
 
         let previous = candidate.at(k - 1).length;
-        let step = self.step(route, s, previous, free, &left);
+        let step = self.step(route, s, previous, free, left);
         if step.length.is_nan() {
             return GridStep::Unsound;
         }
         if step.end <= s {
             return GridStep::TooFine;
         }
-        let (step, middle, right) = self.resolve(context, s, step, &left);
+        let (step, middle, right) = self.resolve(context, s, step, left);
         if !(middle.sample.is_sound() && right.sample.is_sound()) {
             return GridStep::Unsound;
         }
@@ -181,10 +180,7 @@ impl Grid {
             bank: context.plan.at(k + 1).bank ^ 1,
             ..SplineInterval::NONE
         };
-        *samples.place_mut(candidate, k + 1) = IntervalSamples {
-            start: right,
-            ..IntervalSamples::NONE
-        };
+        samples.place_mut(candidate, k + 1).start = right;
     }
 
     /// The length of the interval from `s` on, by features and neighbours.

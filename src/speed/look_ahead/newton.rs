@@ -9,6 +9,7 @@
 use super::barrier::Barrier;
 use super::candidate_plan::MARGIN;
 use super::cost;
+use super::interval::Parabola;
 use super::rows::AxisRows;
 use super::spline::{SampleBanks, Spline};
 use crate::ring::Ring;
@@ -69,6 +70,37 @@ impl SystemRow {
         step: 0.0,
         refusals: 1.0,
     };
+}
+
+/// The interval at hand and those beside it after the step. From one interval to the next only one of them is another.
+struct MovedNeighbours {
+    lengths: [f64; 3],
+    coefficients: [f64; 3],
+}
+
+impl MovedNeighbours {
+    #[inline]
+    fn of(step: &NewtonStep, plan: &Spline) -> Self {
+        let k = step.k;
+        let numbers = [k - 1, k, k + 1];
+        Self {
+            lengths: numbers.map(|k| plan.at(k).length),
+            coefficients: numbers.map(|k| step.moved(plan, k)),
+        }
+    }
+
+    /// The same of the next interval, which is the one at hand now.
+    #[inline]
+    fn go_on(&mut self, step: &NewtonStep, plan: &Spline) {
+        let ([_, length, next_length], [_, here, next]) = (self.lengths, self.coefficients);
+        let behind = step.k + 1;
+        self.lengths = [length, next_length, plan.at(behind).length];
+        self.coefficients = [here, next, step.moved(plan, behind)];
+    }
+
+    fn parabola(&self) -> Parabola {
+        Parabola::of_coefficients(self.lengths, self.coefficients)
+    }
 }
 
 /// A step of Newton's method, until it is done.
@@ -143,7 +175,7 @@ impl NewtonStep {
             match self.phase {
                 NewtonPhase::Assemble => self.assemble(plan, samples, axes, raise_squared),
                 NewtonPhase::Substitute => self.substitute(),
-                NewtonPhase::Check => self.check(plan, samples, axes, raise_squared),
+                NewtonPhase::Check => self.check(plan, samples, axes, raise_squared, budget),
                 NewtonPhase::Apply => self.apply(plan),
                 NewtonPhase::Done => {}
             }
@@ -154,6 +186,12 @@ impl NewtonStep {
     /// The first and the last coefficient that may change.
     fn free(&self) -> (usize, usize) {
         (self.first + 1, self.end - 2)
+    }
+
+    /// Coefficient k after the step.
+    #[inline]
+    fn moved(&self, plan: &Spline, k: usize) -> f64 {
+        plan.at(k).coefficient + self.share * self.row(k).step
     }
 
     fn row(&self, k: usize) -> &SystemRow {
@@ -261,32 +299,56 @@ impl NewtonStep {
         self.k = self.first;
     }
 
-    fn check(&mut self, plan: &Spline, samples: &SampleBanks, axes: &AxisRows, raise_squared: f64) {
+    /// Asks an interval whether it keeps its limits after the step, and while it does and the budget lasts the next one.
+    fn check(
+        &mut self,
+        plan: &Spline,
+        samples: &SampleBanks,
+        axes: &AxisRows,
+        raise_squared: f64,
+        budget: &mut u32,
+    ) {
         if self.probing && !self.go_on_to_stiff(plan) {
             return;
         }
-        let k = self.k;
-        let moved = |k: usize| plan.at(k).coefficient + self.share * self.row(k).step;
-        let parabola = plan.parabola_with(k, [moved(k - 1), moved(k), moved(k + 1)]);
         let margin = MARGIN * (1.0 - 1e-5);
-        if !axes.keeps(&parabola, samples.of(plan, k), raise_squared, margin) {
-            self.clean = false;
-            self.share *= SHORTER;
-            self.shortenings += 1;
-            self.row_mut(k).refusals *= RESISTANCE_GROWTH;
-            if self.shortenings > MOST_SHORTENINGS {
-                self.share = 0.0;
-                self.begin_apply();
+        let mut moving = MovedNeighbours::of(self, plan);
+        loop {
+            let k = self.k;
+            if !axes.keeps(
+                &moving.parabola(),
+                samples.of(plan, k),
+                raise_squared,
+                margin,
+            ) {
+                self.refuse();
+                return;
             }
-            return;
+            self.k = k + 1;
+            if self.probing || self.k == self.end || *budget == 0 {
+                break;
+            }
+            *budget = budget.saturating_sub(cost::CHECK);
+            moving.go_on(self, plan);
         }
-        self.k = k + 1;
         if self.k == self.end && !self.probing {
             if self.clean {
                 self.begin_apply();
             } else {
                 self.begin_to_ask_all();
             }
+        }
+    }
+
+    /// The interval at hand does not keep its limits after the step, which is made shorter.
+    fn refuse(&mut self) {
+        self.clean = false;
+        self.share *= SHORTER;
+        self.shortenings += 1;
+        self.row_mut(self.k).refusals *= RESISTANCE_GROWTH;
+        if self.shortenings > MOST_SHORTENINGS {
+            self.share = 0.0;
+            self.begin_apply();
         }
     }
 

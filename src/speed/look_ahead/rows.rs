@@ -51,7 +51,9 @@ pub(super) struct AxisRows {
     inverse_jerk: Axes,
     /// J / A; 0 where the acceleration is unlimited.
     jerk_time: Axes,
-    /// The same in single precision.
+    /// A third of that: what [`Sample::second`] is to be multiplied by for shares of A.
+    third_of_jerk_time: Axes,
+    /// J / A in single precision.
     pub jerk_time_lanes: Lanes,
 }
 
@@ -63,6 +65,7 @@ impl AxisRows {
         axis_velocity: None,
         inverse_jerk: ZERO,
         jerk_time: ZERO,
+        third_of_jerk_time: ZERO,
         jerk_time_lanes: ZEROS,
     };
 
@@ -94,6 +97,7 @@ impl AxisRows {
             axis_velocity: map.joints().map(|_| axes.velocity),
             inverse_jerk,
             jerk_time,
+            third_of_jerk_time: jerk_time / 3.0,
             jerk_time_lanes: rounded(&jerk_time),
         }
     }
@@ -133,12 +137,7 @@ impl AxisRows {
     pub fn sample_of<R: Route>(&self, route: &R, s: f64, place: &Place, length: f64) -> Sample {
         let cap = self.cap(route, s, place, 0.25 * length);
         let [first, second, third] = &place.behind;
-        let mut axes = MovingAxes::NONE;
-        for axis in 0..AXIS_COUNT {
-            if first[axis] != 0.0 || second[axis] != 0.0 {
-                axes.add(axis);
-            }
-        }
+        let axes = MovingAxes::of(first, second);
         let first = first.component_mul(&self.inverse_jerk);
         let second = second.component_mul(&self.inverse_jerk) * 3.0;
         let third = third.component_mul(&self.inverse_jerk);
@@ -198,6 +197,11 @@ impl AxisRows {
     /// J / A by axis, shape (9).
     pub fn jerk_time(&self) -> &Axes {
         &self.jerk_time
+    }
+
+    /// A third of that, shape (9).
+    pub fn third_of_jerk_time(&self) -> &Axes {
+        &self.third_of_jerk_time
     }
 
     /// The greatest acceleration along the path from rest, infinite if nothing limits it.

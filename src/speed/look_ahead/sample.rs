@@ -105,6 +105,15 @@ pub(super) struct MovingAxes(u16);
 impl MovingAxes {
     pub const NONE: Self = Self(0);
 
+    /// Those that have a first or a second derivative by the path, shapes (9), that is not 0.
+    #[inline]
+    pub fn of(first: &Axes, second: &Axes) -> Self {
+        // All bits but the sign at once: no branches, of which there would be one for each axis.
+        let moves = |axis: usize| (first[axis].to_bits() | second[axis].to_bits()) << 1 != 0;
+        Self((0..AXIS_COUNT).fold(0, |axes, axis| axes | u16::from(moves(axis)) << axis))
+    }
+
+    #[cfg(test)]
     pub fn add(&mut self, axis: usize) {
         self.0 |= 1 << (axis & 15);
     }

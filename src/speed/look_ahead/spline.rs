@@ -104,25 +104,11 @@ impl Spline {
     /// b over interval k, from 1 to `last`.
     #[inline]
     pub fn parabola(&self, k: usize) -> Parabola {
-        self.parabola_with(
-            k,
-            [
-                self.at(k - 1).coefficient,
-                self.at(k).coefficient,
-                self.at(k + 1).coefficient,
-            ],
+        let [before, here, after] = [k - 1, k, k + 1].map(|k| self.at(k));
+        Parabola::of_coefficients(
+            [before.length, here.length, after.length],
+            [before.coefficient, here.coefficient, after.coefficient],
         )
-    }
-
-    /// b over interval k if its coefficients and those of its neighbours were these.
-    #[inline]
-    pub fn parabola_with(&self, k: usize, coefficients: [f64; 3]) -> Parabola {
-        let lengths = [
-            self.at(k - 1).length,
-            self.at(k).length,
-            self.at(k + 1).length,
-        ];
-        Parabola::of_coefficients(lengths, coefficients)
     }
 
     /// Seconds of interval k; those of the arcs at rest for 0 and `last + 1`.
