@@ -23,7 +23,7 @@ const SHARE: f64 = 0.25;
 const GREATEST_USED: f64 = 0.7;
 
 /// A vertex with a greater jump of its tangent is a corner, and belongs to no curve.
-const GREATEST_JUMP: f64 = 0.35;
+const GREATEST_JUMP: f64 = 0.8;
 
 /// The second moment of the biweight kernel is 1/7 of the square of its width.
 const MOMENT: f64 = 14.0;
