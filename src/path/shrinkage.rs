@@ -119,7 +119,7 @@ mod tests {
         let full = vertex(0.2, 0.05).mix(1.8);
         let mut used = vertex(0.2, 0.05);
         used.let_shrink(0.04);
-        let mut corner = vertex(4.0, 0.05);
+        let mut corner = vertex(9.0, 0.05);
         corner.half_leg = 0.1;
         corner.mean_leg = 0.2;
         corner.let_shrink(0.0);
