@@ -4,6 +4,7 @@ interpreter."""
 import unittest
 
 import preview_speed
+from overload import ATTEMPTS
 
 #: how much longer it may take
 MOST = 1.2
@@ -13,7 +14,13 @@ class Speed(unittest.TestCase):
     def test_a_program_of_100000_lines(self):
         for name, frames in preview_speed.CASES.items():
             with self.subTest(name):
-                stock, hook = preview_speed.measure(frames)
+                found = []
+                # the least of few may be off where the computer does more: then of more
+                for _ in range(ATTEMPTS):
+                    found.append(preview_speed.measure(frames))
+                    stock, hook = (min(column) for column in zip(*found, strict=True))
+                    if hook < MOST * stock:
+                        break
                 self.assertLess(hook, MOST * stock)
 
 
