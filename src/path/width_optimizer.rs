@@ -6,7 +6,7 @@
 //! is checked leg by leg; the vertices that are to blame for a violation are narrowed and their legs
 //! checked again. When all is within the tolerance it takes the place of the stored one, at once.
 //! When that fails, or takes too much work, the stored one stays and the new vertices are
-//! hardened (see there).
+//! hardened (see there), until the next trial: where no more of the path comes, there is one without.
 //!
 //! Vertices become final from the oldest on, as soon as what is yet to come is beyond their reach.
 
@@ -40,10 +40,6 @@ const ROUNDS: u32 = 24;
 
 /// A violation so near to the end of what is known, in design widths, may be due to it.
 const NEAR_END: f64 = 2.0;
-
-/// What is final keeps this factor clear of kernels that are not, so that rounding never carries
-/// them into it, and that what they keep clear of it takes nothing from them.
-const AMPLE: f64 = 1.002;
 
 /// Kernel terms that a trial may take in its checks, and half as many in its base widths.
 const GREATEST_TRIAL: usize = 60_000;
@@ -82,6 +78,10 @@ pub(super) struct WidthOptimizer {
     spent: usize,
     violated: bool,
     narrowed: bool,
+    /// Whether the last trial failed, so that the vertices that were new to it wait for another one ..
+    hardened: bool,
+    /// .. and whether the one at hand is another one with no more of the path.
+    repeated: bool,
     /// Of all final vertices.
     greatest_reach: f64,
     /// Of the leg that is checked.
@@ -101,6 +101,8 @@ impl WidthOptimizer {
             spent: 0,
             violated: false,
             narrowed: false,
+            hardened: false,
+            repeated: false,
             greatest_reach: 0.0,
             reaching: Reaching::NONE,
             known: None,
@@ -116,6 +118,7 @@ impl WidthOptimizer {
             ..Window::EMPTY
         };
         self.phase = OptimizerPhase::Idle;
+        self.hardened = false;
         self.stored_next = next;
         self.stored_end = 0.0;
         self.greatest_reach = 0.0;
@@ -143,7 +146,8 @@ impl WidthOptimizer {
 
     /// Whether the stored assignment knows all legs there are.
     pub fn is_settled(&self, chain: &Chain) -> bool {
-        matches!(self.phase, OptimizerPhase::Idle) && self.stored_next == chain.next()
+        let idle = matches!(self.phase, OptimizerPhase::Idle) && !self.hardened;
+        idle && self.stored_next == chain.next()
     }
 
     /// The machine comes to rest at the end of the chain: nothing will change any more. Only when
@@ -199,9 +203,12 @@ impl WidthOptimizer {
             || last.stop_after
             || last.is_exact()
             || chain.end() - self.stored_end >= CHUNK * last.design_width;
-        if fresh == 0 || !enough {
+        let repeated = fresh == 0 && self.hardened;
+        if !enough || !(fresh > 0 || repeated) {
             return false;
         }
+        self.repeated = repeated;
+        self.hardened = false;
         let next = self.stored_next + fresh.min(GREATEST_CHUNK);
         self.window.next = next;
         self.window.end = chain.leg(next.wrapping_sub(1)).end();
@@ -304,7 +311,7 @@ impl WidthOptimizer {
         }
         if leg >= self.window.next {
             if !self.violated {
-                return self.accept(chain, settings);
+                return self.accept(chain, settings, self.window.next);
             }
             self.round += 1;
             if self.round >= ROUNDS {
@@ -376,7 +383,8 @@ impl WidthOptimizer {
         chain.touch(number, reach, self.window.next)
     }
 
-    /// Back to the stored assignment, which does not know the new vertices yet.
+    /// Back to the stored assignment, which does not know the new vertices yet. What it knows stays as narrow, so that trials come
+    /// to their end. The new ones are hardened for the time being: the next trial begins with all of their base widths.
     fn give_up(&mut self, chain: &mut Chain) -> usize {
         for number in self.window.open..self.window.next {
             chain.set_trial(number, *chain.vertex(number).stored());
@@ -404,7 +412,10 @@ impl WidthOptimizer {
         metric: &Metric,
     ) -> usize {
         if vertex >= self.window.next {
-            return self.accept(chain, settings);
+            // What was new closes with the next trial at the earliest: narrow for good it would cost time.
+            let closing = self.stored_next;
+            self.hardened = !self.repeated;
+            return self.accept(chain, settings, closing);
         }
         let reaching = &mut self.reaching;
         let (holds, cost) =
@@ -423,15 +434,16 @@ impl WidthOptimizer {
         cost
     }
 
-    /// Puts the trial assignment in force.
-    fn accept(&mut self, chain: &mut Chain, settings: &BlendSettings) -> usize {
+    /// Puts the trial assignment in force. Vertices before number `closing` may become final since what is yet to come is
+    /// beyond their reach.
+    fn accept(&mut self, chain: &mut Chain, settings: &BlendSettings, closing: u64) -> usize {
         for number in self.window.open..self.window.next {
             chain.store_trial(number);
         }
         self.stored_next = self.window.next;
         self.stored_end = self.window.end;
         self.phase = OptimizerPhase::Idle;
-        self.advance(chain, settings);
+        self.advance(chain, settings, closing);
         chain.settle(self.window.open, self.window.frozen);
         2 * NEIGHBOURS as usize
     }
@@ -443,8 +455,8 @@ impl WidthOptimizer {
         self.window.open += 1;
     }
 
-    /// Finds out what is final.
-    fn advance(&mut self, chain: &Chain, settings: &BlendSettings) {
+    /// Finds out what is final. `closing`: as in [`accept`](Self::accept).
+    fn advance(&mut self, chain: &Chain, settings: &BlendSettings, closing: u64) {
         let Window { next, end, .. } = self.window;
         let last = chain.leg(next.wrapping_sub(1));
         while self.window.open < next {
@@ -454,8 +466,9 @@ impl WidthOptimizer {
             let beyond_reach =
                 searched && end - vertex.s >= vertex.stored().reach() + LAG * last.design_width;
             let before_wall = vertex.right_wall <= end;
+            let out_of_reach = self.window.open < closing && (beyond_reach || before_wall);
             let too_many = next - self.window.open >= GREATEST_OPEN;
-            if !(vertex.is_bare_wall() || beyond_reach || before_wall || too_many) {
+            if !(vertex.is_bare_wall() || out_of_reach || too_many) {
                 break;
             }
             self.close(chain);
@@ -463,34 +476,7 @@ impl WidthOptimizer {
         self.window.frozen = self
             .window
             .frozen
-            .max(self.untouchable(chain, settings))
+            .max(self.window.untouchable(chain, settings))
             .min(end);
-    }
-
-    /// Up to where neither the open vertices nor those yet to come will have any effect.
-    fn untouchable(&self, chain: &Chain, settings: &BlendSettings) -> f64 {
-        let Window {
-            open, next, end, ..
-        } = self.window;
-        let newest = next.wrapping_sub(1);
-        let (last, vertex) = (chain.leg(newest), chain.vertex(newest));
-        let wall = if vertex.wall {
-            vertex.s
-        } else {
-            vertex.left_wall
-        };
-        let bare = next < chain.next() && chain.vertex(next).is_bare_wall();
-        let coming = if last.stop_after || bare {
-            end
-        } else {
-            (end - AMPLE * last.reserve(settings, vertex.tangent_jump_size)).max(wall)
-        };
-        (open..next)
-            .map(|number| chain.vertex(number))
-            .map(|vertex| {
-                let reach = AMPLE * vertex.possible_reach(settings);
-                (vertex.s - reach).max(vertex.left_wall)
-            })
-            .fold(coming, f64::min)
     }
 }

@@ -1,10 +1,15 @@
 //! The part of the path that widths are chosen for at a time.
 
 use super::chain::{Chain, NEIGHBOURS};
+use super::settings::BlendSettings;
 
 /// Kernels end this share before what they must not reach, so that rounding never carries them
 /// over it.
 const CLEAR: f64 = 0.999;
+
+/// What is final keeps this factor clear of kernels that are not, so that rounding never carries
+/// them into it, and that what they keep clear of it takes nothing from them.
+const AMPLE: f64 = 1.002;
 
 /// The vertices whose widths may change, and what they must not reach.
 #[derive(Clone, Copy, Debug)]
@@ -60,5 +65,32 @@ impl Window {
     /// Whether what happens at `s` may look different when more is known.
     pub fn is_near_end(&self, s: f64, distance: f64) -> bool {
         self.end - s < distance
+    }
+
+    /// Up to where neither the open vertices nor those yet to come will have any effect.
+    pub fn untouchable(&self, chain: &Chain, settings: &BlendSettings) -> f64 {
+        let Self {
+            open, next, end, ..
+        } = *self;
+        let newest = next.wrapping_sub(1);
+        let (last, vertex) = (chain.leg(newest), chain.vertex(newest));
+        let wall = if vertex.wall {
+            vertex.s
+        } else {
+            vertex.left_wall
+        };
+        let bare = next < chain.next() && chain.vertex(next).is_bare_wall();
+        let coming = if last.stop_after || bare {
+            end
+        } else {
+            (end - AMPLE * last.reserve(settings, vertex.tangent_jump_size)).max(wall)
+        };
+        (open..next)
+            .map(|number| chain.vertex(number))
+            .map(|vertex| {
+                let reach = AMPLE * vertex.possible_reach(settings);
+                (vertex.s - reach).max(vertex.left_wall)
+            })
+            .fold(coming, f64::min)
     }
 }
