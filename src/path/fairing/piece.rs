@@ -45,8 +45,10 @@ pub(super) struct Piece {
     pub joined: bool,
     /// How far its vertex is moved at most.
     pub room: f64,
-    /// What a unit of that costs, however even the path is.
+    /// What a unit of that costs, however even the path is ..
     pub keep: f64,
+    /// .. where nothing but the feed says what is even enough.
+    pub keep_at_feed: f64,
     /// What the vertices count from which on three pieces end with this one; zeros where they are no run.
     pub third: [f64; SPAN],
     /// The third derivative that the feed allows here.
@@ -73,6 +75,7 @@ impl Piece {
             joined: false,
             room: 0.0,
             keep: 0.0,
+            keep_at_feed: 0.0,
             third: [0.0; SPAN],
             even: 1.0,
             square: 0.0,
@@ -113,7 +116,8 @@ impl Piece {
         if self.joined {
             self.room = SHARE * leg.tolerance().min(next.tolerance());
             let even = EVEN * settings.even_third(leg.speed.max(next.speed)) / self.room;
-            self.keep = 0.5 * (leg.length + next.length) * even * even;
+            self.keep_at_feed = 0.5 * (leg.length + next.length) * even * even;
+            self.keep = self.keep_at_feed;
         }
     }
 }

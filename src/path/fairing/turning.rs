@@ -16,18 +16,27 @@ const EVEN: f64 = 0.8;
 /// And nowhere by more than this share: a corner is no curve.
 const GREATEST_SHARE: f64 = 0.6;
 
-/// Whether a piece lies on a curve, as far as those from `first` to before `next` show it.
-pub(super) fn is_on_curve(pieces: &Ring<Piece, ROOM>, number: u64, first: u64, next: u64) -> bool {
+/// The curvature of the curve that a piece lies on, as far as those from `first` to before `next` show it, 1 per machine unit;
+/// `None` where it lies on none.
+pub(super) fn curvature(
+    pieces: &Ring<Piece, ROOM>,
+    number: u64,
+    first: u64,
+    next: u64,
+) -> Option<f64> {
     let begin = number.saturating_sub(BESIDE).max(first);
     let end = (number + BESIDE + 1).min(next);
-    let (mut sum, mut greatest) = (0.0, 0.0f64);
+    let (mut sum, mut greatest, mut length) = (0.0, 0.0f64, 0.0);
+    let mut before = pieces.at(begin);
     for number in begin + 1..end {
-        let turn = pieces.at(number).turn;
-        sum += turn;
-        greatest = greatest.max(turn);
+        let piece = pieces.at(number);
+        sum += piece.turn;
+        greatest = greatest.max(piece.turn);
+        length += 0.5 * (before.leg.length + piece.leg.length);
+        before = piece;
     }
-    let [one, other] = [begin, end - 1].map(|number| pieces.at(number).direction);
-    greatest < GREATEST_SHARE * sum && (other - one).norm() > EVEN * sum
+    let whole = (before.direction - pieces.at(begin).direction).norm();
+    (greatest < GREATEST_SHARE * sum && whole > EVEN * sum).then(|| sum / length)
 }
 
 #[cfg(test)]
@@ -45,7 +54,7 @@ mod tests {
             piece.turn = (direction(number) - direction(number - 1)).norm();
         }
         (10..30)
-            .filter(|number| is_on_curve(&pieces, *number, 0, 40))
+            .filter(|number| curvature(&pieces, *number, 0, 40).is_some())
             .count()
     }
 
