@@ -480,3 +480,6 @@ impl WidthOptimizer {
             .min(end);
     }
 }
+
+#[cfg(test)]
+mod tests;

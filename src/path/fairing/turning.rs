@@ -65,6 +65,36 @@ mod tests {
     }
 
     #[test]
+    fn a_circle_has_its_curvature() {
+        let mut pieces = Box::new(Ring::filled_with(Piece::VACANT));
+        // With a radius of 10, of chords that are divided unevenly.
+        let angle = |number: u64| 0.07 * number as f64 + 0.02 * (number % 3) as f64;
+        let point = |number| {
+            Point::new(
+                10.0 * f64::sin(angle(number)),
+                -10.0 * f64::cos(angle(number)),
+                0.0,
+            )
+        };
+        let mut before = Piece::VACANT;
+        for number in 0..40 {
+            let mut piece = Piece {
+                end: point(number + 1),
+                ..Piece::VACANT
+            };
+            before.end = point(number);
+            piece.leg.length = (piece.end - before.end).norm();
+            piece.follow(&before);
+            before = piece;
+            *pieces.at_mut(number) = piece;
+        }
+        for number in 10..30 {
+            let found = curvature(&pieces, number, 0, 40).expect("a curve");
+            assert!((found / 0.1 - 1.0).abs() < 0.01, "{number}: {found}");
+        }
+    }
+
+    #[test]
     fn a_corner_a_zigzag_and_a_line_are_none() {
         assert_eq!(on_curve(|number| if number < 20 { 0.0 } else { 1.5 }), 0);
         assert_eq!(on_curve(|number| 0.1 * (number % 2) as f64), 0);

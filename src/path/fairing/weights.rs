@@ -50,7 +50,8 @@ pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64, batch
         };
         let piece = pieces.at_mut(number);
         let even = piece.even.max(allowed);
-        piece.keep = piece.keep_at_feed * (even / piece.even) * (even / piece.even);
+        let raised = even / piece.even;
+        piece.keep = piece.keep_at_feed * raised * raised;
         let greatest = even * even;
         piece.weight = if mean > greatest {
             (greatest / mean).sqrt().sqrt()
