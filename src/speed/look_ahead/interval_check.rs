@@ -48,7 +48,12 @@ impl AxisRows {
         let (u, half, margin) = (parabola.u as f32, half as f32, margin as f32);
         let fastest = greater(greater(b0 as f32, b1 as f32), b2 as f32);
         let for_acceleration = margin - interval.departure.second * fastest;
-        let for_jerk = margin - interval.departure.third * fastest * fastest.sqrt();
+        // At each place by its own speed, as the barrier has it: what it does not know of keeps an interval where it is.
+        let for_jerks: [f32; 3] = core::array::from_fn(|place| {
+            margin - interval.departure.third * places[place].0 * speeds[place]
+        });
+        let for_jerk_between =
+            JERK_BETWEEN + margin - interval.departure.third * fastest * fastest.sqrt();
         let moving = MovingAxes::at_any(samples);
         for number in (0..QUADS).filter(|number| moving.in_quad(*number)) {
             let times = f32x4::new(*quad(&self.jerk_time_lanes, number));
@@ -59,11 +64,9 @@ impl AxisRows {
             if !keeps_acceleration(accelerations, changes, over_half, for_acceleration) {
                 return false;
             }
-            match keeps_jerk(jerks, for_jerk) {
+            match keeps_jerk(jerks, for_jerks, for_jerk_between) {
                 JerkVerdict::Exceeded => return false,
-                JerkVerdict::Bent
-                    if !keeps_jerk_between(parabola, rows, for_jerk + JERK_BETWEEN) =>
-                {
+                JerkVerdict::Bent if !keeps_jerk_between(parabola, rows, for_jerk_between) => {
                     return false;
                 }
                 JerkVerdict::Bent | JerkVerdict::Kept => {}
@@ -133,10 +136,14 @@ enum JerkVerdict {
     Bent,
 }
 
-/// Whether four axes keep this share of their jerk at start, middle and end, and parabolas through these hardly exceed it.
+/// Whether four axes keep these shares of their jerk at start, middle and end, and parabolas through these `most_between` them.
 #[inline(always)]
-fn keeps_jerk(jerks: [f32x4; 3], most: f32) -> JerkVerdict {
-    if !are_within(jerks.map(f32x4::abs), most) {
+fn keeps_jerk(jerks: [f32x4; 3], most: [f32; 3], most_between: f32) -> JerkVerdict {
+    let [start, middle, end] = jerks.map(f32x4::abs);
+    let [at_start, at_middle, at_end] = most.map(f32x4::splat);
+    let kept = start.simd_le(at_start) & middle.simd_le(at_middle) & end.simd_le(at_end);
+    // Not if one is no number.
+    if !kept.all() {
         return JerkVerdict::Exceeded;
     }
     let Turn { slope, bend } = Turn::of(jerks);
@@ -145,7 +152,7 @@ fn keeps_jerk(jerks: [f32x4; 3], most: f32) -> JerkVerdict {
     if !(turns & bend.abs().simd_gt(f32x4::splat(JERK_BETWEEN))).any() {
         return JerkVerdict::Kept;
     }
-    let within = extremum(jerks, slope, bend).simd_le(f32x4::splat(most + JERK_BETWEEN));
+    let within = extremum(jerks, slope, bend).simd_le(f32x4::splat(most_between));
     if (turns & !within).any() {
         JerkVerdict::Exceeded
     } else if (turns & bend.abs().simd_gt(f32x4::splat(JERK_BEND))).any() {
@@ -269,13 +276,19 @@ fn half([start, end]: [f32x4; 2], [slope0, slope1]: [f32x4; 2]) -> f32x4 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::departure::Departure;
+    use super::super::test_route::TestRoute;
     use super::*;
+    use crate::axes::{Axes, AxisLimits};
+    use crate::machine_map::MachineMap;
+    use crate::moves::shape::PathPoint;
 
     /// The verdict where one axis has these jerks, and the others none.
     fn verdict([start, middle, end]: [f32; 3], most: f32) -> JerkVerdict {
         keeps_jerk(
             [start, middle, end].map(|jerk| f32x4::new([0.0, 0.0, jerk, 0.0])),
-            most,
+            [most; 3],
+            most + JERK_BETWEEN,
         )
     }
 
@@ -311,6 +324,59 @@ mod tests {
         // Straight lines have no extremum.
         assert_eq!(verdict([-1.0, 0.0, 1.0], 1.0), JerkVerdict::Kept);
         assert_eq!(verdict([f32::NAN, 0.0, 0.0], 1.0), JerkVerdict::Exceeded);
+    }
+
+    /// Whether an interval in which the speed doubles is kept with these shares of the jerk at its places, and a departure that
+    /// takes .05, .2 and .4 of it there.
+    fn keeps_beside_departure(shares: [f64; 3]) -> bool {
+        let limits = AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(20_000.0),
+        };
+        let rows = AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3);
+        let parabola = Parabola {
+            b: 100.0,
+            a: 150.0,
+            u: 0.0,
+            length: 1.0,
+        };
+        let along_x = |x: f64| Axes::from([x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let sample = |place: f64, share: f64| {
+            let (b, _) = parabola.at(place);
+            let route = TestRoute {
+                point: |_| PathPoint {
+                    position: Axes::zeros(),
+                    first: along_x(1.0),
+                    second: Axes::zeros(),
+                    third: along_x(share * 20_000.0 / (b * b.sqrt())),
+                },
+                breakpoints: Vec::new(),
+                vertices: Vec::new(),
+            };
+            rows.sample(&route, place, 0.0)
+        };
+        let [start, middle, end] = shares;
+        let (start, end) = (sample(0.0, start), sample(1.0, end));
+        let interval = IntervalSamples {
+            start,
+            middle: sample(0.5, middle),
+            end,
+            departure: Departure {
+                second: 0.0,
+                third: 5e-5,
+            },
+            quarters: [start.cap, end.cap],
+        };
+        rows.keeps(&parabola, &interval, 1.0, 1.0)
+    }
+
+    #[test]
+    fn a_departure_takes_what_the_speed_of_each_place_asks_for() {
+        assert!(keeps_beside_departure([0.9, 0.7, 0.5]));
+        for too_much in [[0.96, 0.7, 0.5], [0.9, 0.81, 0.5], [0.7, 0.7, 0.61]] {
+            assert!(!keeps_beside_departure(too_much), "{too_much:?}");
+        }
     }
 
     #[test]

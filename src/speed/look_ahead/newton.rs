@@ -37,6 +37,9 @@ const GREATEST_RESISTANCE: f64 = 1e6;
 /// What the weight of the barrier is multiplied by after a whole step; after a part of one by as much less.
 const BARRIER_DECAY: f64 = 0.5;
 const LEAST_BARRIER: f64 = 0.0015;
+/// Up to this weight the barrier of an interval that refuses grows as its resistance does: it has come so near to a limit that it
+/// ends the steps of all.
+const REGAINED_BARRIER: f64 = 0.02;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NewtonPhase {
@@ -393,6 +396,8 @@ impl NewtonStep {
             if refusals > 1.0 {
                 let grown = (interval.resistance * refusals).min(GREATEST_RESISTANCE);
                 interval.resistance = grown;
+                let regained = (interval.barrier * refusals).min(REGAINED_BARRIER);
+                interval.barrier = interval.barrier.max(regained);
                 let beside = grown.sqrt();
                 for neighbour in [k - 1, k + 1] {
                     let interval = plan.at_mut(neighbour);
@@ -408,5 +413,27 @@ impl NewtonStep {
             }
         }
         self.phase = NewtonPhase::Done;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_that_refuses_regains_its_barrier() {
+        let mut plan = Box::new(Spline::NONE);
+        let mut step = NewtonStep::NONE;
+        assert_eq!(step.begin(1, 9), Some(9));
+        for (k, barrier) in [(3, 0.0015), (5, 0.0015), (7, 0.05)] {
+            plan.at_mut(k).barrier = barrier;
+        }
+        for (k, refused) in [(3, 2), (5, 3), (7, 1)] {
+            step.row_mut(k).refusals = RESISTANCE_GROWTH.powi(refused);
+        }
+        step.apply(&mut plan);
+        let barriers = [3, 5, 7].map(|k| plan.at(k).barrier);
+        assert_eq!(barriers, [0.0135, REGAINED_BARRIER, 0.05]);
+        assert_eq!(plan.at(5).resistance, 27.0);
     }
 }
