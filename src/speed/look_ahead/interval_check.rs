@@ -48,7 +48,8 @@ impl AxisRows {
         let (u, half, margin) = (parabola.u as f32, half as f32, margin as f32);
         let fastest = greater(greater(b0 as f32, b1 as f32), b2 as f32);
         let for_acceleration = margin - interval.departure.second * fastest;
-        // At each place by its own speed, as the barrier has it: what it does not know of keeps an interval where it is.
+        // At each place by its own speed, as the barrier has it: an interval that is refused for what the barrier does not know
+        // of stays where it is.
         let for_jerks: [f32; 3] = core::array::from_fn(|place| {
             margin - interval.departure.third * places[place].0 * speeds[place]
         });
@@ -107,7 +108,7 @@ fn keeps_acceleration(
     most: f32,
 ) -> bool {
     let amounts = accelerations.map(f32x4::abs);
-    if !are_within(amounts, most) {
+    if !are_within(amounts, [most; 3]) {
         return false;
     }
     // Neither a parabola through three places nor a cubic with these slopes exceeds them by more than this.
@@ -139,11 +140,7 @@ enum JerkVerdict {
 /// Whether four axes keep these shares of their jerk at start, middle and end, and parabolas through these `most_between` them.
 #[inline(always)]
 fn keeps_jerk(jerks: [f32x4; 3], most: [f32; 3], most_between: f32) -> JerkVerdict {
-    let [start, middle, end] = jerks.map(f32x4::abs);
-    let [at_start, at_middle, at_end] = most.map(f32x4::splat);
-    let kept = start.simd_le(at_start) & middle.simd_le(at_middle) & end.simd_le(at_end);
-    // Not if one is no number.
-    if !kept.all() {
+    if !are_within(jerks.map(f32x4::abs), most) {
         return JerkVerdict::Exceeded;
     }
     let Turn { slope, bend } = Turn::of(jerks);
@@ -221,11 +218,11 @@ fn keeps_jerk_between(parabola: &Parabola, rows: [[f32x4; 3]; 3], most: f32) -> 
     kept
 }
 
-/// Whether amounts at start, middle and end are at most `most`. Not if one is no number.
+/// Whether amounts at start, middle and end are at most `most` there. Not if one is no number.
 #[inline(always)]
-fn are_within([start, middle, end]: [f32x4; 3], most: f32) -> bool {
-    let most = f32x4::splat(most);
-    (start.simd_le(most) & middle.simd_le(most) & end.simd_le(most)).all()
+fn are_within([start, middle, end]: [f32x4; 3], most: [f32; 3]) -> bool {
+    let [at_start, at_middle, at_end] = most.map(f32x4::splat);
+    (start.simd_le(at_start) & middle.simd_le(at_middle) & end.simd_le(at_end)).all()
 }
 
 #[inline(always)]
