@@ -16,6 +16,14 @@ use crate::lanes::axes_of;
 /// Servo periods that may be simulated in one cycle: bounds its cost.
 pub(super) const BUDGET: usize = 384;
 
+/// Where caps may bind, cells that are wanted in the period in which a machine starts from rest ..
+const CELLS_AT_START: usize = 24;
+
+/// .. and how many more with each period since: it is no faster than it could become by then, and brakes as fast as it
+/// gathers speed. With jerk alone a way of three times the time holds 4.3 times the distance that was covered, and coming
+/// to rest takes 1.8 times that. With 1 a period it does not come to rest in time.
+const MORE_CELLS_A_PERIOD: usize = 2;
+
 /// Why limits or a servo period were refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConfigureError {
@@ -57,6 +65,8 @@ pub struct Executor {
     pub(super) wall: bool,
     pub(super) started: bool,
     pub(super) starved: bool,
+    /// Servo periods since the reference was started from rest.
+    pub(super) periods_since_start: usize,
     pub(super) end_reached: bool,
     pub(super) backups_lost: u64,
 }
@@ -81,6 +91,7 @@ impl Executor {
             wall: false,
             started: false,
             starved: false,
+            periods_since_start: 0,
             end_reached: false,
             backups_lost: 0,
         }
@@ -126,6 +137,7 @@ impl Executor {
         self.wall = false;
         self.started = false;
         self.starved = false;
+        self.periods_since_start = 0;
         self.end_reached = false;
     }
 
@@ -287,6 +299,7 @@ impl Executor {
             _ => {}
         }
         self.started |= advance > 0.0;
+        self.periods_since_start = self.periods_since_start.saturating_add(1);
         self.state = next;
         let passed = next.time as usize;
         if passed > 0 {
@@ -340,12 +353,14 @@ impl Executor {
 
     /// Cells within which a change of feed is foreseen: those in which the machine may brake for a cap and
     /// those that are looked at from there, and no less than a jerk-limited change from the greatest
-    /// programmed feed takes.
+    /// programmed feed takes. Soon after the start less: what is frozen then has hardly been planned yet.
     fn cells_to_brake(&self) -> usize {
         let braking = (2.0 * self.greatest_programmed_feed / self.limits.least_jerk()).sqrt();
         let period = self.servo_period.max(1e-9);
         let seen = BRAKING_PERIODS as f64 + FORESIGHT / period;
-        seen.max(0.02 / period + 1.6 * braking) as usize
+        let most = seen.max(0.02 / period + 1.6 * braking) as usize;
+        let since_start = self.periods_since_start.saturating_mul(MORE_CELLS_A_PERIOD);
+        most.min(CELLS_AT_START.saturating_add(since_start))
     }
 
     pub(super) fn backup(&self) -> &BackupTrajectory {

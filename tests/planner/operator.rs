@@ -1,8 +1,8 @@
 //! What an operator does to a running program: pause, step, abort, overrides, the slider.
 
-use crate::common::{at, feed_move, with_machine};
-use framepath::moves::MotionType;
+use crate::common::{PERIOD, at, feed_move, with_machine};
 use framepath::moves::shape::Circle;
+use framepath::moves::{MotionType, TerminationCondition};
 use framepath::planner::{AddError, MoveRequest};
 use nalgebra::Vector3;
 
@@ -189,6 +189,75 @@ fn adaptive_feed_slows_moves_with_and_without_override() {
             "{extremes:?}"
         );
     });
+}
+
+/// A move of `length` mm without an override and 5 mm with one of `scale` behind it, F given in mm/s, through a planner
+/// that gets the second one `delay` periods later: what share of the first feed the fastest quarter of the first move
+/// has, and by what the feed of the second is exceeded behind the servo period of the plan in which it begins: overrides
+/// hold for such a period as a whole.
+fn masked_and_not(feed: f64, scale: f64, length: f64, delay: usize) -> (f64, f64) {
+    let mut figures = (0.0, 0.0);
+    with_machine(|machine| {
+        machine
+            .planner
+            .set_termination(TerminationCondition::Continuous { tolerance: 0.0 });
+        machine.inputs.feed_scale = scale;
+        let masked = MoveRequest {
+            enables: 0x0d,
+            ..feed_move(feed)
+        };
+        machine.line(at(length, 0.0), &masked).expect("a line");
+        for _ in 0..delay {
+            machine.cycle();
+        }
+        let end = at(length + 5.0, 0.0);
+        machine.line(end, &feed_move(feed)).expect("a line");
+        machine.run(30_000);
+        let x: Vec<f64> = machine.positions.iter().map(|place| place[0]).collect();
+        let speeds = |from: f64, to: f64| {
+            let inside = |pair: &&[f64]| pair[0] >= from && pair[1] <= to;
+            x.windows(2)
+                .filter(inside)
+                .map(|pair| (pair[1] - pair[0]) / PERIOD)
+                .collect::<Vec<_>>()
+        };
+        let mut first = speeds(1e-9, length);
+        first.sort_by(f64::total_cmp);
+        let fast = first.get(3 * first.len() / 4).copied().unwrap_or(0.0);
+        let second = speeds(length + feed * PERIOD, length + 5.0)
+            .into_iter()
+            .fold(0.0, f64::max);
+        figures = (fast / feed, second / (feed * scale));
+        let extremes = machine.extremes();
+        assert!(
+            extremes.acceleration < 1.001 && extremes.jerk < 1.05,
+            "{extremes:?}"
+        );
+    });
+    figures
+}
+
+/// What a cap ahead wants frozen was frozen in the first periods, as it was planned until then: .98 of the feed.
+#[test]
+fn a_move_without_override_is_as_fast_from_the_start() {
+    for delay in 0..3 {
+        let (share, excess) = masked_and_not(40.0, 0.5, 10.0, delay);
+        assert!(share > 0.99 && excess < 1.001, "{delay}: {share} {excess}");
+    }
+}
+
+/// However short the way to them is from the start.
+#[test]
+fn overrides_behind_a_move_without_are_kept() {
+    for feed in [20.0, 90.0] {
+        for scale in [0.05, 0.3, 0.8] {
+            for doublings in 0..14 {
+                let length = 0.01 * f64::from(1 << doublings);
+                let (_, excess) = masked_and_not(feed, scale, length, 0);
+                assert!(excess < 1.001, "{feed} {scale} {length}: {excess}");
+            }
+        }
+    }
 }
 
 #[test]
