@@ -20,8 +20,8 @@ pub(super) const BUDGET: usize = 384;
 const CELLS_AT_START: usize = 24;
 
 /// .. and how many more with each period since: it is no faster than it could become by then, and brakes as fast as it
-/// gathers speed. With jerk alone a way of three times the time holds 4.3 times the distance that was covered, and coming
-/// to rest takes 1.8 times that. With 1 a period it does not come to rest in time.
+/// gathers speed. With jerk alone three times the time lead 26 times as far, and coming to rest takes 11 times as far as it
+/// has come by then. With 1 a period it is twice the time and 7 times as far: too late.
 const MORE_CELLS_A_PERIOD: usize = 2;
 
 /// Why limits or a servo period were refused.
