@@ -65,7 +65,7 @@ pub struct Executor {
     pub(super) wall: bool,
     pub(super) started: bool,
     pub(super) starved: bool,
-    /// Servo periods since the reference was started from rest.
+    /// Servo periods of the reference, those before its first motion in which it was held among them.
     pub(super) periods_since_start: usize,
     pub(super) end_reached: bool,
     pub(super) backups_lost: u64,
