@@ -8,6 +8,9 @@ pub const AXIS_COUNT: usize = 9;
 /// The letters of the axes, in the order of [`Axes`].
 pub const AXIS_LETTERS: [char; AXIS_COUNT] = ['X', 'Y', 'Z', 'A', 'B', 'C', 'U', 'V', 'W'];
 
+/// Which of them are A B C.
+pub const ROTARY_AXES: core::ops::Range<usize> = 3..6;
+
 /// One number for each axis, shape (9): a position, or its derivative by time or by arc length.
 ///
 /// X Y Z and U V W are in machine units of length (usually mm), A B C in degrees.

@@ -83,14 +83,25 @@ impl<'a> CapsAhead<'a> {
         }
     }
 
-    /// Greatest feed that is let pass.
+    /// Greatest feed that is let pass. What begins within a cell may not be exceeded in any of it.
     fn most(&self, state: State) -> f64 {
-        let cell = self.table.cell(state.time as usize);
+        let index = state.time as usize;
+        let (cell, next) = (
+            self.table.cell(index),
+            self.table.cell(index.saturating_add(1)),
+        );
         if self.caps.is_hold(cell) {
-            HELD_PART * f64::from(cell.programmed_feed)
-        } else {
-            self.caps.feed(cell) * (1.0 + TOLERANCE)
+            return HELD_PART * f64::from(cell.programmed_feed);
         }
+        let most = self.caps.feed(cell);
+        // A machine comes to rest in a cell that nothing may move in, not before.
+        let begins = next.programmed_feed > 0.0 && !self.caps.is_hold(next);
+        (1.0 + TOLERANCE)
+            * if begins {
+                most.min(self.caps.feed(next))
+            } else {
+                most
+            }
     }
 
     /// Whether enough is known behind `time`.

@@ -5,7 +5,7 @@ use nalgebra::{ArrayStorage, Matrix3};
 use super::jerk_limit::JerkLimit;
 use super::move_jerk;
 use super::request::LEAST_LIMITS;
-use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
+use crate::axes::{AXIS_COUNT, Axes, AxisLimits, ROTARY_AXES};
 use crate::machine_map::{JointMap, MachineMap};
 use crate::moves::Move;
 use crate::moves::shape::Shape;
@@ -53,6 +53,20 @@ impl MachineAxes {
     /// What the axes may do in the motion that runs.
     pub fn limits(&self) -> &AxisLimits {
         &self.limits
+    }
+
+    /// The greatest velocity of the axes together in the motion that runs, machine units per second: of the linear ones, or
+    /// where none has a limit of the rotary ones.
+    pub fn reach(&self) -> f64 {
+        let of = |rotary: bool| {
+            (0..AXIS_COUNT)
+                .filter(|axis| ROTARY_AXES.contains(axis) == rotary)
+                .map(|axis| self.limits.velocity[axis])
+                .filter(|velocity| velocity.is_finite())
+                .fold(0.0, f64::hypot)
+        };
+        let linear = of(false);
+        if linear > 0.0 { linear } else { of(true) }
     }
 
     /// What the joints may do in the motion that runs, or the axes where the joints have no limits.

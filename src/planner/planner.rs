@@ -142,7 +142,7 @@ impl Planner {
     /// Sets what no move may exceed along its path, machine units per second, from the operator's
     /// slider. 0 holds the machine; what is negative or not a number counts as 0. A move of rotary
     /// axes only is slowed in proportion: to the same share of its greatest velocity as the limit
-    /// is of the greatest limit that was ever set.
+    /// is of the greatest limit that was ever set, or of what the linear axes reach together where that is less.
     pub fn set_velocity_limit(&mut self, velocity: f64) {
         self.slider.set(velocity);
     }

@@ -167,7 +167,7 @@ impl Planner {
             feed_scale: inputs.feed_scale,
             rapid_scale: inputs.rapid_scale,
             velocity_limit: self.slider.limit(),
-            velocity_share: self.slider.share(),
+            velocity_share: self.slider.share(self.axes.reach()),
             greatest_tolerance: self.blending.greatest_tolerance(),
             stepping: inputs.stepping,
             settings_changed: self.settings_changed(),
@@ -297,7 +297,7 @@ impl Planner {
     pub(super) fn slider_for(&self, running: Option<&Move>) -> f64 {
         match running {
             Some(running) if running.shape.is_rotary() => {
-                running.max_velocity * self.slider.share()
+                running.max_velocity * self.slider.share(self.axes.reach())
             }
             _ => self.slider.limit(),
         }

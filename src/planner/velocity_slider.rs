@@ -5,7 +5,7 @@
 pub(super) struct VelocitySlider {
     /// Machine units per second; 0 holds the machine.
     limit: f64,
-    /// The greatest finite limit there has been: the range of the slider.
+    /// The greatest limit there has been: the range of the slider.
     range: f64,
 }
 
@@ -18,9 +18,7 @@ impl VelocitySlider {
     /// Machine units per second; what is negative or not a number counts as 0.
     pub fn set(&mut self, velocity: f64) {
         self.limit = velocity.max(0.0);
-        if velocity.is_finite() {
-            self.range = self.range.max(velocity);
-        }
+        self.range = self.range.max(velocity);
     }
 
     /// Machine units per second; 0 holds the machine.
@@ -28,12 +26,13 @@ impl VelocitySlider {
         self.limit
     }
 
-    /// The same as a share of the slider's range, 0 to 1.
-    pub fn share(&self) -> f64 {
-        if self.limit < self.range {
-            self.limit / self.range
+    /// The same as a share, 0 to 1, of the slider's range: as far as the axes are able to follow it, `reach` machine units
+    /// per second. Without [TRAJ]MAX_LINEAR_VELOCITY LinuxCNC says 1e9 or more, of which no setting would leave anything.
+    pub fn share(&self, reach: f64) -> f64 {
+        if self.limit > 0.0 {
+            (self.limit / self.range.min(reach)).min(1.0)
         } else {
-            1.0
+            0.0
         }
     }
 }

@@ -138,6 +138,15 @@ class Events(Case):
         self.at_end(result)
         self.assertAlmostEqual(float(result.answers["velocity"]), 20, delta=0.02)
 
+    def test_the_slider_where_the_machine_has_no_greatest_velocity(self):
+        # LinuxCNC says 1e9 or more then: of such a share of it a rotary move once never came to its end
+        result = harness.run([["max_velocity", 30], ["mdi", "G0 C60"], ["note", "end"]], sample="framepath-xyzac", joints=5,
+                             axes="xyzac", ini={("TRAJ", "MAX_LINEAR_VELOCITY"): None}, timeout=60)
+        self.completed(result)
+        self.assertAlmostEqual(result.answers["end"]["joints"][4], 60, delta=1e-6)
+        v, _, _ = peaks(result.column("axis.c"))
+        self.assertAlmostEqual(v, 60 * 30 / math.hypot(100, 100, 100), delta=0.1)
+
     def test_abort_and_a_new_program(self):
         result = harness.run([["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["sleep", 0.3], ["abort"],
                               ["sleep", 0.3], ["note", "stopped"], ["mdi", "G90 G1 X5 Y6 Z7 F3000"], ["note", "end"]],

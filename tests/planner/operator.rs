@@ -1,6 +1,7 @@
 //! What an operator does to a running program: pause, step, abort, overrides, the slider.
 
 use crate::common::{PERIOD, at, feed_move, with_machine};
+use framepath::axes::Axes;
 use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, TerminationCondition};
 use framepath::planner::{AddError, MoveRequest};
@@ -224,9 +225,7 @@ fn masked_and_not(feed: f64, scale: f64, length: f64, delay: usize) -> (f64, f64
         let mut first = speeds(1e-9, length);
         first.sort_by(f64::total_cmp);
         let fast = first.get(3 * first.len() / 4).copied().unwrap_or(0.0);
-        let second = speeds(length + feed * PERIOD, length + 5.0)
-            .into_iter()
-            .fold(0.0, f64::max);
+        let second = speeds(length, length + 5.0).into_iter().fold(0.0, f64::max);
         figures = (fast / feed, second / (feed * scale));
         let extremes = machine.extremes();
         assert!(
@@ -293,4 +292,33 @@ fn the_slider_holds_for_linear_and_rotary_moves() {
             assert_eq!(machine.cycle().position, end);
         }
     });
+}
+
+/// LinuxCNC says 1e9 or more where [TRAJ]MAX_LINEAR_VELOCITY is missing.
+#[test]
+fn the_slider_is_a_share_of_what_the_axes_reach_where_the_machine_has_no_greatest_velocity() {
+    let reach = 100.0 * 6f64.sqrt();
+    for none in [1e6, 1e9, 1e99, f64::INFINITY] {
+        with_machine(|machine| {
+            machine.planner.set_velocity_limit(none);
+            machine.planner.set_velocity_limit(0.1 * reach);
+            let mut end = Axes::zeros();
+            end[3] = 20.0;
+            let rapid = MoveRequest {
+                motion_type: MotionType::Traverse,
+                max_velocity: 90.0,
+                ..feed_move(90.0)
+            };
+            machine.line(end, &rapid).expect("a line");
+            machine.run(10_000);
+            assert_eq!(machine.planner.status().position, end);
+            let fastest = machine.extremes().velocity * 100.0;
+            assert!((fastest - 9.0).abs() < 0.1, "{none}: {fastest}");
+            machine.planner.set_velocity_limit(0.0);
+            machine.line(Axes::zeros(), &rapid).expect("a line");
+            for _ in 0..100 {
+                assert_eq!(machine.cycle().position, end);
+            }
+        });
+    }
 }

@@ -16,8 +16,9 @@ const FREE_AXIS: f64 = 0.1;
 /// The most over F.
 const MOST_FEED: f64 = 1.001;
 
-/// Servo periods after which a program that is not done never will be.
-const NEVER: usize = 100_000;
+/// Servo periods after which a program that is not done never will be. A blend of a line that is to take half a second
+/// may take in 500 times its length, at its feed.
+const NEVER: usize = 300_000;
 
 /// No move is faster, units a second.
 const MAX_VELOCITY: f64 = 2e3;
