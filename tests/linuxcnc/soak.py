@@ -22,6 +22,8 @@ from soak_checks import Peaks, Reverse  # noqa: E402
 ROUND = 60
 #: Said where a reverse run is asked for without a move behind, or behind a thread or an indexer.
 EXPECTED = "blendtp: there is no way back from here"
+#: [TRAJ]MAX_LINEAR_VELOCITY by the seed: a velocity that binds, none, and one that no machine has.
+PATH_VELOCITIES = (100, None, 10000)
 FILES = ["contract/" + name for name in ("row.py", "operate.py", "delays.py", "random_program.py", "soak_checks.py",
                                     "soak_operator.py")]
 
@@ -29,7 +31,9 @@ FILES = ["contract/" + name for name in ("row.py", "operate.py", "delays.py", "r
 def one_round(seed, seconds, planner, keep=None):
     """What went wrong, or None; and what was done."""
     result = harness.run([["soak", seed, seconds]], sample="machine", configuration=os.path.join(session.HERE, "machine"),
-                         ini={("TRAJ", "TPMOD"): planner}, hal=session.JERK_LIMITS if planner == "blendtp" else "",
+                         ini={("TRAJ", "TPMOD"): planner,
+                              ("TRAJ", "MAX_LINEAR_VELOCITY"): PATH_VELOCITIES[seed % len(PATH_VELOCITIES)]},
+                         hal=session.JERK_LIMITS if planner == "blendtp" else "",
                          recorder=session.Recorder(), files=FILES, display="soak_operator.py", timeout=seconds + 200)
     peaks, reverse = Peaks(result), Reverse(result)
     said = [line for line in result.log.splitlines() if "blendtp: " in line and EXPECTED not in line]
