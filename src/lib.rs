@@ -32,3 +32,5 @@ pub mod path;
 pub mod planner;
 mod ring;
 pub mod speed;
+#[cfg(test)]
+mod test_room;

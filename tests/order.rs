@@ -11,10 +11,11 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, ItemMod, ItemUse, UseTree, Visibility};
 
 /// No folder imports one that comes behind it. What both modules use; framekins; blendtp; the edge to C.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "axes",
     "cube_root",
-    "ring", // both
+    "ring",
+    "test_room", // both
     "frame",
     "machine",
     "kinematics", // framekins

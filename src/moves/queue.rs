@@ -213,15 +213,11 @@ mod tests {
     use super::super::shape::Line9;
     use super::*;
     use crate::axes::Axes;
+    use crate::test_room::with_room;
 
     /// A queue is too large for the stack of a test.
     fn with_queue(test: fn(&mut MoveQueue)) {
-        std::thread::Builder::new()
-            .stack_size(64 << 20)
-            .spawn(move || test(&mut MoveQueue::new()))
-            .expect("a thread")
-            .join()
-            .expect("the test itself");
+        with_room(move || test(&mut MoveQueue::new()));
     }
 
     #[test]

@@ -86,50 +86,41 @@ fn reaches(vertex: &Vertex, s: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::hardening::tests::lines;
-    use super::super::settings::BlendSettings;
+    use super::super::hardening::tests::chain_of;
     use super::super::widths::Widths;
     use super::*;
+    use crate::test_room::with_room;
 
     /// What the first and the second corner of a bend are narrowed to for the deviation at the second, of which .81 is
     /// allowed, with kernels of these widths.
     fn marked(widths: [f64; 2]) -> [f64; 2] {
-        std::thread::Builder::new()
-            .stack_size(16 << 20)
-            .spawn(move || {
-                let settings = BlendSettings::DEFAULT;
-                let metric = Metric::new(settings.rotary_weight());
-                let mut chain = Chain::new();
-                let bend = [
-                    ([10.0, 0.0, 0.0], 9.0),
-                    ([1.0, 1.0, 0.0], 9.0),
-                    ([0.0, 10.0, 0.0], 9.0),
-                ];
-                lines(&bend, &settings, &mut chain);
-                for (number, kernel) in (1..).zip(widths) {
-                    let widths = Widths {
-                        kernel,
-                        ..Widths::NONE
-                    };
-                    chain.set_trial(number, widths);
-                }
-                let window = Window {
-                    next: chain.next(),
-                    end: chain.end(),
-                    ..Window::EMPTY
+        with_room(move || {
+            let (mut chain, metric) = chain_of(&[
+                ([10.0, 0.0, 0.0], 9.0),
+                ([1.0, 1.0, 0.0], 9.0),
+                ([0.0, 10.0, 0.0], 9.0),
+            ]);
+            for (number, kernel) in (1..).zip(widths) {
+                let widths = Widths {
+                    kernel,
+                    ..Widths::NONE
                 };
-                let s = chain.vertex(2).s;
-                let violation = Violation {
-                    s,
-                    allowed: 0.81,
-                    kernels: 2,
-                };
-                mark(&mut chain, 1, violation, false, &window, &metric);
-                [1, 2].map(|number| chain.vertex(number).narrowing)
-            })
-            .expect("a thread")
-            .join()
-            .expect("the test itself")
+                chain.set_trial(number, widths);
+            }
+            let window = Window {
+                next: chain.next(),
+                end: chain.end(),
+                ..Window::EMPTY
+            };
+            let s = chain.vertex(2).s;
+            let violation = Violation {
+                s,
+                allowed: 0.81,
+                kernels: 2,
+            };
+            mark(&mut chain, 1, violation, false, &window, &metric);
+            [1, 2].map(|number| chain.vertex(number).narrowing)
+        })
     }
 
     #[test]

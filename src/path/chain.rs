@@ -332,28 +332,24 @@ impl Chain {
 mod tests {
     use super::super::settings::Allowance;
     use super::*;
+    use crate::test_room::with_room;
 
     /// A chain of legs of length 1; it is too large for the stack of a test.
     fn with_chain(legs: u32, test: fn(&mut Chain)) {
-        std::thread::Builder::new()
-            .stack_size(16 << 20)
-            .spawn(move || {
-                let settings = BlendSettings::DEFAULT;
-                let metric = Metric::new(settings.rotary_weight());
-                let mut chain = Chain::new();
-                for _ in 0..legs {
-                    let leg = Leg {
-                        length: 1.0,
-                        allowance: Allowance::Tolerance(0.1),
-                        ..Leg::VACANT
-                    };
-                    chain.push(leg, &settings, &metric);
-                }
-                test(&mut chain);
-            })
-            .expect("a thread")
-            .join()
-            .expect("the test itself");
+        with_room(move || {
+            let settings = BlendSettings::DEFAULT;
+            let metric = Metric::new(settings.rotary_weight());
+            let mut chain = Chain::new();
+            for _ in 0..legs {
+                let leg = Leg {
+                    length: 1.0,
+                    allowance: Allowance::Tolerance(0.1),
+                    ..Leg::VACANT
+                };
+                chain.push(leg, &settings, &metric);
+            }
+            test(&mut chain);
+        });
     }
 
     #[test]

@@ -103,6 +103,7 @@ mod tests {
     use super::super::hardening::tests::lines;
     use super::*;
     use crate::axes::{Axes, AxisLimits};
+    use crate::test_room::with_room;
 
     /// The design width of the last of 60 legs of .02 mm with these directions, radians, at 50 mm/s, and with which
     /// settings.
@@ -114,23 +115,18 @@ mod tests {
             jerk: Axes::repeat(20_000.0),
         };
         let settings = BlendSettings::new(1.0, 0.1, 0.02, &limits).expect("sound");
-        let width = std::thread::Builder::new()
-            .stack_size(64 << 20)
-            .spawn(move || {
-                let [mut before, mut whole] = [Chain::new(), Chain::new()];
-                let legs: Vec<_> = (0..60)
-                    .map(angle)
-                    .map(|angle| ([LENGTH * angle.cos(), LENGTH * angle.sin(), 0.0], 0.05))
-                    .collect();
-                lines(&legs[..59], &settings, &mut before);
-                lines(&legs, &settings, &mut whole);
-                let last = *whole.last().expect("a leg");
-                let metric = Metric::new(settings.rotary_weight());
-                with_its_width(last, &before, &settings, &metric).design_width
-            })
-            .expect("a thread")
-            .join()
-            .expect("the test itself");
+        let width = with_room(move || {
+            let [mut before, mut whole] = [Chain::new(), Chain::new()];
+            let legs: Vec<_> = (0..60)
+                .map(angle)
+                .map(|angle| ([LENGTH * angle.cos(), LENGTH * angle.sin(), 0.0], 0.05))
+                .collect();
+            lines(&legs[..59], &settings, &mut before);
+            lines(&legs, &settings, &mut whole);
+            let last = *whole.last().expect("a leg");
+            let metric = Metric::new(settings.rotary_weight());
+            with_its_width(last, &before, &settings, &metric).design_width
+        });
         (width, settings)
     }
 

@@ -90,6 +90,7 @@ pub(super) mod tests {
     use crate::axes::Axes;
     use crate::moves::shape::{Line9, Shape};
     use crate::moves::{NearLimit, TerminationCondition};
+    use crate::test_room::with_room;
 
     /// Lines in XYZ, each given by its displacement and tolerance.
     pub(in crate::path) fn lines(
@@ -125,47 +126,45 @@ pub(super) mod tests {
         }
     }
 
+    /// A chain of them with the settings where nothing is configured.
+    pub(in crate::path) fn chain_of(displacements: &[([f64; 3], f64)]) -> (Chain, Metric) {
+        let settings = BlendSettings::DEFAULT;
+        let mut chain = Chain::new();
+        lines(displacements, &settings, &mut chain);
+        (chain, Metric::new(settings.rotary_weight()))
+    }
+
     #[test]
     fn what_does_not_fit_beside_a_wide_kernel_is_seen() {
-        let answers = std::thread::Builder::new()
-            .stack_size(16 << 20)
-            .spawn(|| {
-                let settings = BlendSettings::DEFAULT;
-                let metric = Metric::new(settings.rotary_weight());
-                let mut chain = Chain::new();
-                let bend = [
-                    ([10.0, 0.0, 0.0], 9.0),
-                    ([1.0, 1.0, 0.0], 9.0),
-                    ([0.0, 1.0, 0.0], 9.0),
-                ];
-                lines(&bend, &settings, &mut chain);
-                // The first corner alone uses 97 % of the tolerance at the second.
-                let wide = Widths {
-                    kernel: 5.0,
-                    ..Widths::NONE
-                };
-                let (first, second) = (*chain.vertex(1), *chain.vertex(2));
-                let mut deviation = JumpSum::ZERO;
-                first.add_deviation(&wide, second.s - first.s, &mut deviation);
-                let tolerance = metric.norm(&deviation.axes()) / 0.97;
-                chain.set_trial(1, wide);
-                let next = chain.next();
-                chain.touch(1, wide.reach(), next);
-                chain.vertex_mut(2).tolerance = tolerance;
-                chain.leg_mut(2).allowance = Allowance::Tolerance(tolerance);
-                let window = Window {
-                    next: chain.next(),
-                    end: chain.end(),
-                    ..Window::EMPTY
-                };
-                let mut reaching = Reaching::NONE;
-                [0, ATTEMPTS - 1].map(|attempt| {
-                    harden(&mut chain, 2, attempt, &window, &metric, &mut reaching).0
-                })
-            })
-            .expect("a thread")
-            .join()
-            .expect("the test itself");
+        let answers = with_room(|| {
+            let (mut chain, metric) = chain_of(&[
+                ([10.0, 0.0, 0.0], 9.0),
+                ([1.0, 1.0, 0.0], 9.0),
+                ([0.0, 1.0, 0.0], 9.0),
+            ]);
+            // The first corner alone uses 97 % of the tolerance at the second.
+            let wide = Widths {
+                kernel: 5.0,
+                ..Widths::NONE
+            };
+            let (first, second) = (*chain.vertex(1), *chain.vertex(2));
+            let mut deviation = JumpSum::ZERO;
+            first.add_deviation(&wide, second.s - first.s, &mut deviation);
+            let tolerance = metric.norm(&deviation.axes()) / 0.97;
+            chain.set_trial(1, wide);
+            let next = chain.next();
+            chain.touch(1, wide.reach(), next);
+            chain.vertex_mut(2).tolerance = tolerance;
+            chain.leg_mut(2).allowance = Allowance::Tolerance(tolerance);
+            let window = Window {
+                next: chain.next(),
+                end: chain.end(),
+                ..Window::EMPTY
+            };
+            let mut reaching = Reaching::NONE;
+            [0, ATTEMPTS - 1]
+                .map(|attempt| harden(&mut chain, 2, attempt, &window, &metric, &mut reaching).0)
+        });
         assert_eq!(answers, [false, true]);
     }
 
@@ -184,13 +183,8 @@ pub(super) mod tests {
             ),
             attempt in 0..ATTEMPTS,
         ) {
-            let failed = std::thread::Builder::new()
-                .stack_size(16 << 20)
-                .spawn(move || {
-                    let settings = BlendSettings::DEFAULT;
-                    let metric = Metric::new(settings.rotary_weight());
-                    let mut chain = Chain::new();
-                    lines(&displacements, &settings, &mut chain);
+            let failed = with_room(move || {
+                    let (mut chain, metric) = chain_of(&displacements);
                     let window = Window { next: chain.next(), end: chain.end(), ..Window::EMPTY };
                     let mut reaching = Reaching::NONE;
                     for number in chain.first()..chain.next() {
@@ -206,10 +200,7 @@ pub(super) mod tests {
                             .violation
                             .is_some()
                     })
-                })
-                .expect("a thread")
-                .join()
-                .expect("the test itself");
+                });
             prop_assert_eq!(failed, None);
         }
     }

@@ -165,6 +165,7 @@ mod tests {
     use crate::axes::Axes;
     use crate::moves::shape::{Line9, Shape};
     use crate::moves::{NearLimit, TerminationCondition};
+    use crate::test_room::with_room;
 
     /// Forty lines that turn all the time, in XYZ or in as many axes as that, and widths on trial of all kinds.
     fn with_curve<R: Send + 'static>(axes: usize, test: fn(&Chain, &Metric) -> R) -> R {
@@ -214,12 +215,7 @@ mod tests {
             }
             test(&chain, &metric)
         };
-        std::thread::Builder::new()
-            .stack_size(16 << 20)
-            .spawn(run)
-            .expect("a thread")
-            .join()
-            .expect("the test itself")
+        with_room(run)
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::super::hardening::tests::lines;
 use super::*;
+use crate::test_room::with_room;
 
 /// Chords of a circle with a radius of 10, and their tolerance.
 fn chords() -> Vec<([f64; 3], f64)> {
@@ -13,31 +14,26 @@ fn chords() -> Vec<([f64; 3], f64)> {
 
 /// The widths of the kernels between all chords when all is settled. `given_up`: the first trial is that knows so many legs.
 fn kernels(given_up: Option<u64>) -> Vec<f64> {
-    std::thread::Builder::new()
-        .stack_size(64 << 20)
-        .spawn(move || {
-            let settings = BlendSettings::DEFAULT;
-            let metric = Metric::new(settings.rotary_weight());
-            let mut chain = Chain::new();
-            let mut optimizer = WidthOptimizer::new();
-            optimizer.restart(&chain);
-            lines(&chords(), &settings, &mut chain);
-            let mut given_up = given_up;
-            while !optimizer.is_settled(&chain) {
-                optimizer.step(&mut chain, &settings, &metric, true, 1);
-                let checks = matches!(optimizer.phase, OptimizerPhase::Check(_));
-                if checks && given_up.is_some_and(|next| optimizer.window.next >= next) {
-                    optimizer.give_up(&mut chain);
-                    given_up = None;
-                }
+    with_room(move || {
+        let settings = BlendSettings::DEFAULT;
+        let metric = Metric::new(settings.rotary_weight());
+        let mut chain = Chain::new();
+        let mut optimizer = WidthOptimizer::new();
+        optimizer.restart(&chain);
+        lines(&chords(), &settings, &mut chain);
+        let mut given_up = given_up;
+        while !optimizer.is_settled(&chain) {
+            optimizer.step(&mut chain, &settings, &metric, true, 1);
+            let checks = matches!(optimizer.phase, OptimizerPhase::Check(_));
+            if checks && given_up.is_some_and(|next| optimizer.window.next >= next) {
+                optimizer.give_up(&mut chain);
+                given_up = None;
             }
-            assert_eq!(given_up, None);
-            let kernel = |number| chain.vertex(number).stored().kernel;
-            (1..chain.next()).map(kernel).collect()
-        })
-        .expect("a thread")
-        .join()
-        .expect("the test itself")
+        }
+        assert_eq!(given_up, None);
+        let kernel = |number| chain.vertex(number).stored().kernel;
+        (1..chain.next()).map(kernel).collect()
+    })
 }
 
 #[test]

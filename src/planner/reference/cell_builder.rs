@@ -292,6 +292,7 @@ mod tests {
     use crate::moves::{NearLimit, TerminationCondition};
     use crate::path::{BlendSettings, ProgrammedMove};
     use crate::speed::{JerkLimitedProfile, PathLimits};
+    use crate::test_room::with_room;
 
     /// The path of a circle from rest to rest, on the heap since it is larger than a stack.
     fn with_circle<R: Send>(radius: f64, test: impl FnOnce(&BlendedPath, &Shape) -> R + Send) -> R {
@@ -324,13 +325,7 @@ mod tests {
             assert!(path.final_end() > 0.0);
             test(&path, &shape)
         };
-        std::thread::scope(|scope| {
-            let thread = std::thread::Builder::new().stack_size(64 << 20);
-            let handle = thread.spawn_scoped(scope, run).expect("a thread");
-            handle
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        })
+        with_room(run)
     }
 
     proptest! {

@@ -91,6 +91,7 @@ mod tests {
     use crate::planner::reference::Reference;
     use crate::planner::status::Fault;
     use crate::planner::{CycleInputs, MoveRequest, Planner};
+    use crate::test_room::with_room;
 
     const PERIOD: f64 = 1e-3;
 
@@ -199,17 +200,12 @@ mod tests {
 
     fn brakes_on_its_path(fault: Fault, spoil: Spoil, bent: bool) {
         for jerk in [2e4, 1e5, f64::INFINITY] {
-            std::thread::Builder::new()
-                .stack_size(64 << 20)
-                .spawn(move || {
-                    for period in (20..620).step_by(20) {
-                        let away = stop_for(fault, spoil, jerk, period, bent);
-                        assert!(away < 0.05, "{away} at {period}, jerk {jerk}");
-                    }
-                })
-                .expect("a thread")
-                .join()
-                .expect("no panic");
+            with_room(move || {
+                for period in (20..620).step_by(20) {
+                    let away = stop_for(fault, spoil, jerk, period, bent);
+                    assert!(away < 0.05, "{away} at {period}, jerk {jerk}");
+                }
+            });
         }
     }
 
@@ -232,15 +228,10 @@ mod tests {
 
     #[test]
     fn a_first_period_that_is_refused_moves_nothing() {
-        std::thread::Builder::new()
-            .stack_size(64 << 20)
-            .spawn(|| {
-                let away = stop_for(Fault::CellRefused, REFUSED, 2e4, 0, false);
-                // At the start of the line to the circle.
-                assert_eq!(away, 0.0);
-            })
-            .expect("a thread")
-            .join()
-            .expect("no panic");
+        with_room(|| {
+            let away = stop_for(Fault::CellRefused, REFUSED, 2e4, 0, false);
+            // At the start of the line to the circle.
+            assert_eq!(away, 0.0);
+        });
     }
 }

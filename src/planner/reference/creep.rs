@@ -83,6 +83,7 @@ mod tests {
     use crate::axes::{Axes, AxisLimits};
     use crate::moves::{MotionType, StateTag, TerminationCondition};
     use crate::planner::{CycleInputs, MoveRequest, Planner};
+    use crate::test_room::with_room;
 
     const PERIOD: f64 = 1e-3;
 
@@ -150,16 +151,6 @@ mod tests {
             assert!(over(&third, &limits.jerk) <= 1.05, "{refused}");
         }
         cycles
-    }
-
-    /// The planner is too large for the stack of a test.
-    fn with_room(test: impl FnOnce() + Send + 'static) {
-        std::thread::Builder::new()
-            .stack_size(64 << 20)
-            .spawn(test)
-            .expect("a thread")
-            .join()
-            .expect("no panic");
     }
 
     #[test]

@@ -268,6 +268,7 @@ mod tests {
     use std::boxed::Box;
 
     use super::*;
+    use crate::test_room::with_room;
 
     /// Sweeps of ten coefficients, and a plan of 4 all over; backward they come to these values.
     fn with_backward<R: Send + 'static>(
@@ -282,12 +283,7 @@ mod tests {
             }
             test(&mut sweeps, &plan)
         };
-        std::thread::Builder::new()
-            .stack_size(16 << 20)
-            .spawn(run)
-            .expect("a thread")
-            .join()
-            .expect("the test itself")
+        with_room(run)
     }
 
     #[test]

@@ -268,24 +268,20 @@ fn refused(refusal: PlanRefusal) -> CandidatePhase {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::test_room::with_room;
     use std::boxed::Box;
 
     #[test]
     fn what_a_plan_before_this_one_left_costs_nothing() {
-        std::thread::Builder::new()
-            .stack_size(16 << 20)
-            .spawn(|| {
-                let (mut candidate, mut samples) =
-                    (Box::new(CandidatePlan::NONE), Box::new(SampleBanks::NONE));
-                candidate.spline.last = 3;
-                for k in 0..6 {
-                    samples.place_mut(&candidate.spline, k).middle.axes.add(k);
-                }
-                let axes: [u32; 6] = std::array::from_fn(|k| candidate.axes(&samples, k));
-                assert_eq!(axes, [0, 1, 1, 1, 0, 0]);
-            })
-            .expect("a thread")
-            .join()
-            .expect("no panic");
+        with_room(|| {
+            let (mut candidate, mut samples) =
+                (Box::new(CandidatePlan::NONE), Box::new(SampleBanks::NONE));
+            candidate.spline.last = 3;
+            for k in 0..6 {
+                samples.place_mut(&candidate.spline, k).middle.axes.add(k);
+            }
+            let axes: [u32; 6] = std::array::from_fn(|k| candidate.axes(&samples, k));
+            assert_eq!(axes, [0, 1, 1, 1, 0, 0]);
+        });
     }
 }
