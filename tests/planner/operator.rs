@@ -194,8 +194,7 @@ fn adaptive_feed_slows_moves_with_and_without_override() {
 
 /// A move of `length` mm without an override and 5 mm with one of `scale` behind it, F given in mm/s, through a planner
 /// that gets the second one `delay` periods later: what share of the first feed the fastest quarter of the first move
-/// has, and by what the feed of the second is exceeded behind the servo period of the plan in which it begins: overrides
-/// hold for such a period as a whole.
+/// has, and by what the feed of the second is exceeded.
 fn masked_and_not(feed: f64, scale: f64, length: f64, delay: usize) -> (f64, f64) {
     let mut figures = (0.0, 0.0);
     with_machine(|machine| {
