@@ -63,7 +63,8 @@ impl MachineAxes {
                 .filter(|axis| ROTARY_AXES.contains(axis) == rotary)
                 .map(|axis| self.limits.velocity[axis])
                 .filter(|velocity| velocity.is_finite())
-                .fold(0.0, f64::hypot)
+                .fold(0.0, |sum, velocity| sum + velocity * velocity)
+                .sqrt()
         };
         let linear = of(false);
         if linear > 0.0 { linear } else { of(true) }

@@ -258,6 +258,15 @@ fn overrides_behind_a_move_without_are_kept() {
     }
 }
 
+/// A rapid, machine units (or degrees) per second.
+fn rapid(velocity: f64) -> MoveRequest {
+    MoveRequest {
+        motion_type: MotionType::Traverse,
+        max_velocity: velocity,
+        ..feed_move(velocity)
+    }
+}
+
 #[test]
 fn the_slider_holds_for_linear_and_rotary_moves() {
     with_machine(|machine| {
@@ -274,11 +283,7 @@ fn the_slider_holds_for_linear_and_rotary_moves() {
         let mut end = at(20.0, 0.0);
         end[3] = 40.0;
         // A tenth of the slider is a tenth of the greatest rate.
-        let rapid = MoveRequest {
-            motion_type: MotionType::Traverse,
-            max_velocity: 90.0,
-            ..feed_move(90.0)
-        };
+        let rapid = rapid(90.0);
         machine.line(end, &rapid).expect("a line");
         fastest = 0.0;
         while !machine.planner.status().done {
@@ -303,11 +308,7 @@ fn the_slider_is_a_share_of_what_the_axes_reach_where_the_machine_has_no_greates
             machine.planner.set_velocity_limit(0.1 * reach);
             let mut end = Axes::zeros();
             end[3] = 20.0;
-            let rapid = MoveRequest {
-                motion_type: MotionType::Traverse,
-                max_velocity: 90.0,
-                ..feed_move(90.0)
-            };
+            let rapid = rapid(90.0);
             machine.line(end, &rapid).expect("a line");
             machine.run(10_000);
             assert_eq!(machine.planner.status().position, end);
