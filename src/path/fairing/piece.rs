@@ -29,6 +29,9 @@ const MOST_TURN: f64 = 7.0;
 /// The same of a piece: three of them tell a third derivative.
 const MOST_TURN_OF_PIECE: f64 = 0.6;
 
+/// Sine of the least turn that has an axis.
+const LEAST_TURN: f64 = 1e-9;
+
 /// A line, or a part of one, and the vertex at its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
@@ -39,6 +42,8 @@ pub(super) struct Piece {
     pub direction: Point,
     /// By how much that differs from the one before.
     pub turn: f64,
+    /// The axis that it turns about, as long as `turn`; zero where it turns back.
+    pub about: Point,
     /// Whether nothing to come changes what lies before its end.
     pub closes: bool,
     /// Whether another line follows it without a stop that vertices are moved on as well.
@@ -71,6 +76,7 @@ impl Piece {
             end: ORIGIN,
             direction: ORIGIN,
             turn: 0.0,
+            about: ORIGIN,
             closes: false,
             joined: false,
             room: 0.0,
@@ -99,6 +105,8 @@ impl Piece {
         let way = self.end - before.end;
         self.direction = way / way.norm().max(f64::MIN_POSITIVE);
         self.turn = (self.direction - before.direction).norm();
+        let about = before.direction.cross(&self.direction);
+        self.about = about * (self.turn / about.norm().max(LEAST_TURN));
     }
 
     /// None, where this leg starts.

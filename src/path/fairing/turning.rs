@@ -1,9 +1,11 @@
-//! Which pieces lie on a curve made of short lines.
+//! Which pieces lie on a curve made of short lines, and which ones go around sharp corners.
 //!
 //! On a curve the third derivative is about the same for a long way. What a few pieces show of it is then where the lines
 //! happen to meet, and no place that is slow anyway.
 
-use super::piece::{Piece, ROOM};
+use core::ops::Range;
+
+use super::piece::{Piece, Point, ROOM};
 use crate::ring::Ring;
 
 /// Pieces to both sides of one that show whether it lies on a curve.
@@ -15,6 +17,19 @@ const EVEN: f64 = 0.8;
 
 /// And nowhere by more than this share: a corner is no curve.
 const GREATEST_SHARE: f64 = 0.6;
+
+/// Pieces to both sides of one that show whether it goes around.
+const AROUND: u64 = 12;
+
+/// Length of the difference of unit vectors by which a sharp corner turns at least: 77 degrees. Figures of blunter ones gain from being
+/// led along their inner side, as circles do.
+const SHARP: f64 = 1.25;
+
+/// So many sharp corners make a way around ..
+const CORNERS: u32 = 2;
+
+/// .. if at least this share of all turning is about the same axis.
+const ABOUT_ONE_AXIS: f64 = 0.8;
 
 /// The curvature of the curve that a piece lies on, as far as those from `first` to before `next` show it, 1 per machine unit;
 /// `None` where it lies on none.
@@ -37,6 +52,66 @@ pub(super) fn curvature(
     }
     let whole = (before.direction - pieces.at(begin).direction).norm();
     (greatest < GREATEST_SHARE * sum && whole > EVEN * sum).then(|| sum / length)
+}
+
+/// Sums over the pieces around one, from number to number: what lies between sharp corners to the same side that are so near to each
+/// other never comes to a great feed.
+#[derive(Clone, Debug)]
+pub(super) struct Around {
+    /// All pieces that are looked at, and those that are summed up.
+    whole: Range<u64>,
+    summed: Range<u64>,
+    /// Of the directions, length of the differences of unit vectors, and about which axis.
+    turn: f64,
+    about: Point,
+    sharp: u32,
+    /// From the middle of a piece to the middle of the next one, path distance.
+    length: f64,
+}
+
+impl Around {
+    /// Of pieces from `first` to before `next`.
+    pub fn new(first: u64, next: u64) -> Self {
+        Self {
+            whole: first..next,
+            summed: first + 1..first + 1,
+            turn: 0.0,
+            about: Point::zeros(),
+            sharp: 0,
+            length: 0.0,
+        }
+    }
+
+    /// Goes on to a piece: numbers only rise.
+    pub fn go_on_to(&mut self, pieces: &Ring<Piece, ROOM>, number: u64) {
+        let start = number.saturating_sub(AROUND).max(self.whole.start) + 1;
+        let end = (number + AROUND + 1).min(self.whole.end);
+        while self.summed.end < end {
+            self.count(pieces, self.summed.end, 1);
+            self.summed.end += 1;
+        }
+        while self.summed.start < start {
+            self.count(pieces, self.summed.start, -1);
+            self.summed.start += 1;
+        }
+    }
+
+    fn count(&mut self, pieces: &Ring<Piece, ROOM>, number: u64, sign: i32) {
+        let (before, piece) = (pieces.at(number.wrapping_sub(1)), pieces.at(number));
+        let times = f64::from(sign);
+        self.turn += times * piece.turn;
+        self.about += piece.about * times;
+        if piece.turn > SHARP {
+            self.sharp = self.sharp.wrapping_add_signed(sign);
+        }
+        self.length += times * 0.5 * (before.leg.length + piece.leg.length);
+    }
+
+    /// By how much the way turns in the mean, 1 per machine unit; 0 where it does not go around.
+    pub fn curvature(&self) -> f64 {
+        let around = self.sharp >= CORNERS && self.about.norm() > ABOUT_ONE_AXIS * self.turn;
+        if around { self.turn / self.length } else { 0.0 }
+    }
 }
 
 #[cfg(test)]
@@ -92,6 +167,50 @@ mod tests {
             let found = curvature(&pieces, number, 0, 40).expect("a curve");
             assert!((found / 0.1 - 1.0).abs() < 0.01, "{number}: {found}");
         }
+    }
+
+    /// What the piece in the middle of 40 of length .25 goes around with, that turn by an angle at each fourth of them, radians.
+    fn around_corners(turn: fn(u64) -> f64) -> f64 {
+        let mut pieces = Box::new(Ring::filled_with(Piece::VACANT));
+        let (mut before, mut angle) = (Piece::VACANT, 0.0f64);
+        for number in 0..40 {
+            if number % 4 == 0 {
+                angle += turn(number / 4);
+            }
+            let way = 0.25 * Point::new(angle.cos(), angle.sin(), 0.0);
+            let mut piece = Piece {
+                end: before.end + way,
+                ..Piece::VACANT
+            };
+            piece.leg.length = 0.25;
+            piece.follow(&before);
+            before = piece;
+            *pieces.at_mut(number) = piece;
+        }
+        let mut around = Around::new(2, 40);
+        for number in 3..=20 {
+            around.go_on_to(&pieces, number);
+        }
+        let mut at_once = Around::new(2, 40);
+        at_once.go_on_to(&pieces, 20);
+        assert!((around.curvature() - at_once.curvature()).abs() < 1e-12);
+        around.curvature()
+    }
+
+    #[test]
+    fn a_square_goes_around_and_stairs_do_not() {
+        // Each corner turns by the length of a diagonal, in 1 mm.
+        let square = around_corners(|_| 1.57);
+        assert!((square - 1.414).abs() < 0.01, "{square}");
+        assert_eq!(
+            around_corners(|corner| if corner % 2 == 0 { 1.57 } else { -1.57 }),
+            0.0
+        );
+        assert_eq!(
+            around_corners(|corner| if corner == 5 { 1.57 } else { 0.0 }),
+            0.0
+        );
+        assert_eq!(around_corners(|_| 1.0), 0.0, "blunt corners");
     }
 
     #[test]

@@ -7,7 +7,7 @@
 use core::ops::Range;
 
 use super::piece::{Piece, Point, ROOM, SPAN, vertex};
-use super::turning::curvature;
+use super::turning::{Around, curvature};
 use crate::ring::Ring;
 
 /// Over so many pieces to both sides the third derivative is averaged: kernels smooth as far.
@@ -19,6 +19,9 @@ const ALONG: u64 = 24;
 /// Of the square of its curvature, which is the third derivative of a circle, what a curve is even enough with however great the
 /// feed is: jerk allows 1.8 times the speed with it that it allows on the circle.
 const OF_CURVE: f64 = 0.17;
+
+/// The same of the square of what the way around sharp corners turns by in the mean.
+const AROUND_CORNERS: f64 = 0.3;
 
 /// Gives the pieces from `first` to before `next` that have none the weight of the one before.
 pub(super) fn begin(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64) {
@@ -41,12 +44,18 @@ pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64, batch
         pieces.at_mut(number).square = square(pieces, number);
     }
     let along = mean_square(pieces, from..next);
+    let mut around = Around::new(from, next);
     for number in first..next {
+        around.go_on_to(pieces, number);
         let (mean, allowed) = if let Some(curvature) = curvature(pieces, number, from, next) {
             (along, OF_CURVE * curvature * curvature)
         } else {
             let beside = number.saturating_sub(BESIDE).max(from)..(number + BESIDE + 1).min(next);
-            (mean_square(pieces, beside), 0.0)
+            let around = around.curvature();
+            (
+                mean_square(pieces, beside),
+                AROUND_CORNERS * around * around,
+            )
         };
         let piece = pieces.at_mut(number);
         let even = piece.even.max(allowed);
