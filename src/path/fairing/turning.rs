@@ -211,6 +211,15 @@ mod tests {
             0.0
         );
         assert_eq!(around_corners(|_| 1.0), 0.0, "blunt corners");
+        // Both are farther away than the twelve pieces that are looked at.
+        assert_eq!(
+            around_corners(|corner| if corner == 1 || corner == 2 {
+                1.57
+            } else {
+                0.0
+            }),
+            0.0
+        );
     }
 
     #[test]
