@@ -38,6 +38,7 @@ pub(super) fn with_its_width(
     };
     if let Some(width) = design_width(chain, &leg, settings, metric) {
         leg.design_width = leg.design_width.min(width);
+        leg.ends_curve = true;
     }
     leg
 }

@@ -79,6 +79,8 @@ pub(super) struct Leg {
     pub turn_share: f64,
     /// See [`BlendSettings::design_width`].
     pub design_width: f64,
+    /// Whether it ends a [curve](super::curve) made of short lines.
+    pub ends_curve: bool,
     pub stop_before: bool,
     pub stop_after: bool,
     /// Whether corners at its ends may [swing out](super::lone_corner).
@@ -112,6 +114,7 @@ impl Leg {
         allowance: Allowance::Exact(0.0),
         turn_share: 1.0,
         design_width: 0.0,
+        ends_curve: false,
         stop_before: false,
         stop_after: false,
         may_swing_out: false,

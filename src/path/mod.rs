@@ -62,6 +62,7 @@ mod reaching;
 mod settings;
 mod shift;
 mod shrinkage;
+mod tapering;
 mod trial_kernel;
 mod vertex;
 mod vertex_widths;

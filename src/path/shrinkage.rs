@@ -14,6 +14,7 @@
 
 use wide::f64x2;
 
+use super::leg::Leg;
 use super::vertex::Vertex;
 
 /// Of what the tolerance leaves, how much the curve may shrink by.
@@ -24,6 +25,12 @@ const GREATEST_USED: f64 = 0.7;
 
 /// A vertex with a greater jump of its tangent is a corner, and belongs to no curve.
 const GREATEST_JUMP: f64 = 0.8;
+
+/// On a curve that is moved by more than this share of the tolerance beside a vertex nothing is left beside it either ..
+const MOVED_BY_ALL: f64 = 0.6;
+
+/// .. where it turns by less than this at the vertex: at more it is a corner whose legs are divided.
+const GREATEST_TURN: f64 = 0.2;
 
 /// The second moment of the biweight kernel is 1/7 of the square of its width.
 const MOMENT: f64 = 14.0;
@@ -53,9 +60,23 @@ impl Vertex {
         1.0 + (share * OUTWARD * share).fast_min(f64x2::splat(GREATEST_OUTWARD))
     }
 
+    /// Finds by how much more than itself the other ends of its legs are moved, where these are moved by about all they may be.
+    ///
+    /// What is moved on a curve made of chords: their ends to the inner side, and the middles to the outer one. In between nothing is
+    /// moved and the tolerance seems to be left; but what shrinks there takes the ends of the chords with it.
+    pub fn find_moved_beside(&mut self, before: &Leg, after: &Leg) {
+        let here = after.shift_at(self.s).norm();
+        let ends = [before.shift_at(before.start), after.shift_at(after.end())];
+        let beside = ends.iter().map(|end| end.norm()).fold(0.0, f64::max);
+        let by_all = beside > MOVED_BY_ALL * self.tolerance;
+        if after.ends_curve && by_all && self.tangent_jump_size < GREATEST_TURN {
+            self.moved_beside = (beside - here).max(0.0);
+        }
+    }
+
     /// Lets the curve shrink by a part of what is left of the tolerance where it is used up to `deviation` otherwise.
     pub fn let_shrink(&mut self, deviation: f64) {
-        let left = GREATEST_USED * self.tolerance - deviation;
+        let left = GREATEST_USED * self.tolerance - deviation - self.moved_beside;
         let turns = self.tangent_jump_size < GREATEST_JUMP && self.tolerance_jump_size > 0.0;
         self.shrinkage = if turns && !self.at_limit && left > 0.0 {
             SHARE * MOMENT * left * self.mean_leg / self.tolerance_jump_size
@@ -67,6 +88,9 @@ impl Vertex {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
+    use super::super::shift::Shift;
     use super::*;
     use crate::axes::Axes;
     use crate::path::jump::Jump;
@@ -104,6 +128,27 @@ mod tests {
         let by = inward(&vertex, width, mix) - full;
         let expected = SHARE * (GREATEST_USED - 0.3) * tolerance;
         assert!((by / expected - 1.0).abs() < 1e-3, "{by} {expected}");
+    }
+
+    #[test]
+    fn what_is_moved_by_all_it_may_be_beside_leaves_nothing() {
+        let leg = |start: f64, end: f64| {
+            let [start, end] = [start, end].map(|moved| Vector3::new(0.0, moved, 0.0));
+            Leg {
+                length: 0.2,
+                ends_curve: true,
+                shift: Shift::between(&start, &end, 0.2),
+                ..Leg::VACANT
+            }
+        };
+        let mut vertex = vertex(0.2, 0.05);
+        for (moved, beside) in [(0.01, 0.0), (0.035, 0.034)] {
+            let (before, after) = (leg(moved, 0.001), leg(0.001, -moved));
+            vertex.find_moved_beside(&before, &after);
+            assert!((vertex.moved_beside - beside).abs() < 1e-12, "{moved}");
+        }
+        vertex.let_shrink(0.3 * vertex.tolerance);
+        assert_eq!(vertex.shrinkage, 0.0);
     }
 
     #[test]

@@ -47,6 +47,11 @@ pub(super) struct Vertex {
     /// How much the curve that it belongs to may [shrink](super::shrinkage): by how much less its mix may be, times the square of
     /// its width.
     pub shrinkage: f64,
+    /// By how much more than itself the other ends of its legs are moved, where a curve is followed by all it may be.
+    pub moved_beside: f64,
+    /// By how much the square of its width may grow with the distance from the end of what is known, machine units; infinite where it is on
+    /// no curve. See [`tapering`](super::tapering).
+    pub taper: f64,
     /// The machine comes to rest here.
     pub stop: bool,
     /// No kernel crosses it. It may have one itself, if it is not a stop.
@@ -115,6 +120,8 @@ impl Vertex {
         longer_leg: 0.0,
         mean_leg: 0.0,
         shrinkage: 0.0,
+        moved_beside: 0.0,
+        taper: f64::INFINITY,
         stop: true,
         wall: true,
         left_wall: 0.0,

@@ -105,6 +105,8 @@ impl Vertex {
                 .max(design_width)
                 .min(settings.greatest_design_width());
             self.base = self.widths_alone();
+            self.find_taper(after);
+            self.find_moved_beside(before, after);
         }
         if self.curvature_jump_size > 0.0 {
             self.find_base_easement(before, after, settings);

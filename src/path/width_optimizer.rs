@@ -285,6 +285,7 @@ impl WidthOptimizer {
     fn set_trial(&self, chain: &mut Chain, number: u64) {
         let clip = self.window.clip(chain, number);
         let vertex = chain.vertex(number);
+        let clip = clip.min(vertex.tapered(self.window.end - vertex.s));
         let widths = if vertex.is_smoothed() {
             vertex.widths_within(clip)
         } else {
