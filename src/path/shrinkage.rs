@@ -132,23 +132,27 @@ mod tests {
 
     #[test]
     fn what_is_moved_by_all_it_may_be_beside_leaves_nothing() {
-        let leg = |start: f64, end: f64| {
+        let leg = |start: f64, end: f64, ends_curve: bool| {
             let [start, end] = [start, end].map(|moved| Vector3::new(0.0, moved, 0.0));
             Leg {
                 length: 0.2,
-                ends_curve: true,
+                ends_curve,
                 shift: Shift::between(&start, &end, 0.2),
                 ..Leg::VACANT
             }
         };
-        let mut vertex = vertex(0.2, 0.05);
-        for (moved, beside) in [(0.01, 0.0), (0.035, 0.034)] {
-            let (before, after) = (leg(moved, 0.001), leg(0.001, -moved));
-            vertex.find_moved_beside(&before, &after);
-            assert!((vertex.moved_beside - beside).abs() < 1e-12, "{moved}");
+        let found = |moved: f64, jump: f64, curve: bool| {
+            let mut vertex = vertex(0.2, 0.05);
+            vertex.tangent_jump_size = jump;
+            vertex.find_moved_beside(&leg(moved, 0.001, true), &leg(0.001, -moved, curve));
+            vertex.let_shrink(0.3 * vertex.tolerance);
+            (vertex.moved_beside, vertex.shrinkage > 0.0)
+        };
+        let (beside, shrinks) = found(0.035, 0.02, true);
+        assert!((beside - 0.034).abs() < 1e-12 && !shrinks, "{beside}");
+        for (moved, jump, curve) in [(0.01, 0.02, true), (0.035, 0.3, true), (0.035, 0.02, false)] {
+            assert_eq!(found(moved, jump, curve), (0.0, true), "{moved} {jump}");
         }
-        vertex.let_shrink(0.3 * vertex.tolerance);
-        assert_eq!(vertex.shrinkage, 0.0);
     }
 
     #[test]

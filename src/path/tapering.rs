@@ -40,8 +40,8 @@ impl Vertex {
         self.taper = 2.0 * (left / (OFF_PER_SLOPE * curvature)).sqrt();
     }
 
-    /// How wide its kernel may be where what is known ends at this distance, at least half of its shorter leg; infinite where it is
-    /// on no curve.
+    /// How far it may reach where what is known ends at this distance, at least half of its shorter leg; infinite where it is on no
+    /// curve.
     pub fn tapered(&self, distance: f64) -> f64 {
         if self.taper < f64::INFINITY {
             (self.taper * distance).sqrt().max(self.half_leg)
@@ -86,7 +86,6 @@ mod tests {
         vertex.tolerance_jump_size = 0.02;
         vertex.mean_leg = 0.02;
         vertex.half_leg = 0.01;
-        vertex.isolated = false;
         vertex
     }
 

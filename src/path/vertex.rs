@@ -47,7 +47,7 @@ pub(super) struct Vertex {
     /// How much the curve that it belongs to may [shrink](super::shrinkage): by how much less its mix may be, times the square of
     /// its width.
     pub shrinkage: f64,
-    /// By how much more than itself the other ends of its legs are moved, where a curve is followed by all it may be.
+    /// By how much more than itself the other ends of its legs are moved, where a curve is moved by about all it may be; 0 elsewhere.
     pub moved_beside: f64,
     /// By how much the square of its width may grow with the distance from the end of what is known, machine units; infinite where it is on
     /// no curve. See [`tapering`](super::tapering).
