@@ -18,6 +18,9 @@ const LINUXCNC_HAS: &str = "../hal-component/linuxcnc-has";
 /// What C++ compiles since 2.10, whose canonical calls differ from those before.
 const SCOPED_PLANES: &str = "#include \"canon.hh\"\nCANON_PLANE plane = CANON_PLANE::XY;\n";
 
+/// And with what its interpreter asks for pins of HAL there.
+const HAL_QUERIES: &str = "#define ULAPI\n#include <hal.h>\nhal_query_t query;\n";
+
 pub fn build() {
     println!("cargo:rerun-if-changed=src/canon/interpreter");
     println!("cargo:rerun-if-changed=src/loaded/stubs.c");
@@ -79,8 +82,13 @@ fn compile_interpreter(include: &[String], output: &Path) {
     let folder = Path::new("src/canon/interpreter");
     let cpp = cc::Build::new().cpp(true).opt_level(2).get_compiler();
     let mut compiler = cpp.to_command();
-    if compiles(&cpp, include, SCOPED_PLANES) {
-        compiler.arg("-DLINUXCNC_HAS_SCOPED_PLANES");
+    for (text, has) in [
+        (SCOPED_PLANES, "-DLINUXCNC_HAS_SCOPED_PLANES"),
+        (HAL_QUERIES, "-DLINUXCNC_HAS_HAL_QUERIES"),
+    ] {
+        if compiles(&cpp, include, text) {
+            compiler.arg(has);
+        }
     }
     if let Some(folder) = in_place() {
         let libraries = folder.join("lib").display().to_string();

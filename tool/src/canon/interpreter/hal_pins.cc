@@ -20,15 +20,20 @@ static bool is_type(const char *name)
     return false;
 }
 
-/* In the place of liblinuxcnchal's. */
+static int type_of_the_kinematics()
+{
+    /* Remaps that do not find it end the program there, and no move behind them would be planned. */
+    if (machine.switch_output < 0)
+        refuse_call("a program that asks for the type of the kinematics (no HAL file leads an analog output of motion to it)");
+    return now.kinematics_type;
+}
+
+/* What follows is in the place of liblinuxcnchal's. */
 extern "C" int hal_get_pin_value_by_name(const char *name, hal_type_t *type, hal_data_u **data, bool *connected)
 {
     static hal_data_u value;
     if (is_type(name)) {
-        /* Remaps that do not find it end the program there, and no move behind them would be planned. */
-        if (machine.switch_output < 0)
-            refuse_call("a program that asks for the type of the kinematics (no HAL file leads an analog output of motion to it)");
-        value.s = now.kinematics_type;
+        value.s = type_of_the_kinematics();
         *type = HAL_S32;
         *data = &value;
         *connected = true;
@@ -37,3 +42,20 @@ extern "C" int hal_get_pin_value_by_name(const char *name, hal_type_t *type, hal
     auto others = reinterpret_cast<decltype(&hal_get_pin_value_by_name)>(dlsym(RTLD_NEXT, "hal_get_pin_value_by_name"));
     return others ? others(name, type, data, connected) : -1;
 }
+
+#ifdef LINUXCNC_HAS_HAL_QUERIES
+/* The interpreter of 2.10 asks this before, and for no pin where there is no HAL. */
+extern "C" int hal_is_init() { return 1; }
+
+extern "C" int hal_get_p(hal_query_t *query, hal_query_cb found, void *argument)
+{
+    if (is_type(query->name)) {
+        query->pp.type = HAL_S32;
+        query->pp.value.s = type_of_the_kinematics();
+        query->pp.signal = query->name;
+        return 0;
+    }
+    auto others = reinterpret_cast<decltype(&hal_get_p)>(dlsym(RTLD_NEXT, "hal_get_p"));
+    return others ? others(query, found, argument) : -1;
+}
+#endif
