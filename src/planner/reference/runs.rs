@@ -19,7 +19,7 @@ const SPEED_BUDGET: f64 = 300.0;
 /// What that is multiplied by while the machine is soon to brake for want of a longer plan.
 const HURRY: f64 = 2.0;
 /// The same where the host keeps the queue short: a plan that comes a period late is a rest there, and the path is little work.
-const HURRY_OF_SHORT_QUEUE: f64 = 3.0;
+const HURRY_OF_SHORT_QUEUE: f64 = 3.5;
 
 /// The servo period that the budgets are meant for, seconds. In another one the work of a second is
 /// the same ..

@@ -9,7 +9,7 @@ const SHORTEST_LEAD: f64 = 16e-3;
 const LONGEST_LEAD: f64 = 128e-3;
 
 /// Intervals that an extension is meant to add.
-const EXTENSION: f64 = 64.0;
+const EXTENSION: f64 = 90.0;
 
 /// Lengths with which an extension is tried in turn: whole, a half, a third, and then half as much in each further round, since what
 /// follows may be finer than anything before. What is refused once is refused again

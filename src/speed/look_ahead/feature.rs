@@ -12,6 +12,11 @@ pub(super) const GROWTH: f64 = 0.35;
 /// Seconds between nodes in a change of shape, at its limit speed.
 const SHAPE_TIME: f64 = 2.5e-3;
 
+/// The finest and the coarsest spacing in a change of shape, over its reach to one side.
+const FINEST: f64 = 1.0 / 20.0;
+/// See [`FINEST`].
+const COARSEST: f64 = 1.0 / 4.8;
+
 /// Seconds between nodes at a change of the speed cap, at the lower cap.
 const CAP_TIME: f64 = 5e-3;
 
@@ -105,7 +110,9 @@ impl Feature {
             let jump = (center.third - beside.third).amax() * speed * speed;
             feature.jumps = jump * speed > NOTICEABLE_JUMP;
             feature.unseen = UNSEEN_TIME / jump;
-            let spacing = (SHAPE_TIME * speed).max(reach / 12.0).min(reach / 4.8);
+            let spacing = (SHAPE_TIME * speed)
+                .max(FINEST * reach)
+                .min(COARSEST * reach);
             feature.speed = speed;
             feature.spacing = feature.spacing.min(spacing);
         }

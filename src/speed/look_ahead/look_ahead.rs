@@ -260,7 +260,8 @@ impl LookAhead {
         if !self.refinement.is_due(committed) {
             return false;
         }
-        let Some(end) = self.newton.begin(committed, limit) else {
+        let first = self.refinement.first(committed);
+        let Some(end) = self.newton.begin(first, limit) else {
             return false;
         };
         if !to_the_end {
@@ -281,7 +282,9 @@ impl LookAhead {
         if done {
             self.work = Work::Nothing;
             self.braking.look_anew(&self.plan, &self.frozen);
-            self.refinement.note_step(self.newton.first());
+            let committed = self.frozen.committed(&self.plan);
+            self.refinement
+                .note_step(committed, self.newton.unsettled());
         }
     }
 

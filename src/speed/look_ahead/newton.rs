@@ -15,13 +15,13 @@ use super::spline::{SampleBanks, Spline};
 use crate::ring::Ring;
 
 /// The most intervals in a window.
-pub(super) const MOST_INTERVALS: usize = 100;
+pub(super) const MOST_INTERVALS: usize = 140;
 
 /// The fewest: two coefficients that change.
 const LEAST_INTERVALS: usize = 4;
 
 /// Room for the coefficients of a window, and those beside it.
-const SLOTS: usize = 128;
+const SLOTS: usize = 256;
 
 /// What a step is multiplied by when an interval refuses it.
 const SHORTER: f64 = 0.6;
@@ -40,6 +40,11 @@ const LEAST_BARRIER: f64 = 0.0015;
 /// Up to this weight the barrier of an interval that refuses grows as its resistance does: it has come so near to a limit that it
 /// ends the steps of all.
 const REGAINED_BARRIER: f64 = 0.02;
+
+/// An interval whose coefficient a whole step changes by no more than this share is settled ..
+const SETTLED: f64 = 3e-3;
+/// .. if its resistance, which makes steps small, is not above this.
+const SETTLED_RESISTANCE: f64 = 1.5;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NewtonPhase {
@@ -121,6 +126,8 @@ pub(super) struct NewtonStep {
     /// Whether only intervals that refused a step before are asked for now: these mostly tell how long it may be, and then all
     /// are asked but once.
     probing: bool,
+    /// The first interval that is not settled.
+    unsettled: usize,
     rows: Ring<SystemRow, SLOTS>,
 }
 
@@ -134,6 +141,7 @@ impl NewtonStep {
         shortenings: 0,
         clean: true,
         probing: true,
+        unsettled: 0,
         rows: Ring::filled_with(SystemRow::NONE),
     };
 
@@ -157,6 +165,11 @@ impl NewtonStep {
     /// The first interval that the step changes.
     pub fn first(&self) -> usize {
         self.first
+    }
+
+    /// The first interval that the step found unsettled.
+    pub fn unsettled(&self) -> usize {
+        self.unsettled
     }
 
     /// Works until the step is done or the budget is spent. Answers whether it is done.
@@ -378,6 +391,17 @@ impl NewtonStep {
         }
     }
 
+    /// The first interval whose coefficient a whole step would change noticeably; the end of the window where there is none.
+    fn first_unsettled(&self, plan: &Spline) -> usize {
+        let mut window = self.first..self.end;
+        let unsettled = window.find(|k| {
+            let interval = plan.at(*k);
+            let settled = self.row(*k).step.abs() <= SETTLED * interval.coefficient;
+            !settled || interval.resistance > SETTLED_RESISTANCE
+        });
+        unsettled.unwrap_or(self.end)
+    }
+
     fn begin_apply(&mut self) {
         self.phase = NewtonPhase::Apply;
         self.k = self.first;
@@ -385,6 +409,7 @@ impl NewtonStep {
 
     /// Takes the step, all at once: half of a step would be no plan.
     fn apply(&mut self, plan: &mut Spline) {
+        self.unsettled = self.first_unsettled(plan);
         for k in self.first..self.end {
             let refusals = self.row(k).refusals;
             let step = self.share * self.row(k).step;
@@ -419,6 +444,28 @@ impl NewtonStep {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_a_whole_step_hardly_changes_is_settled() {
+        let mut plan = Box::new(Spline::NONE);
+        let mut step = NewtonStep::NONE;
+        assert_eq!(step.begin(1, 9), Some(9));
+        for k in 1..9 {
+            plan.at_mut(k).coefficient = 100.0;
+            step.row_mut(k).step = 0.9 * SETTLED * -100.0;
+        }
+        assert_eq!(step.first_unsettled(&plan), 9);
+        step.row_mut(7).step = 1.1 * SETTLED * -100.0;
+        assert_eq!(step.first_unsettled(&plan), 7);
+        plan.at_mut(5).resistance = 2.0;
+        assert_eq!(step.first_unsettled(&plan), 5);
+        step.row_mut(3).step = f64::NAN;
+        assert_eq!(step.first_unsettled(&plan), 3);
+        // However short the step becomes.
+        step.share = 0.01;
+        step.apply(&mut plan);
+        assert_eq!(step.unsettled(), 3);
+    }
 
     #[test]
     fn an_interval_that_refuses_regains_its_barrier() {

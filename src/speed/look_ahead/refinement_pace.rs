@@ -7,12 +7,20 @@ const FRESH_STEPS: u32 = 16;
 /// .. and then one more each time that the machine has come on by so many intervals: more gain nothing.
 const PACE: usize = 4;
 
+/// Intervals before the first one that a step found unsettled, which the next one begins with: what it changes changes these.
+const BEFORE_UNSETTLED: usize = 16;
+
+/// The same before where the plan becomes another one.
+const BEFORE_REPLANNED: usize = 32;
+
 /// How far the refinement of a plan has come.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RefinementPace {
     refined: usize,
-    /// The first interval that the last step might change.
+    /// The first interval that might be changed when the last step was done.
     paced: usize,
+    /// Those before this one are as they should be.
+    unsettled: usize,
     /// Steps since the plan or its caps changed.
     fresh_steps: u32,
     settled: usize,
@@ -24,6 +32,7 @@ impl RefinementPace {
     pub const AT_REST: Self = Self {
         refined: 1,
         paced: 0,
+        unsettled: 0,
         fresh_steps: 0,
         settled: 1,
         steps: 0,
@@ -70,22 +79,30 @@ impl RefinementPace {
         self.refined = self.refined.max(end);
     }
 
-    /// A step is done that might change intervals from `first` on.
-    pub fn note_step(&mut self, first: usize) {
+    /// The first interval that a step is worth its time for, behind the interval `committed`.
+    pub fn first(&self, committed: usize) -> usize {
+        committed.max(self.unsettled)
+    }
+
+    /// A step is done behind the interval `committed`, which found those before `unsettled` to be as they should be.
+    pub fn note_step(&mut self, committed: usize, unsettled: usize) {
+        self.unsettled = unsettled.saturating_sub(BEFORE_UNSETTLED);
         self.steps = self.steps.saturating_add(1);
         self.fresh_steps = self.fresh_steps.saturating_add(1);
-        self.paced = first;
+        self.paced = committed;
     }
 
     /// Caps were raised.
     pub fn begin_anew(&mut self) {
         self.fresh_steps = 0;
+        self.unsettled = 0;
     }
 
     /// Behind interval `base` the plan is another one, which ends with interval `last` and says itself what is
     /// `settled` of it.
     pub fn replan(&mut self, base: usize, settled: usize, last: usize) {
-        self.begin_anew();
+        self.fresh_steps = 0;
+        self.unsettled = self.unsettled.min(base.saturating_sub(BEFORE_REPLANNED));
         self.refined = base;
         self.settled = settled.max(self.settled.min(base)).min(last - 1);
     }
@@ -100,7 +117,7 @@ mod tests {
         let mut pace = RefinementPace::AT_REST;
         for _ in 0..FRESH_STEPS {
             assert!(pace.is_due(7));
-            pace.note_step(7);
+            pace.note_step(7, 7);
         }
         assert!(!pace.is_due(7 + PACE - 1) && pace.is_due(7 + PACE));
         pace.begin_anew();
@@ -109,17 +126,34 @@ mod tests {
 
     #[test]
     fn extensions_come_often_while_little_is_settled() {
-        for (ahead, steps) in [(50, 1), (51, 2), (126, 4), (201, 12)] {
+        for (ahead, steps) in [(70, 1), (71, 2), (176, 4), (281, 12)] {
             let mut pace = RefinementPace::AT_REST;
             pace.replan(10, 10 + ahead, 400);
             for _ in 0..steps {
                 assert!(!pace.lets_extend(10), "{ahead}");
-                pace.note_step(10);
+                pace.note_step(10, 10);
             }
             assert!(pace.lets_extend(10), "{ahead}");
             pace.note_extension();
             assert!(!pace.lets_extend(10));
         }
+    }
+
+    #[test]
+    fn a_step_leaves_out_what_the_one_before_found_settled() {
+        let mut pace = RefinementPace::AT_REST;
+        assert_eq!(pace.first(7), 7);
+        pace.note_step(7, 100);
+        assert_eq!(pace.first(7), 100 - BEFORE_UNSETTLED);
+        // What is not settled at the begin of a step makes the next one begin earlier.
+        pace.note_step(8, pace.first(8) + 1);
+        assert_eq!(pace.first(8), 101 - 2 * BEFORE_UNSETTLED);
+        pace.note_step(8, 100);
+        pace.replan(90, 0, 150);
+        assert_eq!(pace.first(8), 90 - BEFORE_REPLANNED);
+        assert_eq!(pace.first(70), 70, "never before what is committed");
+        pace.begin_anew();
+        assert_eq!(pace.first(8), 8);
     }
 
     #[test]

@@ -35,9 +35,9 @@ const SHARES: Shares = Shares {
 };
 
 /// Intervals that a candidate adds at most; a longer one is ended behind three quarters of them.
-pub(super) const MOST_INTERVALS: usize = 128;
+pub(super) const MOST_INTERVALS: usize = 180;
 /// The same where the machine is soon to brake: what is short is found soon.
-pub(super) const MOST_URGENT_INTERVALS: usize = 64;
+pub(super) const MOST_URGENT_INTERVALS: usize = 90;
 
 /// Nodes of the plan behind the one where a candidate leaves it, at least.
 pub(super) const NODES_TO_CONTINUE: usize = 4;
