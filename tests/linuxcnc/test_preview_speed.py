@@ -1,6 +1,7 @@
 """A preview that follows frames loads nearly as fast as one that does not: the screens hand the same canon to the
 interpreter."""
 
+import statistics
 import unittest
 
 import preview_speed
@@ -14,14 +15,14 @@ class Speed(unittest.TestCase):
     def test_a_program_of_100000_lines(self):
         for name, frames in preview_speed.CASES.items():
             with self.subTest(name):
-                found = []
-                # the least of few may be off where the computer does more: then of more
+                pairs = []
+                # Where the computer does more, also the least of one kind may be anything: neighbours are compared.
                 for _ in range(ATTEMPTS):
-                    found.append(preview_speed.measure(frames))
-                    stock, hook = (min(column) for column in zip(*found, strict=True))
-                    if hook < MOST * stock:
+                    pairs += preview_speed.measure(frames)
+                    ratio = statistics.median(hook / stock for stock, hook in pairs)
+                    if ratio < MOST:
                         break
-                self.assertLess(hook, MOST * stock)
+                self.assertLess(ratio, MOST)
 
 
 if __name__ == "__main__":
