@@ -284,7 +284,7 @@ impl LookAhead {
             self.braking.look_anew(&self.plan, &self.frozen);
             let committed = self.frozen.committed(&self.plan);
             self.refinement
-                .note_step(committed, self.newton.unsettled());
+                .note_step(committed, self.newton.unconverged());
         }
     }
 

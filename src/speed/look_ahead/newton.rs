@@ -41,10 +41,10 @@ const LEAST_BARRIER: f64 = 0.0015;
 /// ends the steps of all.
 const REGAINED_BARRIER: f64 = 0.02;
 
-/// An interval whose coefficient a whole step changes by no more than this share is settled ..
-const SETTLED: f64 = 3e-3;
-/// .. if its resistance, which makes steps small, is not above this.
-const SETTLED_RESISTANCE: f64 = 1.5;
+/// An interval whose coefficient a whole step changes by no more than this share has converged ..
+const CONVERGED: f64 = 3e-3;
+/// .. if its resistance, which makes steps small, is no more than this.
+const CONVERGED_RESISTANCE: f64 = 1.5;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NewtonPhase {
@@ -126,8 +126,8 @@ pub(super) struct NewtonStep {
     /// Whether only intervals that refused a step before are asked for now: these mostly tell how long it may be, and then all
     /// are asked but once.
     probing: bool,
-    /// The first interval that is not settled.
-    unsettled: usize,
+    /// The first interval that has not converged.
+    unconverged: usize,
     rows: Ring<SystemRow, SLOTS>,
 }
 
@@ -141,7 +141,7 @@ impl NewtonStep {
         shortenings: 0,
         clean: true,
         probing: true,
-        unsettled: 0,
+        unconverged: 0,
         rows: Ring::filled_with(SystemRow::NONE),
     };
 
@@ -167,9 +167,9 @@ impl NewtonStep {
         self.first
     }
 
-    /// The first interval that the step found unsettled.
-    pub fn unsettled(&self) -> usize {
-        self.unsettled
+    /// The first interval that the step found unconverged.
+    pub fn unconverged(&self) -> usize {
+        self.unconverged
     }
 
     /// Works until the step is done or the budget is spent. Answers whether it is done.
@@ -392,14 +392,14 @@ impl NewtonStep {
     }
 
     /// The first interval whose coefficient a whole step would change noticeably; the end of the window where there is none.
-    fn first_unsettled(&self, plan: &Spline) -> usize {
+    fn first_unconverged(&self, plan: &Spline) -> usize {
         let mut window = self.first..self.end;
-        let unsettled = window.find(|k| {
+        let unconverged = window.find(|k| {
             let interval = plan.at(*k);
-            let settled = self.row(*k).step.abs() <= SETTLED * interval.coefficient;
-            !settled || interval.resistance > SETTLED_RESISTANCE
+            let converged = self.row(*k).step.abs() <= CONVERGED * interval.coefficient;
+            !converged || interval.resistance > CONVERGED_RESISTANCE
         });
-        unsettled.unwrap_or(self.end)
+        unconverged.unwrap_or(self.end)
     }
 
     fn begin_apply(&mut self) {
@@ -409,7 +409,7 @@ impl NewtonStep {
 
     /// Takes the step, all at once: half of a step would be no plan.
     fn apply(&mut self, plan: &mut Spline) {
-        self.unsettled = self.first_unsettled(plan);
+        self.unconverged = self.first_unconverged(plan);
         for k in self.first..self.end {
             let refusals = self.row(k).refusals;
             let step = self.share * self.row(k).step;
@@ -446,25 +446,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_whole_step_hardly_changes_is_settled() {
+    fn what_a_whole_step_hardly_changes_has_converged() {
         let mut plan = Box::new(Spline::NONE);
         let mut step = NewtonStep::NONE;
         assert_eq!(step.begin(1, 9), Some(9));
         for k in 1..9 {
             plan.at_mut(k).coefficient = 100.0;
-            step.row_mut(k).step = 0.9 * SETTLED * -100.0;
+            step.row_mut(k).step = 0.9 * CONVERGED * -100.0;
         }
-        assert_eq!(step.first_unsettled(&plan), 9);
-        step.row_mut(7).step = 1.1 * SETTLED * -100.0;
-        assert_eq!(step.first_unsettled(&plan), 7);
+        assert_eq!(step.first_unconverged(&plan), 9);
+        step.row_mut(7).step = 1.1 * CONVERGED * -100.0;
+        assert_eq!(step.first_unconverged(&plan), 7);
         plan.at_mut(5).resistance = 2.0;
-        assert_eq!(step.first_unsettled(&plan), 5);
+        assert_eq!(step.first_unconverged(&plan), 5);
         step.row_mut(3).step = f64::NAN;
-        assert_eq!(step.first_unsettled(&plan), 3);
+        assert_eq!(step.first_unconverged(&plan), 3);
         // However short the step becomes.
         step.share = 0.01;
         step.apply(&mut plan);
-        assert_eq!(step.unsettled(), 3);
+        assert_eq!(step.unconverged(), 3);
     }
 
     #[test]

@@ -7,8 +7,8 @@ const FRESH_STEPS: u32 = 16;
 /// .. and then one more each time that the machine has come on by so many intervals: more gain nothing.
 const PACE: usize = 4;
 
-/// Intervals before the first one that a step found unsettled, which the next one begins with: what it changes changes these.
-const BEFORE_UNSETTLED: usize = 16;
+/// Intervals before the first one that a step found unconverged, which the next one begins with: what it changes changes these.
+const BEFORE_UNCONVERGED: usize = 16;
 
 /// The same before where the plan becomes another one.
 const BEFORE_REPLANNED: usize = 32;
@@ -19,8 +19,8 @@ pub(super) struct RefinementPace {
     refined: usize,
     /// The first interval that might be changed when the last step was done.
     paced: usize,
-    /// Those before this one are as they should be.
-    unsettled: usize,
+    /// Those before this one have converged.
+    unconverged: usize,
     /// Steps since the plan or its caps changed.
     fresh_steps: u32,
     settled: usize,
@@ -32,7 +32,7 @@ impl RefinementPace {
     pub const AT_REST: Self = Self {
         refined: 1,
         paced: 0,
-        unsettled: 0,
+        unconverged: 0,
         fresh_steps: 0,
         settled: 1,
         steps: 0,
@@ -81,12 +81,12 @@ impl RefinementPace {
 
     /// The first interval that a step is worth its time for, behind the interval `committed`.
     pub fn first(&self, committed: usize) -> usize {
-        committed.max(self.unsettled)
+        committed.max(self.unconverged)
     }
 
-    /// A step is done behind the interval `committed`, which found those before `unsettled` to be as they should be.
-    pub fn note_step(&mut self, committed: usize, unsettled: usize) {
-        self.unsettled = unsettled.saturating_sub(BEFORE_UNSETTLED);
+    /// A step is done behind the interval `committed`, which found that those before `unconverged` have converged.
+    pub fn note_step(&mut self, committed: usize, unconverged: usize) {
+        self.unconverged = unconverged.saturating_sub(BEFORE_UNCONVERGED);
         self.steps = self.steps.saturating_add(1);
         self.fresh_steps = self.fresh_steps.saturating_add(1);
         self.paced = committed;
@@ -95,14 +95,14 @@ impl RefinementPace {
     /// Caps were raised.
     pub fn begin_anew(&mut self) {
         self.fresh_steps = 0;
-        self.unsettled = 0;
+        self.unconverged = 0;
     }
 
     /// Behind interval `base` the plan is another one, which ends with interval `last` and says itself what is
     /// `settled` of it.
     pub fn replan(&mut self, base: usize, settled: usize, last: usize) {
         self.fresh_steps = 0;
-        self.unsettled = self.unsettled.min(base.saturating_sub(BEFORE_REPLANNED));
+        self.unconverged = self.unconverged.min(base.saturating_sub(BEFORE_REPLANNED));
         self.refined = base;
         self.settled = settled.max(self.settled.min(base)).min(last - 1);
     }
@@ -140,14 +140,14 @@ mod tests {
     }
 
     #[test]
-    fn a_step_leaves_out_what_the_one_before_found_settled() {
+    fn a_step_leaves_out_what_has_converged() {
         let mut pace = RefinementPace::AT_REST;
         assert_eq!(pace.first(7), 7);
         pace.note_step(7, 100);
-        assert_eq!(pace.first(7), 100 - BEFORE_UNSETTLED);
-        // What is not settled at the begin of a step makes the next one begin earlier.
+        assert_eq!(pace.first(7), 100 - BEFORE_UNCONVERGED);
+        // What has not converged at the begin of a step makes the next one begin earlier.
         pace.note_step(8, pace.first(8) + 1);
-        assert_eq!(pace.first(8), 101 - 2 * BEFORE_UNSETTLED);
+        assert_eq!(pace.first(8), 101 - 2 * BEFORE_UNCONVERGED);
         pace.note_step(8, 100);
         pace.replan(90, 0, 150);
         assert_eq!(pace.first(8), 90 - BEFORE_REPLANNED);
