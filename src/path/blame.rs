@@ -22,24 +22,38 @@ const MOST: usize = 2 * NEIGHBOURS as usize;
 const MOST_NARROWED: f64 = 0.7;
 const LEAST_NARROWED: f64 = 0.97;
 
-/// Where more kernels than this reach a leg a trial has no time for small steps, and all are narrowed to the same share: those
-/// of flowsnake, whose trials were given up, ran 4 to 10 % slower.
+/// Where more kernels than this reach a leg a trial takes long, and small steps would not end: the more of it is spent, the
+/// larger they are.
 pub(super) const MANY_KERNELS: usize = 12;
-const NARROWED_AMONG_MANY: f64 = 0.85;
 
-/// To what share of its widths a vertex is narrowed for a violation. On a curve the deviation grows with the square of the
-/// widths: narrowed by more than that, a corner would be so narrow that a little more feed or tolerance cost a tenth of the time.
-fn narrowing(violation: &Violation) -> f64 {
-    if violation.kernels > MANY_KERNELS {
-        NARROWED_AMONG_MANY
-    } else {
-        let share = violation.allowed.sqrt();
-        share.clamp(MOST_NARROWED, LEAST_NARROWED)
+/// What a vertex among so many is narrowed to at most when all of a trial is spent.
+const NARROWED_IN_THE_END: f64 = 0.75;
+
+/// On a curve all steps are alike where there are so many kernels: single ones that are narrower than their neighbours leave it
+/// uneven.
+const NARROWED_ON_CURVE: f64 = 0.93;
+
+/// To what share of its widths a vertex is narrowed for a violation, where this share of the trial is `spent`. The deviation on a
+/// curve grows with the square of the widths: narrowed by more than that, a corner would be so narrow that a little more feed or
+/// tolerance cost a tenth of the time.
+fn narrowing(violation: &Violation, on_curve: bool, spent: f64) -> f64 {
+    let many = violation.kernels > MANY_KERNELS;
+    if many && on_curve {
+        return NARROWED_ON_CURVE;
     }
+    let most = if many {
+        LEAST_NARROWED - (LEAST_NARROWED - NARROWED_IN_THE_END) * spent
+    } else {
+        LEAST_NARROWED
+    };
+    let share = violation.allowed.sqrt();
+    // `clamp` would panic if the bounds were the wrong way round.
+    share.min(most).max(MOST_NARROWED)
 }
 
 /// Marks the open vertices that are to blame for a violation of the tolerance on a leg. `near_end`: it may be due to the
-/// end of what is known. Answers the kernel terms that it took.
+/// end of what is known. `spent`: of what a trial may take, the share that it has taken, 0 to 1. Answers the kernel terms that it
+/// took.
 pub(super) fn mark(
     chain: &mut Chain,
     leg: u64,
@@ -47,6 +61,7 @@ pub(super) fn mark(
     near_end: bool,
     window: &Window,
     metric: &Metric,
+    spent: f64,
 ) -> usize {
     let s = violation.s;
     let from = leg
@@ -71,9 +86,10 @@ pub(super) fn mark(
         greatest = f64::max(greatest, *blame);
     }
     for (blame, number) in blames.into_iter().zip(from..to) {
+        let on_curve = chain.leg(number).ends_curve;
         let vertex = chain.vertex_mut(number);
         if blame >= BLAMED * greatest && reaches(vertex, s) {
-            vertex.narrowing = vertex.narrowing.min(narrowing(&violation));
+            vertex.narrowing = vertex.narrowing.min(narrowing(&violation, on_curve, spent));
             vertex.marked_temporarily |= near_end;
         }
     }
@@ -118,24 +134,51 @@ mod tests {
                 allowed: 0.81,
                 kernels: 2,
             };
-            mark(&mut chain, 1, violation, false, &window, &metric);
+            mark(&mut chain, 1, violation, false, &window, &metric, 0.0);
             [1, 2].map(|number| chain.vertex(number).narrowing)
+        })
+    }
+
+    /// What a vertex is narrowed to where so many kernels reach the leg and so much of the trial is spent, for these shares of the
+    /// deviation that are allowed.
+    fn narrowed(kernels: usize, on_curve: bool, spent: f64, allowed: [f64; 4]) -> [f64; 4] {
+        allowed.map(|allowed| {
+            let violation = Violation {
+                s: 0.0,
+                allowed,
+                kernels,
+            };
+            narrowing(&violation, on_curve, spent)
         })
     }
 
     #[test]
     fn the_more_there_is_too_much_the_more_is_narrowed() {
-        let of = |allowed, kernels| {
-            narrowing(&Violation {
-                s: 0.0,
-                allowed,
-                kernels,
-            })
-        };
-        let found = [0.999, 0.9, 0.81, 0.1].map(|allowed| of(allowed, MANY_KERNELS));
-        assert_eq!(found, [0.97, 0.9f64.sqrt(), 0.9, 0.7]);
-        let among_many = [0.999, 0.1].map(|allowed| of(allowed, MANY_KERNELS + 1));
-        assert_eq!(among_many, [0.85; 2]);
+        let expected = [0.97, 0.9f64.sqrt(), 0.9, 0.7];
+        for (kernels, on_curve, spent) in [
+            (MANY_KERNELS, false, 0.0),
+            (MANY_KERNELS, true, 1.0),
+            (MANY_KERNELS + 1, false, 0.0),
+        ] {
+            let found = narrowed(kernels, on_curve, spent, [0.999, 0.9, 0.81, 0.1]);
+            assert_eq!(found, expected, "{kernels} {on_curve} {spent}");
+        }
+    }
+
+    #[test]
+    fn among_many_steps_grow_with_what_is_spent() {
+        let of = |spent| narrowed(MANY_KERNELS + 1, false, spent, [0.999, 0.81, 0.64, 0.1]);
+        assert_eq!(of(0.5), [0.86, 0.86, 0.8, 0.7]);
+        assert_eq!(of(1.0), [0.75, 0.75, 0.75, 0.7]);
+        assert_eq!(of(1.5), [0.7; 4]);
+    }
+
+    #[test]
+    fn among_many_on_a_curve_all_steps_are_alike() {
+        for spent in [0.0, 1.0] {
+            let found = narrowed(MANY_KERNELS + 1, true, spent, [0.999, 0.9, 0.81, 0.1]);
+            assert_eq!(found, [NARROWED_ON_CURVE; 4]);
+        }
     }
 
     #[test]

@@ -36,13 +36,13 @@ const LAG: f64 = 0.5;
 const TRIAL_SHARE: f64 = 0.98;
 
 /// Checks of the whole window before a trial is given up.
-const ROUNDS: u32 = 24;
+const ROUNDS: u32 = 48;
 
 /// A violation so near to the end of what is known, in design widths, may be due to it.
 const NEAR_END: f64 = 2.0;
 
 /// Kernel terms that a trial may take in its checks, and half as many in its base widths.
-const GREATEST_TRIAL: usize = 60_000;
+const GREATEST_TRIAL: usize = 90_000;
 
 /// The most kernel terms by which a call of
 /// [`BlendedPath::step`](super::BlendedPath::step) exceeds its budget.
@@ -346,7 +346,8 @@ impl WidthOptimizer {
                 let near_end = self
                     .window
                     .is_near_end(violation.s, NEAR_END * last.design_width);
-                blame::mark(chain, leg, violation, near_end, &self.window, metric)
+                let spent = self.spent as f64 / GREATEST_TRIAL as f64;
+                blame::mark(chain, leg, violation, near_end, &self.window, metric, spent)
             }
         };
         self.spent += cost + marking;

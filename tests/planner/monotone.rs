@@ -284,10 +284,10 @@ fn more_feed_than_a_trochoid_allows_costs_no_time() {
 /// with F6000 as with F3600, the second 1.07 times.
 #[test]
 fn more_feed_than_a_trochoid_with_a_small_tolerance_allows_costs_little_time() {
-    for (chord, tolerance, most) in [(0.2, 0.005, 1.02), (0.7, 0.02, 1.05)] {
+    for (chord, tolerance) in [(0.2, 0.005), (0.7, 0.02)] {
         let taken = [60.0, 80.0, 100.0, 125.0, 150.0]
             .map(|feed| with_feed(Figure::Trochoid { chord }, feed, 2e4, tolerance));
-        let fits = taken.iter().all(|periods| *periods <= most * taken[0]);
+        let fits = taken.iter().all(|periods| *periods <= 1.02 * taken[0]);
         assert!(fits, "chords of {chord}: {taken:?} periods");
     }
 }
