@@ -110,6 +110,11 @@ mod tests {
     /// What the first and the second corner of a bend are narrowed to for the deviation at the second, of which .81 is
     /// allowed, with kernels of these widths.
     fn marked(widths: [f64; 2]) -> [f64; 2] {
+        marked_among(2, widths, [false; 2], 0.0)
+    }
+
+    /// The same among so many kernels, where the legs behind the corners end a curve or do not, and so much of the trial is spent.
+    fn marked_among(kernels: usize, widths: [f64; 2], on_curve: [bool; 2], spent: f64) -> [f64; 2] {
         with_room(move || {
             let (mut chain, metric) = chain_of(&[
                 ([10.0, 0.0, 0.0], 9.0),
@@ -123,6 +128,9 @@ mod tests {
                 };
                 chain.set_trial(number, widths);
             }
+            for (number, on_curve) in (1..).zip(on_curve) {
+                chain.leg_mut(number).ends_curve = on_curve;
+            }
             let window = Window {
                 next: chain.next(),
                 end: chain.end(),
@@ -132,9 +140,9 @@ mod tests {
             let violation = Violation {
                 s,
                 allowed: 0.81,
-                kernels: 2,
+                kernels,
             };
-            mark(&mut chain, 1, violation, false, &window, &metric, 0.0);
+            mark(&mut chain, 1, violation, false, &window, &metric, spent);
             [1, 2].map(|number| chain.vertex(number).narrowing)
         })
     }
@@ -171,6 +179,21 @@ mod tests {
         assert_eq!(of(0.5), [0.86, 0.86, 0.8, 0.7]);
         assert_eq!(of(1.0), [0.75, 0.75, 0.75, 0.7]);
         assert_eq!(of(1.5), [0.7; 4]);
+    }
+
+    #[test]
+    fn each_vertex_is_narrowed_as_where_it_lies_and_by_what_is_spent() {
+        let of = |on_curve, spent| marked_among(MANY_KERNELS + 1, [9.0, 5.0], on_curve, spent);
+        assert_eq!(of([false; 2], 0.0), [0.9; 2]);
+        assert_eq!(of([false; 2], 1.0), [NARROWED_IN_THE_END; 2]);
+        assert_eq!(
+            of([true, false], 1.0),
+            [NARROWED_ON_CURVE, NARROWED_IN_THE_END]
+        );
+        assert_eq!(
+            of([false, true], 1.0),
+            [NARROWED_IN_THE_END, NARROWED_ON_CURVE]
+        );
     }
 
     #[test]
