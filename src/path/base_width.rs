@@ -118,7 +118,7 @@ fn choose(vertex: &mut Vertex) {
         vertex.corner.biweight_width.min(vertex.half_leg)
     };
     let alone = vertex.widths_alone();
-    let beyond = 1.01 * vertex.half_leg.max(alone.outer);
+    let beyond = 1.01 * vertex.half_leg.max(alone.further_reach());
     let overlaps = vertex.scanned > beyond && vertex.scanned >= WORTHWHILE * plain;
     vertex.base = if overlaps {
         Widths {

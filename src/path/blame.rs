@@ -75,7 +75,9 @@ pub(super) fn mark(
         vertex.add_deviation(&vertex.counted, s - vertex.s, &mut total);
     }
     let mut total = total.axes();
-    shift::add(&mut total, &chain.leg(leg).shift_at(s));
+    let place = chain.leg(leg);
+    shift::add(&mut total, &place.shift_at(s));
+    place.take_off_along(s, &mut total);
     let mut blames = [0.0; MOST];
     let mut greatest = 0.0;
     for (blame, number) in blames.iter_mut().zip(from..to) {

@@ -8,7 +8,8 @@
 //! that do not count: each leg is touched in the middle, within what the others add.
 //!
 //! The deviation at equal path distance bounds the distance both ways, from the blended path to the
-//! programmed one and back.
+//! programmed one and back. On a line what leads [along it](super::leg::Leg::take_off_along) does not count, but at its ends: the blended
+//! path is as near to these, and in between the nearest point of the line to it takes every place of the line once at least.
 
 use super::chain::{Chain, NEIGHBOURS};
 use super::kernel_lanes::KERNELS;

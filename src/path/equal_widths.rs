@@ -50,7 +50,7 @@ impl<'a> EqualWidthsSum<'a> {
 
     fn add_isolated(&mut self, vertex: &Vertex) {
         self.add_waiting();
-        let widths = if vertex.base.outer > 0.0 {
+        let widths = if vertex.base.further_reach() > 0.0 {
             vertex.base
         } else {
             Widths {

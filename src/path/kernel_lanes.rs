@@ -7,9 +7,10 @@ use super::jump::{GROUP_SIZE, GROUPS, JumpSum};
 use super::kernel;
 use super::trial_kernel::TrialKernel;
 use super::vertex::Vertex;
+use super::widths::FURTHER;
 
 /// The most kernels of a vertex.
-pub(super) const KERNELS: usize = 2;
+pub(super) const KERNELS: usize = 1 + FURTHER;
 
 /// The most that reach into a leg.
 const MOST: usize = KERNELS * 2 * NEIGHBOURS as usize;

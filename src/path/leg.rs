@@ -7,12 +7,15 @@ use super::settings::{Allowance, BlendSettings};
 use super::shift::Shift;
 use crate::axes::Axes;
 use crate::moves::shape::measure::{self, Measure};
-use crate::moves::shape::{PathPoint, Shape};
+use crate::moves::shape::{Line9, PathPoint, Shape};
 use crate::moves::{NearLimit, TerminationCondition};
 
 /// Legs that turn by less, length of the difference of unit vectors, may be chords of a curve: 60
 /// degrees.
 const CHORD_JUMP: f64 = 1.0;
+
+/// What the length of a move may differ by from what F counts on it, of that: nothing else moves.
+const ROUNDING: f64 = 1e-12;
 
 /// A move as the blended path takes it.
 #[derive(Clone, Copy, Debug)]
@@ -189,6 +192,42 @@ impl Leg {
         }
     }
 
+    /// Whether it moves nothing but X, Y and Z.
+    pub fn is_linear(&self) -> bool {
+        self.measure == Measure::Linear && (self.measure_rate - 1.0).abs() < ROUNDING
+    }
+
+    /// The line, if it does not matter where along it the path is: one of XYZ alone, and no thread, whose pitch that would change.
+    fn line_in_space(&self) -> Option<&Line9> {
+        match &self.shape {
+            Shape::Line(line) if self.may_swing_out && self.is_linear() => Some(line),
+            _ => None,
+        }
+    }
+
+    /// Whether there is [something to take off](Self::take_off_along).
+    pub fn is_free_along(&self) -> bool {
+        self.line_in_space().is_some()
+    }
+
+    /// Takes off a deviation at path distance `s` what leads along the leg, as far as the leg goes. What is left is the way to the
+    /// nearest point of the line, where it does not matter [where along it](Self::is_free_along) the path is. At the ends of the whole
+    /// leg all of it is left: the path comes as near to each corner of the program.
+    ///
+    /// The distance from a line is convex, and two places differ in it by no more than they are apart: what bounds the
+    /// deviation between two places bounds this as well.
+    #[inline]
+    pub fn take_off_along(&self, s: f64, deviation: &mut Axes) {
+        let behind = self.distance(s) + self.lead;
+        let ahead = self.whole - behind;
+        let is_end = behind <= 0.0 || ahead <= 0.0 || (self.is_last_part && s >= self.end());
+        if !is_end && let Some(line) = self.line_in_space() {
+            let direction = line.direction();
+            let along = direction.dot(deviation).min(ahead).max(-behind);
+            *deviation -= direction * along;
+        }
+    }
+
     /// Where it ends, path distance.
     #[inline]
     pub fn end(&self) -> f64 {
@@ -337,4 +376,83 @@ fn turning(shape: &Shape) -> f64 {
     let start = shape.point(0.0);
     let (second, third) = (start.second.norm(), start.third.norm());
     if second > 0.0 { third / second } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axes::AXIS_COUNT;
+
+    /// A line of 10 mm along X, and along this much of B.
+    fn line(b: f64, may_swing_out: bool) -> Leg {
+        let mut end = Axes::zeros();
+        end[0] = 10.0;
+        end[4] = b;
+        let programmed = ProgrammedMove {
+            serial: 1,
+            shape: Shape::Line(Line9::new(&Axes::zeros(), &end).expect("a line")),
+            feed: 50.0,
+            greatest_feed: 50.0,
+            termination: TerminationCondition::Continuous { tolerance: 0.1 },
+            stop_before: false,
+            separate: false,
+            may_swing_out,
+            near_limit: NearLimit::NONE,
+        };
+        let metric = Metric::new(0.1);
+        Leg::new(&programmed, &BlendSettings::DEFAULT, &metric)
+    }
+
+    /// What is left at `s` of a deviation by this much along the leg, .4 across it, and .2 degrees.
+    fn left(leg: &Leg, s: f64, along: f64) -> [f64; AXIS_COUNT] {
+        let mut deviation = Axes::from([along, 0.0, 0.4, 0.0, 0.2, 0.0, 0.0, 0.0, 0.0]);
+        leg.take_off_along(s, &mut deviation);
+        let [axes] = deviation.data.0;
+        axes
+    }
+
+    fn of(along: f64) -> [f64; AXIS_COUNT] {
+        [along, 0.0, 0.4, 0.0, 0.2, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    #[test]
+    fn what_leads_along_a_line_is_taken_off_within_it() {
+        let leg = line(0.0, true);
+        for (s, along, expected) in [
+            (5.0, 0.3, 0.0),
+            (5.0, -0.3, 0.0),
+            (0.25, -1.0, -0.75),
+            (9.75, 1.0, 0.75),
+            (0.25, 1.0, 0.0),
+            (0.0, 0.3, 0.3),
+            (10.0, -0.3, -0.3),
+            (0.0, -0.3, -0.3),
+            (10.0, 0.3, 0.3),
+        ] {
+            assert_eq!(left(&leg, s, along), of(expected), "{s} {along}");
+        }
+    }
+
+    #[test]
+    fn a_part_of_a_line_has_all_of_it_to_either_side() {
+        let mut part = line(0.0, true).part(4.0, 6.0);
+        part.start = 104.0;
+        for (s, along, expected) in [
+            (104.0, 0.3, 0.0),
+            (106.0, 0.3, 0.0),
+            (105.0, 7.0, 2.0),
+            (105.0, -7.0, -2.0),
+        ] {
+            assert_eq!(left(&part, s, along), of(expected), "{s} {along}");
+        }
+    }
+
+    #[test]
+    fn on_a_thread_and_beside_other_axes_all_of_it_counts() {
+        for leg in [line(0.0, false), line(1.0, true)] {
+            assert!(!leg.is_free_along());
+            assert_eq!(left(&leg, 5.0, 0.3), of(0.3));
+        }
+        assert!(line(0.0, true).is_free_along());
+    }
 }

@@ -20,9 +20,17 @@
 //!
 //! What the wide kernel bends is little: a hundredth of what the narrow one does where it is ten times as wide, so that
 //! the machine speeds up on it as on a line.
+//!
+//! Where jerk limits, the speed falls up to the middle of the corner and rises behind it: the path may bend the more the nearer it is.
+//! There a third kernel, half as wide as the first, takes over some of it. K with the share of it, and as much less of itself, is
+//! narrower in the middle than any mix of [`kernel`] and leads to the outer side as far.
+//!
+//! On the outer side the path leads away from a leg along the bisector of the corner. From the line itself it is less far: by the
+//! cosine of half the turn, which is what the tolerance is about there ([`Leg::take_off_along`](super::leg::Leg::take_off_along)). At
+//! the corner itself the whole of it counts.
 
 use super::kernel;
-use super::widths::Widths;
+use super::widths::{FurtherKernel, Widths};
 
 /// How far the wide kernel reaches, of the distance of the next corner.
 pub(super) const OUTER_REACH: f64 = 1.5;
@@ -30,11 +38,37 @@ pub(super) const OUTER_REACH: f64 = 1.5;
 /// Less room than this, in widths of the biweight kernel, gains nothing.
 const LEAST_ROOM: f64 = 2.0;
 
-/// The narrow kernel is no wider than this share of the wide one.
+/// The first and the third kernel together are as high as one no wider than this share of the wide one.
 const CORE_SHARE: f64 = 0.6;
 
-/// What of the width is used that the narrow kernel would gain with the whole tolerance on the outer side.
-const OUTER_TOLERANCE: f64 = 0.95;
+/// Where the path is farthest on the outer side the wide kernel has fallen by so many times the width of the other two over its own,
+/// and by as much more the corner may be wider: with a mix of 0.
+const LITTLE_ROOM: f64 = 1.74;
+
+/// By how much more with a mix of 1, which ends farther out; by less with a flat kernel.
+const LITTLE_ROOM_BY_MIX: f64 = 0.4;
+
+/// The path leads to the outer side as if the corner turned by no more than 120 degrees: the cosine of half of that.
+const LEAST_ACROSS: f64 = 0.5;
+
+/// With less room than the first of these, in widths of the biweight kernel, the path leads away from the corner by the tolerance at
+/// most, with more than the second from the legs.
+const LITTLE_ROOM_ACROSS: f64 = 7.0;
+const ROOM_ACROSS: f64 = 11.0;
+
+/// What is left at least of 1 where so much falls with little room.
+const LEAST_LEFT: f64 = 0.1;
+
+/// Share of the third kernel beside the most peaked one, in a corner of 90 degrees; in others less by the sine of the turn.
+const NARROW_SHARE: f64 = 0.35;
+
+/// It is there where the machine gathers speed on a leg: in full where the longer one of both is longer than the second of these, in
+/// widths of the biweight kernel, and not at all where it is shorter than the first.
+const SHORT_LEG: f64 = 5.0;
+const LONG_LEG: f64 = 10.0;
+
+/// How wide it is, of the first.
+const NARROW_WIDTH: f64 = 0.5;
 
 /// What a corner may be that keeps clear of others.
 #[derive(Clone, Copy, Debug)]
@@ -49,8 +83,14 @@ pub(super) struct LoneCorner {
     pub may_swing_out: bool,
     /// How far the next corner is, machine units.
     pub clear: f64,
+    /// What of a jump of its tangent leads across its legs, 0 to 1.
+    pub across: f64,
+    /// Sine of what it turns by.
+    pub turn_sine: f64,
     /// How far it swings out at most, machine units.
     pub greatest_width: f64,
+    /// Length of the longer one of its legs, machine units.
+    pub longer_leg: f64,
 }
 
 impl LoneCorner {
@@ -60,7 +100,10 @@ impl LoneCorner {
         biweight_width: 0.0,
         may_swing_out: false,
         clear: 0.0,
+        across: 1.0,
+        turn_sine: 0.0,
         greatest_width: 0.0,
+        longer_leg: 0.0,
     };
 
     /// Its widths where it swings out and reaches no farther than `limit`; `None` where it has no room for it or gains
@@ -73,23 +116,55 @@ impl LoneCorner {
         if !self.may_swing_out || room < LEAST_ROOM {
             return None;
         }
+        let outside = self.outside(room);
+        let little_room = LITTLE_ROOM * (1.0 + LITTLE_ROOM_BY_MIX * self.mix);
+        let left = (1.0 - little_room * outside / room).max(LEAST_LEFT);
+        // How wide a biweight kernel would be that leads to the inner side as far as the first and the third together do.
+        let core = ((1.0 + outside) / left).min(CORE_SHARE * room);
+        let narrow = self.narrow_share();
         let peak = kernel::peak(self.mix) / kernel::peak(0.0);
-        // Fitted to the table above, and to that of flatter kernels, which lead farther to the outer side.
-        let little_room = 2.24 / room + 15.4 / (room * room);
-        let both_sides = 1.0 + little_room * (1.0 + 0.45 * self.mix.min(0.0));
-        let width = (1.0 + OUTER_TOLERANCE * both_sides).min(CORE_SHARE * room) / peak;
+        let width = core / ((1.0 - narrow) * peak + narrow * NARROW_WIDTH) * self.biweight_width;
+        let share = (core - 1.0) / (room - core);
+        let wide = FurtherKernel {
+            width: outer,
+            share: -share,
+        };
+        let narrow = if narrow > 0.0 {
+            FurtherKernel {
+                width: NARROW_WIDTH * width,
+                share: narrow * (1.0 + share),
+            }
+        } else {
+            FurtherKernel::NONE
+        };
         Some(Widths {
-            kernel: width * self.biweight_width,
+            kernel: width,
             mix: self.mix,
-            outer,
-            outer_share: (width * peak - 1.0) / (room - width * peak),
+            further: [wide, narrow],
             ..Widths::NONE
         })
+    }
+
+    /// Share of the third kernel, of what it has together with the first.
+    fn narrow_share(&self) -> f64 {
+        let peaked = self.mix / kernel::GREATEST_PEAKED;
+        let over = self.longer_leg / self.biweight_width - SHORT_LEG;
+        let long = over / (LONG_LEG - SHORT_LEG);
+        NARROW_SHARE * self.turn_sine * peaked.max(0.0) * long.clamp(0.0, 1.0)
+    }
+
+    /// How far the wide kernel may lead to the outer side, along the bisector, in tolerances. `room`: width of the wide kernel in
+    /// those of the biweight one.
+    fn outside(&self, room: f64) -> f64 {
+        let over = (room - LITTLE_ROOM_ACROSS) / (ROOM_ACROSS - LITTLE_ROOM_ACROSS);
+        let across = self.across.max(LEAST_ACROSS);
+        1.0 + (across.recip() - 1.0) * over.clamp(0.0, 1.0)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::vertex_widths::KERNEL_SHARE;
     use super::*;
 
     /// With a biweight width of 1.
@@ -100,32 +175,94 @@ mod tests {
             biweight_width: 1.0,
             may_swing_out: true,
             clear,
+            across: 1.0,
+            turn_sine: 1.0,
             greatest_width: 200.0,
+            longer_leg: 2.0 * clear,
         }
+    }
+
+    /// How far it leads to the inner and to the outer side at most, in tolerances.
+    fn both_sides(widths: &Widths) -> [f64; 2] {
+        let tolerance = kernel::peak(0.0);
+        let all = (0..20_000).map(|k| widths.deviation(f64::from(k) * 1e-2) / tolerance);
+        all.fold([0.0; 2], |[inside, outside], here| {
+            [f64::max(inside, here), f64::max(outside, -here)]
+        })
     }
 
     #[test]
     fn it_uses_the_tolerance_inside_and_keeps_it_outside() {
-        let tolerance = kernel::peak(0.0);
         for mix in [-1.0, -0.4, 0.0, kernel::GREATEST_PEAKED] {
             for clear in [1.4, 2.0, 3.0, 4.0, 6.0, 10.0, 30.0, 100.0] {
-                let widths = corner(clear, mix)
-                    .swinging_out(f64::INFINITY)
-                    .expect("room");
-                let all = (0..20_000).map(|k| widths.deviation(f64::from(k) * 1e-2));
-                let (least, greatest) = all.fold((0.0f64, 0.0f64), |(least, greatest), here| {
-                    (least.min(here), greatest.max(here))
-                });
-                assert!(
-                    (greatest / tolerance - 1.0).abs() < 1e-9,
-                    "{mix} {clear}: {greatest}"
-                );
-                assert!(-least < 0.99 * tolerance, "{mix} {clear}: {least}");
-                assert!(
-                    widths.kernel > 1.15 * corner(clear, mix).width,
-                    "{mix} {clear}: {widths:?}"
-                );
+                for across in [1.0, 0.8, 0.6] {
+                    let corner = LoneCorner {
+                        across,
+                        ..corner(clear, mix)
+                    };
+                    let widths = corner.swinging_out(f64::INFINITY).expect("room");
+                    let [inside, outside] = both_sides(&widths);
+                    assert!((inside - 1.0).abs() < 1e-9, "{mix} {clear}: {inside}");
+                    // What is above the share that a trial keeps is narrowed by it.
+                    let of_tolerance = KERNEL_SHARE * outside * across;
+                    assert!(of_tolerance < 1.0, "{mix} {clear} {across}: {of_tolerance}");
+                    assert!(
+                        widths.kernel > 1.15 * corner.width,
+                        "{mix} {clear} {across}: {widths:?}"
+                    );
+                }
             }
+        }
+    }
+
+    #[test]
+    fn with_room_it_leads_to_the_outer_side_as_far_as_its_legs_allow() {
+        for (across, allowed) in [(1.0, 1.0), (0.8, 1.25), (0.1, 2.0)] {
+            let corner = LoneCorner {
+                across,
+                ..corner(100.0, 0.0)
+            };
+            let widths = corner.swinging_out(f64::INFINITY).expect("room");
+            let [_, outside] = both_sides(&widths);
+            assert!(
+                (outside / allowed - 1.0).abs() < 0.03,
+                "{across}: {outside}"
+            );
+            let little = corner.swinging_out(LITTLE_ROOM_ACROSS).expect("room");
+            let [_, outside] = both_sides(&little);
+            assert!(outside < 1.02, "{across}: {outside}");
+        }
+    }
+
+    #[test]
+    fn peaked_ones_beside_a_long_leg_are_narrow_in_the_middle() {
+        let narrow = |mix: f64, longer_leg: f64| {
+            let corner = LoneCorner {
+                longer_leg,
+                ..corner(30.0, mix)
+            };
+            let widths = corner.swinging_out(f64::INFINITY).expect("room");
+            let [wide, narrow] = widths.further;
+            let rest = wide.share + narrow.share + widths.own_share();
+            assert!(narrow.width == 0.0 || narrow.width == NARROW_WIDTH * widths.kernel);
+            assert!((rest - 1.0).abs() < 1e-12);
+            narrow.share / (narrow.share + widths.own_share())
+        };
+        let peaked = kernel::GREATEST_PEAKED;
+        assert_eq!(narrow(-1.0, 100.0), 0.0);
+        assert_eq!(narrow(0.0, 100.0), 0.0);
+        assert_eq!(narrow(peaked, SHORT_LEG), 0.0);
+        for (mix, leg, share) in [
+            (peaked, LONG_LEG, 1.0),
+            (peaked, 100.0, 1.0),
+            (0.5 * peaked, 100.0, 0.5),
+            (peaked, 0.5 * (SHORT_LEG + LONG_LEG), 0.5),
+        ] {
+            let found = narrow(mix, leg);
+            assert!(
+                (found - share * NARROW_SHARE).abs() < 1e-12,
+                "{mix} {leg}: {found}"
+            );
         }
     }
 

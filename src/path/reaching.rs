@@ -7,6 +7,7 @@ use super::metric::Metric;
 use super::shift;
 use super::trial_kernel::TrialKernel;
 use super::vertex::Vertex;
+use super::widths::FurtherKernel;
 
 /// The most vertices that reach into a leg.
 const MOST: usize = 2 * NEIGHBOURS as usize;
@@ -99,12 +100,13 @@ impl Reaching {
                 self.in_others += 1;
             }
         } else {
-            let times = 1.0 + widths.outer_share;
+            let times = widths.own_share();
             self.kernels
                 .push::<G>(vertex, widths.kernel, widths.mix, times);
-            if widths.outer > 0.0 {
-                self.kernels
-                    .push::<G>(vertex, widths.outer, 0.0, -widths.outer_share);
+            for FurtherKernel { width, share } in widths.further {
+                if width > 0.0 {
+                    self.kernels.push::<G>(vertex, width, 0.0, share);
+                }
             }
         }
     }
@@ -124,7 +126,7 @@ impl Reaching {
         numbers.map(|number| chain.vertex(*number))
     }
 
-    /// How far the blended path is from the programmed one at `s`, within the leg, where a degree of C counts a share.
+    /// How far the blended path is at `s` from the leg, within it, where a degree of C counts a share.
     pub fn deviation(&self, chain: &Chain, s: f64, metric: &Metric, turn_share: f64) -> f64 {
         let mut sum = if chain.is_linear() {
             self.kernels.deviation::<1>(s)
@@ -135,7 +137,9 @@ impl Reaching {
             vertex.add_deviation(&vertex.counted, s - vertex.s, &mut sum);
         }
         let mut deviation = sum.axes();
-        shift::add(&mut deviation, &chain.leg(self.leg).shift_at(s));
+        let leg = chain.leg(self.leg);
+        shift::add(&mut deviation, &leg.shift_at(s));
+        leg.take_off_along(s, &mut deviation);
         metric.deviation(&deviation, turn_share)
     }
 
@@ -206,8 +210,16 @@ mod tests {
                 let widths = Widths {
                     kernel: [7.3, 2.1, 0.0][number as usize % 3],
                     mix: [0.2, 1.1, 0.0, -0.5][number as usize % 4],
-                    outer: [11.0, 0.0, 0.0, 9.2, 0.0][number as usize % 5],
-                    outer_share: [0.3, 0.0, 0.0, 1.4, 0.0][number as usize % 5],
+                    further: [
+                        FurtherKernel {
+                            width: [11.0, 0.0, 0.0, 9.2, 0.0][number as usize % 5],
+                            share: [-0.3, 0.0, 0.0, -1.4, 0.0][number as usize % 5],
+                        },
+                        FurtherKernel {
+                            width: [0.0, 0.0, 1.1, 2.3, 0.0][number as usize % 5],
+                            share: [0.0, 0.0, 0.2, 0.4, 0.0][number as usize % 5],
+                        },
+                    ],
                     easement: if number % 5 == 0 { 1.7 } else { 0.0 },
                 };
                 chain.set_trial(number, widths);
@@ -235,7 +247,9 @@ mod tests {
                             let near = (leg.start - vertex.s).max(vertex.s - leg.end()).max(0.0);
                             bound += vertex.bend_bound(counted, near);
                         }
-                        let expected = metric.deviation(&sum.axes(), 0.7);
+                        let mut expected = sum.axes();
+                        leg.take_off_along(s, &mut expected);
+                        let expected = metric.deviation(&expected, 0.7);
                         let deviation = reaching.deviation(chain, s, metric, 0.7);
                         assert!((deviation - expected).abs() < 1e-12, "{number} {share}");
                         let bend = reaching.bend_bound(chain, leg.start, leg.end());
@@ -264,7 +278,13 @@ mod tests {
                 };
                 let all = (1..chain.next()).map(|number| chain.vertex(number));
                 let kernels = all.filter(|vertex| reaches(vertex)).map(|vertex| {
-                    1 + usize::from(has_kernels_alone(vertex) && vertex.counted.outer > 0.0)
+                    let further = vertex.counted.further.iter();
+                    let further = further.filter(|further| further.width > 0.0).count();
+                    if has_kernels_alone(vertex) {
+                        1 + further
+                    } else {
+                        1
+                    }
                 });
                 (reaching.count(), kernels.sum::<usize>())
             })

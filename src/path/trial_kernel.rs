@@ -38,14 +38,14 @@ impl TrialKernel {
     pub fn of(vertex: &Vertex) -> Self {
         let [linear, ..] = vertex.tangent_jump.groups();
         let counted = &vertex.counted;
-        let times = 1.0 + counted.outer_share;
+        let times = counted.own_share();
         Self {
             s: vertex.s,
             reach: counted.reach(),
             mix: counted.mix,
             size: times.abs() * vertex.tangent_jump_size,
             linear_jump: linear.map(|axis| times * axis),
-            is_all: counted.mix >= 0.0 && counted.outer <= 0.0 && counted.easement <= 0.0,
+            is_all: counted.mix >= 0.0 && counted.further_reach() <= 0.0 && counted.easement <= 0.0,
         }
     }
 }

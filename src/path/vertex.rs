@@ -7,7 +7,7 @@ use super::leg::Leg;
 use super::lone_corner::LoneCorner;
 use super::metric::Metric;
 use super::settings::BlendSettings;
-use super::widths::Widths;
+use super::widths::{FURTHER, FurtherKernel, Widths};
 
 /// A turn of the direction below this is rounding.
 const NO_TANGENT_JUMP: f64 = 1e-9;
@@ -98,8 +98,8 @@ pub(super) struct Vertex {
     stored: Widths,
     /// The factor that belongs to the stored widths.
     stored_factor: f64,
-    /// What of the kernel in force is taken off.
-    outer: Kernel,
+    /// The further kernels in force.
+    further: [Kernel; FURTHER],
     /// What its widths are to be narrowed to, since it is to blame for a place that violates the tolerance; 1 if it is not.
     pub narrowing: f64,
     /// And that place may change for the better when more is known.
@@ -143,7 +143,7 @@ impl Vertex {
         trial: Widths::NONE,
         counted: Widths::NONE,
         stored: Widths::NONE,
-        outer: Kernel::NONE,
+        further: [Kernel::NONE; FURTHER],
         stored_factor: 1.0,
         narrowing: 1.0,
         marked_temporarily: false,
@@ -234,7 +234,7 @@ impl Vertex {
     /// What is left of the base widths within `clip`.
     pub fn widths_within(&self, clip: f64) -> Widths {
         let narrowed = self.temporary_factor;
-        let swinging_out = if self.base.outer > 0.0 {
+        let swinging_out = if self.base.further_reach() > 0.0 {
             self.corner.swinging_out(clip / self.factor)
         } else {
             None
@@ -242,7 +242,7 @@ impl Vertex {
         let kernels = match swinging_out {
             Some(widths) => widths.scaled(narrowed * self.factor),
             None => {
-                let base = if self.base.outer > 0.0 {
+                let base = if self.base.further_reach() > 0.0 {
                     self.width_alone()
                 } else {
                     self.base.kernel
@@ -321,7 +321,7 @@ impl Vertex {
     #[inline]
     pub fn add_deviation(&self, widths: &Widths, distance: f64, deviation: &mut JumpSum<1>) {
         let x = distance.abs();
-        if x < widths.kernel || x < widths.outer {
+        if x < widths.kernel || x < widths.further_reach() {
             deviation.add(&self.tangent_jump, &[widths.deviation(x)]);
         }
         if x < widths.easement {
@@ -357,37 +357,30 @@ impl Vertex {
             return false;
         }
         self.stored = self.trial;
-        let Widths {
-            outer, outer_share, ..
-        } = self.stored;
-        self.outer = Kernel::new(outer, 0.0, -outer_share);
+        self.further = self.stored.further.map(|further| {
+            if further.width > 0.0 {
+                Kernel::new(further.width, 0.0, further.share)
+            } else {
+                Kernel::NONE
+            }
+        });
         true
     }
 
     /// The kernel in force and its width, unless it has a share of K8: then one that is nowhere.
     pub fn stored_kernel(&self) -> (Kernel, f64) {
-        let Widths {
-            kernel,
-            mix,
-            outer_share,
-            ..
-        } = self.stored;
+        let Widths { kernel, mix, .. } = self.stored;
         if mix < 0.0 {
             (Kernel::NONE, 0.0)
         } else {
-            (Kernel::new(kernel, mix, 1.0 + outer_share), kernel)
+            (Kernel::new(kernel, mix, self.stored.own_share()), kernel)
         }
     }
 
     /// Whether it adds more to the path than that.
     pub fn has_more(&self) -> bool {
-        let Widths {
-            mix,
-            outer,
-            easement,
-            ..
-        } = self.stored;
-        mix < 0.0 || outer > 0.0 || easement > 0.0
+        let Widths { mix, easement, .. } = self.stored;
+        mix < 0.0 || self.stored.further_reach() > 0.0 || easement > 0.0
     }
 
     /// Widths in force.
@@ -411,7 +404,7 @@ impl Vertex {
     pub fn breakpoints(&self, from: f64, to: f64, mut take: impl FnMut(f64)) {
         let Widths {
             kernel,
-            outer,
+            further,
             easement,
             ..
         } = self.stored;
@@ -420,9 +413,11 @@ impl Vertex {
                 take(place);
             }
         };
-        if outer > 0.0 {
-            look(self.s - outer);
-            look(self.s + outer);
+        for FurtherKernel { width, .. } in further {
+            if width > 0.0 {
+                look(self.s - width);
+                look(self.s + width);
+            }
         }
         if kernel > 0.0 {
             look(self.s - kernel);
@@ -455,16 +450,18 @@ impl Vertex {
         let Widths {
             kernel,
             mix,
-            outer_share,
+            further,
             ..
         } = self.stored;
         if mix < 0.0 && distance < kernel {
-            let flat = FlatKernel::new(kernel, mix, 1.0 + outer_share);
+            let flat = FlatKernel::new(kernel, mix, self.stored.own_share());
             let factors = flat.factors(side.sign() * distance);
             sum.add(&self.tangent_jump, &factors);
         }
-        if distance < self.stored.outer {
-            sum.add(&self.tangent_jump, &self.outer.factors(distance, side));
+        for (further, kernel) in further.iter().zip(&self.further) {
+            if distance < further.width {
+                sum.add(&self.tangent_jump, &kernel.factors(distance, side));
+            }
         }
         if distance < self.stored.easement {
             let width = self.stored.easement;

@@ -72,6 +72,8 @@ impl Vertex {
             let slower = before.speed.min(after.speed);
             let tangent_jump = self.tangent_jump.axes();
             let (mix, free) = self.mix_alone(&tangent_jump, biweight_width, slower, settings);
+            let half_turn_sine = 0.5 * self.tangent_jump_size;
+            let half_turn_cosine = (1.0 - half_turn_sine * half_turn_sine).max(0.0).sqrt();
             self.corner = LoneCorner {
                 mix,
                 width: within / kernel::peak(mix),
@@ -82,11 +84,16 @@ impl Vertex {
                     && self.free_limit <= 0.0
                     && settings.gains_by_swinging_out(&tangent_jump, biweight_width, slower),
                 clear: 2.0 * self.half_leg,
-                greatest_width: settings.greatest_swing(
-                    2.0 * self.half_leg,
-                    self.tolerance,
-                    slower,
-                ),
+                across: if before.is_free_along() && after.is_free_along() {
+                    half_turn_cosine
+                } else {
+                    1.0
+                },
+                turn_sine: self.tangent_jump_size * half_turn_cosine,
+                greatest_width: settings
+                    .greatest_swing(2.0 * self.half_leg, self.tolerance, slower)
+                    .min(settings.natural_swing(self.tolerance, biweight_width)),
+                longer_leg: self.longer_leg,
             };
             self.free_kernel = free.min(self.free_limit);
             self.isolated = if self.at_limit {

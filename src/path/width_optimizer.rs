@@ -371,7 +371,7 @@ impl WidthOptimizer {
         let clip = self.window.clip(chain, number);
         let vertex = chain.vertex_mut(number);
         let reach = vertex.trial.reach();
-        let kernel = vertex.base.kernel.max(vertex.base.outer);
+        let kernel = vertex.base.kernel.max(vertex.base.further_reach());
         let wanted = (kernel * vertex.factor).max(vertex.base.easement * vertex.factor.sqrt());
         // What the surroundings of this moment are to blame for is forgotten with the trial.
         if wanted > clip || vertex.marked_temporarily {

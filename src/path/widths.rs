@@ -6,6 +6,25 @@ use crate::lanes::greater;
 /// Below this share of the widest change the sharpest one wants nodes of its own.
 const CORE: f64 = 0.9;
 
+/// The most kernels that a corner has besides its own.
+pub(super) const FURTHER: usize = 2;
+
+/// A biweight kernel besides a corner's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct FurtherKernel {
+    /// How far it reaches, machine units; 0 where there is none.
+    pub width: f64,
+    /// How much of it there is, negative where it is taken off. Of the corner's own there is as much less.
+    pub share: f64,
+}
+
+impl FurtherKernel {
+    pub const NONE: Self = Self {
+        width: 0.0,
+        share: 0.0,
+    };
+}
+
 /// How far a vertex is smoothed to both sides, machine units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Widths {
@@ -13,11 +32,8 @@ pub(super) struct Widths {
     pub kernel: f64,
     /// Mix of the kernels.
     pub mix: f64,
-    /// Of the biweight kernel that is taken off it, wider than it, with which the corner [swings out](super::lone_corner);
-    /// 0 without one.
-    pub outer: f64,
-    /// How much of that kernel is taken off. Of the other one there is as much more.
-    pub outer_share: f64,
+    /// With which the corner [swings out](super::lone_corner).
+    pub further: [FurtherKernel; FURTHER],
     /// Of the easement for the jump of curvature; 0 without one.
     pub easement: f64,
 }
@@ -26,31 +42,48 @@ impl Widths {
     pub const NONE: Self = Self {
         kernel: 0.0,
         mix: 0.0,
-        outer: 0.0,
-        outer_share: 0.0,
+        further: [FurtherKernel::NONE; FURTHER],
         easement: 0.0,
     };
 
-    /// How far the sharpest of several changes reaches; 0 if they are of about the same size.
+    /// How far the sharpest of several changes reaches; 0 if they are of about the same size. A further kernel that is narrower than the
+    /// corner's own does not count: it is half as wide, within the same nodes.
     pub fn core(&self) -> f64 {
         let reach = self.reach();
-        let there = |width: &f64| *width > 0.0;
-        let all = [self.kernel, self.outer, self.easement];
-        let least = all.into_iter().filter(there).fold(reach, f64::min);
+        let own = [self.kernel, self.easement];
+        let there = own.into_iter().filter(|width| *width > 0.0);
+        let least = there.fold(reach, f64::min);
         if least < CORE * reach { least } else { 0.0 }
     }
 
     /// How far the blended path is changed on both sides.
     #[inline]
     pub fn reach(&self) -> f64 {
-        greater(greater(self.kernel, self.outer), self.easement)
+        greater(greater(self.kernel, self.further_reach()), self.easement)
+    }
+
+    /// How far the further kernels reach; 0 without any.
+    #[inline]
+    pub fn further_reach(&self) -> f64 {
+        let [one, other] = self.further;
+        greater(one.width, other.width)
+    }
+
+    /// How much there is of the kernel itself.
+    #[inline]
+    pub fn own_share(&self) -> f64 {
+        let [one, other] = self.further;
+        1.0 - one.share - other.share
     }
 
     /// The kernels so many times as wide: what they take the path off the program by is as many times as much.
     pub fn scaled(&self, times: f64) -> Self {
         Self {
             kernel: times * self.kernel,
-            outer: times * self.outer,
+            further: self.further.map(|further| FurtherKernel {
+                width: times * further.width,
+                ..further
+            }),
             ..*self
         }
     }
@@ -61,10 +94,12 @@ impl Widths {
         let mut sum = 0.0;
         if distance < self.kernel {
             let value = self.kernel * kernel::value(distance / self.kernel, self.mix);
-            sum += (1.0 + self.outer_share) * value;
+            sum += self.own_share() * value;
         }
-        if distance < self.outer {
-            sum -= self.outer_share * self.outer * kernel::value(distance / self.outer, 0.0);
+        for FurtherKernel { width, share } in self.further {
+            if distance < width {
+                sum += share * width * kernel::value(distance / width, 0.0);
+            }
         }
         sum
     }
@@ -75,11 +110,12 @@ impl Widths {
         let mut bound = 0.0;
         if distance < self.kernel {
             let majorant = kernel::majorant(distance / self.kernel, self.mix);
-            bound += (1.0 + self.outer_share) / self.kernel * majorant;
+            bound += self.own_share().abs() / self.kernel * majorant;
         }
-        if distance < self.outer {
-            let majorant = kernel::majorant(distance / self.outer, 0.0);
-            bound += self.outer_share / self.outer * majorant;
+        for FurtherKernel { width, share } in self.further {
+            if distance < width {
+                bound += share.abs() / width * kernel::majorant(distance / width, 0.0);
+            }
         }
         bound
     }
@@ -91,8 +127,16 @@ mod tests {
 
     const SWINGING: Widths = Widths {
         kernel: 2.2,
-        outer: 16.0,
-        outer_share: 0.087,
+        further: [
+            FurtherKernel {
+                width: 16.0,
+                share: -0.087,
+            },
+            FurtherKernel {
+                width: 1.1,
+                share: 0.3,
+            },
+        ],
         ..Widths::NONE
     };
 

@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 
 use crate::axes::Axes;
-use crate::moves::shape::measure::Measure;
 use crate::path::leg::Leg;
 use crate::path::settings::{Allowance, BlendSettings};
 
@@ -138,7 +137,7 @@ fn is_short(piece: &Leg) -> bool {
 /// either side.
 pub(super) fn is_moved(leg: &Leg, settings: &BlendSettings) -> bool {
     // The length of what moves other axes as well is not what F counts.
-    let linear = leg.measure == Measure::Linear && (leg.measure_rate - 1.0).abs() < 1e-12;
+    let linear = leg.is_linear();
     leg.turning * leg.whole <= MOST_TURN
         && matches!(leg.allowance, Allowance::Tolerance(_))
         && linear
