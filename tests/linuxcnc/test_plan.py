@@ -85,15 +85,16 @@ class AgainstLinuxCnc(unittest.TestCase):
                 if name not in planned:
                     planned[name] = self.planned(name)[1]
                 off = planned[name] - recording.cycles
-                print(f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, planned {off:+d} cycles; with the same "
-                      f"arrivals {same - recording.cycles:+d} cycles, positions within {away:.2g} mm; longest wait "
-                      f"for a move {recording.longest_wait()} cycles", flush=True)
+                found = (f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, planned {off:+d} cycles; with the same "
+                         f"arrivals {same - recording.cycles:+d} cycles, positions within {away:.2g} mm; longest wait "
+                         f"for a move {recording.longest_wait()} cycles")
+                print(found, flush=True)
                 if not away < self.same and recording.longest_wait() >= self.steady:
                     late.append(name)
                     continue
                 with self.subTest("the same arrivals", program=name):
-                    self.assertLessEqual(abs(same - recording.cycles), self.same_cycles)
-                    self.assertLess(away, self.same)
+                    self.assertLessEqual(abs(same - recording.cycles), self.same_cycles, found)
+                    self.assertLess(away, self.same, found)
                 if abs(off) > max(3, 0.002 * recording.cycles):
                     self.assertGreater(recording.longest_wait(), self.prompt, f"{name} takes another time than planned, "
                                        "although its moves came promptly")

@@ -178,7 +178,8 @@ class Serial(Robot):
     """Kinematics that iterate from the joints of before."""
 
     kinematics = "genserkins"
-    precision = 1e-5
+    #: Where they end depends on the steps to there, by more or less with the processor: 1.06e-5 degrees.
+    precision = 5e-5
     home = (10, -40, -20, 20, 50, 30)
 
     def test_a_circle_that_stock_runs(self):
