@@ -85,12 +85,18 @@ pub(super) struct LoneCorner {
     pub clear: f64,
     /// What of a jump of its tangent leads across its legs, 0 to 1.
     pub across: f64,
-    /// Sine of what it turns by.
-    pub turn_sine: f64,
+    /// Its [third kernel's share](narrow_share).
+    pub narrow_share: f64,
     /// How far it swings out at most, machine units.
     pub greatest_width: f64,
-    /// Length of the longer one of its legs, machine units.
-    pub longer_leg: f64,
+}
+
+/// Share of the third kernel, of what it has together with the first one of this `mix`, in a corner that turns by an angle with this
+/// sine. `longer_leg`: length of the longer one of its legs in widths of the biweight kernel.
+pub(super) fn narrow_share(mix: f64, turn_sine: f64, longer_leg: f64) -> f64 {
+    let peaked = mix / kernel::GREATEST_PEAKED;
+    let long = (longer_leg - SHORT_LEG) / (LONG_LEG - SHORT_LEG);
+    NARROW_SHARE * turn_sine * peaked.max(0.0) * long.clamp(0.0, 1.0)
 }
 
 impl LoneCorner {
@@ -101,9 +107,8 @@ impl LoneCorner {
         may_swing_out: false,
         clear: 0.0,
         across: 1.0,
-        turn_sine: 0.0,
+        narrow_share: 0.0,
         greatest_width: 0.0,
-        longer_leg: 0.0,
     };
 
     /// Its widths where it swings out and reaches no farther than `limit`; `None` where it has no room for it or gains
@@ -121,7 +126,7 @@ impl LoneCorner {
         let left = (1.0 - little_room * outside / room).max(LEAST_LEFT);
         // How wide a biweight kernel would be that leads to the inner side as far as the first and the third together do.
         let core = ((1.0 + outside) / left).min(CORE_SHARE * room);
-        let narrow = self.narrow_share();
+        let narrow = self.narrow_share;
         let peak = kernel::peak(self.mix) / kernel::peak(0.0);
         let width = core / ((1.0 - narrow) * peak + narrow * NARROW_WIDTH) * self.biweight_width;
         let share = (core - 1.0) / (room - core);
@@ -143,14 +148,6 @@ impl LoneCorner {
             further: [wide, narrow],
             ..Widths::NONE
         })
-    }
-
-    /// Share of the third kernel, of what it has together with the first.
-    fn narrow_share(&self) -> f64 {
-        let peaked = self.mix / kernel::GREATEST_PEAKED;
-        let over = self.longer_leg / self.biweight_width - SHORT_LEG;
-        let long = over / (LONG_LEG - SHORT_LEG);
-        NARROW_SHARE * self.turn_sine * peaked.max(0.0) * long.clamp(0.0, 1.0)
     }
 
     /// How far the wide kernel may lead to the outer side, along the bisector, in tolerances. `room`: width of the wide kernel in
@@ -176,9 +173,8 @@ mod tests {
             may_swing_out: true,
             clear,
             across: 1.0,
-            turn_sine: 1.0,
+            narrow_share: narrow_share(mix, 1.0, 2.0 * clear),
             greatest_width: 200.0,
-            longer_leg: 2.0 * clear,
         }
     }
 
@@ -238,7 +234,7 @@ mod tests {
     fn peaked_ones_beside_a_long_leg_are_narrow_in_the_middle() {
         let narrow = |mix: f64, longer_leg: f64| {
             let corner = LoneCorner {
-                longer_leg,
+                narrow_share: narrow_share(mix, 1.0, longer_leg),
                 ..corner(30.0, mix)
             };
             let widths = corner.swinging_out(f64::INFINITY).expect("room");

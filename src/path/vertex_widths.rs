@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::leg::Leg;
-use super::lone_corner::LoneCorner;
+use super::lone_corner::{LoneCorner, narrow_share};
 use super::settings::BlendSettings;
 use super::vertex::Vertex;
 use super::{easement, kernel};
@@ -72,8 +72,6 @@ impl Vertex {
             let slower = before.speed.min(after.speed);
             let tangent_jump = self.tangent_jump.axes();
             let (mix, free) = self.mix_alone(&tangent_jump, biweight_width, slower, settings);
-            let half_turn_sine = 0.5 * self.tangent_jump_size;
-            let half_turn_cosine = (1.0 - half_turn_sine * half_turn_sine).max(0.0).sqrt();
             self.corner = LoneCorner {
                 mix,
                 width: within / kernel::peak(mix),
@@ -84,16 +82,10 @@ impl Vertex {
                     && self.free_limit <= 0.0
                     && settings.gains_by_swinging_out(&tangent_jump, biweight_width, slower),
                 clear: 2.0 * self.half_leg,
-                across: if before.is_free_along() && after.is_free_along() {
-                    half_turn_cosine
-                } else {
-                    1.0
-                },
-                turn_sine: self.tangent_jump_size * half_turn_cosine,
                 greatest_width: settings
                     .greatest_swing(2.0 * self.half_leg, self.tolerance, slower)
                     .min(settings.natural_swing(self.tolerance, biweight_width)),
-                longer_leg: self.longer_leg,
+                ..self.corner_beside(before, after, mix, biweight_width)
             };
             self.free_kernel = free.min(self.free_limit);
             self.isolated = if self.at_limit {
@@ -117,6 +109,31 @@ impl Vertex {
         }
         if self.curvature_jump_size > 0.0 {
             self.find_base_easement(before, after, settings);
+        }
+    }
+
+    /// What of its corner follows from what it turns by, and from the legs beside it.
+    fn corner_beside(
+        &self,
+        before: &Leg,
+        after: &Leg,
+        mix: f64,
+        biweight_width: f64,
+    ) -> LoneCorner {
+        let half_turn_sine = 0.5 * self.tangent_jump_size;
+        let half_turn_cosine = (1.0 - half_turn_sine * half_turn_sine).max(0.0).sqrt();
+        LoneCorner {
+            across: if before.is_free_along() && after.is_free_along() {
+                half_turn_cosine
+            } else {
+                1.0
+            },
+            narrow_share: narrow_share(
+                mix,
+                self.tangent_jump_size * half_turn_cosine,
+                self.longer_leg / biweight_width,
+            ),
+            ..LoneCorner::NONE
         }
     }
 
