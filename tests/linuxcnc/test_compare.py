@@ -79,11 +79,11 @@ class AgainstLinuxCnc(unittest.TestCase):
         """Whether a program took another time than compare says because its moves came late. If it did so for no such
         reason, that is a failure."""
         off = time - recording.cycles
-        print(f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, compare {off:+d} cycles; longest wait for a "
-              f"move {recording.longest_wait()} cycles", flush=True)
+        print(f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, compare {off:+d} cycles; moves up to "
+              f"{recording.late()} cycles late", flush=True)
         if abs(off) <= ALLOWED * recording.cycles:
             return False
-        if recording.longest_wait() > PROMPT:
+        if recording.late() > PROMPT:
             return True
         with self.subTest(program=name):
             self.fail(f"compare says {100 * off / recording.cycles:+.2f} %, although the moves came promptly")

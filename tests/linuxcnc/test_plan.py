@@ -35,7 +35,7 @@ class AgainstLinuxCnc(unittest.TestCase):
     #: {name: text}, what they run on, and what it is recorded with
     programs, ini, axes = PROGRAMS, INI, AXES
     machine: ClassVar[dict] = {}
-    #: Cycles between two moves from which on it may matter in what time the moves of earlier programs came.
+    #: Cycles by which moves are late (Recording.late) from which on it may matter how those of earlier programs came.
     steady = math.inf
     #: Such up to which a program takes the time that was planned.
     prompt = PROMPT
@@ -86,17 +86,17 @@ class AgainstLinuxCnc(unittest.TestCase):
                     planned[name] = self.planned(name)[1]
                 off = planned[name] - recording.cycles
                 found = (f"{name:10} LinuxCNC {recording.cycles * PERIOD:8.3f} s, planned {off:+d} cycles; with the same "
-                         f"arrivals {same - recording.cycles:+d} cycles, positions within {away:.2g} mm; longest wait "
-                         f"for a move {recording.longest_wait()} cycles")
+                         f"arrivals {same - recording.cycles:+d} cycles, positions within {away:.2g} mm; moves up "
+                         f"to {recording.late()} cycles late")
                 print(found, flush=True)
-                if not away < self.same and recording.longest_wait() >= self.steady:
+                if not away < self.same and recording.late() >= self.steady:
                     late.append(name)
                     continue
                 with self.subTest("the same arrivals", program=name):
                     self.assertLessEqual(abs(same - recording.cycles), self.same_cycles, found)
                     self.assertLess(away, self.same, found)
                 if abs(off) > max(3, 0.002 * recording.cycles):
-                    self.assertGreater(recording.longest_wait(), self.prompt, f"{name} takes another time than planned, "
+                    self.assertGreater(recording.late(), self.prompt, f"{name} takes another time than planned, "
                                        "although its moves came promptly")
                     late.append(name)
             left = late

@@ -46,8 +46,8 @@ class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
     axes = "xyzb"
     #: The planner waits the longer for a move the slower they came, in the programs before as well: it matters where all the
     #: motion takes milliseconds. And where a move comes a cycle later than the plan has it, another of two ways may be taken.
-    steady = 2
-    prompt = 1
+    steady = 1
+    prompt = 0
     #: Of moves of nanometres the first and the last cycles are less than what a recording shows.
     same, same_cycles = 1e-6, 3
     machine: ClassVar[dict] = {"sample": "machine", "configuration": CONTRACT, "ini": CHANGES, "timeout": 600,

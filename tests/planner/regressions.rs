@@ -53,6 +53,7 @@ regressions! {
     any_limit_of_jerk_gives_a_plan
     arcs_without_a_jerk_limit_keep_the_acceleration
     merged_lines_between_rests_keep_the_limits_when_their_feed_is_raised
+    moves_of_micrometres_do_not_stop_the_line_before_them
     steps_of_the_feed_ask_for_no_rest
     the_velocity_is_kept_between_two_places
     tiny_circles_behind_coarse_chords_ask_for_no_rest

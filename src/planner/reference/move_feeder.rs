@@ -20,6 +20,9 @@ const SILENCE: f64 = 3.0;
 /// And at most, seconds.
 const LONGEST_SILENCE: f64 = 0.5;
 
+/// Where moves come slowly, the next one is not waited for if so many like those before would not make final what is not.
+const IN_VAIN: f64 = 50.0;
+
 /// The share of a new interval in the mean one, where it is shorter than that ..
 const FORGETTING: f64 = 0.25;
 /// .. and where it is longer.
@@ -42,6 +45,13 @@ pub(super) struct MoveFeeder {
     interval: f64,
     /// The same on this path: its shape depends on nothing that was before.
     own_interval: f64,
+    /// Path distances when the last move came: where the path ended with it, and up to where it was final.
+    added_end: f64,
+    final_end: f64,
+    /// By how much each move makes the path longer, in the mean, and by how much more of it was final than when the one before
+    /// came.
+    length: f64,
+    gain: f64,
     /// How many moves are queued where no more come.
     depth: SupplyDepth,
     /// What the last move added was like.
@@ -108,6 +118,10 @@ impl MoveFeeder {
             silence: 0.0,
             interval: 0.0,
             own_interval: 0.0,
+            added_end: 0.0,
+            final_end: 0.0,
+            length: f64::INFINITY,
+            gain: f64::INFINITY,
             depth: SupplyDepth::new(),
             kind: Kind {
                 rapid: false,
@@ -156,6 +170,13 @@ impl MoveFeeder {
         self.silence >= SHORTEST_SILENCE && (overdue || far)
     }
 
+    /// Whether the next move, however soon it comes, would not help a machine that is short of path: moves come slowly and are
+    /// short, and hardly any more of it became final with the last one, while as much as `lack` of what has come is not.
+    pub fn comes_in_vain(&self, lack: f64) -> bool {
+        let slowly = self.own_interval >= SHORTEST_SILENCE && self.silence >= SHORTEST_SILENCE;
+        slowly && self.length.max(self.gain) * IN_VAIN < lack
+    }
+
     /// Whether moves come so slowly that the machine may have to wait for the next one.
     pub fn is_slow(&self) -> bool {
         let interval = self.own_interval.max(self.silence);
@@ -191,6 +212,7 @@ impl MoveFeeder {
         self.silence += outlook.now.period;
         let queue = outlook.queue;
         self.depth.look(queue.first_serial(), queue.len());
+        let before = self.next;
         for _ in 0..MOVES_A_CYCLE {
             let Some(queued) = outlook.queue.released(self.next) else {
                 break;
@@ -230,7 +252,24 @@ impl MoveFeeder {
             self.silence = 0.0;
         }
         self.barred |= self.single && self.next != self.first;
+        if self.next != before {
+            self.measure_path(path);
+        }
         Ok(())
+    }
+
+    /// Moves came: how much of the path they are, and how much the one before has made final.
+    fn measure_path(&mut self, path: &BlendedPath) {
+        let (added, known) = (path.added_end(), path.final_end());
+        let length = added - self.added_end;
+        if self.length.is_finite() {
+            self.length += FORGETTING * (length - self.length);
+        } else if self.added_end > 0.0 {
+            // The first move of a path is like no other.
+            self.length = length;
+        }
+        self.gain = known - self.final_end;
+        (self.added_end, self.final_end) = (added, known);
     }
 
     /// A move as the path takes it.

@@ -108,8 +108,11 @@ impl Reference {
         };
         let planned = last.planned().unwrap_or(self.rest);
         let waits = self.lacks_path_behind(planned);
-        let last_moment =
-            self.feeder.is_late(LAST_MOMENT) && last.is_ready() && last.brakes_within(LAST_MOMENT);
+        let lack = self.path.added_end() - self.path.final_end();
+        let in_vain = !self.resting && self.feeder.comes_in_vain(lack);
+        let last_moment = (self.feeder.is_late(LAST_MOMENT) || in_vain)
+            && last.is_ready()
+            && last.brakes_within(LAST_MOMENT);
         // What is final and not planned yet will be.
         let all_planned = last.is_ready() || planned >= self.path.final_end();
         let last_call =
