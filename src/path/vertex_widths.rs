@@ -28,6 +28,9 @@ const LEAST_ROUNDING: f64 = 0.01;
 /// plan. Those at an arc of several turns would lead many radii away from it.
 const WIDEST_EASEMENT: f64 = 64.0;
 
+/// And radii of the arc: wider ones lead back and forth beside an arc that is small for its tolerance.
+const RADII_OF_AN_EASEMENT: f64 = 3.0;
+
 /// A kernel this much narrower than half the shorter leg makes an isolated corner.
 const ISOLATED: f64 = 0.5;
 
@@ -191,6 +194,7 @@ impl Vertex {
                 .full_speed_easement(self.curvature_jump_size, speed)
                 .max(design_width)
                 .min(WIDEST_EASEMENT * halves)
+                .min(RADII_OF_AN_EASEMENT / self.curvature_jump_size)
         };
         self.free_easement = wanted.min(self.free_limit);
         self.base.easement = within.sqrt().min(wanted).max(self.free_easement);
