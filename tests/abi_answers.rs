@@ -28,6 +28,7 @@ use framepath::abi::planner::settings::{
 use framepath::abi::planner::soft_limits::{
     FRAMEPATH_LEAVES_RANGE, FRAMEPATH_STAYS_IN_RANGE, framepath_planner_range_finding,
 };
+use framepath::moves::{INCHES, INVERSE_TIME, UNITS_PER_MINUTE};
 
 const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -70,6 +71,16 @@ impl Machine {
     }
 
     fn half_circle(&mut self, x: f64, kind: c_int, tag: &state_tag_t) -> c_int {
+        self.half_circle_at([50.0, 100.0], x, kind, tag)
+    }
+
+    fn half_circle_at(
+        &mut self,
+        [feed, greatest]: [f64; 2],
+        x: f64,
+        kind: c_int,
+        tag: &state_tag_t,
+    ) -> c_int {
         let end = pose_of(&[x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         let center = PmCartesian {
             x: (self.shared.tp().goalPos.tran.x + x) / 2.0,
@@ -91,8 +102,8 @@ impl Machine {
                 &normal,
                 0,
                 kind,
-                50.0,
-                100.0,
+                feed,
+                greatest,
                 0.0,
                 0,
                 0,
@@ -173,6 +184,40 @@ fn coded(code: c_int) -> state_tag_t {
     let mut tag = tag();
     tag.fields[1] = code;
     tag
+}
+
+/// LinuxCNC hands over a small arc with what leaves room for the acceleration towards its centre.
+#[test]
+fn an_arc_that_was_slowed_down_is_as_fast_as_other_moves_with_the_same_f() {
+    for (handed, number, flags, expected) in [
+        ([20.0, 20.0], 3000.0, UNITS_PER_MINUTE, 50.0),
+        ([20.0, 20.0], 3000.0, UNITS_PER_MINUTE | INCHES, 20.0),
+        ([20.0, 20.0], 3000.0, UNITS_PER_MINUTE | INVERSE_TIME, 20.0),
+        ([20.0, 20.0], 1800.0, UNITS_PER_MINUTE, 20.0),
+        ([20.0, 25.0], 3000.0, UNITS_PER_MINUTE, 20.0),
+    ] {
+        let mut machine = machine();
+        let of = |number, flags| {
+            let mut tag = tag();
+            tag.fields_float[1] = number;
+            tag.packed_flags = flags;
+            tag
+        };
+        assert_eq!(machine.line(1.0, 2, &of(3000.0, UNITS_PER_MINUTE)), 0);
+        let tag = of(number, flags);
+        assert_eq!(machine.half_circle_at(handed, 61.0, 3, &tag), 0);
+        let mut greatest = 0.0f64;
+        while machine.shared.tp().done == 0 || greatest == 0.0 {
+            machine.cycle();
+            if machine.shared.tp().execId == 1 {
+                greatest = greatest.max(machine.shared.status().current_vel);
+            }
+        }
+        assert!(
+            (greatest - expected).abs() < 0.05,
+            "{greatest}, not {expected}"
+        );
+    }
 }
 
 #[test]

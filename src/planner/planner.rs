@@ -21,7 +21,8 @@ use crate::cycle::Executor;
 use crate::machine_map::JointMap;
 use crate::moves::shape::{Arc9, Circle, Line9, Shape, ShapeError};
 use crate::moves::{
-    Move, MoveQueue, NearLimit, QueueFull, StateTag, SynchronisationMode, TerminationCondition,
+    FeedWord, Move, MoveQueue, NearLimit, QueueFull, StateTag, SynchronisationMode,
+    TerminationCondition,
 };
 
 /// A position with a coordinate that is infinite or not a number was refused.
@@ -189,6 +190,12 @@ impl Planner {
         self.next_move.id = id;
     }
 
+    /// Says which F the program has the next move with: arcs that are handed over with less than other moves of the same F are as
+    /// fast as those where the axes allow it.
+    pub fn set_feed_word(&mut self, word: Option<FeedWord>) {
+        self.next_move.feed_word = word;
+    }
+
     /// Gives the next move a digital output to write at its start (M62, M63). `false` if there is
     /// no output of this number.
     pub fn set_digital_output(&mut self, index: usize, value: bool) -> bool {
@@ -267,10 +274,13 @@ impl Planner {
             Err(error) => return Err(AddError::Shape(error)),
         };
         let synchronisation = self.spindle.synchronisation_in(mode)?;
-        let max_velocity = request.max_velocity;
-        let feed = synchronisation.map_or(request.feed, |with| {
-            self.spindle.planned_feed(&with, max_velocity)
-        });
+        let [feed, max_velocity] = match synchronisation {
+            Some(with) => {
+                let greatest = request.max_velocity;
+                [self.spindle.planned_feed(&with, greatest), greatest]
+            }
+            None => self.next_move.feeds(&shape, request, self.status.done),
+        };
         let usable = |velocity: f64| velocity >= LEAST_VELOCITY && velocity.is_finite();
         if !(usable(feed) && usable(max_velocity)) {
             return Err(AddError::Feed { feed, max_velocity });

@@ -6,11 +6,13 @@ use libc::{c_char, c_double, c_int, c_uchar};
 use nalgebra::Vector3;
 
 use super::handle::Handle;
-use crate::abi::linuxcnc::{EmcPose, PmCartesian, StateField, TP_STRUCT, state_tag_t, tp_err_t};
+use crate::abi::linuxcnc::{
+    EmcPose, PmCartesian, StateField, StateFieldFloat, TP_STRUCT, state_tag_t, tp_err_t,
+};
 use crate::abi::pose::axes_of;
 use crate::axes::AXIS_COUNT;
 use crate::moves::shape::{Circle, ShapeError};
-use crate::moves::{MotionType, STATE_TAG_SIZE, StateTag};
+use crate::moves::{FeedWord, MotionType, STATE_TAG_SIZE, StateTag};
 use crate::planner::{AddError, Added, MoveRequest};
 
 /// LinuxCNC's numbers of the codes that mean the machine itself: G28, G30, G53.
@@ -33,6 +35,12 @@ impl Handle {
         (self.framed && means_the_machine(tag)).then_some(
             c"G28, G30 and G53 mean the machine without its frame, which is in force: use o<machine_move> call, or remove the frame first",
         )
+    }
+
+    /// The planner keeps the limits of the axes as they are now.
+    pub(super) fn renew_limits(&mut self) {
+        let limits = self.limits();
+        self.planner.set_limits(&limits);
     }
 
     /// The result of adding a move as LinuxCNC expects it; the words for a refusal are kept.
@@ -106,6 +114,14 @@ fn words(error: AddError) -> &'static CStr {
         AddError::RigidTap => c"a rigid tap (G33.1) has no spindle to follow, or I is not positive",
         AddError::Tripped => c"a move was sent after an error had stopped the motion; abort first",
     }
+}
+
+/// The F of the program.
+fn feed_word_of(tag: &state_tag_t) -> Option<FeedWord> {
+    let number = tag
+        .fields_float
+        .get(StateFieldFloat::GM_FIELD_FLOAT_FEED as usize)?;
+    FeedWord::of_tag(f64::from(*number), tag.packed_flags)
 }
 
 fn tag_in(tag: &state_tag_t) -> StateTag {
@@ -195,8 +211,8 @@ pub unsafe extern "C" fn framepath_planner_add_line(
         handle.refused = objection;
         return tp_err_t::TP_ERR_FAIL;
     }
-    let limits = handle.limits();
-    handle.planner.set_limits(&limits);
+    handle.renew_limits();
+    handle.planner.set_feed_word(feed_word_of(tag));
     let result = handle.planner.add_line(&axes_of(end), &request);
     // Motion looks at the queue in the same period, before the planner runs.
     handle.report(tp);
@@ -262,8 +278,8 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
         handle.refused = objection;
         return tp_err_t::TP_ERR_FAIL;
     }
-    let limits = handle.limits();
-    handle.planner.set_limits(&limits);
+    handle.renew_limits();
+    handle.planner.set_feed_word(feed_word_of(tag));
     let result = handle.planner.add_circle(&axes_of(end), &circle, &request);
     // Motion looks at the queue in the same period, before the planner runs.
     handle.report(tp);
@@ -301,8 +317,7 @@ pub unsafe extern "C" fn framepath_planner_add_rigid_tap(
         handle.refused = objection;
         return tp_err_t::TP_ERR_FAIL;
     }
-    let limits = handle.limits();
-    handle.planner.set_limits(&limits);
+    handle.renew_limits();
     let request = MoveRequest {
         motion_type: MotionType::Feed,
         feed: max_velocity,

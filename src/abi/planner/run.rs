@@ -227,8 +227,7 @@ pub unsafe extern "C" fn framepath_planner_run_cycle(
             _ => false,
         },
     };
-    let limits = handle.limits();
-    handle.planner.set_limits(&limits);
+    handle.renew_limits();
     handle.follow_joints();
     handle.check_range();
     handle.planner.cycle(&inputs);

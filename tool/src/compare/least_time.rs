@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::rests::{exact_stop_near, is_slow};
 use crate::host::job::Job;
 use crate::host::recording::{DONE, Recording, Sample, WAITING, moves, step};
-use crate::layer::program::{Operation, Piece, Program};
+use crate::layer::program::{Feeds, Operation, Piece, Program};
 use crate::optimum::{
     Boundary, ExecutedPath, Grid, PathLimits, PathSample, SpeedCap, corners, least_time, spacing,
     topp_ra,
@@ -190,11 +190,15 @@ fn path_sample(
 
 /// What each move asks for, mm/s or degrees per second.
 fn speeds(job: &Job) -> Vec<f64> {
+    let mut feeds = Feeds::BEGINNING;
     let moves = job
         .operations
         .iter()
         .filter_map(|operation| match operation {
-            Operation::Move(a_move) => Some(a_move.velocity.min(a_move.greatest_velocity)),
+            Operation::Move(a_move) => {
+                let [feed, greatest] = feeds.of(a_move);
+                Some(feed.min(greatest))
+            }
             _ => None,
         });
     moves.map(|speed| speed.min(job.velocity_limit)).collect()

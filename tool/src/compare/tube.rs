@@ -3,7 +3,7 @@
 use super::against_optimum::{InTheTube, LeastTime};
 use crate::host::job::Job;
 use crate::host::recording::{Recording, Sample};
-use crate::layer::program::{Operation, Piece, Program};
+use crate::layer::program::{Feeds, Operation, Piece, Program};
 use crate::optimum::{Leg, PathLimits, least_time_in_tube};
 use crate::path::pieces::Point;
 
@@ -62,11 +62,12 @@ fn position(samples: &[Sample], number: usize) -> Point {
 
 /// The speed of the program in each move, mm/s: what the axes allow is looked at by itself.
 fn feeds(job: &Job) -> Vec<f64> {
+    let mut feeds = Feeds::BEGINNING;
     let moves = job
         .operations
         .iter()
         .filter_map(|operation| match operation {
-            Operation::Move(a_move) => Some(a_move.velocity.min(job.velocity_limit)),
+            Operation::Move(a_move) => Some(feeds.of(a_move)[0].min(job.velocity_limit)),
             _ => None,
         });
     moves.collect()

@@ -2,8 +2,10 @@
 
 use super::spindle::SpindleCommand;
 use crate::canon::call::{PathMode, Tag};
+use crate::machine::limits::is_rotary;
 use crate::path::Position;
 use crate::path::segment::Segment;
+use framepath::moves::{FeedWord, ProgrammedFeed};
 use serde::{Deserialize, Serialize};
 
 /// LinuxCNC's numbers for the kinds of motion (`EMC_MOTION_TYPE_..`).
@@ -47,6 +49,40 @@ pub(crate) struct Move {
     /// Waits for the spindle.
     pub at_speed: bool,
     pub tag: Tag,
+}
+
+/// The feeds of a program's moves as blendtp takes them: LinuxCNC slows an arc down for its radius, and blendtp goes by what other
+/// moves with the same F were handed over with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Feeds {
+    known: ProgrammedFeed,
+    /// Where the move before ends.
+    end: Option<Position>,
+}
+
+impl Feeds {
+    /// Of a program that begins.
+    pub const BEGINNING: Self = Self {
+        known: ProgrammedFeed::UNKNOWN,
+        end: None,
+    };
+
+    /// Velocity and greatest velocity of the next move, mm/s, or degrees per second where nothing but rotary axes moves.
+    pub fn of(&mut self, a_move: &Move) -> [f64; 2] {
+        let handed = [a_move.velocity, a_move.greatest_velocity];
+        let before = self.end.replace(a_move.end);
+        let is_arc = matches!(a_move.shape, Shape::Arc { .. });
+        let linear = before.is_none_or(|before| {
+            (0..before.len()).any(|axis| !is_rotary(axis) && before[axis] != a_move.end[axis])
+        });
+        match a_move.motion_type {
+            MotionType::Feed | MotionType::Arc if is_arc || linear => {
+                let word = FeedWord::of_tag(a_move.tag.feed, a_move.tag.flags);
+                self.known.of_move(is_arc, handed, word)
+            }
+            _ => handed,
+        }
+    }
 }
 
 /// What is done one after the other.

@@ -9,7 +9,7 @@ use super::places::{Pace, Place, Places};
 use super::polyline::{PathPoint, Polyline};
 use super::profile::Profiles;
 use super::setup::Setup;
-use crate::layer::program::{MotionType, Piece};
+use crate::layer::program::{Feeds, MotionType, Piece};
 use crate::path::Position;
 use crate::path::differences::{Differences, Rates};
 use framepath::axes::AXIS_COUNT;
@@ -162,6 +162,7 @@ pub struct Collector<'a> {
     /// Those of joints that have limits of their own, with these.
     joints: Option<(Differences, AxisLimits)>,
     known: VecDeque<Known>,
+    feeds: Feeds,
     running: Option<Known>,
     follower: Follower,
     places: Places,
@@ -198,6 +199,7 @@ impl<'a> Collector<'a> {
             differences: Differences::new(start, setup.period),
             joints,
             known: VecDeque::new(),
+            feeds: Feeds::BEGINNING,
             running: None,
             follower: Follower::new(setup.rotary_tolerance, setup.tool_tilt_axis),
             places: Places::default(),
@@ -229,16 +231,16 @@ impl<'a> Collector<'a> {
 
     /// A move that the planner was given.
     pub fn add(&mut self, handed: &Handed) {
+        let [velocity, greatest_velocity] = self.feeds.of(&handed.a_move);
         self.follower.add(handed);
         self.known.push_back(Known {
             index: handed.a_move.index,
             line: handed.a_move.line,
             is_rapid: handed.a_move.motion_type == MotionType::Traverse,
-            cutting_feed: is_cutting(handed)
-                .then(|| 60.0 * handed.a_move.velocity / self.setup.millimetres),
+            cutting_feed: is_cutting(handed).then(|| 60.0 * velocity / self.setup.millimetres),
             asked: Asked {
-                velocity: handed.a_move.velocity,
-                greatest_velocity: handed.a_move.greatest_velocity,
+                velocity,
+                greatest_velocity,
             },
         });
     }

@@ -14,7 +14,7 @@ use crate::layer::program::{self, Move, Operation, Piece};
 use crate::path::Position;
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::moves::shape::{Circle, Shape, ShapeError};
-use framepath::moves::{MotionType, STATE_TAG_SIZE, StateTag, TerminationCondition};
+use framepath::moves::{FeedWord, MotionType, STATE_TAG_SIZE, StateTag, TerminationCondition};
 use framepath::planner::{CycleInputs, MoveRequest, Planner, Status};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -380,6 +380,9 @@ impl<'a> Drive<'a> {
                 format!("{} has no joints for where it ends", joints.told()),
             ));
         }
+        let tag = &a_move.tag;
+        self.planner
+            .set_feed_word(FeedWord::of_tag(tag.feed, tag.flags));
         let vector = |values: [f64; 3]| Vector3::from(values);
         let added = match a_move.shape {
             program::Shape::Line => {
