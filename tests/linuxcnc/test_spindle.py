@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import harness
 from contract.row import MICROMETRE, PERIOD
+from overload import ATTEMPTS
 from test_planner import RUN, Case
 
 #: A spindle that comes to its speed with 20 turns a second squared, and its encoder with an index. Ahead of motion in the
@@ -80,8 +81,22 @@ class Threads(Spindle):
         self.assertLess(self.off_the_groove(result, -3, -56, 1.5, steady=150), MICROMETRE)
         self.assertAlmostEqual(result.answers["end"]["position"][2], -60, delta=1e-9)
 
+    def rests_at(self, result, places):
+        """Whether Z stands at one of them."""
+        z = result.columns("joint.2")
+        return any(now == before and any(abs(now[0] - place) < MICROMETRE for place in places) for before, now in pairwise(z))
+
+    def unbroken_sequence(self):
+        """One of three threads. Where the second one comes so late that the machine has come to rest behind the first, it
+        begins some turns later: such a run says nothing of the count."""
+        for _ in range(ATTEMPTS):
+            result = self.run_spindle([RUN], "G64 P0.05", "M4 S300", "G4 P1", "G33 Z-20 K2", "G33 Z-44 K2.4", "G33 Z-60 X8 K2")
+            if not self.rests_at(result, (-20, -44)):
+                return result
+        self.fail("it rests between the threads")
+
     def test_reverse_and_sequence_and_taper(self):
-        result = self.run_spindle([RUN], "G64 P0.05", "M4 S300", "G4 P1", "G33 Z-20 K2", "G33 Z-44 K2.4", "G33 Z-60 X8 K2")
+        result = self.unbroken_sequence()
         self.completed(result)
         self.within_limits(result)
         # turns from the start of the first thread, by where Z is; the last one measures along its path
