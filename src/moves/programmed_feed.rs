@@ -63,7 +63,10 @@ impl ProgrammedFeed {
                 greatest: 0.0,
             };
         }
-        self.greatest = self.greatest.max(feed);
+        // What is no feed is refused later, and says nothing of F.
+        if feed.is_finite() {
+            self.greatest = self.greatest.max(feed);
+        }
         if is_arc && feed >= greatest && self.greatest > feed {
             [self.greatest; 2]
         } else {
@@ -87,6 +90,9 @@ mod tests {
         assert_eq!(known.of_move(true, [20.0, 20.0], word), [20.0, 20.0]);
         assert_eq!(known.of_move(false, [50.0, 100.0], word), [50.0, 100.0]);
         assert_eq!(known.of_move(false, [30.0, 30.0], word), [30.0, 30.0]);
+        assert_eq!(known.of_move(true, [20.0, 20.0], word), [50.0, 50.0]);
+        // That move is refused.
+        known.of_move(false, [f64::INFINITY, f64::INFINITY], word);
         assert_eq!(known.of_move(true, [20.0, 20.0], word), [50.0, 50.0]);
         // At its F already.
         assert_eq!(known.of_move(true, [20.0, 30.0], word), [20.0, 30.0]);
