@@ -22,7 +22,7 @@ pub fn build() {
         .allowlist_type("state_tag_t")
         .allowlist_type("emcmot_(status|config|error|internal)_t")
         .allowlist_type(
-            "(tp_err|cmd_code_t|tc_term_cond|tc_direction|KINEMATICS_TYPE|StateField).*",
+            "(tp_err|cmd_code_t|tc_term_cond|tc_direction|KINEMATICS_TYPE|StateField|StateFlag).*",
         )
         .allowlist_var("EMCMOT_(MAX|TERM_COND|MOTION)_.*")
         .allowlist_var("(SS|FS|AF|FH)_ENABLED")

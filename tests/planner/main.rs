@@ -1,5 +1,6 @@
 //! The planner driven cycle by cycle: what it keeps on ordinary and on random programs, and what was found there once.
 
+mod arcs_at_f;
 mod arrivals;
 mod at_soft_limits;
 mod behind_frame;

@@ -7,12 +7,14 @@ use nalgebra::Vector3;
 
 use super::handle::Handle;
 use crate::abi::linuxcnc::{
-    EmcPose, PmCartesian, StateField, StateFieldFloat, TP_STRUCT, state_tag_t, tp_err_t,
+    EmcPose, PmCartesian, StateField, StateFieldFloat, StateFlag, TP_STRUCT, state_tag_t, tp_err_t,
 };
 use crate::abi::pose::axes_of;
 use crate::axes::AXIS_COUNT;
 use crate::moves::shape::{Circle, ShapeError};
-use crate::moves::{FeedWord, MotionType, STATE_TAG_SIZE, StateTag};
+use crate::moves::{
+    FeedWord, INCHES, INVERSE_TIME, MotionType, STATE_TAG_SIZE, StateTag, UNITS_PER_MINUTE,
+};
 use crate::planner::{AddError, Added, MoveRequest};
 
 /// LinuxCNC's numbers of the codes that mean the machine itself: G28, G30, G53.
@@ -118,6 +120,11 @@ fn words(error: AddError) -> &'static CStr {
 
 /// The F of the program.
 fn feed_word_of(tag: &state_tag_t) -> Option<FeedWord> {
+    const {
+        assert!(INCHES == 1 << StateFlag::GM_FLAG_UNITS as u64);
+        assert!(INVERSE_TIME == 1 << StateFlag::GM_FLAG_FEED_INVERSE_TIME as u64);
+        assert!(UNITS_PER_MINUTE == 1 << StateFlag::GM_FLAG_FEED_UPM as u64);
+    }
     let number = tag
         .fields_float
         .get(StateFieldFloat::GM_FIELD_FLOAT_FEED as usize)?;
