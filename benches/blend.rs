@@ -13,6 +13,7 @@ fn line(serial: u64, from: &Axes, to: &Axes) -> ProgrammedMove {
         serial,
         shape: Shape::Line(Line9::new(from, to).expect("a line")),
         feed: 100.0,
+        feed_word: None,
         greatest_feed: 100.0,
         termination: TerminationCondition::Continuous { tolerance: 0.01 },
         stop_before: false,

@@ -47,6 +47,7 @@ const VACANT: Move = Move {
     motion_type: MotionType::Traverse,
     shape: Shape::VACANT,
     feed: 0.0,
+    feed_word: None,
     max_velocity: 0.0,
     axis_jerk: f64::INFINITY,
     enables: 0,

@@ -3,6 +3,7 @@
 use super::motion_type::MotionType;
 use super::near_limit::NearLimit;
 use super::outputs::SynchronisedOutputs;
+use super::programmed_feed::FeedWord;
 use super::shape::Shape;
 use super::synchronisation::Synchronisation;
 use super::tag::StateTag;
@@ -24,6 +25,8 @@ pub struct Move {
     pub shape: Shape,
     /// What the program asks for at an override of 100 %, units of the shape's measure per second.
     pub feed: f64,
+    /// The F of the program, if it is one for a minute.
+    pub feed_word: Option<FeedWord>,
     /// What no override may exceed, units of the shape's measure per second: LinuxCNC derives it
     /// from the velocity limits of the axes.
     pub max_velocity: f64,

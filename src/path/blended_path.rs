@@ -132,9 +132,13 @@ impl BlendedPath {
         }
         let (settings, metric) = (&self.settings, &self.metric);
         if !self.merger.merge(programmed, &leg, settings, metric) {
-            self.release_waiting();
-            if !self.merger.hold(programmed, &leg) {
-                self.push(leg);
+            if let Some(arc) = self.merger.absorb(programmed, &leg, settings, metric) {
+                self.push(arc);
+            } else {
+                self.release_waiting();
+                if !self.merger.hold(programmed, &leg) {
+                    self.push(leg);
+                }
             }
         }
         self.goal = programmed.shape.end();

@@ -112,6 +112,7 @@ pub(super) mod tests {
                 serial: 0,
                 shape: Shape::Line(line),
                 feed: 50.0,
+                feed_word: None,
                 greatest_feed: 50.0,
                 termination: TerminationCondition::Continuous {
                     tolerance: *tolerance,

@@ -8,7 +8,7 @@ use super::shift::Shift;
 use crate::axes::Axes;
 use crate::moves::shape::measure::{self, Measure};
 use crate::moves::shape::{Line9, PathPoint, Shape};
-use crate::moves::{NearLimit, TerminationCondition};
+use crate::moves::{FeedWord, NearLimit, TerminationCondition};
 
 /// Legs that turn by less, length of the difference of unit vectors, may be chords of a curve: 60
 /// degrees.
@@ -28,6 +28,8 @@ pub struct ProgrammedMove {
     /// What the program asks for at an override of 100 %, units of the shape's measure per
     /// second, positive. Widths are chosen for it.
     pub feed: f64,
+    /// The F of the program, if it is one for a minute: `feed` is less where LinuxCNC has slowed the move down.
+    pub feed_word: Option<FeedWord>,
     /// What no override may exceed, in the same units; at least `feed`, equal to it where none
     /// applies.
     pub greatest_feed: f64,
@@ -392,6 +394,7 @@ mod tests {
             serial: 1,
             shape: Shape::Line(Line9::new(&Axes::zeros(), &end).expect("a line")),
             feed: 50.0,
+            feed_word: None,
             greatest_feed: 50.0,
             termination: TerminationCondition::Continuous { tolerance: 0.1 },
             stop_before: false,

@@ -28,7 +28,7 @@
 //!   program by no more than a micrometre on either side of the point and by nothing in it, a
 //!   remaining turn of the direction by less than half of that.
 //!
-//! The order of the parts: a move becomes a `leg`, short lines after the `line_merger` has joined
+//! The order of the parts: a move becomes a `leg`, short ones after the `line_merger` has joined
 //! them; `fairing` moves runs of lines a little off the program, a `shift`; legs meet in a `vertex` and lie in a `chain`, with
 //! the `contribution` of each vertex to the path; the `optimizer` gives the vertices of a
 //! `window` their `widths`, beginning with the `base_width` (at `equal_widths` of all that overlap), on a `curve` for what it allows, and a

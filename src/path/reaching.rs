@@ -191,6 +191,7 @@ mod tests {
                     serial: serial.into(),
                     shape: Shape::Line(Line9::new(&at, &end).expect("a line")),
                     feed: 50.0,
+                    feed_word: None,
                     greatest_feed: 50.0,
                     termination: TerminationCondition::Continuous { tolerance: 0.1 },
                     stop_before: false,

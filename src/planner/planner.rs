@@ -297,6 +297,7 @@ impl Planner {
             motion_type: request.motion_type,
             shape,
             feed,
+            feed_word: self.next_move.feed_word,
             max_velocity,
             axis_jerk,
             enables: request.enables,

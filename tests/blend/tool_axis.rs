@@ -35,6 +35,7 @@ fn lines(places: &[[f64; 3]]) -> Vec<ProgrammedMove> {
             serial,
             shape: Shape::Line(line),
             feed: 50.0,
+            feed_word: None,
             greatest_feed: 50.0,
             termination: TerminationCondition::Continuous { tolerance: P },
             stop_before: false,

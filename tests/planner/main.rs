@@ -24,6 +24,7 @@ mod limits_changed;
 mod monotone;
 mod move_jerk;
 mod moves;
+mod moves_of_micrometres;
 mod operator;
 mod pinned_plans;
 mod program;

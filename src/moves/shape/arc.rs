@@ -153,6 +153,29 @@ impl Arc9 {
         Ok(arc)
     }
 
+    /// The arc about the same axis to the same end from another place beside its start; `None` where that would be another
+    /// way.
+    pub fn from_beside(&self, start: &Axes) -> Option<Self> {
+        let circle = Circle {
+            center: xyz(&self.base),
+            normal: xyz(&self.radial).cross(&xyz(&self.tangential)),
+            revolutions: (self.angle() / TAU) as i32,
+        };
+        let away = (start - self.start).norm();
+        let arc = Self::new(start, &self.end, &circle).ok()?;
+        ((arc.length - self.length).abs() <= 2.0 * away).then_some(arc)
+    }
+
+    /// The `s` at which it is on the same side of its axis as a point no more than half a turn from its start; below 0 before it.
+    pub fn beside(&self, point: &Axes) -> f64 {
+        let outward = point - self.base;
+        let angle = self
+            .tangential
+            .dot(&outward)
+            .atan2(self.radial.dot(&outward));
+        angle / self.angular_rate
+    }
+
     /// The angle from the start to the end about the axis, radians, above 0.
     pub fn angle(&self) -> f64 {
         self.angular_rate * self.length

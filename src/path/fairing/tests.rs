@@ -43,6 +43,7 @@ fn faired_shapes(fairing: &mut Fairing, shapes: &[Shape], waits: bool) -> Vec<Le
             serial,
             shape: *shape,
             feed: 100.0,
+            feed_word: None,
             greatest_feed: 100.0,
             termination: TerminationCondition::Continuous {
                 tolerance: TOLERANCE,

@@ -313,6 +313,7 @@ mod tests {
                 serial: 0,
                 shape,
                 feed: 1.0,
+                feed_word: None,
                 greatest_feed: 1.0,
                 termination: TerminationCondition::Stop,
                 stop_before: false,

@@ -285,6 +285,7 @@ impl MoveFeeder {
             serial: self.next,
             shape: queued.shape,
             feed,
+            feed_word: queued.feed_word,
             greatest_feed,
             termination: match queued.termination {
                 TerminationCondition::Continuous { tolerance } => {

@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 
 use framepath::axes::{Axes, AxisLimits};
 use framepath::moves::shape::{Arc9, Circle, Line9, PathPoint, Shape};
-use framepath::moves::{NearLimit, TerminationCondition};
+use framepath::moves::{FeedWord, NearLimit, TerminationCondition, UNITS_PER_MINUTE};
 use framepath::path::{BlendError, BlendSettings, BlendedPath, GREATEST_EXCESS, ProgrammedMove};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -44,13 +44,14 @@ pub struct Character {
     pub stops: f64,
     pub rotary: f64,
     pub rounding: f64,
+    pub tiny: f64,
 }
 
 /// One move: numbers from 0 to 1 that its character turns into something.
 pub type Draw = [f64; 12];
 
 pub fn character() -> impl Strategy<Value = Character> {
-    prop::array::uniform12(0.0..1.0f64).prop_map(
+    prop::array::uniform13(0.0..1.0f64).prop_map(
         |[
             shortest,
             longest,
@@ -64,6 +65,7 @@ pub fn character() -> impl Strategy<Value = Character> {
             stops,
             rotary,
             rounding,
+            tiny,
         ]| Character {
             shortest,
             longest,
@@ -77,6 +79,7 @@ pub fn character() -> impl Strategy<Value = Character> {
             stops,
             rotary,
             rounding,
+            tiny,
         },
     )
 }
@@ -127,7 +130,13 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
         if change < 0.2 * c.tolerance_changes {
             tolerance = tolerance_of(p);
         }
-        let length = between(shortest, longest, size);
+        // What the radius of a tool leaves of a corner that hardly is one.
+        let is_tiny = c.tiny < 0.5 && (0.4..0.6).contains(&more);
+        let length = if is_tiny {
+            tolerance.max(0.001) * between(0.01, 0.3, size)
+        } else {
+            between(shortest, longest, size)
+        };
         let (e1, e2, normal) = match (plane * 3.0) as usize {
             _ if plane < 0.5 || c.arcs < 0.3 => (0, 1, 2),
             1 => (1, 2, 0),
@@ -210,6 +219,7 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
             } else {
                 80.0
             },
+            feed_word: FeedWord::of_tag(4800.0, UNITS_PER_MINUTE).filter(|_| feed >= 0.1),
             greatest_feed: 500.0,
             termination,
             stop_before: mode < 0.02 * c.stops,
@@ -353,6 +363,7 @@ pub fn line(serial: u64, from: (f64, f64), to: (f64, f64), tolerance: f64) -> Pr
         serial,
         shape: Shape::Line(Line9::new(&at(from), &at(to)).expect("a line")),
         feed: 100.0,
+        feed_word: None,
         greatest_feed: 100.0,
         termination: TerminationCondition::Continuous { tolerance },
         stop_before: false,
