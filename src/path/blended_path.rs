@@ -132,8 +132,8 @@ impl BlendedPath {
         }
         let (settings, metric) = (&self.settings, &self.metric);
         if !self.merger.merge(programmed, &leg, settings, metric) {
-            if let Some(arc) = self.merger.absorb(programmed, &leg, settings, metric) {
-                self.push(arc);
+            if let Some(whole) = self.merger.absorb(programmed, &leg, settings, metric) {
+                self.push(whole);
             } else {
                 self.release_waiting();
                 if !self.merger.hold(programmed, &leg) {

@@ -3,7 +3,7 @@
 //! Lines far shorter than any kernel cost work and say nothing. They are replaced by their chord,
 //! as long as the points left out lie within a small part of the tolerance from it. So are arcs that are no farther from theirs.
 //!
-//! What waits in front of a longer arc becomes a part of it, within the same tolerance: the arc begins where that does. Programs
+//! What waits in front of a longer move becomes a part of it, within the same tolerance: the move begins where that does. Programs
 //! are full of such moves where the radius of a tool was taken into account, with an arc of micrometres in each corner that hardly
 //! is one. Kernels overlap where lines are short, but an [easement](super::easement) is only so many times as wide as the moves
 //! beside it are long: next to nothing there.
@@ -25,7 +25,7 @@ const GREATEST_CHORD: f64 = 1.0 / 16.0;
 /// The share of the tolerance that leaving points out may use.
 const DROPPED_SHARE: f64 = 0.1;
 
-/// What becomes a part of an arc is at most this share of it.
+/// What becomes a part of a move is at most this share of it.
 const ABSORBED_SHARE: f64 = 0.25;
 
 /// How much the proportion of the two distances may differ between lines that are merged.
@@ -144,7 +144,7 @@ impl LineMerger {
         true
     }
 
-    /// An arc that begins where what is waiting does, if that is next to nothing beside it. It then waits no more.
+    /// A move that begins where what is waiting does, if that is next to nothing beside it. It then waits no more.
     pub fn absorb(
         &mut self,
         programmed: &ProgrammedMove,
@@ -152,9 +152,6 @@ impl LineMerger {
         settings: &BlendSettings,
         metric: &Metric,
     ) -> Option<Leg> {
-        let Shape::Arc(arc) = &programmed.shape else {
-            return None;
-        };
         let same_feed = programmed.feed == self.feed
             || (self.feed_word.is_some() && programmed.feed_word == self.feed_word);
         let is_short = self.length <= ABSORBED_SHARE * leg.length;
@@ -162,12 +159,25 @@ impl LineMerger {
         if !is_short || !is_free || !same_feed || !self.goes_on(programmed, leg) {
             return None;
         }
-        let whole = arc.from_beside(&self.start)?;
-        let dropped = self.greatest_distance_of_arc(&whole, metric)?;
+        let (shape, left_out) = match &programmed.shape {
+            Shape::Line(line) => {
+                let end = line.end();
+                let whole = Line9::new(&self.start, &end).ok()?;
+                (Shape::Line(whole), self.greatest_distance(&end, metric)?)
+            }
+            Shape::Arc(arc) => {
+                let whole = arc.from_beside(&self.start)?;
+                (
+                    Shape::Arc(whole),
+                    self.greatest_distance_of_arc(&whole, metric)?,
+                )
+            }
+        };
+        let dropped = left_out + self.bulge;
         if dropped > DROPPED_SHARE * leg.tolerance() {
             return None;
         }
-        let whole = leg_of(programmed, Shape::Arc(whole), settings, metric);
+        let whole = leg_of(programmed, shape, settings, metric);
         self.waiting = false;
         Some(Leg {
             greatest_speed: whole.greatest_speed,
@@ -226,7 +236,7 @@ impl LineMerger {
             reached = s;
             greatest = greatest.max(metric.norm(&(point - arc.position(s))));
         }
-        Some(greatest + sagitta(arc, reached) + self.bulge)
+        Some(greatest + sagitta(arc, reached))
     }
 
     /// How far the points are from the chord to `end`; `None` if they do not all advance along it.
@@ -361,6 +371,25 @@ mod tests {
         let taken = merger.absorb(second, &leg(second), &SETTINGS, &metric);
         assert_eq!(taken.is_none(), merger.take().is_some());
         taken
+    }
+
+    #[test]
+    fn a_move_of_micrometres_becomes_a_part_of_the_line_behind_it() {
+        let first = tiny(0.003);
+        let start = first.shape.end();
+        let line = |x, y| ProgrammedMove {
+            serial: 2,
+            shape: Shape::Line(Line9::new(&start, &at(x, y)).expect("a line")),
+            ..first
+        };
+        let leg = absorbed(&first, &line(5.0, 0.0)).expect("one leg");
+        assert_eq!((leg.first, leg.serial), (1, 2));
+        assert_eq!(leg.shape.position(0.0), first.shape.position(0.0));
+        assert_eq!(leg.shape.end(), at(5.0, 0.0));
+        // 9 nm aside, and the arc 4.5 um beside its chord at most.
+        let dropped = TOLERANCE - leg.tolerance();
+        assert!((1e-6..2e-5).contains(&dropped), "{dropped}");
+        assert!(absorbed(&first, &line(-5.0, 0.0)).is_none());
     }
 
     #[test]

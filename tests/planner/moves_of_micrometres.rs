@@ -29,8 +29,20 @@ fn arc(machine: &mut Machine, direction: f64, radius: f64, length: f64) -> f64 {
     direction
 }
 
-/// Servo periods that six arcs take, with this between them.
-fn outline(tolerance: f64, between: impl Fn(&mut Machine, f64) -> f64 + Send + Sync) -> f64 {
+/// A line of so many millimetres in this direction.
+fn line(machine: &mut Machine, direction: f64, feed: f64, length: f64) {
+    let start = *machine.planner.goal();
+    let end = start + at(direction.cos(), direction.sin()) * length;
+    machine.planner.set_feed_word(word());
+    machine.line(end, &feed_move(feed)).expect("a line");
+}
+
+/// Servo periods that six arcs take, behind each of them a line of so many millimetres, with this between all of them.
+fn outline(
+    tolerance: f64,
+    lines: f64,
+    between: impl Fn(&mut Machine, f64) -> f64 + Send + Sync,
+) -> f64 {
     let mut periods = 0;
     with_machine(|machine| {
         machine
@@ -43,6 +55,10 @@ fn outline(tolerance: f64, between: impl Fn(&mut Machine, f64) -> f64 + Send + S
         {
             direction = arc(machine, direction, radius, length);
             direction = between(machine, direction);
+            if lines > 0.0 {
+                line(machine, direction, 100.0, lines);
+                direction = between(machine, direction);
+            }
         }
         arc(machine, direction, 6.4, 2.2);
         periods = machine.run(5_000);
@@ -50,32 +66,29 @@ fn outline(tolerance: f64, between: impl Fn(&mut Machine, f64) -> f64 + Send + S
     periods as f64
 }
 
-/// Arcs are rounded over no more than a share of the moves beside them. Six moves of half a micrometre made this outline take 2.4
-/// times as long, and of 20 micrometres 1.3 times.
+/// Arcs are rounded over no more than a share of the moves beside them. Six moves of half a micrometre made the arcs take 2.4 times
+/// as long, and of 10 micrometres 1.4 times.
 #[test]
 fn what_is_next_to_nothing_costs_arcs_no_time() {
-    for tolerance in [0.01, 0.05] {
-        let without = outline(tolerance, |_, direction| direction);
+    for (tolerance, lines) in [(0.01, 0.0), (0.05, 0.0), (0.01, 2.5), (0.05, 2.5)] {
+        let without = outline(tolerance, lines, |_, direction| direction);
         let check = |with: f64, what: &str| {
-            let most = 1.03 * without + 2.0;
+            let most = 1.06 * without + 2.0;
             assert!(
                 with <= most,
-                "{what}, P {tolerance}: {with} of {without} periods"
+                "{what}, lines {lines}, P {tolerance}: {with} of {without} periods"
             );
         };
-        for length in [0.0005, 0.003, 0.01, 0.02] {
+        for length in [0.0005, 0.003, 0.01] {
             for radius in [0.5, -0.5, -2.0] {
-                let with = outline(tolerance, |machine, direction| {
+                let with = outline(tolerance, lines, |machine, direction| {
                     arc(machine, direction, radius, length)
                 });
                 check(with, &format!("arcs of R {radius}, {length} mm"));
             }
-            let with = outline(tolerance, |machine, direction| {
-                let start = *machine.planner.goal();
-                let end = start + at(direction.cos(), direction.sin()) * length;
+            let with = outline(tolerance, lines, |machine, direction| {
                 // Slower for its axes alone.
-                machine.planner.set_feed_word(word());
-                machine.line(end, &feed_move(80.0)).expect("a line");
+                line(machine, direction, 80.0, length);
                 direction
             });
             check(with, &format!("lines of {length} mm"));
