@@ -86,12 +86,12 @@ impl LineMerger {
 
     /// Lets a leg wait, if it is a line short enough. Only while nothing is waiting.
     pub fn hold(&mut self, programmed: &ProgrammedMove, leg: &Leg) -> bool {
-        let Some(Straight { line, bulge }) = Straight::of(programmed, leg) else {
-            return false;
-        };
         if leg.is_exact() || leg.stop_after || leg.length > GREATEST_CHORD * leg.design_width {
             return false;
         }
+        let Some(Straight { line, bulge }) = Straight::of(programmed, leg) else {
+            return false;
+        };
         self.waiting = true;
         self.start = line.position(0.0);
         self.count = 0;
@@ -114,13 +114,13 @@ impl LineMerger {
         settings: &BlendSettings,
         metric: &Metric,
     ) -> bool {
-        let Some(Straight { line, bulge }) = Straight::of(programmed, leg) else {
-            return false;
-        };
         let same_feed = programmed.feed == self.feed;
         if !same_feed || leg.stop_after || !self.goes_on(programmed, leg) || self.count >= POINTS {
             return false;
         }
+        let Some(Straight { line, bulge }) = Straight::of(programmed, leg) else {
+            return false;
+        };
         let end = line.end();
         let Ok(chord) = Line9::new(&self.start, &end) else {
             return false;
@@ -335,9 +335,9 @@ mod tests {
         ProgrammedMove {
             serial,
             shape: Shape::Arc(Arc9::new(start, &end, &circle).expect("an arc")),
-            feed: 50.0,
+            feed: 100.0,
             feed_word: None,
-            greatest_feed: 80.0,
+            greatest_feed: 120.0,
             termination: TerminationCondition::Continuous {
                 tolerance: TOLERANCE,
             },
@@ -359,14 +359,12 @@ mod tests {
         arc(2, &start, &(start + at(0.0, 3.0)), 1.5)
     }
 
-    /// What the second of two arcs absorbs of the first, if it waits.
+    /// What the second of two moves is with what it absorbs of the first, which waits.
     fn absorbed(first: &ProgrammedMove, second: &ProgrammedMove) -> Option<Leg> {
         let metric = Metric::new(0.1);
         let mut merger = LineMerger::new();
         let leg = |programmed: &ProgrammedMove| Leg::new(programmed, &SETTINGS, &metric);
-        if !merger.hold(first, &leg(first)) {
-            return None;
-        }
+        assert!(merger.hold(first, &leg(first)));
         assert!(!merger.merge(second, &leg(second), &SETTINGS, &metric));
         let taken = merger.absorb(second, &leg(second), &SETTINGS, &metric);
         assert_eq!(taken.is_none(), merger.take().is_some());
@@ -440,7 +438,7 @@ mod tests {
         let second = quarter(&first);
         let word = FeedWord::of_tag(3000.0, crate::moves::UNITS_PER_MINUTE);
         let slower = |feed_word| ProgrammedMove {
-            feed: 10.0,
+            feed: 60.0,
             feed_word,
             ..first
         };
@@ -449,9 +447,9 @@ mod tests {
             change(&mut changed);
             changed
         };
-        // At an angle of .2 and .4 radians to the arc.
-        assert!(absorbed(&tiny(0.1), &quarter(&tiny(0.1))).is_none());
-        assert!(absorbed(&tiny(0.2), &quarter(&tiny(0.2))).is_none());
+        // It ends 12 um aside.
+        let bent = arc(1, &at(0.0, 0.0), &at(0.0, 0.1), 0.5);
+        assert!(absorbed(&bent, &quarter(&bent)).is_none());
         let long = tiny(0.02);
         assert!(absorbed(&long, &quarter(&long)).is_some());
         let short = arc(2, &long.shape.end(), &at(0.0, 3.0), 0.025);
