@@ -3,6 +3,7 @@
 use nalgebra::ArrayStorage;
 
 use super::chain::Chain;
+use super::chords::{Chords, MOST_CHORDS};
 use super::curve;
 use super::error::BlendError;
 use super::fairing::{Fairing, MOST_PIECES};
@@ -20,6 +21,9 @@ const ORIGIN: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]))
 
 /// Legs that a single move may need room for: the lines that were waiting, and itself.
 const LEGS_A_MOVE: usize = 2;
+
+// Each leg is divided into so many pieces at most, or is an arc whose chords are not divided.
+const _: () = assert!(MOST_CHORDS <= MOST_PIECES);
 
 /// Kernel terms that it takes to put a leg in its place.
 const PUT_IN_PLACE: usize = 64;
@@ -133,11 +137,11 @@ impl BlendedPath {
         let (settings, metric) = (&self.settings, &self.metric);
         if !self.merger.merge(programmed, &leg, settings, metric) {
             if let Some(whole) = self.merger.absorb(programmed, &leg, settings, metric) {
-                self.push(whole);
+                self.push_as_chords(whole);
             } else {
                 self.release_waiting();
                 if !self.merger.hold(programmed, &leg) {
-                    self.push(leg);
+                    self.push_as_chords(leg);
                 }
             }
         }
@@ -224,6 +228,14 @@ impl BlendedPath {
         self.fairing.take(leg, &self.settings);
     }
 
+    /// The chords of a leg that is run as those, or itself.
+    fn push_as_chords(&mut self, leg: Leg) {
+        match Chords::of(&leg, &self.settings) {
+            Some(chords) => chords.legs().for_each(|chord| self.push(chord)),
+            None => self.push(leg),
+        }
+    }
+
     /// Puts a leg that is to be where it is at the end of the chain.
     fn put_in_place(&mut self, leg: Leg) {
         let leg = curve::with_its_width(leg, &self.chain, &self.settings, &self.metric);
@@ -232,7 +244,7 @@ impl BlendedPath {
 
     fn release_waiting(&mut self) {
         if let Some(leg) = self.merger.take() {
-            self.push(leg);
+            self.push_as_chords(leg);
         }
     }
 

@@ -66,6 +66,9 @@ pub(super) struct Leg {
     pub whole: f64,
     /// Whether it ends where the whole leg does.
     pub is_last_part: bool,
+    /// How much of its move lies before and behind the whole leg, where that is a [chord](super::chords) of an arc: path distance.
+    pub before: f64,
+    pub after: f64,
     /// What it is moved by.
     pub shift: Shift,
     /// How much F counts for a unit of path distance.
@@ -110,6 +113,8 @@ impl Leg {
         lead: 0.0,
         whole: 0.0,
         is_last_part: true,
+        before: 0.0,
+        after: 0.0,
         shift: Shift::NONE,
         measure_rate: 1.0,
         measure: Measure::Linear,
@@ -197,6 +202,16 @@ impl Leg {
     /// Whether it moves nothing but X, Y and Z.
     pub fn is_linear(&self) -> bool {
         self.measure == Measure::Linear && (self.measure_rate - 1.0).abs() < ROUNDING
+    }
+
+    /// Whether it is one of several [chords](super::chords) of an arc.
+    pub fn is_chord(&self) -> bool {
+        self.before > 0.0 || self.after > 0.0
+    }
+
+    /// Whether it may be anywhere in its tolerance, and where along it does not matter.
+    pub fn is_free(&self) -> bool {
+        self.may_swing_out && self.near_limit == NearLimit::NONE && self.is_linear()
     }
 
     /// The line, if it does not matter where along it the path is: one of XYZ alone, and no thread, whose pitch that would change.

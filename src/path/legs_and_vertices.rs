@@ -50,11 +50,11 @@ impl BlendedPath {
         LegView {
             serial: leg.serial,
             first: leg.first,
-            start: leg.start - leg.lead,
+            start: leg.start - leg.lead - leg.before,
             end: if leg.is_last_part {
-                leg.end()
+                leg.end() + leg.after
             } else {
-                leg.start - leg.lead + leg.whole
+                leg.start - leg.lead + leg.whole + leg.after
             },
             speed: leg.speed,
             greatest_speed: leg.greatest_speed,
@@ -72,8 +72,8 @@ impl BlendedPath {
             MoveProgress {
                 serial: leg.serial,
                 first: leg.first,
-                distance,
-                distance_to_go: leg.shape.length() - distance,
+                distance: leg.before * leg.measure_rate + distance,
+                distance_to_go: leg.after * leg.measure_rate + leg.shape.length() - distance,
             }
         })
     }
@@ -91,7 +91,7 @@ impl BlendedPath {
             number.checked_sub(1)?
         };
         let leg = self.chain.leg(number);
-        let ends = leg.is_last_part && leg.end() == s;
+        let ends = leg.is_last_part && leg.after <= 0.0 && leg.end() == s;
         (number >= self.chain.first() && ends).then(|| (leg.serial, leg.shape.end()))
     }
 

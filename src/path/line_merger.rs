@@ -8,6 +8,7 @@
 //! is one. Kernels overlap where lines are short, but an [easement](super::easement) is only so many times as wide as the moves
 //! beside it are long: next to nothing there.
 
+use super::chords::sagitta;
 use super::leg::{Leg, ProgrammedMove};
 use super::metric::Metric;
 use super::settings::{Allowance, BlendSettings};
@@ -155,7 +156,7 @@ impl LineMerger {
         let same_feed = programmed.feed == self.feed
             || (self.feed_word.is_some() && programmed.feed_word == self.feed_word);
         let is_short = self.length <= ABSORBED_SHARE * leg.length;
-        let is_free = is_free(&self.chord) && is_free(leg);
+        let is_free = self.chord.is_free() && leg.is_free();
         if !is_short || !is_free || !same_feed || !self.goes_on(programmed, leg) {
             return None;
         }
@@ -272,7 +273,7 @@ impl Straight {
                 line: *line,
                 bulge: 0.0,
             }),
-            Shape::Arc(arc) if is_free(leg) => {
+            Shape::Arc(arc) if leg.is_free() => {
                 let bulge = sagitta(arc, arc.length());
                 let line = Line9::new(&arc.position(0.0), &arc.end()).ok()?;
                 (bulge <= DROPPED_SHARE * leg.tolerance()).then_some(Self { line, bulge })
@@ -280,17 +281,6 @@ impl Straight {
             Shape::Arc(_) => None,
         }
     }
-}
-
-/// How far an arc is from any chord of this length at most.
-fn sagitta(arc: &Arc9, length: f64) -> f64 {
-    let bend = |s: f64| arc.point(s).second.norm();
-    0.125 * length * length * bend(0.0).max(bend(arc.length()))
-}
-
-/// Whether a leg may be anywhere in its tolerance.
-fn is_free(leg: &Leg) -> bool {
-    leg.may_swing_out && leg.near_limit == NearLimit::NONE && leg.is_linear()
 }
 
 fn leg_of(

@@ -40,6 +40,7 @@ mod base_width;
 mod blame;
 mod blended_path;
 mod chain;
+mod chords;
 mod contribution;
 mod curve;
 mod deviation;

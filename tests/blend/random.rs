@@ -28,7 +28,7 @@ fn check(
         let s = path.known_end() * f64::from(k) / 2000.0;
         let progress = path.progress(s).expect("moves");
         assert!(progress.serial >= last.0);
-        assert!(progress.serial > last.0 || progress.distance_to_go <= last.1);
+        assert!(progress.serial > last.0 || progress.distance_to_go <= last.1 + 1e-12);
         last = (progress.serial, progress.distance_to_go);
         let point = path.point(s);
         for value in [point.position, point.first, point.second, point.third] {

@@ -252,6 +252,10 @@ impl Fairing {
     /// Divides a leg that ends with a `corner`, if that is moved.
     fn divide(&mut self, leg: &Leg, corner: Option<Corner>, settings: &BlendSettings) {
         let joined = self.corner.is_some();
+        if leg.is_chord() {
+            self.push(*leg, joined, settings);
+            return;
+        }
         let ends = [self.corner, corner]
             .map(|corner| corner.map_or(f64::INFINITY, |corner| corner.first_piece(leg, settings)));
         let cuts = Cuts::new(leg.length, ends, division::longest(leg));
