@@ -41,7 +41,8 @@ impl<'a> Chords<'a> {
         let (Shape::Arc(arc), Allowance::Tolerance(tolerance)) = (&leg.shape, leg.allowance) else {
             return None;
         };
-        if !leg.is_free() || !settings.limits_on_arc(leg.turning, leg.speed) {
+        let limits = leg.turning * leg.turning > settings.even_third(leg.speed);
+        if !leg.is_free() || !limits {
             return None;
         }
         let radius = arc.point(0.0).second.norm() / (leg.turning * leg.turning);
@@ -50,7 +51,7 @@ impl<'a> Chords<'a> {
             return None;
         }
         let by_tolerance = (sagitta(arc, leg.length) / (SAGITTA * tolerance)).sqrt();
-        let count = by_tolerance.max(leg.turning * leg.length / LONGEST).ceil();
+        let count = by_tolerance.max(arc.angle() / LONGEST).ceil();
         if !(count >= 1.0 && count <= MOST_CHORDS as f64) {
             return None;
         }

@@ -196,14 +196,6 @@ impl BlendSettings {
         bend.sqrt().recip().min(cube_root(twist).recip())
     }
 
-    /// Whether an arc limits a `speed`, path distance per second, by acceleration or jerk of XYZ. `turning`: radians for a unit of
-    /// path distance.
-    pub(super) fn limits_on_arc(&self, turning: f64, speed: f64) -> bool {
-        let by_acceleration = self.per_acceleration.fixed_rows::<3>(0).max();
-        let rate = turning * speed;
-        by_acceleration * rate * speed > 1.0 || rate * rate * speed > self.linear_jerk
-    }
-
     /// What a width is never raised above for the sake of speed where kernels overlap, machine
     /// units.
     pub(super) fn greatest_design_width(&self) -> f64 {
