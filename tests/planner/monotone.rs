@@ -324,3 +324,34 @@ fn more_of_anything_costs_no_time() {
         "{inversions:#?}"
     );
 }
+
+/// Servo periods that a figure takes with each of these accelerations, mm/s2, at 20,000 mm/s3 and up to 6000 mm/min.
+fn with_accelerations<const N: usize>(
+    figure: Figure,
+    tolerance: f64,
+    accelerations: [f64; N],
+) -> [f64; N] {
+    accelerations.map(|acceleration| {
+        let setting = Setting {
+            jerk: 2e4,
+            acceleration,
+            feed: 100.0,
+            tolerance,
+        };
+        with_room(|| periods(figure, &setting)) as f64
+    })
+}
+
+/// The corner may reach so far that no more than .8 mm of the first leg are final before it is known that no more comes: a plan
+/// over these was waited for, and ended the path only when it was there, 11 periods later.
+#[test]
+fn more_acceleration_costs_no_time_where_a_corner_leaves_little_of_the_way_to_it() {
+    for degrees in [30.0, 60.0, 150.0] {
+        let figure = Figure::Corner { degrees };
+        let taken = with_accelerations(figure, 0.1, [1700.0, 1900.0, 2000.0, 2100.0]);
+        let more = taken
+            .windows(2)
+            .any(|window| window[1] > window[0] + PERIODS);
+        assert!(!more, "{degrees} degrees: {taken:?} periods");
+    }
+}

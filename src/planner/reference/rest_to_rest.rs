@@ -88,6 +88,11 @@ impl RestToRest {
         self.is_begun() && self.speed.progress() == PlanProgress::Ready
     }
 
+    /// Whether the first plan waits for more of the path.
+    pub fn waits_for_path(&self) -> bool {
+        self.is_begun() && self.speed.waits_for_path()
+    }
+
     /// Whether the machine, at rest, may begin with the plan: one that ends at once for now is given
     /// some time to be continued.
     pub fn may_start(&self, path: &BlendedPath) -> bool {

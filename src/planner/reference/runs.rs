@@ -113,8 +113,9 @@ impl Reference {
         let last_moment = (self.feeder.is_late(LAST_MOMENT) || in_vain)
             && last.is_ready()
             && last.brakes_within(LAST_MOMENT);
-        // What is final and not planned yet will be.
-        let all_planned = last.is_ready() || planned >= self.path.final_end();
+        // What is final and not planned yet will be, unless it is so little that more is waited for.
+        let is_planned = last.is_ready() || last.waits_for_path();
+        let all_planned = is_planned || planned >= self.path.final_end();
         let last_call =
             waits && all_planned && last.brakes_within(self.last_call(planned, outlook));
         // A single move has nothing to wait for.

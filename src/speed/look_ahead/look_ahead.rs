@@ -107,6 +107,11 @@ impl LookAhead {
         self.progress
     }
 
+    /// Whether the first plan waits for more of the path.
+    pub fn waits_for_path(&self) -> bool {
+        self.progress == PlanProgress::Starting && self.work == Work::Nothing
+    }
+
     /// Where the plan comes to rest, as s.
     pub fn end(&self) -> f64 {
         self.plan.end
