@@ -37,7 +37,7 @@ pub(super) fn widen(
     settings: &BlendSettings,
     metric: &Metric,
 ) -> (bool, usize) {
-    let looked = keep_clear(chain, number, window);
+    let looked = keep_clear(chain, number, window, metric);
     let vertex = chain.vertex(number);
     if vertex.scan_done || vertex.wall || vertex.tangent_jump_size <= 0.0 {
         return (false, looked);
@@ -91,19 +91,18 @@ fn has_long_legs(vertex: &Vertex, settings: &BlendSettings) -> bool {
 }
 
 /// Looks how far the next corner is from a vertex that may swing out. Answers the kernel terms that it took.
-fn keep_clear(chain: &mut Chain, number: u64, window: &Window) -> usize {
+fn keep_clear(chain: &mut Chain, number: u64, window: &Window, metric: &Metric) -> usize {
     let vertex = chain.vertex(number);
     if !vertex.corner.may_swing_out {
         return 1;
     }
-    let left = distance_of_corner(vertex, chain.left_of(number).skip(1), 2.0 * vertex.half_leg);
-    let right = distance_of_corner(
-        vertex,
-        chain.right_of(number, window.next),
-        window.end - vertex.s,
-    );
+    let before = chain.left_of(number).skip(1);
+    let left = next_corner(vertex, before, 2.0 * vertex.half_leg, metric);
+    let after = chain.right_of(number, window.next);
+    let right = next_corner(vertex, after, window.end - vertex.s, metric);
     let vertex = chain.vertex_mut(number);
-    vertex.corner.clear = left.min(right);
+    vertex.corner.clear = left.distance.min(right.distance);
+    vertex.corner.of_figure = left.turns_on && right.turns_on;
     if vertex.scan_done {
         choose(vertex);
     }
@@ -131,32 +130,53 @@ fn choose(vertex: &mut Vertex) {
     };
 }
 
-/// How far the nearest of the `others` is that turns as a corner does beside `vertex`; at least as far as the last one that is
+/// The next corner to one side.
+struct NextCorner {
+    distance: f64,
+    /// Whether it turns to the same side.
+    turns_on: bool,
+}
+
+/// The nearest of the `others` that turns as a corner does beside `vertex`; at least as far as the last one that is
 /// looked at, or `end` if they end before. Where no corner may swing out, none reaches farther.
-fn distance_of_corner<'a>(
+fn next_corner<'a>(
     vertex: &Vertex,
     others: impl Iterator<Item = (u64, &'a Vertex)>,
     end: f64,
-) -> f64 {
+    metric: &Metric,
+) -> NextCorner {
     let least = ANOTHER_CORNER * vertex.tangent_jump_size;
-    let mut corner = None;
+    let mut next = NextCorner {
+        distance: end,
+        turns_on: false,
+    };
+    let mut found = false;
     for (looked, (_, other)) in others.enumerate() {
         let distance = (other.s - vertex.s).abs();
-        if corner.is_some_and(|corner| distance >= OUTER_REACH * corner) {
+        if found && distance >= OUTER_REACH * next.distance {
             break;
         }
         if other.at_limit {
-            return distance / OUTER_REACH;
+            next.distance = distance / OUTER_REACH;
+            break;
         }
-        if other.wall || other.tangent_jump_size > least || looked + 1 >= LOOKED_AT {
-            corner = corner.or(Some(distance));
+        let turns = other.tangent_jump_size > least;
+        if !found && (other.wall || turns || looked + 1 >= LOOKED_AT) {
+            found = true;
+            next.distance = distance;
+            next.turns_on = turns && is_same_kind(vertex, other, metric);
         }
     }
-    corner.unwrap_or(end)
+    next
 }
 
-/// What a width is raised to at most: where neighbours turn the same way, as on a coarse curve,
-/// two legs at least.
+/// Whether two vertices turn to about the same side.
+fn is_same_kind(one: &Vertex, other: &Vertex, metric: &Metric) -> bool {
+    metric.product(&one.tangent_jump.axes(), &other.tangent_jump.axes())
+        > SAME_KIND * one.tangent_jump_size * other.tangent_jump_size
+}
+
+/// What a width is raised to at most, where neighbours turn to the same side as on a coarse curve.
 fn greatest_width(
     chain: &Chain,
     number: u64,
@@ -165,17 +185,11 @@ fn greatest_width(
     metric: &Metric,
 ) -> f64 {
     let vertex = chain.vertex(number);
-    let same = |other: &Vertex| {
-        metric.product(&other.tangent_jump.axes(), &vertex.tangent_jump.axes())
-            > SAME_KIND * other.tangent_jump_size * vertex.tangent_jump_size
-    };
+    let same = |other: &Vertex| is_same_kind(vertex, other, metric);
     let before = chain.vertex(number.saturating_sub(1));
     let after = chain.vertex(number.saturating_add(1));
     if number.saturating_add(1) < window.next && same(before) && same(after) {
-        let run = 2.0 * vertex.longer_leg;
-        vertex
-            .design_width
-            .max(run.min(settings.greatest_design_width()))
+        vertex.greatest_width_on_curve(settings)
     } else {
         vertex.design_width
     }

@@ -35,6 +35,13 @@ use super::widths::{FurtherKernel, Widths};
 /// How far the wide kernel reaches, of the distance of the next corner.
 pub(super) const OUTER_REACH: f64 = 1.5;
 
+/// The same where those before and behind it turn to the same side, since what corners of a figure lead to its outer side adds up:
+/// this share, and so many widths of the biweight kernel ..
+const REACH_IN_A_FIGURE: f64 = 0.6;
+const WIDTHS_IN_A_FIGURE: f64 = 2.14;
+/// .. but no less than this.
+const LEAST_REACH_IN_A_FIGURE: f64 = 1.1;
+
 /// Less room than this, in widths of the biweight kernel, gains nothing.
 const LEAST_ROOM: f64 = 2.0;
 
@@ -83,6 +90,8 @@ pub(super) struct LoneCorner {
     pub may_swing_out: bool,
     /// How far the next corner is, machine units.
     pub clear: f64,
+    /// Whether those before and behind it turn to the same side.
+    pub of_figure: bool,
     /// What of a jump of its tangent leads across its legs, 0 to 1.
     pub across: f64,
     /// Its [third kernel's share](narrow_share).
@@ -106,6 +115,7 @@ impl LoneCorner {
         biweight_width: 0.0,
         may_swing_out: false,
         clear: 0.0,
+        of_figure: false,
         across: 1.0,
         narrow_share: 0.0,
         greatest_width: 0.0,
@@ -114,9 +124,7 @@ impl LoneCorner {
     /// Its widths where it swings out and reaches no farther than `limit`; `None` where it has no room for it or gains
     /// nothing by it.
     pub fn swinging_out(&self, limit: f64) -> Option<Widths> {
-        let outer = (OUTER_REACH * self.clear)
-            .min(self.greatest_width)
-            .min(limit);
+        let outer = self.outer_reach().min(self.greatest_width).min(limit);
         let room = outer / self.biweight_width;
         if !self.may_swing_out || room < LEAST_ROOM {
             return None;
@@ -150,6 +158,16 @@ impl LoneCorner {
         })
     }
 
+    /// How far the wide kernel reaches at most on account of the next corner, machine units.
+    fn outer_reach(&self) -> f64 {
+        let most = OUTER_REACH * self.clear;
+        if !self.of_figure {
+            return most;
+        }
+        let reach = REACH_IN_A_FIGURE * self.clear + WIDTHS_IN_A_FIGURE * self.biweight_width;
+        reach.max(LEAST_REACH_IN_A_FIGURE * self.clear).min(most)
+    }
+
     /// How far the wide kernel may lead to the outer side, along the bisector, in tolerances. `room`: width of the wide kernel in
     /// those of the biweight one.
     fn outside(&self, room: f64) -> f64 {
@@ -172,6 +190,7 @@ mod tests {
             biweight_width: 1.0,
             may_swing_out: true,
             clear,
+            of_figure: false,
             across: 1.0,
             narrow_share: narrow_share(mix, 1.0, 2.0 * clear),
             greatest_width: 200.0,
@@ -275,5 +294,24 @@ mod tests {
             ..corner(10.0, 0.0)
         };
         assert_eq!(held.swinging_out(f64::INFINITY), None);
+    }
+
+    #[test]
+    fn in_a_figure_it_reaches_less_far() {
+        let reach = |clear: f64, of_figure: bool| {
+            let corner = LoneCorner {
+                of_figure,
+                ..corner(clear, 0.0)
+            };
+            corner.swinging_out(f64::INFINITY).expect("room").reach()
+        };
+        for clear in [1.5, 3.0, 4.0, 10.0] {
+            assert!((reach(clear, false) - OUTER_REACH * clear).abs() < 1e-12);
+        }
+        // As far as it may anyway, by its own width, and by the distance alone.
+        for (clear, expected) in [(1.5, 2.25), (3.0, 3.94), (4.0, 4.54), (10.0, 11.0)] {
+            let found = reach(clear, true);
+            assert!((found - expected).abs() < 1e-12, "{clear}: {found}");
+        }
     }
 }

@@ -41,6 +41,7 @@ mod blame;
 mod blended_path;
 mod chain;
 mod chords;
+mod coarse_curve;
 mod contribution;
 mod curve;
 mod deviation;

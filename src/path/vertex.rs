@@ -1,5 +1,6 @@
 //! A vertex of the programmed path: where two legs meet.
 
+use super::coarse_curve;
 use super::easement;
 use super::jump::{Jump, JumpSum, PointSum};
 use super::kernel::{FlatKernel, Kernel, Side};
@@ -295,15 +296,21 @@ impl Vertex {
         self.wall && !self.is_smoothed()
     }
 
+    /// What the width of its kernel is raised to at most where it is one of a curve, machine units.
+    pub fn greatest_width_on_curve(&self, settings: &BlendSettings) -> f64 {
+        let shorter_leg = 2.0 * self.half_leg;
+        let legs = coarse_curve::most_legs(self.tangent_jump_size, self.longer_leg / shorter_leg);
+        let run = legs * self.longer_leg;
+        self.design_width
+            .max(run.min(settings.greatest_design_width()))
+    }
+
     /// How far it might reach in later assignments, going by what is known.
     pub fn possible_reach(&self, settings: &BlendSettings) -> f64 {
         let kernel = if self.scan_done {
             self.base.kernel
         } else {
-            let run = 2.0 * self.longer_leg;
-            self.scanned
-                .max(self.design_width)
-                .max(run.min(settings.greatest_design_width()))
+            self.scanned.max(self.greatest_width_on_curve(settings))
         };
         let outer = if self.corner.may_swing_out {
             self.corner.greatest_width

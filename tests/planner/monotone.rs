@@ -342,6 +342,23 @@ fn with_accelerations<const N: usize>(
     })
 }
 
+/// Corners of a figure swung out the farther the more acceleration there was, and left the tolerance together: 1000 to 2000 mm/s2
+/// cost 2 %.
+#[test]
+fn more_acceleration_costs_no_time_in_coarse_chords() {
+    for figure in [
+        Figure::Circle {
+            radius: 3.0,
+            chord: 1.5,
+        },
+        Figure::Trochoid { chord: 1.5 },
+    ] {
+        let taken = with_accelerations(figure, 0.02, [500.0, 1000.0, 1400.0, 2000.0]);
+        let more = taken.windows(2).any(|window| window[1] > 1.01 * window[0]);
+        assert!(!more, "{figure:?}: {taken:?} periods");
+    }
+}
+
 /// The corner may reach so far that no more than .8 mm of the first leg are final before it is known that no more comes: a plan
 /// over these was waited for, and ended the path only when it was there, 11 periods later.
 #[test]
@@ -353,5 +370,20 @@ fn more_acceleration_costs_no_time_where_a_corner_leaves_little_of_the_way_to_it
             .windows(2)
             .any(|window| window[1] > window[0] + PERIODS);
         assert!(!more, "{degrees} degrees: {taken:?} periods");
+    }
+}
+
+/// With more tolerance chords are not divided any more, and two legs are too little for a kernel not to show where they meet: P .1
+/// instead of .05 cost 3 %.
+#[test]
+fn more_tolerance_of_a_circle_of_chords_costs_no_time() {
+    let figure = Figure::Circle {
+        radius: 3.0,
+        chord: 0.7,
+    };
+    for feed in [60.0, 80.0] {
+        let taken = [0.05, 0.07, 0.1, 0.2].map(|tolerance| with_feed(figure, feed, 2e4, tolerance));
+        let most = taken.into_iter().fold(0.0, f64::max);
+        assert!(most <= 1.02 * taken[0], "F{feed}: {taken:?} periods");
     }
 }

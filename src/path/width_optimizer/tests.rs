@@ -12,25 +12,31 @@ fn chords() -> Vec<([f64; 3], f64)> {
         .collect()
 }
 
-/// The widths of the kernels between all chords when all is settled. `given_up`: the first trial is that knows so many legs.
+/// What becomes of lines, each given by its displacement and tolerance, when all is settled. `given_up`: the first trial is that knows
+/// so many legs.
+fn settled(displacements: &[([f64; 3], f64)], mut given_up: Option<u64>) -> Box<Chain> {
+    let settings = BlendSettings::DEFAULT;
+    let metric = Metric::new(settings.rotary_weight());
+    let mut chain = Box::new(Chain::new());
+    let mut optimizer = WidthOptimizer::new();
+    optimizer.restart(&chain);
+    lines(displacements, &settings, &mut chain);
+    while !optimizer.is_settled(&chain) {
+        optimizer.step(&mut chain, &settings, &metric, true, 1);
+        let checks = matches!(optimizer.phase, OptimizerPhase::Check(_));
+        if checks && given_up.is_some_and(|next| optimizer.window.next >= next) {
+            optimizer.give_up(&mut chain);
+            given_up = None;
+        }
+    }
+    assert_eq!(given_up, None);
+    chain
+}
+
+/// The widths of the kernels between all chords.
 fn kernels(given_up: Option<u64>) -> Vec<f64> {
     with_room(move || {
-        let settings = BlendSettings::DEFAULT;
-        let metric = Metric::new(settings.rotary_weight());
-        let mut chain = Chain::new();
-        let mut optimizer = WidthOptimizer::new();
-        optimizer.restart(&chain);
-        lines(&chords(), &settings, &mut chain);
-        let mut given_up = given_up;
-        while !optimizer.is_settled(&chain) {
-            optimizer.step(&mut chain, &settings, &metric, true, 1);
-            let checks = matches!(optimizer.phase, OptimizerPhase::Check(_));
-            if checks && given_up.is_some_and(|next| optimizer.window.next >= next) {
-                optimizer.give_up(&mut chain);
-                given_up = None;
-            }
-        }
-        assert_eq!(given_up, None);
+        let chain = settled(&chords(), given_up);
         let kernel = |number| chain.vertex(number).stored().kernel;
         (1..chain.next()).map(kernel).collect()
     })
@@ -46,4 +52,28 @@ fn the_next_trial_widens_what_one_that_was_given_up_left_narrow() {
         let new = usize::max(new, 1) - 1;
         assert_eq!(kernels[new..], undisturbed[new..], "{known}");
     }
+}
+
+/// Whether the corners between lines of 5 mm that turn by these angles are of a figure.
+fn of_figure(turns: &[f64]) -> Vec<bool> {
+    let mut angle = 0.0f64;
+    let mut displacements = vec![([5.0, 0.0, 0.0], 0.05)];
+    for turn in turns {
+        angle += turn;
+        displacements.push(([5.0 * angle.cos(), 5.0 * angle.sin(), 0.0], 0.05));
+    }
+    with_room(move || {
+        let chain = settled(&displacements, None);
+        (1..chain.next())
+            .map(|number| chain.vertex(number).corner.of_figure)
+            .collect()
+    })
+}
+
+#[test]
+fn a_corner_between_two_that_turn_to_the_same_side_is_one_of_a_figure() {
+    assert_eq!(of_figure(&[0.4; 5]), [false, true, true, true, false]);
+    assert_eq!(of_figure(&[0.4, -0.4, 0.4]), [false; 3]);
+    assert_eq!(of_figure(&[0.4, 0.4, -0.4]), [false; 3]);
+    assert_eq!(of_figure(&[0.4, 0.4, 0.1, -0.4]), [false; 4], "no corner");
 }
