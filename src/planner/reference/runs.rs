@@ -106,18 +106,19 @@ impl Reference {
         } else {
             self.current()
         };
+        let until = self.time_until_last_run();
+        let brakes_within = |seconds: f64| until <= seconds && last.brakes_within(seconds - until);
         let planned = last.planned().unwrap_or(self.rest);
         let waits = self.lacks_path_behind(planned);
         let lack = self.path.added_end() - self.path.final_end();
         let in_vain = !self.resting && self.feeder.comes_in_vain(lack);
         let last_moment = (self.feeder.is_late(LAST_MOMENT) || in_vain)
             && last.is_ready()
-            && last.brakes_within(LAST_MOMENT);
+            && brakes_within(LAST_MOMENT);
         // What is final and not planned yet will be, unless it is so little that more is waited for.
         let is_planned = last.is_ready() || last.waits_for_path();
         let all_planned = is_planned || planned >= self.path.final_end();
-        let last_call =
-            waits && all_planned && last.brakes_within(self.last_call(planned, outlook));
+        let last_call = waits && all_planned && brakes_within(self.last_call(planned, outlook));
         // A single move has nothing to wait for.
         let is_single = self.resting
             && self.path.programmed_end() <= self.rest
@@ -145,6 +146,18 @@ impl Reference {
                 }
             }
             Expected::Anything => {}
+        }
+    }
+
+    /// Seconds until the machine begins with the last run that there is; 0 where it has.
+    fn time_until_last_run(&self) -> f64 {
+        let handed_out = (self.segments.duration() - self.elapsed).max(0.0);
+        if self.other().is_begun() {
+            handed_out + self.current().time_left()
+        } else if self.resting {
+            handed_out
+        } else {
+            0.0
         }
     }
 
