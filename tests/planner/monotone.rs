@@ -373,6 +373,22 @@ fn more_acceleration_costs_no_time_where_a_corner_leaves_little_of_the_way_to_it
     }
 }
 
+/// Chords with half of the tolerance that a circle through their ends needs. Three times the third derivative that the feed allows
+/// was even enough; more acceleration allows more of it, and cost 6 %.
+#[test]
+fn more_acceleration_costs_no_time_where_the_feed_can_be_reached() {
+    let taken = [500.0, 1000.0].map(|acceleration| {
+        let setting = Setting {
+            jerk: 5e4,
+            acceleration,
+            feed: 20.0,
+            tolerance: 0.005,
+        };
+        with_room(|| periods(Figure::Trochoid { chord: 0.4 }, &setting)) as f64
+    });
+    assert!(taken[1] <= 1.01 * taken[0], "{taken:?} periods");
+}
+
 /// With more tolerance chords are not divided any more, and two legs are too little for a kernel not to show where they meet: P .1
 /// instead of .05 cost 3 %.
 #[test]

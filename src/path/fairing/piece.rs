@@ -20,7 +20,7 @@ const SHARE: f64 = 0.7;
 
 /// A path bends evenly enough with so many times the third derivative that its feed allows. Circles made of chords would
 /// shrink by as much as they may, since that makes them a little more even.
-const EVEN: f64 = 3.0;
+pub(super) const EVEN: f64 = 3.0;
 
 /// Radians that an arc turns by at most, whose vertices are moved: it is divided.
 const MOST_TURN: f64 = 7.0;
