@@ -30,6 +30,7 @@
 //! the corner itself the whole of it counts.
 
 use super::kernel;
+use super::settings::LEAST_NATURAL_SWING;
 use super::widths::{FurtherKernel, Widths};
 
 /// How far the wide kernel reaches, of the distance of the next corner.
@@ -41,6 +42,10 @@ const REACH_IN_A_FIGURE: f64 = 0.6;
 const WIDTHS_IN_A_FIGURE: f64 = 2.14;
 /// .. but no less than this.
 const LEAST_REACH_IN_A_FIGURE: f64 = 1.1;
+
+/// And no more than so many tolerances, unless all corners reach farther: by how far they do so where acceleration is what limits, those of
+/// a figure would be led out by acceleration that they never come to.
+const TOLERANCES_IN_A_FIGURE: f64 = 107.0;
 
 /// Less room than this, in widths of the biweight kernel, gains nothing.
 const LEAST_ROOM: f64 = 2.0;
@@ -86,6 +91,8 @@ pub(super) struct LoneCorner {
     pub width: f64,
     /// The same with the biweight kernel.
     pub biweight_width: f64,
+    /// Its tolerance, machine units.
+    pub tolerance: f64,
     /// Whether it gains by swinging out, where it has room.
     pub may_swing_out: bool,
     /// How far the next corner is, machine units.
@@ -113,6 +120,7 @@ impl LoneCorner {
         mix: 0.0,
         width: 0.0,
         biweight_width: 0.0,
+        tolerance: 0.0,
         may_swing_out: false,
         clear: 0.0,
         of_figure: false,
@@ -165,7 +173,10 @@ impl LoneCorner {
             return most;
         }
         let reach = REACH_IN_A_FIGURE * self.clear + WIDTHS_IN_A_FIGURE * self.biweight_width;
-        reach.max(LEAST_REACH_IN_A_FIGURE * self.clear).min(most)
+        let natural = (LEAST_NATURAL_SWING * self.biweight_width)
+            .max(TOLERANCES_IN_A_FIGURE * self.tolerance);
+        let reach = reach.max(LEAST_REACH_IN_A_FIGURE * self.clear);
+        reach.min(most).min(natural)
     }
 
     /// How far the wide kernel may lead to the outer side, along the bisector, in tolerances. `room`: width of the wide kernel in
@@ -188,6 +199,7 @@ mod tests {
             mix,
             width: kernel::peak(0.0) / kernel::peak(mix),
             biweight_width: 1.0,
+            tolerance: 1.0,
             may_swing_out: true,
             clear,
             of_figure: false,
@@ -312,6 +324,16 @@ mod tests {
         for (clear, expected) in [(1.5, 2.25), (3.0, 3.94), (4.0, 4.54), (10.0, 11.0)] {
             let found = reach(clear, true);
             assert!((found - expected).abs() < 1e-12, "{clear}: {found}");
+        }
+        // And by its tolerance, or the six widths that all reach.
+        for (tolerance, expected) in [(0.08, 8.56), (0.01, LEAST_NATURAL_SWING)] {
+            let corner = LoneCorner {
+                tolerance,
+                of_figure: true,
+                ..corner(10.0, 0.0)
+            };
+            let found = corner.swinging_out(f64::INFINITY).expect("room").reach();
+            assert!((found - expected).abs() < 1e-12, "{tolerance}: {found}");
         }
     }
 }

@@ -40,7 +40,7 @@ const LIMITING: f64 = 1.05;
 const NATURAL_SWING: f64 = 38.0;
 
 /// But so many widths of its biweight kernel at least.
-const LEAST_NATURAL_SWING: f64 = 6.0;
+pub(super) const LEAST_NATURAL_SWING: f64 = 6.0;
 
 /// Acceleration is built up in this time at least, seconds: unlimited jerk is still a few cycles
 /// long.

@@ -79,6 +79,7 @@ impl Vertex {
                 mix,
                 width: within / kernel::peak(mix),
                 biweight_width,
+                tolerance: self.tolerance,
                 may_swing_out: before.may_swing_out
                     && after.may_swing_out
                     && !self.at_limit

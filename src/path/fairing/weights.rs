@@ -23,8 +23,8 @@ const OF_CURVE: f64 = 0.17;
 /// The same of the square of what the way around sharp corners turns by in the mean.
 const AROUND_CORNERS: f64 = 0.3;
 
-/// A path that has less than [`EVEN`] times the third derivative that its feed allows is even enough with what it has, but not with
-/// less than so many times: nearly even for its feed, it can be made so.
+/// Where lines are divided a path that has less than [`EVEN`] times the third derivative that its feed allows is even enough with what
+/// it has, but not with less than so many times: nearly even for its feed, it can be made so.
 const LEAST_EVEN: f64 = 1.5;
 
 /// Gives the pieces from `first` to before `next` that have none the weight of the one before.
@@ -63,7 +63,11 @@ pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64, batch
         };
         let piece = pieces.at_mut(number);
         let even = piece.even.max(allowed);
-        let of_feed = (mean.sqrt() / piece.even).clamp(LEAST_EVEN, EVEN) / EVEN;
+        let of_feed = if piece.leg.length < piece.leg.whole {
+            (mean.sqrt() / piece.even).clamp(LEAST_EVEN, EVEN) / EVEN
+        } else {
+            1.0
+        };
         let raised = of_feed.max(allowed / piece.even);
         piece.keep = piece.keep_at_feed * raised * raised;
         let greatest = even * even;
