@@ -16,9 +16,6 @@ const VERTICES_A_CYCLE: usize = 64;
 /// to continue as anywhere else.
 const CONTINUED_BEFORE: f64 = 24e-3;
 
-/// Where a new plan begins to brake within so many seconds, it is a short one.
-const NEW_PLAN: f64 = 0.04;
-
 /// Seconds that a plan which ends too soon is waited for at most.
 const LONGEST_WAIT: f64 = 0.06;
 
@@ -154,16 +151,6 @@ impl RestToRest {
     /// Whether the machine is to begin to brake to rest within `seconds`, as far as the plan goes.
     pub fn brakes_within(&self, seconds: f64) -> bool {
         !self.is_ready() || self.speed.brakes_within(seconds)
-    }
-
-    /// Seconds from what has been handed out until the rest at the end of the plan.
-    pub fn time_left(&self) -> f64 {
-        match self.planned_end() {
-            Some(end) if end.place == self.end() => end.time,
-            // Not summed yet, since the plan is new. The end of a short one is not waited for.
-            _ if self.brakes_within(NEW_PLAN) => 0.0,
-            _ => f64::INFINITY,
-        }
     }
 
     /// Whether the machine is soon to brake to an end of the plan that is not the end of the run.

@@ -106,8 +106,7 @@ impl Reference {
         } else {
             self.current()
         };
-        let until = self.time_until_last_run();
-        let brakes_within = |seconds: f64| until <= seconds && last.brakes_within(seconds - until);
+        let brakes_within = |seconds: f64| self.is_near_last_run() && last.brakes_within(seconds);
         let planned = last.planned().unwrap_or(self.rest);
         let waits = self.lacks_path_behind(planned);
         let lack = self.path.added_end() - self.path.final_end();
@@ -149,16 +148,11 @@ impl Reference {
         }
     }
 
-    /// Seconds until the machine begins with the last run that there is; 0 where it has.
-    fn time_until_last_run(&self) -> f64 {
-        let handed_out = (self.segments.duration() - self.elapsed).max(0.0);
-        if self.other().is_begun() {
-            handed_out + self.current().time_left()
-        } else if self.resting {
-            handed_out
-        } else {
-            0.0
-        }
+    /// Whether the machine is soon to come to rest where the last run begins, or is under way in that.
+    fn is_near_last_run(&self) -> bool {
+        let left = self.segments.duration() - self.elapsed;
+        let rests = !self.resting || left <= LAST_CALL;
+        rests && (!self.other().is_begun() || self.current().brakes_within(LAST_CALL))
     }
 
     /// Seconds before the machine brakes to the end of the path from which on that is final, if nothing more has come and there
