@@ -138,6 +138,11 @@ impl Chain {
         self.trials.row(first, count)
     }
 
+    /// The kernel of a vertex under examination.
+    pub fn trial(&self, number: u64) -> &TrialKernel {
+        self.trials.at(number)
+    }
+
     /// Puts the widths of a vertex under examination in force.
     pub fn store_trial(&mut self, number: u64) {
         let vertex = self.vertices.at_mut(number);
@@ -300,6 +305,19 @@ impl Chain {
     /// Takes note that a vertex reaches `reach` to both sides on trial, or did: its legs have to be
     /// checked, and evaluation has to look for it there. Answers the number of legs visited.
     pub fn touch(&mut self, number: u64, reach: f64, next: u64) -> usize {
+        self.visit_reached(number, reach, next, |leg, _, _| leg.check.unchecked = true)
+    }
+
+    /// The same, where it is for `visit` to say which legs have to be checked: it is given the distances of their nearer and of
+    /// their farther end from the vertex, first those on its right.
+    #[inline(always)]
+    pub fn visit_reached(
+        &mut self,
+        number: u64,
+        reach: f64,
+        next: u64,
+        mut visit: impl FnMut(&mut Leg, f64, f64),
+    ) -> usize {
         let s = self.vertex(number).s;
         let mut visited = 1;
         for k in 0..NEIGHBOURS {
@@ -308,7 +326,7 @@ impl Chain {
                 break;
             }
             let leg = self.leg_mut(right);
-            leg.unchecked = true;
+            visit(leg, leg.start - s, leg.end() - s);
             leg.reached_from_left = leg.reached_from_left.max(k as u32 + 1);
             visited += 1;
         }
@@ -320,7 +338,7 @@ impl Chain {
                 break;
             }
             let leg = self.leg_mut(left);
-            leg.unchecked = true;
+            visit(leg, s - leg.end(), s - leg.start);
             leg.reached_from_right = leg.reached_from_right.max(k as u32);
             visited += 1;
         }
@@ -414,7 +432,9 @@ mod tests {
     fn a_touch_reaches_as_far_as_the_kernel() {
         with_chain(20, |chain| {
             chain.touch(10, 2.5, 20);
-            let touched: Vec<u64> = (0..20).filter(|leg| chain.leg(*leg).unchecked).collect();
+            let touched: Vec<u64> = (0..20)
+                .filter(|leg| chain.leg(*leg).check.unchecked)
+                .collect();
             assert_eq!(touched, [7, 8, 9, 10, 11, 12]);
             assert_eq!(chain.leg(7).reached_from_right, 3);
             assert_eq!(chain.leg(9).reached_from_right, 1);

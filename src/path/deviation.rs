@@ -42,6 +42,8 @@ pub(super) struct Violation {
 pub(super) struct DeviationVerdict {
     /// `None` where the tolerance is kept.
     pub violation: Option<Violation>,
+    /// What is left of the tolerance where it is kept, at least; machine units.
+    pub left: f64,
     /// Kernel terms that it took.
     pub cost: usize,
 }
@@ -72,6 +74,7 @@ pub(super) fn check(
     if reaching.count() == 0 {
         return DeviationVerdict {
             violation: None,
+            left: share * chain.leg(number).tolerance(),
             cost: 1,
         };
     }
@@ -89,6 +92,7 @@ pub(super) fn check(
         end: leg.end(),
         at_start: before.map(|end| end.deviation),
         at_end: None,
+        greatest: 0.0,
         halvings: 0,
         cost: 1 + reaching.count(),
     };
@@ -108,6 +112,7 @@ pub(super) fn check(
     });
     DeviationVerdict {
         violation,
+        left: search.tolerance - search.greatest,
         cost: search.cost,
     }
 }
@@ -123,6 +128,8 @@ struct Search<'a> {
     /// The deviations at both, where they are known.
     at_start: Option<f64>,
     at_end: Option<f64>,
+    /// The greatest bound of the deviation that the tolerance holds.
+    greatest: f64,
     halvings: u32,
     cost: usize,
 }
@@ -176,6 +183,7 @@ impl Search<'_> {
             let bound = at_left.max(at_right)
                 + 0.125 * length * length * self.reaching.bend_bound(self.chain, left, right);
             if bound <= self.tolerance {
+                self.greatest = self.greatest.max(bound);
                 depth = depth.checked_sub(1)?;
                 (left, at_left) = (right, at_right);
                 let Some(next) = waiting.get(depth) else {

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::leg_check::LegCheck;
 use super::metric::Metric;
 use super::settings::{Allowance, BlendSettings};
 use super::shift::Shift;
@@ -95,8 +96,8 @@ pub(super) struct Leg {
     pub may_swing_out: bool,
     /// Which of its ends are near a soft limit.
     pub near_limit: NearLimit,
-    /// Whether a trial assignment of widths has yet to be checked on it.
-    pub unchecked: bool,
+    /// What a trial of widths has found out about it.
+    pub check: LegCheck,
     /// How many vertices to the left, its own start included, reach into it at most.
     pub reached_from_left: u32,
     /// How many vertices to the right, its own end included, reach into it at most.
@@ -129,7 +130,7 @@ impl Leg {
         stop_after: false,
         may_swing_out: false,
         near_limit: NearLimit::NONE,
-        unchecked: false,
+        check: LegCheck::NONE,
         reached_from_left: 0,
         reached_from_right: 0,
     };

@@ -3,28 +3,32 @@
 //! There are always two assignments of widths. The *stored* one is in force: it keeps the
 //! tolerance everywhere, and leaves the programmed path alone at the end of what is known. The
 //! *trial* one takes the path as far as it has grown since, at the widths that would be best. It
-//! is checked leg by leg; the vertices that are to blame for a violation are narrowed and their legs
+//! is [checked leg by leg](checking); the vertices that are to blame for a violation are narrowed and their legs
 //! checked again. When all is within the tolerance it takes the place of the stored one, at once.
 //! When that fails, or takes too much work, the stored one stays and the new vertices are
 //! hardened (see there), until the next trial: where no more of the path comes, there is one without.
 //!
 //! Vertices become final from the oldest on, as soon as what is yet to come is beyond their reach.
 
+use super::base_width;
 use super::chain::{Chain, NEIGHBOURS};
-use super::deviation::{self, EndDeviation, GREATEST_COST};
+use super::deviation::{EndDeviation, GREATEST_COST};
 use super::hardening::{self, ATTEMPTS};
+use super::leg_check::LegCheck;
 use super::metric::Metric;
 use super::reaching::Reaching;
 use super::settings::BlendSettings;
 use super::widths::Widths;
 use super::window::Window;
-use super::{base_width, blame, deviation::DeviationVerdict};
 
 /// Path that has to come, in design widths, before widths are chosen anew.
 const CHUNK: f64 = 0.18;
 
-/// Vertices that have to come, or as many as are taken at a time.
+/// Vertices that have to come at most.
 const GREATEST_CHUNK: u64 = 16;
+
+/// So many are taken at a time where more have come: a trial checks as many legs before the new ones as well, and more.
+const MOST_AT_A_TIME: u64 = NEIGHBOURS;
 
 /// A vertex so many behind the newest is final whatever comes.
 const GREATEST_OPEN: u64 = 48;
@@ -32,17 +36,8 @@ const GREATEST_OPEN: u64 = 48;
 /// Distance of what is yet to come from the edge of a final kernel, in design widths.
 const LAG: f64 = 0.5;
 
-/// What of the tolerance a trial may use; the rest is for hardened vertices.
-const TRIAL_SHARE: f64 = 0.98;
-
-/// Checks of the whole window before a trial is given up.
-const ROUNDS: u32 = 48;
-
-/// A violation so near to the end of what is known, in design widths, may be due to it.
-const NEAR_END: f64 = 2.0;
-
 /// Kernel terms that a trial may take in its checks, and half as many in its base widths.
-const GREATEST_TRIAL: usize = 90_000;
+const GREATEST_TRIAL: usize = 200_000;
 
 /// The most kernel terms by which a call of
 /// [`BlendedPath::step`](super::BlendedPath::step) exceeds its budget.
@@ -77,6 +72,8 @@ pub(super) struct WidthOptimizer {
     /// Kernel terms spent on the phase's part of the trial.
     spent: usize,
     violated: bool,
+    /// Whether legs are passed over that were not violated when they were checked last.
+    violated_alone: bool,
     narrowed: bool,
     /// Whether the last trial failed, so that the vertices that were new to it wait for another one ..
     hardened: bool,
@@ -100,6 +97,7 @@ impl WidthOptimizer {
             round: 0,
             spent: 0,
             violated: false,
+            violated_alone: false,
             narrowed: false,
             hardened: false,
             repeated: false,
@@ -209,7 +207,7 @@ impl WidthOptimizer {
         }
         self.repeated = repeated;
         self.hardened = false;
-        let next = self.stored_next + fresh.min(GREATEST_CHUNK);
+        let next = self.stored_next + fresh.min(MOST_AT_A_TIME);
         self.window.next = next;
         self.window.end = chain.leg(next.wrapping_sub(1)).end();
         // Walls, from the right. The vertex at the end of the window may be known to be one.
@@ -226,7 +224,7 @@ impl WidthOptimizer {
             }
         }
         for number in self.first_leg(chain)..next {
-            chain.leg_mut(number).unchecked = false;
+            chain.leg_mut(number).check = LegCheck::NONE;
         }
         self.spent = 0;
         self.phase = OptimizerPhase::Widen(self.window.open);
@@ -264,7 +262,7 @@ impl WidthOptimizer {
         if number >= self.window.next {
             self.spent = 0;
             self.round = 0;
-            self.begin_check(chain);
+            self.begin_check(chain, false);
             return 1;
         }
         self.phase = OptimizerPhase::Assign(number + 1);
@@ -292,97 +290,6 @@ impl WidthOptimizer {
             Widths::NONE
         };
         chain.set_trial(number, widths);
-    }
-
-    fn begin_check(&mut self, chain: &Chain) {
-        self.violated = false;
-        self.known = None;
-        self.phase = OptimizerPhase::Check(self.first_leg(chain));
-    }
-
-    fn check(
-        &mut self,
-        chain: &mut Chain,
-        leg: u64,
-        settings: &BlendSettings,
-        metric: &Metric,
-    ) -> usize {
-        if self.spent > GREATEST_TRIAL {
-            return self.give_up(chain);
-        }
-        if leg >= self.window.next {
-            if !self.violated {
-                return self.accept(chain, settings, self.window.next);
-            }
-            self.round += 1;
-            if self.round >= ROUNDS {
-                return self.give_up(chain);
-            }
-            self.narrowed = false;
-            self.phase = OptimizerPhase::Narrow(self.window.open);
-            return 1;
-        }
-        self.phase = OptimizerPhase::Check(leg + 1);
-        if !chain.leg(leg).unchecked {
-            return 1;
-        }
-        let DeviationVerdict { violation, cost } = deviation::check(
-            chain,
-            leg,
-            TRIAL_SHARE,
-            self.window.next,
-            metric,
-            &mut self.reaching,
-            &mut self.known,
-        );
-        let marking = match violation {
-            None => {
-                chain.leg_mut(leg).unchecked = false;
-                0
-            }
-            Some(violation) => {
-                self.violated = true;
-                let last = chain.leg(self.window.next.wrapping_sub(1));
-                let near_end = self
-                    .window
-                    .is_near_end(violation.s, NEAR_END * last.design_width);
-                let spent = self.spent as f64 / GREATEST_TRIAL as f64;
-                blame::mark(chain, leg, violation, near_end, &self.window, metric, spent)
-            }
-        };
-        self.spent += cost + marking;
-        cost + marking
-    }
-
-    fn narrow(&mut self, chain: &mut Chain, number: u64) -> usize {
-        if number >= self.window.next {
-            if !self.narrowed {
-                return self.give_up(chain);
-            }
-            self.begin_check(chain);
-            return 1;
-        }
-        self.phase = OptimizerPhase::Narrow(number + 1);
-        let narrowing = chain.vertex(number).narrowing;
-        if narrowing >= 1.0 {
-            return 1;
-        }
-        self.narrowed = true;
-        let clip = self.window.clip(chain, number);
-        let vertex = chain.vertex_mut(number);
-        let reach = vertex.trial.reach();
-        let kernel = vertex.base.kernel.max(vertex.base.further_reach());
-        let wanted = (kernel * vertex.factor).max(vertex.base.easement * vertex.factor.sqrt());
-        // What the surroundings of this moment are to blame for is forgotten with the trial.
-        if wanted > clip || vertex.marked_temporarily {
-            vertex.temporary_factor *= narrowing;
-        } else {
-            vertex.factor *= narrowing;
-        }
-        vertex.narrowing = 1.0;
-        vertex.marked_temporarily = false;
-        self.set_trial(chain, number);
-        chain.touch(number, reach, self.window.next)
     }
 
     /// Back to the stored assignment, which does not know the new vertices yet. What it knows stays as narrow, so that trials come
@@ -483,5 +390,6 @@ impl WidthOptimizer {
     }
 }
 
+mod checking;
 #[cfg(test)]
 mod tests;
