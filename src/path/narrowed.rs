@@ -1,6 +1,6 @@
 //! A kernel that is narrowed on trial: by how much the deviation may grow for it on the legs that it reaches.
 //!
-//! A leg that has more than that left of its tolerance needs no other check. Far from the vertex that is nearly all of them: where
+//! A leg that has more than that left of its tolerance needs no other check. Far from the vertex that is most of them: where
 //! dozens of kernels reach each leg a check takes as much as what is asked here of a hundred legs.
 
 use super::chain::Chain;
