@@ -1,7 +1,7 @@
 //! A kernel that is narrowed on trial: by how much the deviation may grow for it on the legs that it reaches.
 //!
 //! A leg that has more than that left of its tolerance needs no other check. Far from the vertex that is most of them: where
-//! dozens of kernels reach each leg a check takes as much as what is asked here of a hundred legs.
+//! dozens of kernels reach each leg a check takes as much as what is asked here of some seventy legs.
 
 use super::chain::Chain;
 use super::kernel;
@@ -48,7 +48,8 @@ impl Narrowed {
     }
 }
 
-/// Takes note that a vertex was narrowed on trial, from a kernel with this reach on. Answers the kernel terms that it took.
+/// Takes note that a vertex was narrowed on trial: it had this kernel `before`, reached `reach`, and reaches no farther now. Answers the
+/// kernel terms that it took.
 pub(super) fn touch(
     chain: &mut Chain,
     number: u64,

@@ -11,6 +11,8 @@
 //! Vertices become final from the oldest on, as soon as what is yet to come is beyond their reach.
 
 use super::base_width;
+mod checking;
+
 use super::chain::{Chain, NEIGHBOURS};
 use super::deviation::{EndDeviation, GREATEST_COST};
 use super::hardening::{self, ATTEMPTS};
@@ -390,6 +392,5 @@ impl WidthOptimizer {
     }
 }
 
-mod checking;
 #[cfg(test)]
 mod tests;
