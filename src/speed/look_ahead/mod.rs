@@ -19,7 +19,6 @@ mod bounds;
 mod candidate_plan;
 mod context;
 mod cost;
-mod counted_route;
 mod departure;
 mod extensions;
 mod feature;
