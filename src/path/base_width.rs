@@ -81,7 +81,7 @@ pub(super) fn widen(
     let vertex = chain.vertex_mut(number);
     vertex.scan_done = too_wide;
     vertex.searched = searched;
-    choose(vertex);
+    choose(chain, number);
     (goes_on, cost)
 }
 
@@ -104,13 +104,14 @@ fn keep_clear(chain: &mut Chain, number: u64, window: &Window, metric: &Metric) 
     vertex.corner.clear = left.distance.min(right.distance);
     vertex.corner.of_figure = left.turns_on && right.turns_on;
     if vertex.scan_done {
-        choose(vertex);
+        choose(chain, number);
     }
     LOOKED_AT / 2
 }
 
 /// Base widths as wide as was found, or those of a corner by itself.
-fn choose(vertex: &mut Vertex) {
+fn choose(chain: &mut Chain, number: u64) {
+    let vertex = chain.vertex_mut(number);
     let plain = if vertex.free_limit > 0.0 {
         vertex.width_alone()
     } else {
@@ -128,6 +129,7 @@ fn choose(vertex: &mut Vertex) {
     } else {
         alone
     };
+    chain.set_of_curve(number);
 }
 
 /// The next corner to one side.
@@ -206,18 +208,9 @@ fn deviation_at_equal_widths(
 ) -> (f64, usize) {
     let here = chain.vertex(number).s;
     let mut sum = EqualWidthsSum::new(here, width);
-    for (_, vertex) in chain.left_of(number) {
-        if here - vertex.s >= width {
-            break;
-        }
-        sum.add(vertex);
-    }
-    for (_, vertex) in chain.right_of(number, window.next) {
-        if vertex.s - here >= width {
-            break;
-        }
-        sum.add(vertex);
-    }
+    let vertex = |number| chain.vertex(number);
+    sum.add(chain.curve_left_of(number), vertex);
+    sum.add(chain.curve_right_of(number, window.next), vertex);
     let (mut deviation, terms) = sum.total();
     let share = chain.vertex(number).turn_share;
     shift::add(&mut deviation, &chain.leg(number).shift_at(here));

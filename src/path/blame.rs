@@ -5,7 +5,7 @@
 
 use super::chain::{Chain, NEIGHBOURS};
 use super::deviation::Violation;
-use super::jump::JumpSum;
+use super::jump::{GROUP_SIZE, JumpSum};
 use super::metric::Metric;
 use super::shift;
 use super::vertex::Vertex;
@@ -69,33 +69,69 @@ pub(super) fn mark(
         .max(window.open)
         .max(chain.first());
     let to = leg.saturating_add(1 + NEIGHBOURS).min(window.next);
-    let mut total = JumpSum::ZERO;
-    for number in from..to {
-        let vertex = chain.vertex(number);
-        vertex.add_deviation(&vertex.counted, s - vertex.s, &mut total);
-    }
-    let mut total = total.axes();
-    let place = chain.leg(leg);
-    shift::add(&mut total, &place.shift_at(s));
-    place.take_off_along(s, &mut total);
-    let mut blames = [0.0; MOST];
-    let mut greatest = 0.0;
-    for (blame, number) in blames.iter_mut().zip(from..to) {
-        let vertex = chain.vertex(number);
-        let mut own = JumpSum::ZERO;
-        vertex.add_deviation(&vertex.counted, s - vertex.s, &mut own);
-        *blame = vertex.counted.reach() * metric.product(&own.axes(), &total);
-        greatest = f64::max(greatest, *blame);
-    }
+    let blames = blames(chain, leg, s, from..to, metric);
+    let greatest = blames.iter().copied().fold(0.0, f64::max);
     for (blame, number) in blames.into_iter().zip(from..to) {
         let on_curve = chain.leg(number).ends_curve;
         let vertex = chain.vertex_mut(number);
-        if blame >= BLAMED * greatest && reaches(vertex, s) {
+        if blame > 0.0 && blame >= BLAMED * greatest && reaches(vertex, s) {
             vertex.narrowing = vertex.narrowing.min(narrowing(&violation, on_curve, spent));
             vertex.marked_temporarily |= near_end;
         }
     }
     2 * to.saturating_sub(from) as usize
+}
+
+/// By how much each of the `vertices` is to blame for the deviation of a leg at a place. Those that are held are not narrowed whatever
+/// they add.
+fn blames(
+    chain: &Chain,
+    leg: u64,
+    s: f64,
+    vertices: core::ops::Range<u64>,
+    metric: &Metric,
+) -> [f64; MOST] {
+    let count = vertices.end.saturating_sub(vertices.start);
+    let trials = || {
+        let row = chain.trials(vertices.start, count).into_iter().flatten();
+        row.zip(vertices.clone())
+    };
+    // What most of them are to be multiplied by is asked for once.
+    let mut values = [0.0; MOST];
+    let mut linear = [0.0; GROUP_SIZE];
+    let mut others = JumpSum::ZERO;
+    for ((trial, number), value) in trials().zip(&mut values) {
+        if chain.is_linear() && trial.is_all() {
+            *value = trial.value((s - trial.s).abs());
+            for (sum, axis) in linear.iter_mut().zip(&trial.linear_jump) {
+                *sum += *value * axis;
+            }
+        } else {
+            let vertex = chain.vertex(number);
+            vertex.add_deviation(&vertex.counted, s - vertex.s, &mut others);
+        }
+    }
+    let mut total = others.axes() + JumpSum::of_groups(&[linear]).axes();
+    let place = chain.leg(leg);
+    shift::add(&mut total, &place.shift_at(s));
+    place.take_off_along(s, &mut total);
+    let mut blames = [0.0; MOST];
+    for (((trial, number), value), blame) in trials().zip(values).zip(&mut blames) {
+        if chain.vertex(number).held {
+            continue;
+        }
+        *blame = trial.reach
+            * if chain.is_linear() && trial.is_all() {
+                let axes = trial.linear_jump.iter().zip(total.iter());
+                value * axes.map(|(jump, total)| jump * total).sum::<f64>()
+            } else {
+                let vertex = chain.vertex(number);
+                let mut own = JumpSum::ZERO;
+                vertex.add_deviation(&vertex.counted, s - vertex.s, &mut own);
+                metric.product(&own.axes(), &total)
+            };
+    }
+    blames
 }
 
 fn reaches(vertex: &Vertex, s: f64) -> bool {
@@ -117,6 +153,20 @@ mod tests {
 
     /// The same among so many kernels, where the legs behind the corners end a curve or do not, and so much of the trial is spent.
     fn marked_among(kernels: usize, widths: [f64; 2], on_curve: [bool; 2], spent: f64) -> [f64; 2] {
+        marked_where(kernels, widths, spent, move |chain| {
+            for (number, on_curve) in (1..).zip(on_curve) {
+                chain.leg_mut(number).ends_curve = on_curve;
+            }
+        })
+    }
+
+    /// The same of a bend that was prepared.
+    fn marked_where(
+        kernels: usize,
+        widths: [f64; 2],
+        spent: f64,
+        prepare: impl Fn(&mut Chain) + Send + 'static,
+    ) -> [f64; 2] {
         with_room(move || {
             let (mut chain, metric) = chain_of(&[
                 ([10.0, 0.0, 0.0], 9.0),
@@ -130,9 +180,7 @@ mod tests {
                 };
                 chain.set_trial(number, widths);
             }
-            for (number, on_curve) in (1..).zip(on_curve) {
-                chain.leg_mut(number).ends_curve = on_curve;
-            }
+            prepare(&mut chain);
             let window = Window {
                 next: chain.next(),
                 end: chain.end(),
@@ -147,6 +195,20 @@ mod tests {
             mark(&mut chain, 1, violation, false, &window, &metric, spent);
             [1, 2].map(|number| chain.vertex(number).narrowing)
         })
+    }
+
+    #[test]
+    fn one_that_is_held_is_not_narrowed_whatever_it_adds() {
+        let narrowed = |held: &'static [u64]| {
+            marked_where(2, [8.0, 0.5], 0.0, move |chain| {
+                for number in held {
+                    chain.vertex_mut(*number).held = true;
+                }
+            })
+        };
+        assert_eq!(narrowed(&[]), [0.9, 1.0]);
+        assert_eq!(narrowed(&[1]), [1.0, 0.9]);
+        assert_eq!(narrowed(&[1, 2]), [1.0, 1.0]);
     }
 
     /// What a vertex is narrowed to where so many kernels reach the leg and so much of the trial is spent, for these shares of the

@@ -3,6 +3,7 @@
 use core::cell::Cell;
 
 use super::contribution::Contribution;
+use super::equal_widths::CurveVertex;
 use super::leg::Leg;
 use super::metric::Metric;
 use super::settings::BlendSettings;
@@ -34,6 +35,8 @@ pub(super) struct Chain {
     pub(super) contributions: Ring<Contribution, SLOTS>,
     /// What they would add on trial.
     trials: Ring<TrialKernel, SLOTS>,
+    /// What they would add as parts of a curve.
+    of_curve: Ring<CurveVertex, SLOTS>,
     first: u64,
     next: u64,
     /// Number of the leg that the path began with.
@@ -53,6 +56,7 @@ impl Chain {
             vertices: Ring::filled_with(Vertex::VACANT),
             contributions: Ring::filled_with(Contribution::NONE),
             trials: Ring::filled_with(TrialKernel::NONE),
+            of_curve: Ring::filled_with(CurveVertex::NONE),
             first: 0,
             next: 0,
             begin: 0,
@@ -132,6 +136,11 @@ impl Chain {
         *self.trials.at_mut(number) = TrialKernel::of(vertex);
     }
 
+    /// Takes note of what has been found of a vertex as a part of a curve.
+    pub fn set_of_curve(&mut self, number: u64) {
+        *self.of_curve.at_mut(number) = CurveVertex::of(self.vertices.at(number));
+    }
+
     /// The kernels of so many vertices under examination from this one on, in two parts.
     #[inline(always)]
     pub fn trials(&self, first: u64, count: u64) -> [&[TrialKernel]; 2] {
@@ -187,6 +196,7 @@ impl Chain {
         *self.vertex_mut(self.next) = vertex;
         *self.contributions.at_mut(self.next) = Contribution::of(&vertex);
         *self.trials.at_mut(self.next) = TrialKernel::of(&vertex);
+        *self.of_curve.at_mut(self.next) = CurveVertex::of(&vertex);
         self.next = self.next.wrapping_add(1);
     }
 
@@ -265,6 +275,33 @@ impl Chain {
                 open = !vertex.wall;
                 taken
             })
+    }
+
+    /// The same as [`Self::left_of`], up to a wall or beyond it, as parts of a curve.
+    #[inline(always)]
+    pub fn curve_left_of(&self, leg: u64) -> impl Iterator<Item = (u64, &CurveVertex)> + '_ {
+        let count = leg.saturating_add(1).saturating_sub(self.first);
+        let count = count.min(NEIGHBOURS);
+        let [before, behind] = self
+            .of_curve
+            .row(leg.wrapping_add(1).wrapping_sub(count), count);
+        let row = behind.iter().rev().chain(before.iter().rev());
+        row.zip(0..)
+            .map(move |(vertex, k)| (leg.wrapping_sub(k), vertex))
+    }
+
+    /// The same as [`Self::right_of`], up to a wall or beyond it, as parts of a curve.
+    #[inline(always)]
+    pub fn curve_right_of(
+        &self,
+        leg: u64,
+        next: u64,
+    ) -> impl Iterator<Item = (u64, &CurveVertex)> + '_ {
+        let first = leg.saturating_add(1);
+        let count = next.saturating_sub(first).min(NEIGHBOURS);
+        let [before, behind] = self.of_curve.row(first, count);
+        let row = before.iter().chain(behind);
+        row.zip(first..).map(|(vertex, number)| (number, vertex))
     }
 
     /// Up to `frozen` the path never changes again, and vertices before `open` are final: forgets of the legs there

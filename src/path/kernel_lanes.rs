@@ -33,9 +33,11 @@ pub(super) struct KernelLanes {
     s: OfKernels,
     /// 0 behind the last one.
     width: OfKernels,
+    /// 1 over that.
+    inverse_width: OfKernels,
     mix: OfKernels,
-    /// Length of the jump of the tangent.
-    size: OfKernels,
+    /// Length of the jump of the tangent, over the width.
+    bend: OfKernels,
     /// That jump, by group and axis.
     jump: [[OfKernels; GROUP_SIZE]; GROUPS],
 }
@@ -45,8 +47,9 @@ impl KernelLanes {
         count: 0,
         s: [0.0; MOST],
         width: [0.0; MOST],
+        inverse_width: [0.0; MOST],
         mix: [0.0; MOST],
-        size: [0.0; MOST],
+        bend: [0.0; MOST],
         jump: [[[0.0; MOST]; GROUP_SIZE]; GROUPS],
     };
 
@@ -73,9 +76,11 @@ impl KernelLanes {
         let place = self.count;
         if place < MOST {
             self.s[place] = vertex.s;
+            let inverse_width = 1.0 / width;
             self.width[place] = width;
+            self.inverse_width[place] = inverse_width;
             self.mix[place] = mix;
-            self.size[place] = times.abs() * vertex.tangent_jump_size;
+            self.bend[place] = times.abs() * vertex.tangent_jump_size * inverse_width;
             let groups = self.jump.iter_mut().zip(vertex.tangent_jump.groups());
             for (lanes, group) in groups.take(G) {
                 for (lanes, axis) in lanes.iter_mut().zip(group) {
@@ -93,8 +98,9 @@ impl KernelLanes {
         if place < MOST {
             self.s[place] = trial.s;
             self.width[place] = trial.reach;
+            self.inverse_width[place] = trial.inverse_reach;
             self.mix[place] = trial.mix;
-            self.size[place] = trial.size;
+            self.bend[place] = trial.size * trial.inverse_reach;
             let [linear, ..] = &mut self.jump;
             for (lanes, axis) in linear.iter_mut().zip(trial.linear_jump) {
                 lanes[place] = axis;
@@ -110,8 +116,9 @@ impl KernelLanes {
         for number in self.pairs() {
             let width = pair(&self.width, number);
             let distance = (s - pair(&self.s, number)).abs();
-            let value = width * kernel::values(distance / width, pair(&self.mix, number));
-            // Beyond the width the polynomial means nothing, and where there is no kernel it is no number.
+            let x = distance * pair(&self.inverse_width, number);
+            let value = width * kernel::values(x, pair(&self.mix, number));
+            // Beyond the width the polynomial means nothing, nor does it where there is no kernel.
             let value = value & distance.simd_lt(width);
             for (sums, jumps) in sum.iter_mut().zip(&self.jump) {
                 for (sum, jump) in sums.iter_mut().zip(jumps) {
@@ -129,8 +136,9 @@ impl KernelLanes {
         for number in self.pairs() {
             let (s, width) = (pair(&self.s, number), pair(&self.width, number));
             let distance = (from - s).fast_max(s - to).fast_max(f64x2::ZERO);
-            let majorants = kernel::majorants(distance / width, pair(&self.mix, number));
-            sum += (pair(&self.size, number) / width * majorants) & distance.simd_lt(width);
+            let x = distance * pair(&self.inverse_width, number);
+            let majorants = kernel::majorants(x, pair(&self.mix, number));
+            sum += (pair(&self.bend, number) * majorants) & distance.simd_lt(width);
         }
         sum.reduce_add()
     }

@@ -19,13 +19,7 @@ struct Narrowed {
 impl Narrowed {
     /// By how much the deviation changes at a distance, without its sign.
     fn change(&self, distance: f64) -> f64 {
-        let value = |trial: &TrialKernel| {
-            if distance < trial.reach {
-                trial.size * trial.reach * kernel::value(distance / trial.reach, trial.mix)
-            } else {
-                0.0
-            }
-        };
+        let value = |trial: &TrialKernel| trial.size * trial.value(distance);
         (value(&self.before) - value(&self.after)).abs()
     }
 
@@ -38,8 +32,8 @@ impl Narrowed {
     fn bend_bound(&self, distance: f64) -> f64 {
         let bound = |trial: &TrialKernel| {
             if distance < trial.reach {
-                let majorant = kernel::majorant(distance / trial.reach, trial.mix);
-                trial.size / trial.reach * majorant
+                let majorant = kernel::majorant(distance * trial.inverse_reach, trial.mix);
+                trial.size * trial.inverse_reach * majorant
             } else {
                 0.0
             }
@@ -58,7 +52,7 @@ pub(super) fn touch(
     next: u64,
 ) -> usize {
     let after = *chain.trial(number);
-    if !(before.is_all && after.is_all) {
+    if !(before.is_all() && after.is_all()) {
         return chain.touch(number, reach, next);
     }
     let narrowed = Narrowed {
@@ -177,6 +171,7 @@ mod tests {
         ) {
             let trial = |which: usize| TrialKernel {
                 reach: reaches[which],
+                inverse_reach: 1.0 / reaches[which],
                 mix: mixes[which],
                 size: 0.7,
                 ..TrialKernel::NONE

@@ -84,7 +84,7 @@ impl Reaching {
 
     #[inline(always)]
     fn add<const G: usize>(&mut self, chain: &Chain, number: u64, trial: &TrialKernel) {
-        if G == 1 && trial.is_all {
+        if G == 1 && trial.is_all() {
             self.kernels.push_linear(trial);
         } else {
             self.add_all::<G>(number, chain.vertex(number));

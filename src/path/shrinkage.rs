@@ -49,14 +49,15 @@ impl Vertex {
         if width <= self.half_leg * 1.001 {
             return self.corner.mix;
         }
-        let [mix, _] = Self::full_mixes([self; 2], f64x2::splat(width)).to_array();
+        let mean_leg = f64x2::splat(self.mean_leg);
+        let [mix, _] = Self::full_mixes(mean_leg, f64x2::splat(width)).to_array();
         mix - (self.shrinkage / (width * width)).min(1.0 - LEAST_MIX)
     }
 
-    /// The mixes of two vertices where the curve is not to shrink.
+    /// The mixes of two vertices where the curve is not to shrink, by the mean lengths of their legs.
     #[inline(always)]
-    pub fn full_mixes(vertices: [&Self; 2], width: f64x2) -> f64x2 {
-        let share = f64x2::new(vertices.map(|vertex| vertex.mean_leg)) / width;
+    pub fn full_mixes(mean_legs: f64x2, width: f64x2) -> f64x2 {
+        let share = mean_legs / width;
         1.0 + (share * OUTWARD * share).fast_min(f64x2::splat(GREATEST_OUTWARD))
     }
 

@@ -4,6 +4,7 @@
 //! a vertex there lies in one line of a processor's cache.
 
 use super::jump::GROUP_SIZE;
+use super::kernel;
 use super::vertex::Vertex;
 
 /// See the module.
@@ -14,24 +15,24 @@ pub(super) struct TrialKernel {
     pub s: f64,
     /// How far it reaches, as far as that needs a tolerance: the width of its kernel, if that is [all](Self::is_all).
     pub reach: f64,
-    /// Mix of its kernels.
+    /// 1 over that.
+    pub inverse_reach: f64,
+    /// Mix of its kernels; negative where that is not [all](Self::is_all).
     pub mix: f64,
     /// Length of the jump of the tangent.
     pub size: f64,
     /// That jump in X, Y and Z.
     pub linear_jump: [f64; GROUP_SIZE],
-    /// Whether this says all of it: it has one kernel without a share of K8, and nothing else.
-    pub is_all: bool,
 }
 
 impl TrialKernel {
     pub const NONE: Self = Self {
         s: 0.0,
         reach: 0.0,
+        inverse_reach: 0.0,
         mix: 0.0,
         size: 0.0,
         linear_jump: [0.0; GROUP_SIZE],
-        is_all: true,
     };
 
     /// Of a vertex as it is on trial.
@@ -39,13 +40,31 @@ impl TrialKernel {
         let [linear, ..] = vertex.tangent_jump.groups();
         let counted = &vertex.counted;
         let times = counted.own_share();
+        let is_all = counted.further_reach() <= 0.0 && counted.easement <= 0.0;
+        let reach = counted.reach();
         Self {
             s: vertex.s,
-            reach: counted.reach(),
-            mix: counted.mix,
+            reach,
+            inverse_reach: if reach > 0.0 { 1.0 / reach } else { 0.0 },
+            mix: if is_all { counted.mix } else { -1.0 },
             size: times.abs() * vertex.tangent_jump_size,
             linear_jump: linear.map(|axis| times * axis),
-            is_all: counted.mix >= 0.0 && counted.further_reach() <= 0.0 && counted.easement <= 0.0,
+        }
+    }
+
+    /// Whether this says all of it: it has one kernel without a share of K8, and nothing else.
+    #[inline(always)]
+    pub fn is_all(&self) -> bool {
+        self.mix >= 0.0
+    }
+
+    /// What of the jump it adds to the path at a distance, if it is all.
+    #[inline]
+    pub fn value(&self, distance: f64) -> f64 {
+        if distance < self.reach {
+            self.reach * kernel::value(distance * self.inverse_reach, self.mix)
+        } else {
+            0.0
         }
     }
 }

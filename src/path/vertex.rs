@@ -105,6 +105,10 @@ pub(super) struct Vertex {
     pub narrowing: f64,
     /// And that place may change for the better when more is known.
     pub marked_temporarily: bool,
+    /// Whether it is to go back to the widths in force ..
+    pub goes_back: bool,
+    /// .. or has, and stays there as long as the trial lasts.
+    pub held: bool,
 }
 
 impl Vertex {
@@ -148,6 +152,8 @@ impl Vertex {
         stored_factor: 1.0,
         narrowing: 1.0,
         marked_temporarily: false,
+        goes_back: false,
+        held: false,
     };
 
     /// Where the path begins at rest, at path distance `s`.

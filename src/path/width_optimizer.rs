@@ -5,12 +5,14 @@
 //! *trial* one takes the path as far as it has grown since, at the widths that would be best. It
 //! is [checked leg by leg](checking); the vertices that are to blame for a violation are narrowed and their legs
 //! checked again. When all is within the tolerance it takes the place of the stored one, at once.
+//! Beside what is final they may [go back](beside_final) to what is in force.
 //! When that fails, or takes too much work, the stored one stays and the new vertices are
 //! hardened (see there), until the next trial: where no more of the path comes, there is one without.
 //!
 //! Vertices become final from the oldest on, as soon as what is yet to come is beyond their reach.
 
 use super::base_width;
+mod beside_final;
 mod checking;
 
 use super::chain::{Chain, NEIGHBOURS};
@@ -272,6 +274,8 @@ impl WidthOptimizer {
         vertex.temporary_factor = 1.0;
         vertex.narrowing = 1.0;
         vertex.marked_temporarily = false;
+        vertex.goes_back = false;
+        vertex.held = false;
         self.set_trial(chain, number);
         let vertex = chain.vertex(number);
         if vertex.trial == *vertex.stored() && number < self.stored_next {

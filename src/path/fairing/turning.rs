@@ -18,6 +18,11 @@ const EVEN: f64 = 0.8;
 /// And nowhere by more than this share: a corner is no curve.
 const GREATEST_SHARE: f64 = 0.6;
 
+/// Of a curve that turns by more within so many pieces only those show it to either side that turn by this much, radians, and none by more
+/// than this share of them.
+const TURN_BESIDE: f64 = 1.0;
+const GREATEST_SHARE_NEARBY: f64 = 0.3;
+
 /// Pieces to both sides of one that show whether it goes around.
 const AROUND: u64 = 12;
 
@@ -31,6 +36,49 @@ const CORNERS: u32 = 2;
 /// .. if at least this share of all turning is about the same axis.
 const ABOUT_ONE_AXIS: f64 = 0.8;
 
+/// How the direction turns over several pieces.
+struct Turning {
+    /// Piece by piece, and the greatest; lengths of differences of unit vectors.
+    sum: f64,
+    greatest: f64,
+    /// From the first to the last.
+    whole: f64,
+    /// From the middle of the first to the middle of the last, path distance.
+    length: f64,
+}
+
+impl Turning {
+    fn of(pieces: &Ring<Piece, ROOM>, numbers: Range<u64>) -> Self {
+        let first = pieces.at(numbers.start);
+        let mut turning = Self {
+            sum: 0.0,
+            greatest: 0.0,
+            whole: 0.0,
+            length: 0.0,
+        };
+        let mut before = first;
+        for number in numbers.start + 1..numbers.end {
+            let piece = pieces.at(number);
+            turning.sum += piece.turn;
+            turning.greatest = turning.greatest.max(piece.turn);
+            turning.length += 0.5 * (before.leg.length + piece.leg.length);
+            before = piece;
+        }
+        turning.whole = (before.direction - first.direction).norm();
+        turning
+    }
+
+    /// Whether no piece turns by more than a `share` of it all, and all to about the same side.
+    fn is_even(&self, share: f64) -> bool {
+        self.greatest < share * self.sum && self.whole > EVEN * self.sum
+    }
+
+    /// 1 per machine unit.
+    fn curvature(&self) -> f64 {
+        self.sum / self.length
+    }
+}
+
 /// The curvature of the curve that a piece lies on, as far as those from `first` to before `next` show it, 1 per machine unit;
 /// `None` where it lies on none.
 pub(super) fn curvature(
@@ -41,17 +89,32 @@ pub(super) fn curvature(
 ) -> Option<f64> {
     let begin = number.saturating_sub(BESIDE).max(first);
     let end = (number + BESIDE + 1).min(next);
-    let (mut sum, mut greatest, mut length) = (0.0, 0.0f64, 0.0);
-    let mut before = pieces.at(begin);
-    for number in begin + 1..end {
-        let piece = pieces.at(number);
-        sum += piece.turn;
-        greatest = greatest.max(piece.turn);
-        length += 0.5 * (before.leg.length + piece.leg.length);
-        before = piece;
+    let turning = Turning::of(pieces, begin..end);
+    turning.is_even(GREATEST_SHARE).then(|| turning.curvature())
+}
+
+/// The curvature around a piece that turns by too much for that within so many pieces, but evenly from piece to piece beside it.
+pub(super) fn curvature_nearby(
+    pieces: &Ring<Piece, ROOM>,
+    number: u64,
+    first: u64,
+    next: u64,
+) -> Option<f64> {
+    let turn = |number: u64| pieces.at(number).turn;
+    let (mut begin, mut before) = (number, 0.0);
+    while begin > number.saturating_sub(BESIDE).max(first) && before + turn(begin) <= TURN_BESIDE {
+        before += turn(begin);
+        begin -= 1;
     }
-    let whole = (before.direction - pieces.at(begin).direction).norm();
-    (greatest < GREATEST_SHARE * sum && whole > EVEN * sum).then(|| sum / length)
+    let (mut end, mut behind) = (number + 1, 0.0);
+    while end < (number + BESIDE + 1).min(next) && behind + turn(end) <= TURN_BESIDE {
+        behind += turn(end);
+        end += 1;
+    }
+    let turning = Turning::of(pieces, begin..end);
+    turning
+        .is_even(GREATEST_SHARE_NEARBY)
+        .then(|| turning.curvature())
 }
 
 /// Sums over the pieces around one, from number to number: what lies between sharp corners to the same side that are so near to each
@@ -119,15 +182,22 @@ mod tests {
     use super::super::piece::Point;
     use super::*;
 
-    /// How many of the 20 pieces in the middle of 40 with these directions, radians, lie on a curve.
-    fn on_curve(angle: fn(u64) -> f64) -> usize {
+    /// 40 pieces of length .4 with these directions, radians.
+    fn pieces(angle: fn(u64) -> f64) -> Box<Ring<Piece, ROOM>> {
         let mut pieces = Box::new(Ring::filled_with(Piece::VACANT));
         let direction = |number: u64| Point::new(angle(number).cos(), angle(number).sin(), 0.0);
         for number in 1..40 {
             let piece = pieces.at_mut(number);
             piece.direction = direction(number);
             piece.turn = (direction(number) - direction(number - 1)).norm();
+            piece.leg.length = 0.4;
         }
+        pieces
+    }
+
+    /// How many of the 20 in the middle lie on a curve.
+    fn on_curve(angle: fn(u64) -> f64) -> usize {
+        let pieces = pieces(angle);
         (10..30)
             .filter(|number| curvature(&pieces, *number, 0, 40).is_some())
             .count()
@@ -137,6 +207,29 @@ mod tests {
     fn a_circle_of_chords_is_a_curve_divided_or_not() {
         assert_eq!(on_curve(|number| 0.1 * number as f64), 20);
         assert_eq!(on_curve(|number| 0.3 * (number / 3) as f64), 20);
+    }
+
+    #[test]
+    fn a_circle_of_few_chords_has_its_curvature_and_corners_have_none() {
+        let nearby = |angle| {
+            let pieces = pieces(angle);
+            assert_eq!(on_curve(angle), 0);
+            (10..30)
+                .filter_map(|number| curvature_nearby(&pieces, number, 0, 40))
+                .collect::<Vec<_>>()
+        };
+        let found = nearby(|number| 0.2 * number as f64);
+        assert_eq!(found.len(), 20);
+        let radius = 0.2 / (2.0 * 0.1f64.sin());
+        let even = found
+            .iter()
+            .all(|curvature| (0.4 * curvature * radius - 0.2).abs() < 1e-9);
+        assert!(even, "{found:?}");
+        assert!(nearby(|number| 0.8 * number as f64).is_empty(), "corners");
+        assert!(
+            nearby(|number| 0.2 * (number % 2) as f64).is_empty(),
+            "zigzag"
+        );
     }
 
     #[test]

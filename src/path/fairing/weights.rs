@@ -7,7 +7,7 @@
 use core::ops::Range;
 
 use super::piece::{EVEN, Piece, Point, ROOM, SPAN, vertex};
-use super::turning::{Around, curvature};
+use super::turning::{Around, curvature, curvature_nearby};
 use crate::ring::Ring;
 
 /// Over so many pieces to both sides the third derivative is averaged: kernels smooth as far.
@@ -19,6 +19,10 @@ const ALONG: u64 = 24;
 /// Of the square of its curvature, which is the third derivative of a circle, what a curve is even enough with however great the
 /// feed is: jerk allows 1.8 times the speed with it that it allows on the circle.
 const OF_CURVE: f64 = 0.17;
+
+/// The same where it turns by more than two radians within the pieces that show it. Such a curve gains from being led along its inner
+/// side, and without this the more feed there was the less evenly it was.
+const OF_TIGHT_CURVE: f64 = 0.02;
 
 /// The same of the square of what the way around sharp corners turns by in the mean.
 const AROUND_CORNERS: f64 = 0.3;
@@ -56,9 +60,10 @@ pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64, batch
         } else {
             let beside = number.saturating_sub(BESIDE).max(from)..(number + BESIDE + 1).min(next);
             let around = around.curvature();
+            let tight = curvature_nearby(pieces, number, from, next).unwrap_or(0.0);
             (
                 mean_square(pieces, beside),
-                AROUND_CORNERS * around * around,
+                (AROUND_CORNERS * around * around).max(OF_TIGHT_CURVE * tight * tight),
             )
         };
         let piece = pieces.at_mut(number);

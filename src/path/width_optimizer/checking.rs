@@ -71,7 +71,10 @@ impl WidthOptimizer {
             }
             Some(violation) => {
                 self.violated = true;
-                chain.leg_mut(leg).check.violated = true;
+                chain.leg_mut(leg).check.note_violation();
+                if self.is_stuck(chain, leg) {
+                    self.send_back(chain, violation.s);
+                }
                 let last = chain.leg(self.window.next.wrapping_sub(1));
                 let near_end = self
                     .window
@@ -116,6 +119,9 @@ impl WidthOptimizer {
             return 1;
         }
         self.phase = OptimizerPhase::Narrow(number + 1);
+        if chain.vertex(number).goes_back {
+            return self.go_back(chain, number);
+        }
         let narrowing = chain.vertex(number).narrowing;
         if narrowing >= 1.0 {
             return 1;

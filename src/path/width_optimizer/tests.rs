@@ -93,22 +93,38 @@ fn koch() -> Vec<([f64; 3], f64)> {
     sixths.into_iter().map(line).collect()
 }
 
-/// Where narrowing one of them leaves sixty legs to be checked again. With all of them checked each time, and 16 new vertices at a time,
-/// a leg took 4241 terms.
-#[test]
-fn trials_among_dozens_of_kernels_come_to_their_end() {
-    let terms = with_room(|| {
+/// How many kernel terms a leg of that takes, where so many come at a time, and how many trials are given up.
+fn work_of_koch(at_a_time: usize) -> (usize, usize) {
+    with_room(move || {
         let settings = BlendSettings::DEFAULT;
         let metric = Metric::new(settings.rotary_weight());
         let mut chain = Box::new(Chain::new());
         let mut optimizer = WidthOptimizer::new();
         optimizer.restart(&chain);
-        lines(&koch(), &settings, &mut chain);
-        let mut terms = 0;
-        while !optimizer.is_settled(&chain) {
-            terms += optimizer.step(&mut chain, &settings, &metric, true, 1);
+        let (mut terms, mut given_up) = (0, 0);
+        for some in koch().chunks(at_a_time) {
+            lines(some, &settings, &mut chain);
+            while !optimizer.is_settled(&chain) {
+                let was_hardened = optimizer.hardened;
+                terms += optimizer.step(&mut chain, &settings, &metric, true, 1);
+                given_up += usize::from(optimizer.hardened && !was_hardened);
+            }
         }
-        terms / chain.next() as usize
-    });
-    assert!(terms < 2100, "{terms}");
+        (terms / chain.next() as usize, given_up)
+    })
+}
+
+/// What is final beside them left violations that no narrowing ended: 20 trials were given up.
+#[test]
+fn trials_beside_what_is_final_come_to_their_end() {
+    let (_, given_up) = work_of_koch(16);
+    assert!(given_up < 3, "{given_up}");
+}
+
+/// Where narrowing one of them leaves sixty legs to be checked again. With all of them checked each time, or 16 new vertices at a
+/// time, a leg takes more than 4000 terms.
+#[test]
+fn trials_among_dozens_of_kernels_come_to_their_end() {
+    let (terms, _) = work_of_koch(usize::MAX);
+    assert!(terms < 2700, "{terms}");
 }

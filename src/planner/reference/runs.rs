@@ -8,7 +8,7 @@ use super::supply_depth::Expected;
 use crate::path::BlendError;
 
 /// Work on the path in [`BUDGET_PERIOD`], kernel terms of 5 ns or so.
-const PATH_BUDGET: f64 = 1600.0;
+const PATH_BUDGET: f64 = 1800.0;
 
 /// What that is multiplied by while the speed has to wait for the path.
 const WAITED_FOR: f64 = 2.0;

@@ -1,6 +1,7 @@
 //! What a candidate works with.
 
 use super::cost;
+use super::counted_route::CountedRoute;
 use super::route::Route;
 use super::rows::AxisRows;
 use super::spline::Spline;
@@ -10,7 +11,7 @@ const VERTICES_COUNTED: usize = 12;
 
 /// The path, the limits, and the plan that a candidate continues.
 pub(super) struct PlanContext<'a, R: Route> {
-    pub route: &'a R,
+    pub route: &'a CountedRoute<'a, R>,
     pub rows: &'a AxisRows,
     pub plan: &'a Spline,
     /// Square of what the program's caps are multiplied by.

@@ -22,10 +22,16 @@ pub(super) const BEGIN_REFINEMENT: u32 = 10;
 pub(super) const REST_ARC: u32 = 20;
 /// .. so many evaluations.
 pub(super) const REST_ARC_EVALUATIONS: u32 = 5;
-/// A node of the grid or a vertex that asks for some, besides ..
-pub(super) const NODE: u32 = 10;
-/// .. so many evaluations: two or three, seldom nine.
-pub(super) const NODE_EVALUATIONS: u32 = 3;
+/// A node of the grid or a vertex that asks for some, besides what it looked at: so many points and bends alone, where an evaluation
+/// costs that much.
+pub(super) fn node([points, bends]: [u32; 2], evaluation: u32) -> u32 {
+    let quarters = POINT_QUARTERS * points + BEND_QUARTERS * bends;
+    NODE + evaluation.saturating_mul(quarters) / 4
+}
+const NODE: u32 = 11;
+/// Quarters of an evaluation.
+const POINT_QUARTERS: u32 = 5;
+const BEND_QUARTERS: u32 = 3;
 /// The bounds of an interval in which so many axes move.
 pub(super) fn bounds(axes: u32) -> u32 {
     3 + axes / 2

@@ -3,6 +3,7 @@
 use super::candidate_plan::{self, CandidatePlan, CandidateStep};
 use super::context::PlanContext;
 use super::cost;
+use super::counted_route::CountedRoute;
 use super::extensions::Extensions;
 use super::final_braking::FinalBraking;
 use super::first_plan::FirstPlan;
@@ -202,7 +203,8 @@ impl LookAhead {
         let Some(end) = self.first_plan.end(route, start) else {
             return Work::Nothing;
         };
-        let (context, candidate, _) = self.candidate(route);
+        let route = CountedRoute::new(route);
+        let (context, candidate, _) = self.candidate(&route);
         candidate.begin_first(&context, start, end);
         Work::Candidate
     }
@@ -248,7 +250,8 @@ impl LookAhead {
         let base = latest
             .max(behind.min(self.braking.start()))
             .max(committed + 1);
-        let (context, candidate, _) = self.candidate(route);
+        let route = CountedRoute::new(route);
+        let (context, candidate, _) = self.candidate(&route);
         candidate.begin_extension(&context, base, reach.end, reach.intervals);
         Work::Candidate
     }
@@ -300,7 +303,8 @@ impl LookAhead {
             self.extensions.note_overtaken();
             return;
         }
-        let (context, candidate, samples) = self.candidate(route);
+        let route = CountedRoute::new(route);
+        let (context, candidate, samples) = self.candidate(&route);
         match candidate.advance(&context, samples, left) {
             CandidateStep::More => {}
             CandidateStep::Ready => {
@@ -368,7 +372,7 @@ impl LookAhead {
     /// The candidate, with what it works with.
     fn candidate<'a, R: Route>(
         &'a mut self,
-        route: &'a R,
+        route: &'a CountedRoute<'a, R>,
     ) -> (
         PlanContext<'a, R>,
         &'a mut CandidatePlan,

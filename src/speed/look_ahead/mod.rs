@@ -19,6 +19,7 @@ mod bounds;
 mod candidate_plan;
 mod context;
 mod cost;
+mod counted_route;
 mod departure;
 mod extensions;
 mod feature;

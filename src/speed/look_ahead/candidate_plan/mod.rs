@@ -191,7 +191,8 @@ impl CandidatePlan {
                 CandidatePhase::StartArc(_) | CandidatePhase::EndArc(_) => {
                     cost::REST_ARC + cost::REST_ARC_EVALUATIONS * self.evaluation
                 }
-                CandidatePhase::Grid => cost::NODE + cost::NODE_EVALUATIONS * self.evaluation,
+                // Not known before.
+                CandidatePhase::Grid => 0,
                 CandidatePhase::Bounds(k) => cost::bounds(self.axes(samples, k)),
                 CandidatePhase::Sweeps(_) => cost::SWEEPS,
                 CandidatePhase::Check(_) => cost::CHECK,
@@ -199,7 +200,13 @@ impl CandidatePlan {
                 _ => cost::SWEEP,
             };
             *budget = budget.saturating_sub(price);
+            let is_grid = matches!(self.phase, CandidatePhase::Grid);
+            context.route.take_looks();
             self.phase = self.step(context, samples);
+            if is_grid {
+                let price = cost::node(context.route.take_looks(), self.evaluation);
+                *budget = budget.saturating_sub(price);
+            }
         }
         match self.phase {
             CandidatePhase::Finished(step) => step,

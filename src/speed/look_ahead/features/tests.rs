@@ -4,6 +4,7 @@ use super::*;
 use crate::axes::{Axes, AxisLimits};
 use crate::machine_map::MachineMap;
 use crate::moves::shape::PathPoint;
+use crate::speed::look_ahead::counted_route::CountedRoute;
 use crate::speed::look_ahead::rows::AxisRows;
 use crate::speed::look_ahead::spline::Spline;
 use crate::speed::look_ahead::test_route::TestRoute;
@@ -27,7 +28,11 @@ fn rows() -> AxisRows {
     AxisRows::new(&limits, &MachineMap::IDENTITY, 1e-3)
 }
 
-fn context<'a, R: Route>(route: &'a R, rows: &'a AxisRows, plan: &'a Spline) -> PlanContext<'a, R> {
+fn context<'a, R: Route>(
+    route: &'a CountedRoute<'a, R>,
+    rows: &'a AxisRows,
+    plan: &'a Spline,
+) -> PlanContext<'a, R> {
     PlanContext {
         route,
         rows,
@@ -60,6 +65,7 @@ fn of_a_corner_behind(vertices: usize) -> [usize; 2] {
     };
     let rows = rows();
     let plan = Box::new(Spline::NONE);
+    let route = CountedRoute::new(&route);
     let context = context(&route, &rows, &plan);
     let mut features = Box::new(Features::new());
     features.restart(0.0, 0.0, 1.0);
@@ -197,6 +203,7 @@ fn changes_of_cap_where_the_curve_allows(share: f64) -> usize {
     };
     let rows = rows();
     let plan = Box::new(Spline::NONE);
+    let route = CountedRoute::new(&route);
     let context = context(&route, &rows, &plan);
     let mut features = Box::new(Features::new());
     features.restart(0.0, 0.0, 1.0);
