@@ -79,6 +79,11 @@ impl Turning {
     }
 }
 
+/// The pieces from `first` to before `next` that show whether one lies on a curve.
+pub(super) fn beside(number: u64, first: u64, next: u64) -> Range<u64> {
+    number.saturating_sub(BESIDE).max(first)..(number + BESIDE + 1).min(next)
+}
+
 /// The curvature of the curve that a piece lies on, as far as those from `first` to before `next` show it, 1 per machine unit;
 /// `None` where it lies on none.
 pub(super) fn curvature(
@@ -87,9 +92,7 @@ pub(super) fn curvature(
     first: u64,
     next: u64,
 ) -> Option<f64> {
-    let begin = number.saturating_sub(BESIDE).max(first);
-    let end = (number + BESIDE + 1).min(next);
-    let turning = Turning::of(pieces, begin..end);
+    let turning = Turning::of(pieces, beside(number, first, next));
     turning.is_even(GREATEST_SHARE).then(|| turning.curvature())
 }
 
@@ -101,13 +104,14 @@ pub(super) fn curvature_nearby(
     next: u64,
 ) -> Option<f64> {
     let turn = |number: u64| pieces.at(number).turn;
+    let all = beside(number, first, next);
     let (mut begin, mut before) = (number, 0.0);
-    while begin > number.saturating_sub(BESIDE).max(first) && before + turn(begin) <= TURN_BESIDE {
+    while begin > all.start && before + turn(begin) <= TURN_BESIDE {
         before += turn(begin);
         begin -= 1;
     }
     let (mut end, mut behind) = (number + 1, 0.0);
-    while end < (number + BESIDE + 1).min(next) && behind + turn(end) <= TURN_BESIDE {
+    while end < all.end && behind + turn(end) <= TURN_BESIDE {
         behind += turn(end);
         end += 1;
     }

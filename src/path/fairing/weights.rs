@@ -7,7 +7,7 @@
 use core::ops::Range;
 
 use super::piece::{EVEN, Piece, Point, ROOM, SPAN, vertex};
-use super::turning::{Around, curvature, curvature_nearby};
+use super::turning::{self, Around, curvature, curvature_nearby};
 use crate::ring::Ring;
 
 /// Over so many pieces to both sides the third derivative is averaged: kernels smooth as far.
@@ -55,25 +55,38 @@ pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64, batch
     let mut around = Around::new(from, next);
     for number in first..next {
         around.go_on_to(pieces, number);
-        let (mean, allowed) = if let Some(curvature) = curvature(pieces, number, from, next) {
-            (along, OF_CURVE * curvature * curvature)
+        let (mean, allowed, of_feed) = if let Some(curvature) =
+            curvature(pieces, number, from, next)
+        {
+            let allowed = OF_CURVE * curvature * curvature;
+            (along, allowed, slowest(pieces, number, from, next))
         } else {
             let beside = number.saturating_sub(BESIDE).max(from)..(number + BESIDE + 1).min(next);
+            let mean = mean_square(pieces, beside);
             let around = around.curvature();
-            let tight = curvature_nearby(pieces, number, from, next).unwrap_or(0.0);
-            (
-                mean_square(pieces, beside),
-                (AROUND_CORNERS * around * around).max(OF_TIGHT_CURVE * tight * tight),
-            )
+            let around = AROUND_CORNERS * around * around;
+            match curvature_nearby(pieces, number, from, next) {
+                None => (mean, around, pieces.at(number).even),
+                Some(curvature) => {
+                    let allowed = around.max(OF_TIGHT_CURVE * curvature * curvature);
+                    (mean, allowed, slowest(pieces, number, from, next))
+                }
+            }
         };
         let piece = pieces.at_mut(number);
-        let even = piece.even.max(allowed);
-        let of_feed = if piece.leg.length < piece.leg.whole {
-            (mean.sqrt() / piece.even).clamp(LEAST_EVEN, EVEN) / EVEN
+        let even = of_feed.max(allowed);
+        let share = if piece.leg.length < piece.leg.whole {
+            (mean.sqrt() / of_feed).clamp(LEAST_EVEN, EVEN) / EVEN
         } else {
             1.0
         };
-        let raised = of_feed.max(allowed / piece.even);
+        // Infinite over infinite, without limits, would be no number.
+        let slower = if of_feed > piece.even {
+            of_feed / piece.even
+        } else {
+            1.0
+        };
+        let raised = (share * slower).max(allowed / piece.even);
         piece.keep = piece.keep_at_feed * raised * raised;
         let greatest = even * even;
         piece.weight = if mean > greatest {
@@ -82,6 +95,14 @@ pub(super) fn weigh(pieces: &mut Ring<Piece, ROOM>, first: u64, next: u64, batch
             1.0
         };
     }
+}
+
+/// What the feed allows on the slowest of the pieces beside one. On a curve it is alike for all: what an axis takes of the feed along it
+/// would make the curve less even where it is run across.
+fn slowest(pieces: &Ring<Piece, ROOM>, number: u64, first: u64, next: u64) -> f64 {
+    turning::beside(number, first, next)
+        .map(|number| pieces.at(number).even)
+        .fold(0.0, f64::max)
 }
 
 /// Number of the first piece of a run that goes on with `first`, or of the first one that is looked at.
