@@ -171,6 +171,8 @@ impl Planner {
             greatest_tolerance: self.blending.greatest_tolerance(),
             stepping: inputs.stepping,
             settings_changed: self.settings_changed(),
+            held: !self.motion.is_moving()
+                && (self.status.waiting_for_spindle || self.is_held(inputs)),
         }
     }
 

@@ -1,7 +1,9 @@
 //! Moves that come one by one, while others run.
 
 use crate::common::{Machine, at, feed_move, with_machine};
+use framepath::axes::Axes;
 use framepath::moves::TerminationCondition;
+use framepath::planner::MoveRequest;
 
 /// A corner between long lines, wherever it is, does not wait for the line behind the next one: the path ended there instead.
 #[test]
@@ -70,4 +72,124 @@ fn what_comes_before_the_machine_rests_is_run_as_if_it_had_been_there() {
         let later = taken.iter().any(|&cycles| cycles > taken[0] + 2);
         assert!(!later, "{before:?}: {taken:?}");
     }
+}
+
+/// What holds a machine that stands.
+#[derive(Clone, Copy, Debug)]
+enum HeldBy {
+    Overrides,
+    FeedHold,
+    Pause,
+    Spindle,
+}
+
+impl HeldBy {
+    const ALL: [Self; 4] = [Self::Overrides, Self::FeedHold, Self::Pause, Self::Spindle];
+
+    fn set(self, machine: &mut Machine, held: bool) {
+        let scale = if held { 0.0 } else { 1.0 };
+        match (self, held) {
+            (Self::Overrides, _) => {
+                machine.inputs.feed_scale = scale;
+                machine.inputs.rapid_scale = scale;
+            }
+            (Self::Pause, true) => machine.planner.pause(),
+            (Self::Pause, false) => machine.planner.resume(),
+            (Self::Spindle, held) => machine.inputs.spindles_at_speed = !held,
+            (Self::FeedHold, _) => {}
+        }
+    }
+
+    fn cycle(self, machine: &mut Machine) {
+        match self {
+            Self::FeedHold => machine.scaled_cycle(0.0),
+            _ => machine.cycle(),
+        };
+    }
+}
+
+/// The slowest speed, mm/s, between two places of lines that are run at 100 mm/s, of which one comes late, while the machine
+/// is held.
+fn slowest_of(
+    hold: HeldBy,
+    machine: &mut Machine,
+    ends: &[Axes],
+    late: (usize, usize),
+    between: core::ops::Range<f64>,
+) -> f64 {
+    for (n, end) in ends.iter().enumerate() {
+        for _ in 0..if n == late.0 { late.1 } else { 1 } {
+            hold.cycle(machine);
+        }
+        let request = MoveRequest {
+            wait_for_spindle: n == 0 && matches!(hold, HeldBy::Spindle),
+            ..feed_move(100.0)
+        };
+        machine.line(*end, &request).expect("a line");
+        hold.set(machine, true);
+    }
+    hold.cycle(machine);
+    assert_eq!(machine.planner.status().position, Axes::zeros(), "{hold:?}");
+    hold.set(machine, false);
+    let mut slowest = f64::INFINITY;
+    while !machine.cycle().done {
+        let status = machine.planner.status();
+        if between.contains(&status.position[0]) {
+            slowest = slowest.min(status.current_velocity);
+        }
+    }
+    slowest
+}
+
+/// A host that is busy for a moment while the machine is held: the path had ended there after 8 ms, and the machine rested.
+#[test]
+fn what_comes_while_the_machine_is_held_is_run_as_if_it_had_been_there() {
+    let long = [at(20.0, 0.0), at(40.0, 1.0), at(60.0, 0.0), at(80.0, 0.0)];
+    let dense: Vec<Axes> = (1..=200)
+        .map(|n| 0.02 * f64::from(n))
+        .map(|turn| at(10.0 * turn, 8.0 * (1.0 - turn.cos())))
+        .collect();
+    for hold in HeldBy::ALL {
+        for late in [(1, 12), (1, 100), (2, 30), (2, 400), (3, 20)] {
+            with_machine(|machine| {
+                let tolerance = TerminationCondition::Continuous { tolerance: 0.5 };
+                machine.planner.set_termination(tolerance);
+                let slowest = slowest_of(hold, machine, &long, late, 15.0..70.0);
+                assert!(slowest > 40.0, "{hold:?} {late:?}: {slowest}");
+            });
+        }
+        for late in [(60, 12), (60, 300)] {
+            with_machine(|machine| {
+                let tolerance = TerminationCondition::Continuous { tolerance: 0.02 };
+                machine.planner.set_termination(tolerance);
+                let slowest = slowest_of(hold, machine, &dense, late, 10.0..32.0);
+                assert!(slowest > 80.0, "{hold:?} {late:?}: {slowest}");
+            });
+        }
+    }
+}
+
+/// Once it goes on it begins as soon as if no more could have come.
+#[test]
+fn a_machine_that_was_held_for_long_begins_at_once() {
+    let taken = [400, 2000].map(|held| {
+        let mut taken = 0;
+        with_machine(|machine| {
+            let tolerance = TerminationCondition::Continuous { tolerance: 0.5 };
+            machine.planner.set_termination(tolerance);
+            HeldBy::Overrides.set(machine, true);
+            for x in 1..=40 {
+                machine
+                    .line(at(f64::from(x), 0.01 * f64::from(x * x)), &feed_move(50.0))
+                    .expect("a line");
+            }
+            for _ in 0..held {
+                machine.cycle();
+            }
+            HeldBy::Overrides.set(machine, false);
+            taken = machine.run(5000);
+        });
+        taken
+    });
+    assert!(taken[0] <= taken[1] + 2, "{taken:?}");
 }

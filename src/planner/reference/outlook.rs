@@ -40,6 +40,8 @@ pub struct Conditions {
     pub stepping: bool,
     /// Whether other limits or tolerances are to be taken at the next rest.
     pub settings_changed: bool,
+    /// Whether the machine stands still because it is held, or waits for a spindle: it uses up no path.
+    pub held: bool,
 }
 
 impl Outlook<'_> {

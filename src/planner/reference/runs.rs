@@ -101,6 +101,10 @@ impl Reference {
         if self.path.rests_at_end() && complete {
             return;
         }
+        // A machine that is held uses up no path: what comes late meanwhile is in time.
+        if outlook.now.held && self.feeder.may_follow_while_held() {
+            return;
+        }
         let last = if self.other().is_begun() {
             self.other()
         } else {
