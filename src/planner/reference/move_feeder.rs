@@ -17,7 +17,7 @@ const SHORTEST_SILENCE: f64 = 8e-3;
 const OVERDUE: f64 = 1.5;
 /// Where they came slowly, nothing more is expected after so many times that.
 const SILENCE: f64 = 3.0;
-/// And at most, or while the machine is held, seconds.
+/// And at most, seconds.
 const LONGEST_SILENCE: f64 = 0.5;
 
 /// Where moves come slowly, the next one is not waited for if so many like those before would not make final what is not.
@@ -199,12 +199,11 @@ impl MoveFeeder {
         self.silence >= silence.max(SHORTEST_SILENCE)
     }
 
-    /// Whether more may come in time to a machine that is held: a host that is busy for a moment goes on sooner. A thread or a
-    /// tap is ready when its spindle is.
+    /// Whether what comes next is in time for a machine that is held, however late it is. A thread or a tap is ready when its
+    /// spindle is.
     pub fn may_follow_while_held(&self) -> bool {
         let by_angle = matches!(self.coupling, Coupling::Thread(_) | Coupling::Alone);
-        let anything = self.expected() == Expected::Anything;
-        anything && !self.barred && !by_angle && self.silence < LONGEST_SILENCE
+        self.expected() == Expected::Anything && !self.barred && !by_angle
     }
 
     /// What the depth of the queue tells of the next move.
