@@ -191,3 +191,36 @@ fn a_machine_that_was_held_for_long_begins_at_once() {
         });
     }
 }
+
+/// However much of the path is still open when the operator aborts.
+#[test]
+fn an_abort_while_the_machine_is_held_leaves_nothing_behind() {
+    for lines in [1, 3, 40] {
+        for held in HeldBy::ALL {
+            with_machine(|machine| {
+                let tolerance = TerminationCondition::Continuous { tolerance: 0.5 };
+                machine.planner.set_termination(tolerance);
+                for x in (1..=lines).map(f64::from) {
+                    let request = MoveRequest {
+                        wait_for_spindle: x == 1.0 && matches!(held, HeldBy::Spindle),
+                        ..feed_move(50.0)
+                    };
+                    machine.line(at(x, 0.01 * x * x), &request).expect("a line");
+                    held.set(machine, true);
+                }
+                (0..100).for_each(|_| held.cycle(machine));
+                machine.planner.abort();
+                (0..4).for_each(|_| held.cycle(machine));
+                let status = machine.planner.status();
+                assert!(status.done && !status.aborting, "{held:?} {lines}");
+                assert_eq!(status.position, Axes::zeros());
+                held.set(machine, false);
+                machine
+                    .line(at(5.0, 5.0), &feed_move(50.0))
+                    .expect("a line");
+                machine.run(1000);
+                assert_eq!(machine.planner.status().position, at(5.0, 5.0));
+            });
+        }
+    }
+}

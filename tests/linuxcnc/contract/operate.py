@@ -79,14 +79,19 @@ class RowOperator(Operator):
         self.finish(PATIENCE)
 
     def go_loaded(self, count, *lines):
-        """The same with so many moves queued before the first one runs, so that a slow supply plays no part."""
+        """The same with so many moves queued before the first one runs, so that a slow supply plays no part. How many servo
+        periods it took from the first of them to the last."""
         self.feed_override(0)
         self.rapid_override(0)
         self.begin(*lines)
+        self.until("a move", lambda: self.status.queue > 0)
+        first = self.period()
         self.until(f"{count} moves", lambda: self.status.queue >= count)
+        taken = self.period() - first
         self.feed_override(1)
         self.rapid_override(1)
         self.finish(PATIENCE)
+        return taken
 
     def sleep(self, seconds):
         """Waits by the servo periods that are run: a loaded machine without a real-time kernel runs late."""
