@@ -63,6 +63,7 @@ mod narrowed;
 mod orientation;
 mod path_sums;
 mod reaching;
+mod reversal;
 mod settings;
 mod shift;
 mod shrinkage;

@@ -7,6 +7,7 @@ use super::kernel::{FlatKernel, Kernel, Side};
 use super::leg::Leg;
 use super::lone_corner::LoneCorner;
 use super::metric::Metric;
+use super::reversal::is_reversal;
 use super::settings::BlendSettings;
 use super::widths::{FURTHER, FurtherKernel, Widths};
 
@@ -189,7 +190,10 @@ impl Vertex {
             0.0
         };
         let exact = before.is_exact() || after.is_exact();
-        let stop = before.stop_after || after.stop_before || (exact && tangent_jump_size > TANGENT);
+        let stop = before.stop_after
+            || after.stop_before
+            || exact && tangent_jump_size > TANGENT
+            || is_reversal(before, after, [&from.first, &to.first], metric);
         let mut vertex = Self {
             s: after.start,
             tangent_jump: Jump::new(&tangent_jump),

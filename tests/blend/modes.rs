@@ -136,10 +136,38 @@ fn without_a_tolerance_corners_are_cut_as_far_as_the_feed_wants() {
         complete(path, &slow);
         let reach = path.vertices(1.0).next().expect("the corner").reach;
         assert!((0.1..0.5).contains(&reach), "{reach}");
-        // Down slowly and up fast: the bottom is reached.
-        let drilled = free(&[((4.0, 0.0), 2.0), ((0.0, 0.0), 100.0)]);
-        complete(path, &drilled);
-        assert!(cut_at(path, 4.0) < 0.02, "{}", cut_at(path, 4.0));
+    });
+}
+
+/// A hole that is drilled by G1 and G0 is as deep as programmed. LinuxCNC's planner rests there, too.
+#[test]
+fn without_a_tolerance_a_line_straight_back_is_reached_to_its_end() {
+    with_path(|path| {
+        for (degrees, length) in [(180.0f64, 4.0), (178.5, 4.0), (181.5, 4.0), (180.0, 0.1)] {
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let back = (length + length * cosine, length * sine);
+            for feeds in [[2.0, 100.0], [100.0, 100.0], [100.0, 2.0]] {
+                let moves = free(&[((length, 0.0), feeds[0]), (back, feeds[1])]);
+                complete(path, &moves);
+                assert_eq!(stops(path), [0.0, length], "{degrees} {length}");
+                assert_eq!(cut_at(path, length), 0.0);
+            }
+        }
+        // What turns less is cut off as any corner, and so is what is less than the default tolerance.
+        let spike = free(&[((4.0, 0.0), 100.0), ((0.0, 0.3), 100.0)]);
+        complete(path, &spike);
+        assert_eq!(stops(path), [0.0]);
+        let tiny = free(&[((0.01, 0.0), 100.0), ((0.0, 0.0), 100.0)]);
+        complete(path, &tiny);
+        assert_eq!(stops(path), [0.0]);
+        // P says what may be lost.
+        let back = [
+            line(1, (0.0, 0.0), (4.0, 0.0), 0.05),
+            line(2, (4.0, 0.0), (0.0, 0.0), 0.05),
+        ];
+        complete(path, &back);
+        assert_eq!(stops(path), [0.0]);
+        assert!((0.01..=0.05).contains(&cut_at(path, 4.0)));
     });
 }
 

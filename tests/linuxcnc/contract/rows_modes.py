@@ -86,6 +86,21 @@ class WithoutTolerance(Row):
         return f"corners cut by {cut:.2f} mm"
 
 
+class DepthWithoutTolerance(Row):
+    """G64 without P goes to the end of a line that leads straight back, as in a hole"""
+
+    section = SECTION
+
+    def operate(self, op):
+        op.go_loaded(6, "G64", "G1 X10 F3000", "G1 X2", "G0 X20", "G0 X8", "G1 X8.5 F600", "G0 X0")
+
+    def check(self, seen):
+        places = seen.column("x")
+        missed = max(min(abs(x - turn) for x in places) for turn in (10, 2, 20, 8, 8.5))
+        seen.require(missed < 0.01, f"turns {missed:.3f} mm before the end of a line")
+        return f"turns {missed * 1000:.1f} micrometres before the end of a line at most"
+
+
 class ChangesOnTheWay(Row):
     """The path mode may change from move to move"""
 
