@@ -274,7 +274,7 @@ mod tests {
             path_acceleration: acceleration,
             feed_ratio: 1.0,
             programmed_feed: 0.1,
-            per_turn: false,
+            feed_per_turn: None,
             rapid: false,
             override_enabled: true,
         }

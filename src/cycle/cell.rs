@@ -2,6 +2,15 @@
 
 use crate::axes::Axes;
 
+/// What feed per turn counts with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeedPerTurn {
+    /// Number of the spindle, below [`SPINDLE_COUNT`](crate::moves::SPINDLE_COUNT).
+    pub spindle: usize,
+    /// For how many turns a second the reference is planned at most, above 0.
+    pub planned_turns: f64,
+}
+
 /// One servo period of the reference trajectory q*(tau).
 ///
 /// The reference is feasible by itself and ends at rest. The executor never needs the path: it
@@ -32,9 +41,8 @@ pub struct Cell {
     pub feed_ratio: f64,
     /// What the program asks for at an override of 100 %: the F word, or the rapid rate.
     pub programmed_feed: f64,
-    /// Whether [`Self::programmed_feed`] is what a turn of the spindle a second would give (feed per
-    /// turn): it counts times the turns a second.
-    pub per_turn: bool,
+    /// Where [`Self::programmed_feed`] is what a turn of a spindle a second would give: it counts times the turns a second.
+    pub feed_per_turn: Option<FeedPerTurn>,
     /// Whether the rapid override applies instead of the feed override.
     pub rapid: bool,
     /// Whether overrides apply at all (M48, or M49 while the move was queued).

@@ -147,7 +147,7 @@ impl Executor {
             return Err(PushError::NotConfigured);
         }
         self.table.push(cell, self.servo_period)?;
-        let feed = if cell.per_turn {
+        let feed = if cell.feed_per_turn.is_some() {
             cell.path_velocity * cell.feed_ratio * self.servo_period
         } else {
             cell.programmed_feed * self.servo_period
@@ -170,6 +170,11 @@ impl Executor {
     /// Cells known from the one that the reference time lies in, that one included.
     pub fn cells_ahead(&self) -> usize {
         self.table.length()
+    }
+
+    /// The spindle whose turns [`Demand::turns`] is to say: that of the first cells ahead which follow one.
+    pub fn spindle_ahead(&self) -> Option<usize> {
+        self.table.spindle()
     }
 
     /// How many cells, from the one that the reference time lies in, the executor wants to know

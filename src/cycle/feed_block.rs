@@ -21,6 +21,8 @@ pub struct FeedBlock {
     /// The same for feed per turn, with and without the feed override.
     pub turns_over_programmed: f32,
     pub fixed_turns_over_programmed: f32,
+    /// Greatest turns a second that feed per turn is planned for.
+    pub planned_turns: f32,
 }
 
 impl FeedBlock {
@@ -32,6 +34,7 @@ impl FeedBlock {
         fixed_over_programmed: 0.0,
         turns_over_programmed: 0.0,
         fixed_turns_over_programmed: 0.0,
+        planned_turns: 0.0,
     };
 
     pub fn include(&mut self, cell: &StoredCell) {
@@ -46,19 +49,23 @@ impl FeedBlock {
         *greatest = greatest.max(ratio);
         self.feed = self.feed.max(cell.feed() as f32);
         self.programmed = self.programmed.max(cell.programmed_feed);
+        self.planned_turns = self.planned_turns.max(cell.planned_turns);
     }
 
     /// The same block if the reference were as fast as programmed in all of it.
     pub fn as_programmed(&self) -> Self {
         let full = |ratio: f32| if ratio > 0.0 { 1.0 } else { 0.0 };
+        // Feed per turn is planned with a reserve, for more turns than there are.
+        let planned = |ratio: f32| full(ratio) * self.planned_turns;
         Self {
             feed: self.programmed,
             programmed: self.programmed,
             feed_over_programmed: full(self.feed_over_programmed),
             rapid_over_programmed: full(self.rapid_over_programmed),
             fixed_over_programmed: full(self.fixed_over_programmed),
-            turns_over_programmed: full(self.turns_over_programmed),
-            fixed_turns_over_programmed: full(self.fixed_turns_over_programmed),
+            turns_over_programmed: planned(self.turns_over_programmed),
+            fixed_turns_over_programmed: planned(self.fixed_turns_over_programmed),
+            planned_turns: self.planned_turns,
         }
     }
 }

@@ -44,7 +44,7 @@ mod stored_cell;
 mod table;
 mod without_jerk_limit;
 
-pub use cell::Cell;
+pub use cell::{Cell, FeedPerTurn};
 pub use demand::{Demand, ExecutorStep};
 pub use executor::{ConfigureError, Executor};
 pub use follow::Follow;

@@ -362,7 +362,7 @@ mod tests {
                 path_acceleration: 0.0,
                 feed_ratio: 1.0,
                 programmed_feed: 1.0,
-                per_turn: false,
+                feed_per_turn: None,
                 rapid: false,
                 override_enabled: true,
             };

@@ -17,6 +17,10 @@ pub struct StoredCell {
     pub feed_ratio: f32,
     pub programmed_feed: f32,
     pub override_kind: OverrideKind,
+    /// Of feed per turn the number of the spindle ..
+    pub spindle: u8,
+    /// .. and for how many turns a second it is planned, 0 where the feed is by time.
+    pub planned_turns: f32,
 }
 
 /// Which override applies to a cell.
@@ -47,11 +51,17 @@ impl StoredCell {
         feed_ratio: 1.0,
         programmed_feed: 0.0,
         override_kind: OverrideKind::None,
+        spindle: 0,
+        planned_turns: 0.0,
     };
 
     pub fn new(cell: &Cell, period: f64) -> Self {
         let (second, third) = (period * period, period * period * period);
-        let override_kind = match (cell.per_turn, cell.override_enabled, cell.rapid) {
+        let override_kind = match (
+            cell.feed_per_turn.is_some(),
+            cell.override_enabled,
+            cell.rapid,
+        ) {
             (true, false, _) => OverrideKind::TurnsOnly,
             (true, true, _) => OverrideKind::Turns,
             (false, false, _) => OverrideKind::None,
@@ -70,6 +80,10 @@ impl StoredCell {
             feed_ratio: single(cell.feed_ratio),
             programmed_feed: single(cell.programmed_feed * period),
             override_kind,
+            spindle: cell.feed_per_turn.map_or(0, |with| with.spindle as u8),
+            planned_turns: cell
+                .feed_per_turn
+                .map_or(0.0, |with| single(with.planned_turns)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The cells of the reference that lie ahead, in a ring of fixed size.
 
-use super::cell::Cell;
+use super::cell::{Cell, FeedPerTurn};
 use super::feed_block::{BLOCK_LENGTH, FeedBlock};
 use super::stored_cell::StoredCell;
 use crate::axes::{AXIS_COUNT, Axes};
@@ -233,6 +233,21 @@ impl Table {
         (0..count.min(BLOCK_COUNT) as u64).map(move |i| self.blocks.at(block.wrapping_add(i)))
     }
 
+    /// The spindle that the first cells with feed per turn follow.
+    pub fn spindle(&self) -> Option<usize> {
+        let follows = |cell: &&StoredCell| cell.planned_turns > 0.0;
+        let offset = (self.first % BLOCK_CELLS) as usize;
+        let blocks = self.blocks(0.0, USABLE).enumerate();
+        blocks
+            .filter(|(_, block)| block.planned_turns > 0.0)
+            .find_map(|(block, _)| {
+                let from = (block * BLOCK_LENGTH).saturating_sub(offset);
+                let to = ((block + 1) * BLOCK_LENGTH - offset).min(self.length);
+                (from..to).map(|index| self.cell(index)).find(follows)
+            })
+            .map(|cell| usize::from(cell.spindle))
+    }
+
     #[inline(always)]
     fn number(&self, index: usize) -> u64 {
         self.first.wrapping_add(index as u64)
@@ -261,6 +276,11 @@ fn check(cell: &Cell) -> Result<(), PushError> {
     if feed.iter().any(|value| !value.is_finite()) || cell.programmed_feed <= 0.0 {
         return Err(PushError::Feed);
     }
+    let with_spindle =
+        |with: FeedPerTurn| with.planned_turns > 0.0 && with.planned_turns.is_finite();
+    if !cell.feed_per_turn.is_none_or(with_spindle) {
+        return Err(PushError::Feed);
+    }
     Ok(())
 }
 
@@ -283,7 +303,7 @@ mod tests {
             path_acceleration: 0.0,
             feed_ratio: 1.0,
             programmed_feed: 1.0,
-            per_turn: false,
+            feed_per_turn: None,
             rapid: false,
             override_enabled: true,
         }
@@ -321,6 +341,34 @@ mod tests {
             assert!((7..=8).contains(&table.blocks(0.0, 100).count()));
             table.discard(1 + round % 3);
         }
+    }
+
+    #[test]
+    fn the_first_spindle_ahead_is_found() {
+        let mut table = Box::new(Table::new());
+        table.clear();
+        assert_eq!(table.spindle(), None);
+        let followed = |cell: usize| match cell {
+            50..70 => Some(3),
+            90.. => Some(1),
+            _ => None,
+        };
+        for cell in 0..120 {
+            let feed_per_turn = followed(cell).map(|spindle| FeedPerTurn {
+                spindle,
+                planned_turns: 10.0,
+            });
+            let cell = Cell {
+                feed_per_turn,
+                ..cubic(1.0)
+            };
+            table.push(&cell, 1.0).unwrap();
+        }
+        for discarded in 0..120 {
+            assert_eq!(table.spindle(), (discarded..120).find_map(followed));
+            table.discard(1);
+        }
+        assert_eq!(table.spindle(), None);
     }
 
     #[test]

@@ -318,7 +318,8 @@ impl Planner {
         if !self.range_check.is_on() {
             self.queue.release_all();
         }
-        self.spindle.take_note_of(&queued);
+        let serial = self.queue.first_serial() + self.queue.len() as u64 - 1;
+        self.spindle.take_note_of(&queued, serial);
         self.next_move.pass_on();
         self.goal = queued.shape.end();
         self.status.done = false;

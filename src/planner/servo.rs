@@ -277,6 +277,7 @@ impl Planner {
         } else {
             self.is_held(inputs)
         };
+        let spindle = self.feed_spindle();
         // The executor knows of no factor for moves without override (M49); for those adaptive
         // feed is a limit of the velocity.
         let fixed = match running {
@@ -289,7 +290,7 @@ impl Planner {
             hold,
             feed_override: inputs.feed_scale * scale,
             rapid_override: inputs.rapid_scale * scale,
-            turns: self.spindle.feed_turns(running) * if overridden { 1.0 } else { scale },
+            turns: self.spindle.feed_turns(spindle) * if overridden { 1.0 } else { scale },
             max_velocity: slider.min(fixed),
             follow,
         }
@@ -432,7 +433,7 @@ impl Planner {
         status.exec_id = current.map_or(0, |queued| queued.id);
         status.motion_type = current.map(|queued| queued.motion_type);
         status.enables = current.map(|queued| queued.enables);
-        status.requested_velocity = current.map_or(0.0, |queued| queued.feed);
+        status.requested_velocity = current.map_or(0.0, |queued| self.spindle.feed(queued));
     }
 
     /// Reports a machine at rest between moves.

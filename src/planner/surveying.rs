@@ -88,11 +88,8 @@ impl Planner {
             (true, true) => inputs.rapid_scale,
             (true, false) => inputs.feed_scale,
         };
-        let feed = running.synchronisation.map_or(running.feed, |with| {
-            with.per_turn * self.spindle.feed_turns(Some(running))
-        });
         Asked {
-            feed,
+            feed: self.spindle.feed(running),
             scale: by_operator * further_scale(inputs, Some(running), &self.status),
             greatest: running.max_velocity,
             slider: self.slider_for(Some(running)),

@@ -67,6 +67,12 @@ impl Planner {
         MoveAtHand::first(&self.queue, &self.axes, self.period)
     }
 
+    /// The spindle that the first feed per turn ahead counts with. It is braked for as soon as any is queued.
+    pub(super) fn feed_spindle(&self) -> Option<usize> {
+        let queued = self.spindle.feed_ahead(self.queue.first_serial());
+        self.executor.spindle_ahead().or(queued)
+    }
+
     /// At rest: whether the spindle is where the next move may start.
     pub(super) fn spindle_permits_start(&mut self) -> bool {
         let Some(next) = MoveAtHand::first(&self.queue, &self.axes, self.period) else {

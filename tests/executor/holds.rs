@@ -101,7 +101,7 @@ fn cell(angle: f64) -> Cell {
         path_acceleration: 0.0,
         feed_ratio: 1.0,
         programmed_feed: RADIUS * TURNING,
-        per_turn: false,
+        feed_per_turn: None,
         rapid: false,
         override_enabled: true,
     }

@@ -73,7 +73,7 @@ impl Path {
             path_acceleration: 0.0,
             feed_ratio: 1.0,
             programmed_feed: self.feed(start),
-            per_turn: false,
+            feed_per_turn: None,
             rapid: false,
             override_enabled: true,
         }

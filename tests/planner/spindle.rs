@@ -4,7 +4,7 @@ use crate::common::lathe::{
     Lathe, SPINDLE, fast, feed_of, keeps_limits, off_the_groove, spread, z,
 };
 use crate::common::{Machine, PERIOD, feed_move, with_machine};
-use framepath::moves::TerminationCondition;
+use framepath::moves::{MotionType, TerminationCondition};
 use framepath::planner::MoveRequest;
 
 #[test]
@@ -110,6 +110,92 @@ fn feed_per_turn_and_per_minute_mix_in_one_run() {
         assert_eq!(rests, 0);
         keeps_limits(lathe.machine);
     });
+}
+
+/// The greatest speed, mm/s, along Z from `from` on, of what is queued.
+fn fastest_from(lathe: &mut Lathe, from: f64) -> f64 {
+    let mut fastest = 0.0_f64;
+    let mut last = lathe.machine.planner.status().position;
+    while !lathe.cycle().done {
+        let position = lathe.machine.planner.status().position;
+        if last[2] >= from {
+            fastest = fastest.max((position - last).norm() / PERIOD);
+        }
+        last = position;
+    }
+    keeps_limits(lathe.machine);
+    fastest
+}
+
+/// Feed per turn is planned with a reserve for a spindle that becomes faster. From rest, and behind a rapid, the machine had been
+/// that fast before it came down.
+#[test]
+fn feed_per_turn_is_not_exceeded_where_it_begins() {
+    let exact = TerminationCondition::Exact;
+    let blended = TerminationCondition::Continuous { tolerance: 0.05 };
+    for per_turn in [0.2, 1.0, 3.0] {
+        for (scale, condition) in [(1.0, exact), (1.0, blended), (0.5, blended), (1.4, blended)] {
+            for rapid in [false, true] {
+                with_machine(|machine| {
+                    let mut lathe = Lathe::new(machine, 10.0);
+                    lathe.machine.planner.set_termination(condition);
+                    lathe.machine.inputs.feed_scale = scale;
+                    let planner = &mut lathe.machine.planner;
+                    planner.set_spindle_synchronisation(SPINDLE as i32, 0.0, true);
+                    let mut begin = 0.0;
+                    if rapid {
+                        begin = 20.0;
+                        let before = MoveRequest {
+                            motion_type: MotionType::Traverse,
+                            ..feed_move(100.0)
+                        };
+                        lathe.machine.line(z(begin), &before).expect("a line");
+                    }
+                    let planner = &mut lathe.machine.planner;
+                    planner.set_spindle_synchronisation(SPINDLE as i32, per_turn, true);
+                    for end in [begin + 10.0, begin + 11.0, begin + 20.0] {
+                        lathe.machine.line(z(end), &fast()).expect("a line");
+                    }
+                    let fastest = fastest_from(&mut lathe, begin + 0.06);
+                    let share = fastest / (per_turn * 10.0 * scale);
+                    assert!(
+                        (0.99..1.005).contains(&share),
+                        "{per_turn} {scale} {condition:?} {rapid}: {share}"
+                    );
+                });
+            }
+        }
+    }
+}
+
+/// The rapid is run, however the spindle stands behind it, and the machine goes on once that turns.
+#[test]
+fn feed_per_turn_waits_behind_a_rapid_for_a_spindle_that_stands() {
+    for tolerance in [0.0, 0.05] {
+        with_machine(|machine| {
+            let mut lathe = Lathe::new(machine, 0.0);
+            let condition = TerminationCondition::Continuous { tolerance };
+            lathe.machine.planner.set_termination(condition);
+            let before = MoveRequest {
+                motion_type: MotionType::Traverse,
+                ..feed_move(100.0)
+            };
+            lathe.machine.line(z(20.0), &before).expect("a line");
+            let planner = &mut lathe.machine.planner;
+            planner.set_spindle_synchronisation(SPINDLE as i32, 1.0, true);
+            lathe.machine.line(z(30.0), &fast()).expect("a line");
+            for _ in 0..3000 {
+                lathe.cycle();
+            }
+            let place = lathe.machine.planner.status().position[2];
+            assert!((19.9..20.1).contains(&place), "{tolerance}: {place}");
+            assert_eq!(feed_of(&lathe), 0.0);
+            lathe.commanded = 10.0;
+            lathe.run(3000);
+            assert_eq!(lathe.machine.planner.status().position, z(30.0));
+            keeps_limits(lathe.machine);
+        });
+    }
 }
 
 #[test]

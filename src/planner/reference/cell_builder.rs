@@ -3,11 +3,11 @@
 use super::bulge::Bulge;
 use super::reference_segment::{ReferenceSegment, SegmentMotion};
 use crate::axes::{AXIS_COUNT, Axes};
-use crate::cycle::Cell;
+use crate::cycle::{Cell, FeedPerTurn};
 use crate::lanes::{greater, lesser};
 use crate::machine_map::MachineMap;
-use crate::moves::MoveQueue;
 use crate::moves::shape::PathPoint;
+use crate::moves::{Move, MoveQueue};
 use crate::path::BlendedPath;
 use crate::speed::ProfileState;
 
@@ -274,11 +274,20 @@ impl MotionDerivatives {
                     .synchronisation
                     .map_or(queued.feed, |with| with.per_turn)
             }),
-            per_turn: queued.is_some_and(|queued| queued.synchronisation.is_some()),
+            feed_per_turn: queued.and_then(feed_per_turn),
             rapid: queued.is_some_and(|queued| queued.motion_type.is_rapid()),
             override_enabled: queued.is_some_and(|queued| queued.override_enabled()),
         }
     }
+}
+
+/// What a move with feed per turn, or a thread, counts with.
+fn feed_per_turn(queued: &Move) -> Option<FeedPerTurn> {
+    let with = queued.synchronisation?;
+    Some(FeedPerTurn {
+        spindle: with.spindle,
+        planned_turns: queued.feed.min(queued.max_velocity) / with.per_turn,
+    })
 }
 
 #[cfg(test)]

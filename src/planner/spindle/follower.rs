@@ -25,6 +25,8 @@ pub struct SpindleFollower {
     /// The spindle that the moves to come follow.
     command: Option<SpindleCommand>,
     sequence: Option<Sequence>,
+    /// The last queued move with feed per turn, its serial number and its spindle.
+    last_feed: Option<(u64, usize)>,
     pub(super) trackers: [Tracker; SPINDLE_COUNT],
     /// The spindles as they were in the last cycle.
     pub(super) measured: [SpindleInputs; SPINDLE_COUNT],
@@ -37,6 +39,7 @@ impl SpindleFollower {
     pub const NEW: Self = Self {
         command: None,
         sequence: None,
+        last_feed: None,
         trackers: [Tracker::NEW; SPINDLE_COUNT],
         measured: [SpindleInputs::STANDSTILL; SPINDLE_COUNT],
         thread: None,
@@ -54,6 +57,7 @@ impl SpindleFollower {
     pub fn drop_moves(&mut self) {
         self.thread = None;
         self.sequence = None;
+        self.last_feed = None;
     }
 
     /// Which spindle the moves to come follow.
@@ -117,8 +121,11 @@ impl SpindleFollower {
         }
     }
 
-    /// A move was queued: the next one may go on with its sequence.
-    pub fn take_note_of(&mut self, queued: &Move) {
+    /// A move was queued with this serial number: the next one may go on with its sequence.
+    pub fn take_note_of(&mut self, queued: &Move, serial: u64) {
+        if let Some(with) = queued.synchronisation.filter(|with| !with.follows_angle()) {
+            self.last_feed = Some((serial, with.spindle));
+        }
         self.sequence = match queued.synchronisation {
             Some(Synchronisation {
                 spindle,
@@ -159,10 +166,22 @@ impl SpindleFollower {
         tracker.map_or(0.0, |tracker| thread.sign * tracker.turns()) - thread.zero
     }
 
-    /// Turns a second that feed per turn counts with for a move; infinite where it follows no spindle.
-    pub fn feed_turns(&self, running: Option<&Move>) -> f64 {
-        let with = running.and_then(|running| running.synchronisation);
-        let spindle = with.and_then(|with| self.measured.get(with.spindle));
+    /// The spindle of the last queued move with feed per turn, if that is not behind the move with the serial number `first`.
+    pub fn feed_ahead(&self, first: u64) -> Option<usize> {
+        let (_, spindle) = self.last_feed.filter(|(serial, _)| *serial >= first)?;
+        Some(spindle)
+    }
+
+    /// Turns a second that feed per turn counts with where it follows this spindle; infinite where it follows none.
+    pub fn feed_turns(&self, spindle: Option<usize>) -> f64 {
+        let spindle = spindle.and_then(|number| self.measured.get(number));
         spindle.map_or(f64::INFINITY, |spindle| spindle.speed.abs())
+    }
+
+    /// What a move asks for at the present speed of its spindle, machine units per second.
+    pub fn feed(&self, queued: &Move) -> f64 {
+        queued.synchronisation.map_or(queued.feed, |with| {
+            with.per_turn * self.feed_turns(Some(with.spindle))
+        })
     }
 }

@@ -267,7 +267,7 @@ impl Reference {
             path_acceleration,
             feed_ratio: 1.0,
             programmed_feed: running.programmed_feed,
-            per_turn: false,
+            feed_per_turn: None,
             rapid: running.rapid,
             override_enabled: running.override_enabled,
         };

@@ -97,6 +97,25 @@ class FeedPerTurn(Row):
         return f"{first:.4f} mm a turn for 0.5"
 
 
+class FeedPerTurnBegins(Row):
+    """G95: the feed of a turn is not exceeded where it begins, from rest, behind a rapid and at an override"""
+
+    section = SECTION
+
+    def operate(self, op):
+        op.begin("M3 S600", "G4 P0.7", "G64 P0.1", "G95 F1", "G1 X10", "G0 X30", "G1 X40")
+        op.until("the rapid", lambda: op.status.position[0] > 11)
+        op.feed_override(0.5)
+        op.finish(40)
+
+    def check(self, seen):
+        speeds = list(zip(seen.column("x"), seen.speed("x"), strict=False))
+        first, second = (max(speed for x, speed in speeds if a < x < b) for a, b in ((0, 9.8), (30.2, 40)))
+        seen.near(first, 10, 0.1, "mm/s from rest")
+        seen.near(second, 5, 0.05, "mm/s behind a rapid, at 50 %")
+        return f"fastest {first:.2f} of 10 and {second:.2f} of 5 mm/s"
+
+
 class FeedPerTurnAborted(Row):
     """After an abort under G95 a move under G94 keeps its own feed"""
 
