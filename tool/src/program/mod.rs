@@ -113,8 +113,9 @@ pub enum Action {
     ToolLength(bool),
     /// Length and radius compensation by this row of the tool table, whatever tool is in the spindle.
     ToolOffset(u32),
-    /// Radius compensation by this row of the tool table from here on.
-    RadiusRow(u32),
+    /// Radius compensation by this row of the tool table from here on; `None`: that of the tool in the
+    /// spindle.
+    RadiusRow(Option<u32>),
     /// Coolant on or off.
     Coolant(Coolant),
     /// The diameter that cutter compensation takes from here on; `None`: that in the tool table.

@@ -48,14 +48,19 @@ impl Modes {
             Action::ToolLength(on) => {
                 self.tool_length = Some(*on);
                 self.radius_row = None;
+                self.cutter_diameter = None;
             }
             Action::ToolOffset(row) => {
                 self.tool_length = Some(true);
                 self.radius_row = Some(*row);
+                self.cutter_diameter = None;
             }
             Action::CutterDiameter(diameter) => self.cutter_diameter = *diameter,
-            Action::RadiusRow(row) => self.radius_row = Some(*row),
-            Action::ToolChange => self.radius_row = None,
+            Action::RadiusRow(row) => self.radius_row = *row,
+            Action::ToolChange => {
+                self.radius_row = None;
+                self.cutter_diameter = None;
+            }
             _ => {}
         }
     }

@@ -140,3 +140,20 @@ fn without_lists_and_ini_the_error_says_what_to_do() {
     let shown = refused(&output);
     assert_one_error(&shown, PROGRAM, "part.mpf:1:1", "no INI file is known");
 }
+
+/// LinuxCNC's G49 leaves the radius of the tool alone.
+#[test]
+fn without_an_edge_there_is_no_radius() {
+    let program = "T5 M6\nD0\nG0 X0 Y0\nG1 G41 X10 Y10 F100\nX20\nG40 X40\nD1\nG41 X50\nX55\nG40 X60\nD0\n\
+                   T6 M6\nG41 X50 Y10\nG40 X60\nM30\n";
+    let shop = Shop::new(&[("part.mpf", program.as_bytes())]);
+    let lines = commands(&accepted(&shop.run_in("sinumerik", "part.mpf", &[])));
+    let begun: Vec<_> = lines
+        .iter()
+        .filter(|line| line.starts_with("G41"))
+        .collect();
+    assert_eq!(
+        begun,
+        ["G41.1 D0 G1 X10 Y10 F100", "G41 G1 X50", "G41 G1 X50 Y10"]
+    );
+}

@@ -90,6 +90,18 @@ fn compensation_uses_the_row_that_d_selects() {
     assert!(output.contains("G42 D4 G1 X10"), "{output}");
 }
 
+/// LinuxCNC takes D0 for the tool that it has, and forgets a row with the tool.
+#[test]
+fn no_radius_and_a_row_that_outlasts_the_tool() {
+    let program = "T5 M6\nD0\nG0 X0 Y0\nG1 G41 X10 Y10 F100\nX20\nG40 X40\nD5\nT6 M6\nG41 X50 Y10\nX55\n\
+                   G40 X60\nM30\n";
+    for dialect in [Dialect::Mefi, Dialect::Isg] {
+        let output = Shop::with(dialect, program).accepted(&[]);
+        assert!(output.contains("\nG41.1 D0 G1 X10 Y10 F100"), "{output}");
+        assert!(output.contains("\nG41 D5 G1 X50 Y10"), "{output}");
+    }
+}
+
 #[test]
 fn further_axes_are_mirrored_scaled_and_shifted() {
     let program =

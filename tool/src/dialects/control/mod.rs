@@ -336,7 +336,10 @@ fn order_of_state(state: &Action, compensated: bool) -> u8 {
         Action::Compensation(Compensation::Off) if compensated => 0,
         Action::Plane(_) => 1,
         Action::Compensation(Compensation::Off) => 2,
-        Action::ToolLength(_) | Action::ToolOffset(_) => 3,
+        Action::ToolLength(_)
+        | Action::ToolOffset(_)
+        | Action::RadiusRow(_)
+        | Action::CutterDiameter(_) => 3,
         Action::PresetOff | Action::WorkOffset(_) => 4,
         Action::PathControl(_) => 5,
         _ => 6,

@@ -149,6 +149,15 @@ impl Control<'_> {
         Ok(())
     }
 
+    /// The row of the tool table that G41 and G42 take the radius from; 0 for none at all, `None` for that
+    /// of the tool in the spindle. LinuxCNC takes D0 for the tool in the spindle: without a radius the
+    /// diameter is given instead.
+    pub fn radius_of_row(&mut self, row: Option<u32>) {
+        let none = (row == Some(0)).then_some(0.0);
+        self.states.push(Action::RadiusRow(row));
+        self.states.push(Action::CutterDiameter(none));
+    }
+
     /// G17 to G19.
     pub fn plane(&mut self, plane: Plane, span: Span) -> Done {
         if plane != self.modal.plane {

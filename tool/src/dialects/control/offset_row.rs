@@ -3,7 +3,7 @@
 use super::Control;
 use super::words::At;
 use crate::diagnostics::Diagnostic;
-use crate::program::Action;
+use crate::program::{Action, Compensation};
 
 /// The row that D selected, and whether it has been said what D becomes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,6 +43,14 @@ impl Control<'_> {
         }
         row.selected = Some(number);
         Ok(true)
+    }
+
+    /// G40 to G42, with the radius of the row that D selected; before the first D with that of the tool.
+    pub fn compensation_by_row(&mut self, compensation: Compensation, row: OffsetRow) {
+        if compensation != Compensation::Off && row.selected.is_some() {
+            self.radius_of_row(row.selected);
+        }
+        self.compensation(compensation);
     }
 
     /// The M functions of a block except the stops at its end; returns the one that ends the routine.

@@ -6,11 +6,10 @@ use super::cycles::{Cycle, Form};
 use super::g_functions::OneShot;
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
+use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
-use crate::dialects::control::{Control, Done};
 use crate::program::moves::Corner;
-use crate::program::position::Position;
 use crate::program::{Action, Compensation};
 use crate::source::Span;
 
@@ -149,127 +148,6 @@ impl Interpreter<'_> {
                 .help("put axes, T, D and M functions in another block"));
         }
         self.control.dwell(hundredths.value / 100.0, span)
-    }
-
-    /// D; whether another row of the tool table is meant than before.
-    fn select_offset(&mut self, offset: At<f64>) -> Result<bool, Diagnostic> {
-        if offset.value.fract() != 0.0 || !(0.0..=99999.0).contains(&offset.value) {
-            return Err(Diagnostic::error(
-                offset.span,
-                format!("D{}: this is not the number of an offset", offset.value),
-            ));
-        }
-        let row = offset.value as u32;
-        let row = Some(row).filter(|row| Some(*row) != self.tool.number);
-        let changes = row != self.tool.offset;
-        self.tool.offset = row;
-        Ok(changes)
-    }
-
-    /// D beside G41 or G42 is selected before the compensation that uses it. Returns the block without it.
-    fn offset_of_compensation(
-        &mut self,
-        words: &BlockWords,
-    ) -> Result<Option<BlockWords>, Diagnostic> {
-        let begins = words.g.iter().any(|g| matches!(g.value, 41 | 42))
-            && self.control.modal.compensation == Compensation::Off
-            && words.tool.is_none();
-        let Some(offset) = words.offset.filter(|_| begins) else {
-            return Ok(None);
-        };
-        if self.select_offset(offset)? && self.tool.length_on {
-            let before = self.control.modal.position.clone();
-            match self.tool.offset {
-                Some(row) => self.control.tool_offset(row, offset.span)?,
-                None => self.control.tool_length(true, offset.span)?,
-            }
-            self.keep_across_length(before);
-        }
-        let mut rest = words.clone();
-        rest.offset = None;
-        Ok(Some(rest))
-    }
-
-    /// T, D, M functions and the length compensation; returns the M function that ends the program.
-    fn tool_and_m(
-        &mut self,
-        words: &BlockWords,
-        once: &OneShot,
-    ) -> Result<Option<u32>, Diagnostic> {
-        let mut end = None;
-        let mut rows_change = None;
-        if let Some(tool) = words.tool {
-            let (number, offset) = tool.value;
-            self.control.tool(number, tool.span)?;
-            self.tool.number = Some(number as u32);
-            self.tool.offset = offset.filter(|offset| Some(*offset) != self.tool.number);
-        }
-        if let Some(offset) = words.offset
-            && self.select_offset(offset)?
-        {
-            rows_change = Some(offset.span);
-        }
-        for At { value, span } in Control::in_order(&words.m) {
-            match value {
-                0 | 1 => {}
-                2 | 30 => end = Some(value),
-                6 => {
-                    self.control.tool_change(span, false)?;
-                    self.tool.changed.get_or_insert(span);
-                    rows_change = Some(span);
-                }
-                41..=44 => self.control.note(&format!("M{value}"), span),
-                _ if self.control.switch(value) => {}
-                _ => self.control.other_m(value, span)?,
-            }
-        }
-        if let Some(length) = once.length {
-            self.tool.length_chosen = true;
-            self.warn_of_tool_left(length.span);
-            let changes = self.tool.length_on != length.value;
-            self.tool.length_on = length.value;
-            match length.value {
-                true => rows_change = rows_change.or(changes.then_some(length.span)),
-                false => self.control.tool_length(false, length.span)?,
-            }
-        }
-        let changed = words.m.iter().any(|m| m.value == 6);
-        let before = self.control.modal.position.clone();
-        if let (Some(span), true) = (rows_change, self.tool.length_on) {
-            match self.tool.offset {
-                Some(row) => self.control.tool_offset(row, span)?,
-                None => self.control.tool_length(true, span)?,
-            }
-        }
-        if !changed {
-            self.keep_across_length(before);
-        }
-        Ok(end)
-    }
-
-    /// Machines without a changer take T for the change.
-    fn warn_of_tool_left(&mut self, span: Span) {
-        let Some(tool) = self.tool.number.filter(|_| self.tool.changed.is_none()) else {
-            return;
-        };
-        self.control.diagnostics.push(
-            Diagnostic::warning(
-                span,
-                format!(
-                    "T{tool} is selected and not changed to: LinuxCNC keeps the tool that it has"
-                ),
-            )
-            .help("write M06 behind T if the tool is to be changed"),
-        );
-    }
-
-    /// Lengths count along the axis of the tool: in a plane that is not tilted the others stay where they
-    /// are.
-    fn keep_across_length(&mut self, before: Position) {
-        let [first, second, _] = self.control.modal.plane.axes();
-        for axis in (0..9).filter(|axis| [first, second].contains(axis) || *axis > 2) {
-            self.control.modal.position.set(axis, before.get(axis));
-        }
     }
 
     /// The coordinates of a block: a preset, a motion, a canned cycle.

@@ -3,7 +3,6 @@
 use super::block_words::BlockWords;
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
-use crate::dialects::control::Done;
 use crate::dialects::control::groups::{Groups, in_order_of_compensation};
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::At;
@@ -27,6 +26,8 @@ pub(super) struct OneShot {
     pub(super) corner: Option<At<u32>>,
     /// G69, G79 and G81 to G89.
     pub(super) cycle: Option<At<u32>>,
+    /// G40 to G42.
+    pub(super) compensation: Option<At<Compensation>>,
     /// G43 or G44.
     pub(super) length: Option<At<bool>>,
     /// G33.
@@ -111,7 +112,10 @@ impl Interpreter<'_> {
                     41 => Compensation::Left,
                     _ => Compensation::Right,
                 };
-                self.check_radius_row(compensation, span)?;
+                once.compensation = Some(At {
+                    value: compensation,
+                    span,
+                });
                 self.control.compensation(compensation);
                 7
             }
@@ -185,20 +189,6 @@ impl Interpreter<'_> {
             _ => return Err(unsupported(code, span)),
         };
         Ok(group)
-    }
-
-    /// LinuxCNC takes length and radius from the same row.
-    fn check_radius_row(&self, compensation: Compensation, span: Span) -> Done {
-        let row = self.tool.offset;
-        if compensation == Compensation::Off || row.is_none() || self.tool.length_on {
-            return Ok(());
-        }
-        let row = row.unwrap_or(0);
-        Err(Diagnostic::error(
-            span,
-            format!("the radius of offset D{row} while its length is not compensated"),
-        )
-        .help("write G43 before, or take the offset of the tool itself"))
     }
 }
 

@@ -7,6 +7,7 @@ use super::parameters::Parameters;
 use super::polar::PolarOrigin;
 use super::routine::Routine;
 use super::syntax::{Assignment, Block, HighLevel, Label, Statement, Word};
+use super::tool_words::ToolState;
 use super::transforms::Transforms;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::plain::PlainBlock;
@@ -21,21 +22,6 @@ use std::rc::Rc;
 
 /// How often a block can be repeated.
 const REPEAT_LIMIT: u32 = 9999;
-
-/// What the program has said about its tool.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct ToolState {
-    /// T.
-    pub(super) number: Option<u32>,
-    /// D, while it is not that of the tool.
-    pub(super) offset: Option<u32>,
-    /// G43.
-    pub(super) length_on: bool,
-    /// Whether G43 or G44 was ever there.
-    pub(super) length_chosen: bool,
-    /// Where a tool was changed first.
-    pub(super) changed: Option<Span>,
-}
 
 /// Runs a program.
 pub struct Interpreter<'a> {
@@ -71,20 +57,6 @@ impl<'a> Interpreter<'a> {
             cycle: None,
             modal_call: None,
             repeats: Vec::new(),
-        }
-    }
-
-    /// Whether the control switches the length compensation on by itself is a setting of the machine.
-    fn check_tool_length(&mut self) {
-        if let (Some(span), false) = (self.tool.changed, self.tool.length_chosen) {
-            self.control.diagnostics.push(
-                Diagnostic::warning(
-                    span,
-                    "the program changes the tool and says neither G43 nor G44: \
-                     the tool length stays as LinuxCNC has it",
-                )
-                .help("write G43 after the tool change"),
-            );
         }
     }
 

@@ -27,6 +27,7 @@ mod polar;
 mod routine;
 pub mod syntax;
 pub mod token;
+mod tool_words;
 mod transforms;
 
 use super::control::About;

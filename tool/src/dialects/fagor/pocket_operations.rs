@@ -244,7 +244,7 @@ impl Interpreter<'_> {
     /// Diameter of the tool that the blocks of an operation name, and its number; see
     /// [`tool_diameter`](crate::dialects::control::Control::tool_diameter).
     fn named_diameter(&mut self, milling: &Milling) -> Result<Option<(u32, f64)>, Diagnostic> {
-        let mut row = self.tool.offset;
+        let mut row = self.tool.row();
         let blocks = &milling.operation.blocks[..=milling.operation.main];
         for WordsBlock { words, .. } in blocks {
             if let Some(tool) = words.tool {
@@ -374,7 +374,7 @@ impl Interpreter<'_> {
             }
             self.run_tool_words(&milling.rest, span)?;
             let code = milling.code();
-            let row = self.tool.offset;
+            let row = self.tool.row();
             let Some((tool, diameter)) = self.control.tool_diameter(&code, row, milling.g.span)?
             else {
                 return Ok(());

@@ -157,7 +157,7 @@ impl Interpreter<'_> {
         let span = cycle.span();
         let code = if pocket.circular { "G88" } else { "G87" };
         self.control.refuse_compensation(span, "a pocket")?;
-        let row = self.tool.offset;
+        let row = self.tool.row();
         let Some((tool, diameter)) = self.control.tool_diameter(code, row, span)? else {
             return Ok(());
         };

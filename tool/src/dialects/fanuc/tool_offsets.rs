@@ -99,7 +99,7 @@ impl Interpreter<'_> {
                 format!("D{row} takes the diameter of tool {row} of the tool table"),
             ));
         }
-        self.control.states.push(Action::RadiusRow(row));
+        self.control.states.push(Action::RadiusRow(Some(row)));
         self.control.compensation(value);
         Ok(())
     }

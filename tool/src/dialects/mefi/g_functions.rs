@@ -60,7 +60,7 @@ impl Interpreter<'_> {
             }
             40..=42 => {
                 let compensation = [Compensation::Off, Compensation::Left, Compensation::Right];
-                control.compensation(compensation[code as usize - 40]);
+                control.compensation_by_row(compensation[code as usize - 40], self.offset_row);
                 4
             }
             53 => {

@@ -191,7 +191,11 @@ impl Interpreter<'_> {
                 .help("the edges of a tool are D1 to D9, D0 is none"));
             }
         };
-        self.control.tool_length(on, offset.span)
+        self.control.tool_length(on, offset.span)?;
+        if !on {
+            self.control.radius_of_row(Some(0));
+        }
+        Ok(())
     }
 
     /// The row of LinuxCNC's tool table that holds a further edge of the tool.

@@ -205,11 +205,6 @@ fn motion() {
         "an increment in machine coordinates",
     );
     one_error("G4\nM30\n", "1:1", "G4 needs a time");
-    one_error(
-        "T5 D7 M6\nG0 X0 Y0\nG41 G1 X5 F100\nM30\n",
-        "3:1",
-        "the radius of offset D7",
-    );
     one_error("G36 X5\nM30\n", "1:1", "G36 needs R");
     one_error(
         "G0 X0 Y0 Z0\nG36 R5 G1 X3 F100\nY9\nM30\n",

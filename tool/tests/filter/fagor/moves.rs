@@ -189,7 +189,7 @@ M30
 
 #[test]
 fn compensation_begins_at_the_entry_and_ends_behind_the_exit() {
-    let program = "G90 G0 X-5 Y10 Z0\nT1 D1\nG43 G0 Z1\nG37 R5 G41 G1 X0 Y0 F100\nG38 R5 X30\nG40 X35 Y10\nM30\n";
+    let program = "T1 D1 M6\nG90 G0 X-5 Y10 Z0\nG43 G0 Z1\nG37 R5 G41 G1 X0 Y0 F100\nG38 R5 X30\nG40 X35 Y10\nM30\n";
     let lines = super::translate(program, &["--backend", "program"]);
     let wanted = [
         "G41 G1 X-5 Y5 F100",
@@ -201,31 +201,6 @@ fn compensation_begins_at_the_entry_and_ends_behind_the_exit() {
     let begin = lines.iter().position(|line| line.contains("G41"));
     let given = &lines[begin.expect("G41")..][..wanted.len()];
     assert_eq!(given, wanted, "{lines:?}");
-}
-
-#[test]
-fn the_offset_beside_the_compensation_is_selected_before_it() {
-    for (offset, written) in [("D1", "G41 G1 X5 Y0"), ("D4", "G41 D4 G1 X5 Y0")] {
-        let program =
-            format!("T1 D1\nG43\nG90 G0 X0 Y0 Z0\nG1 G41 X5 Y0 {offset} F100\nX9\nG40 X0\nM30\n");
-        let lines = super::translate(&program, &["--backend", "program"]);
-        assert!(
-            lines.iter().any(|line| line.starts_with(written)),
-            "{lines:?}"
-        );
-    }
-}
-
-#[test]
-fn a_tool_that_is_never_changed_to_is_told() {
-    let told = |change: &str| {
-        let program = format!("T7 D7 {change}\nG43\nG90 G0 X0 Y0 Z0\nM30\n");
-        let lines = super::translate(&program, &[]);
-        lines
-            .iter()
-            .any(|line| line.contains("T7 is selected and not changed to"))
-    };
-    assert!(told("") && !told("M06"));
 }
 
 #[test]
@@ -349,14 +324,6 @@ M30
     let commands = super::translate(row, &[]);
     assert_eq!(commands[1], "G43 H9");
     assert_eq!(commands[3], "G41 D9 G1 X10 F100");
-}
-
-#[test]
-fn a_tool_without_a_word_about_its_length_is_said() {
-    let said = super::translate("T1 M6\nG0 Z5\nM30\n", &[]);
-    assert!(said[0].contains("neither G43 nor G44"));
-    let silent = super::translate("T1 M6\nG43\nG0 Z5\nM30\n", &[]);
-    assert_eq!(silent[0], "T1 M6");
 }
 
 /// A path under compensation is mirrored and scaled before compensation, so that the sides change.
