@@ -41,6 +41,8 @@ pub struct Modal {
     pub spindle_speed: Option<f64>,
     /// M3 to M5.
     pub spindle: Option<Spindle>,
+    /// How it turned when a tool change stopped it, until the program switches it.
+    pub spindle_before_change: Option<Spindle>,
     /// G40 to G42.
     pub compensation: Compensation,
     /// How corners are passed.
@@ -75,6 +77,7 @@ impl Modal {
             feed: None,
             spindle_speed: None,
             spindle: None,
+            spindle_before_change: None,
             compensation: Compensation::Off,
             path_control: settings.path_mode,
             frame: Frame::default(),

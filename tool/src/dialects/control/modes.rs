@@ -76,6 +76,12 @@ impl Control<'_> {
         self.modal.forget_position();
         self.actions.push(Action::ToolChange);
         self.tools.change();
+        // LinuxCNC stops the spindle.
+        if let Some(turning @ (Spindle::Clockwise | Spindle::Counterclockwise)) = self.modal.spindle
+        {
+            self.modal.spindle_before_change = Some(turning);
+            self.modal.spindle = Some(Spindle::Stop);
+        }
         if with_length {
             self.actions.push(Action::ToolLength(true));
         }
@@ -108,6 +114,7 @@ impl Control<'_> {
         });
         if let Some(Action::Spindle(spindle)) = self.actions.last() {
             self.modal.spindle = Some(*spindle);
+            self.modal.spindle_before_change = None;
         }
         true
     }

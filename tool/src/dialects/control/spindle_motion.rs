@@ -130,7 +130,21 @@ impl Control<'_> {
     /// Switches the spindle.
     pub fn set_spindle(&mut self, spindle: Spindle) {
         self.modal.spindle = Some(spindle);
+        self.modal.spindle_before_change = None;
         self.actions.push(Action::Spindle(spindle));
+    }
+
+    /// The spindle turns: as it did before the tool was changed, or else clockwise, unless it turns already.
+    /// Returns how.
+    pub fn turn_spindle(&mut self) -> Spindle {
+        if let Some(turning @ (Spindle::Clockwise | Spindle::Counterclockwise)) = self.modal.spindle
+        {
+            return turning;
+        }
+        let before = self.modal.spindle_before_change;
+        let turning = before.unwrap_or(Spindle::Clockwise);
+        self.set_spindle(turning);
+        turning
     }
 
     /// G96: metres or feet per minute at the surface, with the axis X at the radius.

@@ -3,7 +3,8 @@
 //!
 //! A cycle that is defined runs at its own place and then at every place that the blocks after it move
 //! to, until G80, another cycle or another plane. Z is the reference plane and I the bottom; with G91 Z
-//! counts from the starting plane and I from the reference plane. (Fagor, CNC 8055 Programming Manual,
+//! counts from the starting plane and I from the reference plane. A spindle that stands is switched on
+//! clockwise before the tool goes in. (Fagor, CNC 8055 Programming Manual,
 //! "Canned cycles".)
 
 use super::block_words::BlockWords;
@@ -281,13 +282,13 @@ impl Interpreter<'_> {
         let Some(cycle) = self.cycle.clone() else {
             return Ok(());
         };
+        let spindle = self.control.turn_spindle();
         self.to(cycle.reference, &MoveKind::Rapid, &cycle)?;
         match (cycle.form, cycle.code) {
             (Some(Form::Pocket(pocket)), _) => self.mill_pocket(&cycle, pocket)?,
             (Some(Form::Steps(steps)), _) => self.drill_steps(&cycle, steps)?,
             (None, code) => self.bore(&cycle, code)?,
         }
-        let spindle = self.last_spindle();
         if cycle.code == 86 {
             self.control.actions.push(Action::Spindle(Spindle::Stop));
         }
@@ -333,7 +334,7 @@ impl Interpreter<'_> {
             .help("write S500 F500 for a pitch of 1"));
         };
         let factor = modal.length_factor;
-        let before = self.last_spindle();
+        let before = self.control.turn_spindle();
         let pitch = match before {
             Spindle::Counterclockwise => -feed / speed,
             _ => feed / speed,
@@ -350,7 +351,7 @@ impl Interpreter<'_> {
 
     /// G84: the spindle turns back at the bottom, and the chuck gives way meanwhile.
     fn floating_tap(&mut self, cycle: &Cycle) -> Done {
-        let before = self.last_spindle();
+        let before = self.control.turn_spindle();
         let back = match before {
             Spindle::Counterclockwise => Spindle::Clockwise,
             _ => Spindle::Counterclockwise,
@@ -400,9 +401,5 @@ impl Interpreter<'_> {
         if cycle.dwell > 0.0 {
             self.control.actions.push(Action::Dwell(cycle.dwell));
         }
-    }
-
-    fn last_spindle(&self) -> Spindle {
-        self.control.modal.spindle.unwrap_or(Spindle::Clockwise)
     }
 }

@@ -381,7 +381,7 @@ impl Interpreter<'_> {
             };
             self.tell_diameter(&code, tool, diameter, milling.g.span);
             let cuts = cuts(self, diameter / self.transforms.scale())?;
-            self.turn_spindle();
+            self.control.turn_spindle();
             self.normal_way(pocket.start, Motion::Rapid, milling.g.span)?;
             self.mill_cuts(pocket, milling, &cuts)?;
             self.control.finish_block(&block.place);

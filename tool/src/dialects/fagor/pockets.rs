@@ -15,7 +15,6 @@ use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::At;
-use crate::program::Spindle;
 use crate::source::Span;
 
 /// The default step between two rounds, over the diameter of the tool.
@@ -186,7 +185,6 @@ impl Interpreter<'_> {
             span,
         };
         milling.check()?;
-        self.turn_spindle();
         let before = self.control.modal.motion;
         let done = self.mill_layers(&milling, cycle);
         self.control.modal.motion = before;
@@ -204,16 +202,6 @@ impl Interpreter<'_> {
             )
             .help("open the program again when the table has changed"),
         );
-    }
-
-    /// The spindle turns where a pocket is milled.
-    pub(super) fn turn_spindle(&mut self) {
-        if !matches!(
-            self.control.modal.spindle,
-            Some(Spindle::Clockwise | Spindle::Counterclockwise)
-        ) {
-            self.control.set_spindle(Spindle::Clockwise);
-        }
     }
 
     fn mill_layers(&mut self, milling: &Milling, cycle: &Cycle) -> Done {

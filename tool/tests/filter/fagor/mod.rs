@@ -8,6 +8,7 @@ mod moves;
 mod pockets;
 mod random;
 mod seeds;
+mod spindle;
 mod tools;
 
 use crate::shop::{Shop, accepted, commands, refused};
