@@ -58,7 +58,11 @@ impl Interpreter<'_> {
                 (Some(radius), Some(Motion::Rapid | Motion::Line)) => {
                     let present = self.present_in_plane(radius.span)?;
                     let from = self.relative_to_origin(present);
-                    self.place_at(motion, radius, from[1].atan2(from[0]).to_degrees())
+                    let mut distance = radius;
+                    if self.control.modal.incremental {
+                        distance.value += from[0].hypot(from[1]);
+                    }
+                    self.place_at(motion, distance, from[1].atan2(from[0]).to_degrees())
                 }
                 _ => Ok(()),
             };

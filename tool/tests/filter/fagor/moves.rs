@@ -59,6 +59,10 @@ M30
         .line([25., 30., 3.])
         .lines(&[(35., 15.), (50., 30.)]);
     check(program, &expected);
+    for radius in ["R-5", "R-5 Q0"] {
+        let along = format!("G90 G0 X0 Y0 Z0\nG1 R10 Q90 F100\nG91 {radius}\nM30\n");
+        check(&along, &Path::from([0.0; 3]).lines(&[(0., 10.), (0., 5.)]));
+    }
     let here = "G90 G0 X10 Y0 Z0\nG93\nG1 R10 Q90 F100\nM30\n";
     check(here, &Path::from([10., 0., 0.]).lines(&[(10., 10.)]));
 }
