@@ -131,6 +131,26 @@ pub const FUNCTIONS: [(&str, Function); 11] = [
 ];
 
 impl Function {
+    /// For which arguments it has a value.
+    fn domain(self) -> &'static str {
+        match self {
+            Function::SquareRoot => "a root is of a number that is not negative",
+            Function::NaturalLogarithm | Function::DecimalLogarithm => {
+                "a logarithm is of a number above 0"
+            }
+            Function::Asin | Function::Acos => {
+                "the sine and the cosine of an angle go from -1 to 1"
+            }
+            Function::Tan => "the tangent of 90 degrees is infinite",
+            Function::RoundUp => {
+                "whether a negative number is rounded up towards 0 or away from it is not known: round its \
+                 absolute value, or to the nearest whole number"
+            }
+            Function::Bound => "the least value comes first, then the largest, then the number",
+            _ => "check the values of its arguments: the result is too large",
+        }
+    }
+
     /// How many arguments it takes.
     pub fn arguments(self) -> usize {
         match self {
@@ -159,33 +179,33 @@ pub trait Variables {
 impl Expression {
     /// The value of the expression; never an infinite number or NaN.
     pub fn evaluate(&self, variables: &dyn Variables) -> Result<Value, Diagnostic> {
-        let value =
-            match &self.kind {
-                ExpressionKind::Number(number) => Value::Number(*number),
-                ExpressionKind::Text(text) => Value::Text(text.clone()),
-                ExpressionKind::Group(inner) => inner.evaluate(variables)?,
-                ExpressionKind::Variable(name, index) => {
-                    let index = numbers(index, variables)?;
-                    variables.value(name, &index, self.span)?
-                }
-                ExpressionKind::Unary(operator, operand) => {
-                    let operand = operand.number(variables)?;
-                    Value::Number(match operator {
-                        Unary::Negate => -operand,
-                        Unary::Not => truth(operand == 0.0),
-                        Unary::BitNot => f64::from(!self.bits(operand)?),
-                    })
-                }
-                ExpressionKind::Binary(operator, left, right) => {
-                    self.binary(*operator, left, right, variables)?
-                }
-                ExpressionKind::Function(function, arguments) => {
-                    let arguments = numbers(arguments, variables)?;
-                    Value::Number(apply(*function, &arguments).ok_or_else(|| {
-                        self.error("this function has no value for these arguments")
-                    })?)
-                }
-            };
+        let value = match &self.kind {
+            ExpressionKind::Number(number) => Value::Number(*number),
+            ExpressionKind::Text(text) => Value::Text(text.clone()),
+            ExpressionKind::Group(inner) => inner.evaluate(variables)?,
+            ExpressionKind::Variable(name, index) => {
+                let index = numbers(index, variables)?;
+                variables.value(name, &index, self.span)?
+            }
+            ExpressionKind::Unary(operator, operand) => {
+                let operand = operand.number(variables)?;
+                Value::Number(match operator {
+                    Unary::Negate => -operand,
+                    Unary::Not => truth(operand == 0.0),
+                    Unary::BitNot => f64::from(!self.bits(operand)?),
+                })
+            }
+            ExpressionKind::Binary(operator, left, right) => {
+                self.binary(*operator, left, right, variables)?
+            }
+            ExpressionKind::Function(function, arguments) => {
+                let arguments = numbers(arguments, variables)?;
+                Value::Number(apply(*function, &arguments).ok_or_else(|| {
+                    self.error("this function has no value for these arguments")
+                        .help(function.domain())
+                })?)
+            }
+        };
         match value {
             Value::Number(number) if !number.is_finite() => {
                 Err(self.error("the result is not a finite number"))

@@ -145,7 +145,7 @@ impl<R: Routine> Library<R> {
             return first.map(|(_, first)| Rc::clone(first));
         }
         self.read.push(path.clone());
-        self.take_in(&path, sources, diagnostics)?;
+        self.take_in(&path, Span::start_of(0), sources, diagnostics)?;
         self.known(name)
     }
 
@@ -172,7 +172,7 @@ impl<R: Routine> Library<R> {
         if !self.read.contains(&path) {
             self.read.push(path.clone());
             let known = self.routines.len();
-            self.take_in(&path, sources, diagnostics)?;
+            self.take_in(&path, Span::start_of(0), sources, diagnostics)?;
             // Another file may have the name that calls without a path mean.
             if known < self.routines.len() {
                 self.unnamed.push(self.routines.remove(known));
@@ -183,12 +183,13 @@ impl<R: Routine> Library<R> {
     }
 
     /// The subprogram with this name, wherever it is defined: in the file itself or in any program file
-    /// of the folders. `defines` tells by a quick look whether a text defines a name. Two files that
-    /// define it are an error.
+    /// of the folders. `defines` tells by a quick look whether a text defines a name; it is called at `span`. Two
+    /// files that define it are an error.
     pub fn find_defined(
         &mut self,
         name: &str,
         defines: fn(&str, &str) -> bool,
+        span: Span,
         sources: &mut Sources,
         diagnostics: &mut Diagnostics,
     ) -> Option<Rc<R>> {
@@ -208,7 +209,7 @@ impl<R: Routine> Library<R> {
                 Err(error) => {
                     let path = path.display();
                     diagnostics.push(Diagnostic::warning(
-                        Span::start_of(0),
+                        span,
                         format!("{path} cannot be read, whether it defines {name}: {error}"),
                     ));
                     continue;
@@ -218,7 +219,6 @@ impl<R: Routine> Library<R> {
                 continue;
             }
             if let Some(first) = &found {
-                let span = Span::start_of(0);
                 diagnostics.push(
                     Diagnostic::error(
                         span,
@@ -239,7 +239,7 @@ impl<R: Routine> Library<R> {
             return None;
         };
         self.read.push(path.clone());
-        self.take_in(&path, sources, diagnostics)?;
+        self.take_in(&path, span, sources, diagnostics)?;
         self.known(name)
     }
 
@@ -273,10 +273,11 @@ impl<R: Routine> Library<R> {
         Ok(false)
     }
 
-    /// Looks through a file; `None` where it cannot be read, which is said.
+    /// Looks through a file that is called at `span`; `None` where it cannot be read, which is said.
     fn take_in(
         &mut self,
         path: &Path,
+        span: Span,
         sources: &mut Sources,
         diagnostics: &mut Diagnostics,
     ) -> Option<()> {
@@ -289,7 +290,7 @@ impl<R: Routine> Library<R> {
             Ok(opened) => opened,
             Err(error) => {
                 let message = format!("{name} cannot be read: {error}");
-                let unreadable = Diagnostic::error(Span::start_of(0), message);
+                let unreadable = Diagnostic::error(span, message);
                 diagnostics.push(match error {
                     OpenError::NotUtf8(_) => {
                         unreadable.help("leave --encoding out, or name the encoding of all files")

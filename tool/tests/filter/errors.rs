@@ -236,6 +236,7 @@ fn flow() {
         "1:4",
         "has no value for these arguments",
     );
+    one_error("R1=SQRT(-1)\nM30\n", "1:4", "a root is of a number");
     one_error(
         "DEF INT LIST[3]\nLIST[3]=5\nM30\n",
         "2:1",

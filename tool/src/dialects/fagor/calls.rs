@@ -83,6 +83,7 @@ impl Interpreter<'_> {
         let found = self.library.find_defined(
             &name,
             defines,
+            span,
             self.control.sources,
             self.control.diagnostics,
         );

@@ -12,7 +12,7 @@ use super::transforms::Transforms;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::plain::PlainBlock;
 use crate::dialects::control::words::At;
-use crate::dialects::control::{About, Control, Done};
+use crate::dialects::control::{About, Control};
 use crate::dialects::library::Library;
 use crate::dialects::run::{Interpret, Next, Reached, jump_out_of_repetition, reach};
 use crate::dialects::settings::Settings;
@@ -189,7 +189,10 @@ impl<'a> Interpreter<'a> {
     ) -> Result<Next, Diagnostic> {
         let next = Next::Block(at + 1);
         match statement {
-            HighLevel::Assign(list) => self.assign(list).map(|()| next),
+            HighLevel::Assign(list) => {
+                self.assign(list);
+                Ok(next)
+            }
             HighLevel::If(condition, then, otherwise) => {
                 let holds = condition.number(&self.parameters)? != 0.0;
                 match (holds, otherwise) {
@@ -260,13 +263,22 @@ impl<'a> Interpreter<'a> {
         })
     }
 
-    fn assign(&mut self, list: &[Assignment]) -> Done {
-        for assignment in list {
-            let number = assignment.parameter.number(&self.parameters)?;
-            let value = assignment.value.number(&self.parameters)?;
-            self.parameters.assign(number, value, assignment.span)?;
+    /// One that fails does not keep the others from their values.
+    fn assign(&mut self, list: &[Assignment]) {
+        for Assignment {
+            parameter,
+            value,
+            span,
+        } in list
+        {
+            let numbers = parameter.number(&self.parameters);
+            let numbers = numbers.and_then(|number| Ok((number, value.number(&self.parameters)?)));
+            let done =
+                numbers.and_then(|(number, value)| self.parameters.assign(number, value, *span));
+            if let Err(diagnostic) = done {
+                self.control.diagnostics.push(diagnostic);
+            }
         }
-        Ok(())
     }
 }
 

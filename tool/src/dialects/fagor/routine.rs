@@ -84,6 +84,16 @@ impl Outline {
         for block in parse_blocks(text, diagnostics) {
             match (&block.statement, self.open) {
                 (Statement::Subroutine(number), None) => {
+                    if self.subroutines.iter().any(|(known, _)| known == number) {
+                        let name = subroutine_name(*number);
+                        diagnostics.push(
+                            Diagnostic::error(
+                                block.place.span,
+                                format!("{name} is in this file twice"),
+                            )
+                            .help("give one of them another number"),
+                        );
+                    }
                     self.main.push(self.next..line);
                     self.open = Some((*number, block.place.span, line));
                 }

@@ -115,6 +115,16 @@ fn statements() {
         "this subroutine does not end",
     );
     one_error("(SUB 5)\n(SUB 6)\n(RET)\nM30\n", "2:1", "inside of another");
+    one_error(
+        "M30\n(SUB 5)\nG0 X1\n(RET)\n(SUB 5)\n(RET)\n",
+        "5:1",
+        "SUB 5 is in this file twice",
+    );
+    one_error(
+        "(P1=1, P2=FUP -1.5, P3=2)\nG0 XP1 YP3\nM30\n",
+        "1:11",
+        "towards 0 or away from it",
+    );
     one_error("(RET)\nM30\n", "1:2", "outside of a subroutine");
     one_error(
         "(CALL 1)\nM30\n(SUB 1)\n(CALL 1)\n(RET)\n",

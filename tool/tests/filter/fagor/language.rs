@@ -162,12 +162,13 @@ fn subroutines_are_found_in_the_files_beside_the_program() {
     assert_eq!(commands(&output), ["G0 X10", "G0 X20", "M30"]);
     assert!(output.contains("(--- SUB 10 in tools.pim ---)"));
     let twice = Shop::new(&[
-        ("part.pim", b"(CALL 10)\nM30\n"),
+        ("part.pim", b"G0 X1\n(CALL 10)\nM30\n"),
         ("a.pim", b"(SUB 10)\n(RET)\n"),
         ("b.pim", b"(SUB 10)\n(RET)\n"),
     ]);
     let shown = refused(&twice.run_in("fagor", "part.pim", &[]));
     assert!(shown.contains("SUB 10 is defined in"), "{shown}");
+    assert!(shown.contains("part.pim:2:2"), "{shown}");
 }
 
 /// Only the files that define a subroutine are of any concern.
