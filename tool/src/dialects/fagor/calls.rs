@@ -1,11 +1,13 @@
 //! Subroutines and repetitions.
 
-use super::interpreter::Interpreter;
+use super::block_words::BlockWords;
+use super::interpreter::{Interpreter, times};
 use super::parameters::checked;
 use super::routine::{Routine, defines, subroutine_name};
 use super::syntax::{Block, Call, CallKind, Label};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::calls::CallRules;
+use crate::dialects::control::words::At;
 use crate::dialects::run::Next;
 use crate::source::Span;
 use std::rc::Rc;
@@ -53,14 +55,36 @@ impl Interpreter<'_> {
                 running: false,
             });
             // It runs here as well, as PCALL would.
-            return Ok(self.run_modal_call(block, at));
+            return Ok(self.run_modal_call(1, block, at));
         }
         let arguments = (call.kind == CallKind::Parameters).then_some(arguments.as_slice());
-        self.run_subroutine(number, arguments, call.span, block, at)
+        self.run_subroutine([number, 1], arguments, call.span, block, at)
     }
 
-    /// The modal subroutine after a motion. What it moves itself does not call it again.
-    pub(super) fn run_modal_call(&mut self, block: &Block, at: usize) -> Next {
+    /// How often the modal subroutine runs behind a block: N at its end, which is taken out of it.
+    pub(super) fn modal_passes(
+        &mut self,
+        words: &mut BlockWords,
+    ) -> Result<Option<At<u32>>, Diagnostic> {
+        let calls = self.modal_call.as_ref().is_some_and(|call| !call.running);
+        let Some(word) = words.times.filter(|_| calls) else {
+            return Ok(None);
+        };
+        let is_cycle = |g: &At<u32>| matches!(g.value, 69 | 79 | 81..=89);
+        if self.cycle.is_some() || words.g.iter().any(is_cycle) {
+            return Err(Diagnostic::error(
+                word.span,
+                "N repeats a canned cycle or a modal subroutine, and both are in force",
+            )
+            .help("end one of them before, with G80 or (MDOFF)"));
+        }
+        words.times = None;
+        let (value, span) = (times(word)?, word.span);
+        Ok(Some(At { value, span }))
+    }
+
+    /// The modal subroutine after a motion, `passes` times. What it moves itself does not call it again.
+    pub(super) fn run_modal_call(&mut self, passes: u32, block: &Block, at: usize) -> Next {
         let next = Next::Block(at + 1);
         let Some(modal) = self.modal_call.clone().filter(|modal| !modal.running) else {
             return next;
@@ -68,7 +92,8 @@ impl Interpreter<'_> {
         if let Some(modal) = &mut self.modal_call {
             modal.running = true;
         }
-        let done = self.run_subroutine(modal.number, Some(&modal.arguments), modal.span, block, at);
+        let called = [modal.number, passes];
+        let done = self.run_subroutine(called, Some(&modal.arguments), modal.span, block, at);
         if let Some(modal) = &mut self.modal_call {
             modal.running = false;
         }
@@ -95,28 +120,40 @@ impl Interpreter<'_> {
         })
     }
 
-    /// With `arguments`, the subroutine gets local parameters of its own.
+    /// Runs the subroutine of a number so many times. With `arguments`, it gets local parameters of its own,
+    /// which a pass leaves to the next as they are then.
     fn run_subroutine(
         &mut self,
-        number: u32,
+        [number, passes]: [u32; 2],
         arguments: Option<&[(u32, f64)]>,
         span: Span,
         block: &Block,
         at: usize,
     ) -> Result<Next, Diagnostic> {
         let routine = self.subroutine(number, span)?;
-        self.control.check_call(&routine.name, 1, span, &RULES)?;
-        let place = &block.place;
         self.control
-            .enter(&routine.name, routine.file, [1, 1], place);
+            .check_call(&routine.name, passes, span, &RULES)?;
+        let place = &block.place;
         if let Some(arguments) = arguments {
             self.parameters.enter(arguments);
         }
-        let end = self.run_blocks(&routine, 0, routine.blocks.len());
+        let mut end = Next::Return;
+        for pass in 1..=passes {
+            if pass > 1 && !self.control.count_block(place.span) {
+                end = Next::Abort;
+                break;
+            }
+            self.control
+                .enter(&routine.name, routine.file, [pass, passes], place);
+            end = self.run_blocks(&routine, 0, routine.blocks.len());
+            self.control.leave(&routine.name, place);
+            if !matches!(end, Next::Block(_) | Next::Return) {
+                break;
+            }
+        }
         if arguments.is_some() {
             self.parameters.leave();
         }
-        self.control.leave(&routine.name, place);
         Ok(match end {
             Next::Block(_) | Next::Return => Next::Block(at + 1),
             other => other,

@@ -92,8 +92,7 @@ impl Interpreter<'_> {
         if let (Some(times), None) = (
             words.times,
             self.cycle.as_ref().map(|_| ()).or(once.cycle.map(|_| ())),
-        ) && self.modal_call.is_none()
-        {
+        ) {
             return Err(Diagnostic::error(
                 times.span,
                 "the block number stands at the beginning of the block",

@@ -135,32 +135,25 @@ impl<'a> Interpreter<'a> {
                     Next::Block(at + 1)
                 });
         }
-        // Under MCALL, N at the end repeats the motion with the subroutine behind it.
-        let repeated = words.times.filter(|_| self.modal_call.is_some());
-        let passes = match repeated.map(times).unwrap_or(Ok(1)) {
-            Ok(passes) => passes,
+        match self.modal_passes(&mut words) {
+            Ok(passes) => self.run_block_words(&words, passes, block, at),
             Err(diagnostic) => {
                 self.control.fail(diagnostic);
-                1
-            }
-        };
-        if repeated.is_some() {
-            words.times = None;
-        }
-        let mut next = Next::Block(at + 1);
-        for pass in 0..passes {
-            if pass > 0 && !self.control.count_block(block.place.span) {
-                return Next::Abort;
-            }
-            next = self.run_block_words(&words, block, at);
-            if !matches!(next, Next::Block(_)) {
-                break;
+                self.control.finish_block(&block.place);
+                Next::Block(at + 1)
             }
         }
-        next
     }
 
-    pub(super) fn run_block_words(&mut self, words: &BlockWords, block: &Block, at: usize) -> Next {
+    /// A block, and the modal subroutine as often as `passes` says if it moves; once without.
+    pub(super) fn run_block_words(
+        &mut self,
+        words: &BlockWords,
+        passes: Option<At<u32>>,
+        block: &Block,
+        at: usize,
+    ) -> Next {
+        let errors = self.control.diagnostics.errors();
         let ends = self
             .run_words(words, block.place.span)
             .unwrap_or_else(|diagnostic| {
@@ -175,7 +168,13 @@ impl<'a> Interpreter<'a> {
             return Next::End;
         }
         if has_moved && self.modal_call.is_some() {
-            return self.run_modal_call(block, at);
+            return self.run_modal_call(passes.map_or(1, |passes| passes.value), block, at);
+        }
+        if let Some(passes) = passes.filter(|_| self.control.diagnostics.errors() == errors) {
+            self.control.diagnostics.push(
+                Diagnostic::error(passes.span, "N without a motion in its block")
+                    .help("it says how often the modal subroutine runs behind the motion"),
+            );
         }
         Next::Block(at + 1)
     }

@@ -94,7 +94,7 @@ impl Interpreter<'_> {
             words.feed = plan.way.feed;
             last = place;
             self.control.modal.motion = Some(plan.way.motion);
-            next = self.run_block_words(&words, block, at);
+            next = self.run_block_words(&words, None, block, at);
             if !matches!(next, Next::Block(_)) {
                 break;
             }

@@ -78,7 +78,8 @@ pub enum CallKind {
     Plain,
     /// PCALL: with parameters of its own.
     Parameters,
-    /// MCALL: at once and after each motion that follows, with parameters of its own.
+    /// MCALL: at once and after each motion that follows, with parameters of its own. N at the end of the
+    /// motion says how often.
     Modal,
 }
 

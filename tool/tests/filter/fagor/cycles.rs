@@ -351,20 +351,15 @@ fn the_tool_may_go_from_place_to_place_with_feed() {
 }
 
 #[test]
-fn a_modal_subroutine_runs_at_each_repetition() {
+fn n_repeats_the_modal_subroutine_and_not_the_motion() {
     let program = "(SUB 1)\nG90 G1 Z-1 F100\nG0 Z0\nG91\n(RET)\nG90 G0 X0 Y0 Z0\n(MCALL 1)\nG91 X10 N3\n\
                    (MDOFF)\nG0 X5\nM30\n";
-    let mut expected = Path::from([0.; 3]);
-    for x in [0., 10., 20., 30.] {
-        expected = if x == 0. {
-            expected
-        } else {
-            expected.rapid([x, 0., 0.])
-        }
-        .line([x, 0., -1.])
-        .rapid([x, 0., 0.]);
+    let slot = |path: Path, x: f64| path.line([x, 0., -1.]).rapid([x, 0., 0.]);
+    let mut expected = slot(Path::from([0.; 3]), 0.).rapid([10., 0., 0.]);
+    for _ in 0..3 {
+        expected = slot(expected, 10.);
     }
-    check(program, &expected.rapid([35., 0., 0.]));
+    check(program, &expected.rapid([15., 0., 0.]));
 }
 
 /// The subroutine leaves G91 and G0 behind.

@@ -144,6 +144,43 @@ G0 Z10
     );
 }
 
+/// The parameters are those of the call in the first pass only.
+#[test]
+fn modal_subroutines_run_as_often_as_n_says() {
+    let program = "\
+G90 G0 X0 Y0 Z10
+(MCALL 1, A=3)
+X10 N2
+X20 N0
+M30
+(SUB 1)
+(P0=P0+1)
+G0 ZP0
+(RET)
+";
+    let wanted = [
+        "G0 X0 Y0 Z10",
+        "G0 Z4",
+        "G0 X10",
+        "G0 Z4",
+        "G0 Z5",
+        "G0 X20",
+        "M30",
+    ];
+    assert_eq!(translate(program, &[]), wanted);
+    let head = "G90 G0 X0 Y0 Z10\n(MCALL 1)\n";
+    let end = "M30\n(SUB 1)\nG0 Y5\n(RET)\n";
+    for (block, text) in [
+        ("S500 N2", "N without a motion"),
+        ("G81 X10 Z2 I-5 F100 N2", "both are in force"),
+    ] {
+        let shown = errors(&format!("{head}{block}\n{end}"), &[]);
+        assert!(shown.contains(text), "{shown}");
+    }
+    let inside = "(SUB 1)\nG91 X1 N3\n(RET)\nG90 G0 X0 Y0\n(MCALL 1)\nM30\n";
+    assert!(errors(inside, &[]).contains("none is active"));
+}
+
 #[test]
 fn subroutines_are_found_in_the_files_beside_the_program() {
     let shop = Shop::new(&[
