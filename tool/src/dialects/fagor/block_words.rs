@@ -154,6 +154,32 @@ impl BlockWords {
         spans.min_by_key(|span| span.start)
     }
 
+    /// Where the first word stands that says more of a motion than its axes do: I, J, K, R, Q or L.
+    pub fn beside_axes(&self) -> Option<Span> {
+        let single = [self.radius, self.corner_radius, self.angle, self.pitch];
+        let words = self.centre.iter().chain(&single).flatten();
+        words.map(|word| word.span).min_by_key(|span| span.start)
+    }
+
+    /// Where the first word stands that is no G function.
+    pub fn first_word(&self) -> Option<Span> {
+        let single = [
+            self.feed,
+            self.speed,
+            self.offset,
+            self.contour_error,
+            self.finish_feed,
+            self.further,
+            self.times,
+        ];
+        let spans = single.iter().flatten().map(|word| word.span);
+        let spans = spans.chain(self.tool.map(|tool| tool.span));
+        let spans = spans.chain(self.m.iter().map(|m| m.span));
+        let spans = spans.chain(self.left_out.iter().map(|places| places.span));
+        let spans = spans.chain(self.first_axis()).chain(self.beside_axes());
+        spans.min_by_key(|span| span.start)
+    }
+
     /// Whether any coordinate is there, of whatever kind.
     pub fn names_a_place(&self) -> bool {
         self.first_axis().is_some() || self.names_a_centre() || self.angle.is_some()

@@ -39,8 +39,6 @@ pub struct Cycle {
     rigid: bool,
     /// Seconds at the bottom.
     dwell: f64,
-    /// G98.
-    to_start: bool,
     /// Of G69, G87 and G88.
     form: Option<Form>,
     span: Span,
@@ -91,11 +89,6 @@ impl Cycle {
         self.form
     }
 
-    /// G98 or G99 in a block that moves to the next place.
-    pub fn withdraw(&mut self, to_start: bool) {
-        self.to_start = to_start;
-    }
-
     /// Where it is defined.
     pub fn span(&self) -> Span {
         self.span
@@ -113,7 +106,6 @@ impl Interpreter<'_> {
         &mut self,
         words: &BlockWords,
         g: At<u32>,
-        withdrawal: Option<At<u32>>,
         form: Option<Form>,
         block: Span,
     ) -> Done {
@@ -219,10 +211,6 @@ impl Interpreter<'_> {
                 (None, old) => old.as_ref().is_some_and(|old| old.rigid),
             },
             dwell,
-            to_start: match (withdrawal, &old) {
-                (Some(g), _) => g.value == 98,
-                (None, old) => old.as_ref().is_none_or(|old| old.to_start),
-            },
             form,
             span: g.span,
         });
@@ -237,7 +225,7 @@ impl Interpreter<'_> {
             // Only G84 has one, which has been read.
             place.radius = None;
         }
-        self.run_at(&place, block)
+        self.run_at(&place, &OneShot::default(), block)
     }
 
     /// G80, or another plane.
@@ -247,7 +235,7 @@ impl Interpreter<'_> {
     }
 
     /// A block while a cycle is in force.
-    pub(super) fn cycle_block(&mut self, words: &BlockWords, block: Span) -> Done {
+    pub(super) fn cycle_block(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
         let [_, _, normal] = self.control.modal.plane.axes();
         if let Some(word) = words.axes[normal] {
             return Err(Diagnostic::error(
@@ -256,10 +244,10 @@ impl Interpreter<'_> {
             )
             .help("end the cycle with G80 before, or change it with G79"));
         }
-        self.run_at(words, block)
+        self.run_at(words, once, block)
     }
 
-    fn run_at(&mut self, words: &BlockWords, block: Span) -> Done {
+    fn run_at(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
         let times = words.times.map_or(Ok(1), times)?;
         let mut place = words.clone();
         place.times = None;
@@ -268,7 +256,7 @@ impl Interpreter<'_> {
                 return Ok(());
             }
             if place.names_a_place() {
-                self.motion(&place, &OneShot::default(), block)?;
+                self.motion(&place, once, block)?;
             }
             // N0 moves to the place only.
             if times > 0 {
@@ -297,7 +285,7 @@ impl Interpreter<'_> {
             _ => MoveKind::Rapid,
         };
         self.to(cycle.reference, &back, &cycle)?;
-        if cycle.to_start {
+        if self.to_start {
             self.to(cycle.start, &MoveKind::Rapid, &cycle)?;
         }
         if cycle.code == 86 {
@@ -334,6 +322,10 @@ impl Interpreter<'_> {
             .help("write S500 F500 for a pitch of 1"));
         };
         let factor = modal.length_factor;
+        if cycle.dwell > 0.0 {
+            self.control
+                .note("the dwell (K) of a rigid tap", cycle.span);
+        }
         let before = self.control.turn_spindle();
         let pitch = match before {
             Spindle::Counterclockwise => -feed / speed,

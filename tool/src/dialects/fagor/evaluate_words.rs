@@ -71,7 +71,7 @@ impl Interpreter<'_> {
         let once = self.g_functions(words)?;
         if let Some(span) = once.dwell {
             self.control.apply_states(compensated);
-            self.dwell(words, span)?;
+            self.dwell(words, &once, span)?;
             return Ok(false);
         }
         if let Some(feed) = words.feed {
@@ -137,14 +137,20 @@ impl Interpreter<'_> {
     }
 
     /// `G4 K100`: hundredths of a second.
-    fn dwell(&mut self, words: &BlockWords, span: Span) -> Done {
+    fn dwell(&mut self, words: &BlockWords, once: &OneShot, span: Span) -> Done {
         let Some(hundredths) = words.centre[2] else {
             return Err(Diagnostic::error(span, "G4 needs a time")
                 .help("G4 K250 waits 2.5 seconds: K is in hundredths"));
         };
-        if words.first_axis().is_some() || !words.m.is_empty() || words.tool.is_some() {
-            return Err(Diagnostic::error(span, "G4 stands alone in its block")
-                .help("put axes, T, D and M functions in another block"));
+        let mut rest = words.clone();
+        rest.centre[2] = None;
+        let begins = once.compensation.filter(|g| g.value != Compensation::Off);
+        let tool = begins.map(|g| g.span).or(once.length.map(|g| g.span));
+        let place = once.preset.or(once.machine_coordinates).or(tool);
+        let function = once.beside_axes().map(|g| g.span).or(place);
+        if let Some(other) = rest.first_word().or(function) {
+            return Err(Diagnostic::error(other, "G4 stands alone in its block")
+                .help("put axes, F, S, T, D and M functions in another block"));
         }
         self.control.dwell(hundredths.value / 100.0, span)
     }
@@ -158,13 +164,15 @@ impl Interpreter<'_> {
         block: Span,
     ) -> Done {
         if let Some(span) = once.preset {
+            refuse_beside_axes(92, words, once)?;
             return self.preset(words, span);
         }
         if let Some(span) = once.machine_coordinates {
+            refuse_beside_axes(53, words, once)?;
             return self.machine_move(words, span);
         }
-        if let Some(span) = once.thread {
-            return self.thread(words, span);
+        if self.is_thread(words, once) {
+            return self.thread(words, once, block);
         }
         if let Some(pitch) = words.pitch {
             return Err(Diagnostic::error(
@@ -173,21 +181,12 @@ impl Interpreter<'_> {
             )
             .help("write G33 Z-20 L1.5"));
         }
+        self.refuse_path_of_cycle(once)?;
         if let Some(cycle) = once.cycle {
-            return self.define_cycle(words, cycle, once.withdrawal, form, block);
-        }
-        if let (Some(withdrawal), Some(cycle)) = (once.withdrawal, &mut self.cycle) {
-            cycle.withdraw(withdrawal.value == 98);
-        } else if let Some(withdrawal) = once.withdrawal {
-            return Err(Diagnostic::error(
-                withdrawal.span,
-                format!("G{} without a canned cycle", withdrawal.value),
-            )
-            .help("G98 and G99 say how far a cycle withdraws: G99 G81 X10 Y10 Z2 I-5 F100"));
+            return self.define_cycle(words, cycle, form, block);
         }
         if !words.names_a_place() {
-            let unused = once.corner.or(once.arc_form);
-            return match unused {
+            return match once.of_path() {
                 Some(g) => Err(Diagnostic::error(
                     g.span,
                     format!("G{} needs a motion in its block", g.value),
@@ -197,15 +196,33 @@ impl Interpreter<'_> {
             };
         }
         if self.cycle.is_some() {
-            return self.cycle_block(words, block);
+            return self.cycle_block(words, once, block);
         }
         self.motion(words, once, block)
+    }
+
+    /// Between the places of a canned cycle the tool goes straight or along G2 and G3.
+    fn refuse_path_of_cycle(&self, once: &OneShot) -> Done {
+        let of_cycle = match (once.cycle, &self.cycle) {
+            (Some(_), _) => once.of_path(),
+            (None, Some(_)) => once.corner.or(once.arc_form),
+            (None, None) => None,
+        };
+        match of_cycle {
+            Some(g) => Err(Diagnostic::error(
+                g.span,
+                format!("G{} while a canned cycle is in force", g.value),
+            )
+            .help("end the cycle with G80 before")),
+            None => Ok(()),
+        }
     }
 
     /// A motion with the corner at its end.
     pub(super) fn motion(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
         let corner = self.corner(words, once)?;
         let mut motion = self.motion_words(words, once)?;
+        self.check_absolute_centre(words, once)?;
         let own_feed = words.feed.is_some();
         let kind = self.control.modal.motion;
         let span = motion.first_axis().unwrap_or(block);
@@ -248,19 +265,21 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// `G33 Z-20 L1.5`: a thread along one axis.
-    fn thread(&mut self, words: &BlockWords, span: Span) -> Done {
-        let motion = self.motion_words(words, &OneShot::default())?;
-        let named: Vec<usize> = (0..9).filter(|axis| motion.axes[*axis].is_some()).collect();
-        match (named[..].first(), named.len(), words.pitch, words.angle) {
-            (Some(&axis @ 0..3), 1, Some(pitch), None) => {
-                self.control.thread(&motion, pitch.value, axis, span)
-            }
-            _ => Err(
-                Diagnostic::error(span, "a thread needs one of X, Y and Z and its pitch L").help(
-                    "write G33 Z-20 L1.5; an angle of entry (Q) and slopes are not supported",
-                ),
+    /// G6 needs an arc with a centre.
+    fn check_absolute_centre(&self, words: &BlockWords, once: &OneShot) -> Done {
+        let arc = match once.arc_form {
+            Some(form) => form.value == 9,
+            None => matches!(
+                self.control.modal.motion,
+                Some(Motion::Clockwise | Motion::Counterclockwise)
             ),
+        };
+        match once.absolute_centre {
+            Some(span) if !arc || words.centre.iter().all(Option::is_none) => {
+                Err(Diagnostic::error(span, "G6 without an arc and its centre")
+                    .help("write G6 G2 X10 Y0 I5 J0; the centre is I and J"))
+            }
+            _ => Ok(()),
         }
     }
 
@@ -308,8 +327,8 @@ impl Interpreter<'_> {
             });
         }
         let dimension = match once.absolute_centre {
-            true => Dimension::Absolute,
-            false => Dimension::Modal,
+            Some(_) => Dimension::Absolute,
+            None => Dimension::Modal,
         };
         motion.centre = words.centre.map(|word| {
             word.map(|word| At {
@@ -319,7 +338,9 @@ impl Interpreter<'_> {
         });
         let [first, second, _] = self.control.modal.plane.axes();
         let given = [first, second].map(|axis| motion.centre[axis]);
-        if let ([Some(word), None] | [None, Some(word)], true) = (given, once.absolute_centre) {
+        if let ([Some(word), None] | [None, Some(word)], true) =
+            (given, once.absolute_centre.is_some())
+        {
             return Err(Diagnostic::error(
                 word.span,
                 "an absolute centre (G6) needs both coordinates",
@@ -334,6 +355,10 @@ impl Interpreter<'_> {
         if words.first_axis().is_none() {
             return Err(Diagnostic::error(span, "G53 needs axes in its block")
                 .help("it moves in coordinates of the machine; G54 to G57 choose a part zero"));
+        }
+        if self.thread.is_some() {
+            return Err(Diagnostic::error(span, "G53 while G33 is in force")
+                .help("write G0 or G1 in this block"));
         }
         let motion = self.motion_words(words, &OneShot::default())?;
         if self.control.modal.incremental {
@@ -362,5 +387,18 @@ impl Interpreter<'_> {
         self.control.preset(&motion, span)?;
         self.preset = true;
         Ok(())
+    }
+}
+
+/// G53 and G92 take axes, and nothing that belongs to a path.
+fn refuse_beside_axes(code: u32, words: &BlockWords, once: &OneShot) -> Done {
+    let function = once.beside_axes().map(|g| g.span);
+    match function.or(words.beside_axes()) {
+        Some(other) => Err(Diagnostic::error(
+            other,
+            format!("this does not belong beside G{code}, which takes axes only"),
+        )
+        .help("put it into the block of a motion")),
+        None => Ok(()),
     }
 }

@@ -19,7 +19,7 @@ pub(super) struct OneShot {
     /// G92.
     pub(super) preset: Option<Span>,
     /// G6: the centre of the arc is absolute.
-    pub(super) absolute_centre: bool,
+    pub(super) absolute_centre: Option<Span>,
     /// G8 or G9.
     pub(super) arc_form: Option<At<u32>>,
     /// G36 to G39.
@@ -32,8 +32,20 @@ pub(super) struct OneShot {
     pub(super) length: Option<At<bool>>,
     /// G33.
     pub(super) thread: Option<Span>,
-    /// G98 or G99.
-    pub(super) withdrawal: Option<At<u32>>,
+}
+
+impl OneShot {
+    /// What changes the form of a path: G36 to G39, G8 and G9, G6.
+    pub(super) fn of_path(&self) -> Option<At<u32>> {
+        let centre = self.absolute_centre.map(|span| At { value: 6, span });
+        self.corner.or(self.arc_form).or(centre)
+    }
+
+    /// What needs more than axes in its block: a path, a canned cycle, a thread.
+    pub(super) fn beside_axes(&self) -> Option<At<u32>> {
+        let thread = self.thread.map(|span| At { value: 33, span });
+        self.of_path().or(self.cycle).or(thread)
+    }
 }
 
 impl Interpreter<'_> {
@@ -62,6 +74,7 @@ impl Interpreter<'_> {
                     2 => Motion::Clockwise,
                     _ => Motion::Counterclockwise,
                 });
+                self.thread = None;
                 1
             }
             8 | 9 => {
@@ -84,7 +97,7 @@ impl Interpreter<'_> {
                 3
             }
             6 => {
-                once.absolute_centre = true;
+                once.absolute_centre = Some(span);
                 4
             }
             // Carried out before.
@@ -180,10 +193,10 @@ impl Interpreter<'_> {
             97 => 15,
             33 => {
                 once.thread = Some(span);
-                12
+                1
             }
             98 | 99 => {
-                once.withdrawal = Some(at);
+                self.to_start = code == 98;
                 16
             }
             _ => return Err(unsupported(code, span)),

@@ -34,6 +34,10 @@ pub struct Interpreter<'a> {
     /// Whether G92 is in force.
     pub(super) preset: bool,
     pub(super) cycle: Option<Cycle>,
+    /// G98: canned cycles end in their starting plane; with G99 in the reference plane.
+    pub(super) to_start: bool,
+    /// The pitch of G33, machine units, until one of G0 to G3.
+    pub(super) thread: Option<f64>,
     pub(super) modal_call: Option<ModalCall>,
     /// The RPT statements that are running.
     pub(super) repeats: Vec<Span>,
@@ -55,6 +59,8 @@ impl<'a> Interpreter<'a> {
             tool: ToolState::default(),
             preset: false,
             cycle: None,
+            to_start: true,
+            thread: None,
             modal_call: None,
             repeats: Vec::new(),
         }
@@ -313,6 +319,7 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
 
     fn takes(&self, block: &PlainBlock) -> bool {
         self.cycle.is_none()
+            && self.thread.is_none()
             && self.modal_call.is_none()
             && block.axes[3..].iter().all(Option::is_none)
     }

@@ -174,6 +174,7 @@ impl Interpreter<'_> {
             self.mill_finish(pocket, finish)?;
         }
         self.control.modal.motion = Some(Motion::Rapid);
+        self.thread = None;
         self.control.modal.incremental = false;
         Ok(())
     }

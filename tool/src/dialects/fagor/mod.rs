@@ -26,6 +26,7 @@ mod pockets;
 mod polar;
 mod routine;
 pub mod syntax;
+mod threads;
 pub mod token;
 mod tool_words;
 mod transforms;

@@ -58,7 +58,7 @@ impl Interpreter<'_> {
             last = place;
             self.control.modal.motion = Some(plan.way.motion);
             done = match plan.way.feed {
-                None => self.cycle_block(&words, span),
+                None => self.cycle_block(&words, &OneShot::default(), span),
                 Some(between) => self.cycle_with_feed(&words, between, feed, span),
             };
             if done.is_err() {
@@ -94,6 +94,7 @@ impl Interpreter<'_> {
             words.feed = plan.way.feed;
             last = place;
             self.control.modal.motion = Some(plan.way.motion);
+            self.thread = None;
             next = self.run_block_words(&words, None, block, at);
             if !matches!(next, Next::Block(_)) {
                 break;

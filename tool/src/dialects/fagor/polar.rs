@@ -16,7 +16,9 @@ pub struct PolarOrigin(pub [f64; 2]);
 impl Interpreter<'_> {
     /// `G93 I10 J20`; G93 alone takes the present place.
     pub(super) fn polar_origin(&mut self, words: &BlockWords, span: Span) -> Done {
-        self.alone(words, 93, span)?;
+        let mut rest = words.clone();
+        (rest.axes, rest.centre) = Default::default();
+        self.alone(&rest, 93, span)?;
         let [i, j, k] = words.centre;
         if let Some(other) = k.map(|k| k.span).or(words.first_axis()) {
             return Err(Diagnostic::error(other, "G93 has I and J only")

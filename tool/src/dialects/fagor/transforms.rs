@@ -130,7 +130,9 @@ impl Interpreter<'_> {
 
     /// `G14 X Z A`.
     pub(super) fn mirror_axes(&mut self, words: &BlockWords, span: Span) -> Done {
-        self.alone(words, 14, span)?;
+        let mut rest = words.clone();
+        rest.axes = Default::default();
+        self.alone(&rest, 14, span)?;
         let mut transforms = self.transforms;
         for (axis, word) in words.axes.iter().enumerate() {
             let Some(word) = word else {
@@ -147,18 +149,15 @@ impl Interpreter<'_> {
         if words.first_axis().is_none() {
             return Err(Diagnostic::error(span, "G14 needs axes").help("write G14 X Z A"));
         }
-        if words.names_a_centre() || words.angle.is_some() || words.speed.is_some() {
-            return Err(stands_alone(14, span));
-        }
         self.set_transforms(transforms, span)
     }
 
     /// `G72 S2` for all coordinates, `G72 X2` for the finished path along X.
     pub(super) fn scale(&mut self, words: &BlockWords, span: Span) -> Done {
-        self.alone(words, 72, span)?;
-        if words.names_a_centre() || words.angle.is_some() {
-            return Err(stands_alone(72, span));
-        }
+        let mut rest = words.clone();
+        rest.axes = Default::default();
+        rest.speed = None;
+        self.alone(&rest, 72, span)?;
         let mut transforms = self.transforms;
         match (words.speed, words.first_axis()) {
             (Some(factor), None) => {
@@ -199,7 +198,10 @@ impl Interpreter<'_> {
 
     /// `G73 Q45 I10 J0`; `G73` alone ends the rotation. Angles add up.
     pub(super) fn rotation(&mut self, words: &BlockWords, span: Span) -> Done {
-        self.alone(words, 73, span)?;
+        let mut rest = words.clone();
+        (rest.axes, rest.centre) = Default::default();
+        (rest.radius, rest.angle) = (None, None);
+        self.alone(&rest, 73, span)?;
         if let Some(axis) = words.first_axis().or(words.radius.map(|word| word.span)) {
             return Err(Diagnostic::error(axis, "G73 has Q, I and J only")
                 .help("G73 Q45 I10 J0 turns by 45 degrees about 10, 0"));
@@ -261,20 +263,13 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Refuses other words in the block of a function that stands alone.
-    pub(super) fn alone(&self, words: &BlockWords, g: u32, span: Span) -> Done {
-        let other = words.g.iter().find(|other| other.value != g);
-        let other = other
-            .map(|other| other.span)
-            .or(words.m.first().map(|m| m.span))
-            .or(words.feed.map(|word| word.span))
-            .or(words.tool.map(|word| word.span))
-            .or(words.offset.map(|word| word.span))
-            .or(words.times.map(|word| word.span));
-        if other.is_some() {
-            return Err(stands_alone(g, other.unwrap_or(span)));
+    /// Refuses other words in the block of a function that stands alone. `rest`: the words without its own.
+    pub(super) fn alone(&self, rest: &BlockWords, g: u32, span: Span) -> Done {
+        let other = rest.g.iter().find(|other| other.span != span);
+        match other.map(|other| other.span).or(rest.first_word()) {
+            Some(other) => Err(stands_alone(g, other)),
+            None => Ok(()),
         }
-        Ok(())
     }
 }
 

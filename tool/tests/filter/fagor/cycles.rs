@@ -58,6 +58,33 @@ M30
     check(program, &expected.rapid([20., 0., 10.]));
 }
 
+/// G98 is in force in the beginning, and G99 until the next G98, with cycles and without.
+#[test]
+fn withdrawals_outlast_a_cycle() {
+    let program = "\
+G17 G40 G80 G90 G98
+G0 X0 Y0 Z10
+G81 X5 Y0 Z2 I-3 F100
+G80 G99
+G81 X6 Z2 I-3
+G80
+G0 Z10
+G81 X7 Z2 I-3
+M30
+";
+    let hole = |path: Path, x: f64| {
+        path.rapid([x, 0., 2.])
+            .line([x, 0., -3.])
+            .rapid([x, 0., 2.])
+    };
+    let path = hole(Path::from([0., 0., 10.]).rapid([5., 0., 10.]), 5.);
+    let path = hole(path.rapid([5., 0., 10.]).rapid([6., 0., 10.]), 6.);
+    check(
+        program,
+        &hole(path.rapid([6., 0., 10.]).rapid([7., 0., 10.]), 7.),
+    );
+}
+
 #[test]
 fn deep_holes_in_steps() {
     let program = "G90 G0 X0 Y0 Z10\nG99 G83 X5 Y0 Z2 I-5 J3 F100\nG80\nM30\n";
@@ -216,6 +243,9 @@ fn tapping_with_and_without_a_chuck_that_gives_way() {
         text.contains("G0 Z2\nM3\nG33.1 Z-8 K1\nM5\nG0 Z20 M3"),
         "{text}"
     );
+    let waits = program.replace("R1", "R1 K50");
+    let text = super::translate(&waits, &[]).join("\n");
+    assert!(text.contains("the dwell [K] of a rigid tap"), "{text}");
     let shown = super::errors("G0 X0 Y0 Z20 M3\nG84 X1 Z2 I-8 F100 R1\nM30\n", &[]);
     assert!(
         shown.contains("a rigid tap needs F in mm/min and S"),

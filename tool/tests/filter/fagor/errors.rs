@@ -255,15 +255,62 @@ fn cycles() {
         "2:1",
         "does not lie beyond",
     );
-    one_error(
-        "G0 X0 Y0 Z5\nG81 X5 Z2 I-5 B3 F100\nG80\nZ5 G98\nM30\n",
-        "4:4",
-        "without a canned cycle",
-    );
     one_error("G79 Z5\nM30\n", "1:1", "none is active");
     one_error(
         "G0 X0 Y0 Z5\nG81 X5 Z2 I-5 F100\nZ3\nM30\n",
         "3:1",
         "the axis of the tool moves",
     );
+}
+
+/// Words that nothing uses.
+#[test]
+fn words_that_would_be_lost() {
+    for (block, column, text) in [
+        ("G4 K100 F20", 9, "G4 stands alone"),
+        ("G4 K100 S500", 9, "G4 stands alone"),
+        ("G4 K100 D3", 9, "G4 stands alone"),
+        ("G4 K100 I5", 9, "G4 stands alone"),
+        ("G4 K100 Q5", 9, "G4 stands alone"),
+        ("G4 K100 G36 R5", 13, "G4 stands alone"),
+        ("G4 K100 G43", 9, "G4 stands alone"),
+        ("G4 K100 G53", 9, "G4 stands alone"),
+        ("G93 I0 J0 S500", 11, "G93 stands alone"),
+        ("G93 I5 J0 Q30", 11, "G93 stands alone"),
+        ("G93 I5 J0 R3", 11, "G93 stands alone"),
+        ("G73 Q45 S500", 9, "G73 stands alone"),
+        ("G73 S700", 5, "G73 stands alone"),
+        ("G72 S2 L5", 8, "G72 stands alone"),
+        ("G14 X L5", 7, "G14 stands alone"),
+        ("G53 X10 I5", 9, "beside G53"),
+        ("G53 X10 L3", 9, "beside G53"),
+        ("G53 Y5 R3", 8, "beside G53"),
+        ("G53 Q30 X5", 5, "beside G53"),
+        ("G53 G36 R5 X10", 5, "beside G53"),
+        ("G53 G81 X10", 5, "beside G53"),
+        ("G92 X5 I3", 8, "beside G92"),
+        ("G92 X5 G36 R2", 8, "beside G92"),
+        ("G1 G6 X10 Y0", 4, "G6 without an arc"),
+        ("G6", 1, "G6 needs a motion"),
+        ("G8 G6 X10 Y5", 4, "G6 without an arc"),
+        ("G2 G6 X10 Y0 R5", 4, "G6 without an arc"),
+        ("G33 Z-20 L1.5 G36 R5", 15, "a thread needs one of"),
+        ("G33 Z-20 L1.5 R5", 15, "a thread needs one of"),
+        (
+            "G33 G81 X5 Z2 I-5",
+            1,
+            "G33 is in force, and a canned cycle",
+        ),
+        ("G0 G33 Z-20 L1.5", 4, "G0 and G33 exclude each other"),
+        ("G81 G36 R2 X10 Z2 I-5", 5, "G36 while a canned cycle"),
+        ("G81 G8 X10 Z2 I-5", 5, "G8 while a canned cycle"),
+    ] {
+        let program = format!("G90 G0 X0 Y0 Z10 F100 S100 M3\n{block}\nM30\n");
+        one_error(&program, &format!("2:{column}"), text);
+    }
+    let head = "G90 G0 X0 Y0 Z10 F100 S100 M3\nG81 X10 Y0 Z2 I-5\n";
+    for block in ["G36 R3 X20", "G39 R3 Y10", "G8 X20 Y0", "G9 X20 Y0 I15 J5"] {
+        let program = format!("{head}{block}\nM30\n");
+        one_error(&program, "3:1", "while a canned cycle is in force");
+    }
 }

@@ -9,6 +9,7 @@ mod pockets;
 mod random;
 mod seeds;
 mod spindle;
+mod threads;
 mod tools;
 
 use crate::shop::{Shop, accepted, commands, refused};
