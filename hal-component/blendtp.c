@@ -42,8 +42,9 @@ static int component;
 static struct framepath_planner *planner;
 /* [AXIS_L]MAX_JERK of the INI, 0 where it has none, or where it has been looked at. */
 static double ini_jerk[AXES];
-/* Servo periods for which a refusal to run in reverse is not said again. */
-static int reverse_refused;
+/* Servo periods for which the machine still counts as asked to run in reverse, and whether it was said that it does not. */
+static int reverse_asked;
+static int reverse_refusal_said;
 
 /* What motmod handed over; the library gets it when it is known to fit. */
 static struct {
@@ -231,8 +232,11 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     const char *fault, *spindle;
     double asked, greatest;
     controller_plans(period);
-    if (reverse_refused)
-        reverse_refused--;
+    /* Nobody asks while it runs in reverse. */
+    if (reverse_asked && tp->reverse_run != TC_DIR_REVERSE)
+        reverse_asked--;
+    if (!reverse_asked)
+        reverse_refusal_said = 0;
 #ifdef FRAMEPATH_FAULT_INJECTION
     inject_fault(tp);
 #endif
@@ -333,12 +337,16 @@ int tpSetDout(TP_STRUCT * const tp, int index, unsigned char start, unsigned cha
 int tpSetRunDir(TP_STRUCT * const tp, tc_direction_t direction)
 {
     int result = framepath_planner_set_run_direction(planner, tp, direction);
-    if (result == FRAMEPATH_NOTHING_TO_REVERSE && !reverse_refused)
+    /* Negative adaptive feed asks in every servo period, also of a machine that has nothing to do; the operator asks once. */
+    int commanded = motion.status && motion.status->commandEcho == EMCMOT_REVERSE;
+    int idle = tp->done || tp->aborting;
+    if (result == FRAMEPATH_NOTHING_TO_REVERSE && !reverse_refusal_said && (commanded || !idle)) {
+        reverse_refusal_said = 1;
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: there is no way back from here: a reverse run goes over the moves since "
                         "the machine last had nothing to do, but not over threads, taps, probing moves and locking "
-                        "indexers\n");
-    /* Negative adaptive feed asks in every servo period. */
-    reverse_refused = result == FRAMEPATH_NOTHING_TO_REVERSE ? 2 : 0;
+                        "indexers. To go on set motion.adaptive-feed to 0 or above, or run forward\n");
+    }
+    reverse_asked = direction == TC_DIR_REVERSE ? 2 : 0;
     return result == TP_ERR_OK ? TP_ERR_OK : TP_ERR_FAIL;
 }
 

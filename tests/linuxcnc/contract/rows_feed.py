@@ -180,6 +180,14 @@ class NegativeAdaptiveFeed(Row):
         op.keep("back", [*op.place()[:2], op.get("motion.tp-reverse")])
         op.pin("motion.adaptive-feed", 1)
         op.finish(40)
+        # A machine that has nothing to do has no way back, which is no error.
+        op.say("M52 P1")
+        op.pin("motion.adaptive-feed", -1)
+        op.sleep(0.2)
+        op.abort()
+        op.sleep(0.2)
+        op.pin("motion.adaptive-feed", 1)
+        op.sleep(0.1)
 
     def check(self, seen):
         route = [(0, 0), (10, 0), (10, 10), (20, 10), (20, 20), (40, 20)]
