@@ -13,6 +13,7 @@
 mod blending;
 mod direction;
 mod error_stop;
+mod holding;
 mod indexer;
 mod inputs;
 mod jerk_limit;
@@ -30,6 +31,7 @@ mod soft_limits;
 mod speed_limit;
 mod spindle;
 mod status;
+mod stepping;
 mod survey;
 mod surveying;
 mod velocity_slider;

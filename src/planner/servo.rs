@@ -29,6 +29,7 @@ impl Planner {
         self.status.outputs = SynchronisedOutputs::NONE;
         self.status.indexer = None;
         self.track_spindles(inputs);
+        self.turn_to_steps(inputs);
         if !self.motion.is_running() {
             self.stand(inputs);
         }
@@ -296,23 +297,6 @@ impl Planner {
         }
     }
 
-    /// The operator's slider for the running move.
-    pub(super) fn slider_for(&self, running: Option<&Move>) -> f64 {
-        match running {
-            Some(running) if running.shape.is_rotary() => {
-                running.max_velocity * self.slider.share(self.axes.reach())
-            }
-            _ => self.slider.limit(),
-        }
-    }
-
-    /// Whether pause, abort, feed hold or a slider at 0 hold the machine, unless it is in a thread.
-    pub(super) fn is_held(&self, inputs: &CycleInputs) -> bool {
-        let held = inputs.net_feed_scale.is_nan() || inputs.net_feed_scale <= 0.0;
-        let slider = self.slider_for(self.queue.front());
-        self.status.pausing || self.status.aborting || held || slider <= 0.0
-    }
-
     /// Whether the next move may start: a locking indexer has to be unlocked for it.
     fn indexer_permits_start(&mut self, inputs: &CycleInputs) -> bool {
         let Some(joint) = self.queue.front().and_then(|next| next.indexer_joint) else {
@@ -325,7 +309,7 @@ impl Planner {
 
     /// The end of the reference is reached: at rest, exactly where its last move ends, or in the
     /// middle of one whose continuation was not planned in time.
-    fn finish(&mut self) {
+    pub(super) fn finish(&mut self) {
         let rest = self.reference.come_to_rest(&self.queue);
         self.status.position = rest.position;
         // The turns are over that the spindle may take to turn back.
@@ -444,7 +428,11 @@ impl Planner {
         status.active_depth = 0;
         status.done = next.is_none();
         status.current_velocity = 0.0;
-        status.distance_to_go = next.map_or(0.0, |queued| queued.shape.length());
+        status.distance_to_go = self
+            .reference
+            .distance_to_go_at_rest(&self.queue)
+            .or_else(|| next.map(|queued| queued.shape.length()))
+            .unwrap_or(0.0);
         status.axis_distance_to_go =
             next.map_or(Axes::zeros(), |queued| queued.shape.end() - status.position);
         status.waiting_for_spindle = false;

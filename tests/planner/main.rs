@@ -41,5 +41,6 @@ mod short_programs;
 mod soft_limits;
 mod spindle;
 mod spindle_events;
+mod steps;
 mod survey;
 mod tool_axis;

@@ -118,7 +118,7 @@ impl Reference {
             self.current_mut().clear();
         }
         // The motion ends with this rest.
-        let ends = outlook.now.stepping || outlook.now.settings_changed;
+        let ends = outlook.now.stepping || self.step_by_step || outlook.now.settings_changed;
         if ends && self.segments.front().is_some() {
             return false;
         }

@@ -24,8 +24,10 @@ mod reference;
 mod reference_segment;
 mod rest_to_rest;
 mod return_route;
+mod running_move;
 mod runs;
 mod single_move;
+mod step_by_step;
 mod supply_depth;
 mod time_ahead;
 

@@ -1,6 +1,7 @@
 //! Where the machine is on the reference.
 
 use super::reference::{Reference, ReferencePoint, Rest};
+use super::running_move::running;
 use crate::moves::MoveQueue;
 
 /// A path this near to the end of a move ends there, machine units.
@@ -25,7 +26,7 @@ impl Reference {
         self.path.discard_before(s);
         let leg = self.path.leg(s)?;
         let velocity = leg.measure_rate * self.path.distance(&direction) * state.velocity;
-        let (serial, distance_to_go) = self.running(queue, s)?;
+        let (serial, distance_to_go) = running(&self.path, queue, s)?;
         Some(ReferencePoint {
             serial,
             distance_to_go,
@@ -34,30 +35,24 @@ impl Reference {
         })
     }
 
-    /// Serial number of the move at path distance `s`, and what F will count until its end.
-    ///
-    /// Where lines were merged it is told by their lengths.
-    pub(super) fn running(&self, queue: &MoveQueue, s: f64) -> Option<(u64, f64)> {
-        let progress = self.path.progress(s)?;
-        let first = progress.first.max(queue.oldest());
-        if first >= progress.serial {
-            return Some((progress.serial, progress.distance_to_go));
-        }
-        let lengths = |from: u64| {
-            (from..=progress.serial)
-                .filter_map(|serial| queue.get(serial))
-                .map(|queued| queued.shape.length())
-        };
-        // Counted from the end, since the moves at the start may be forgotten.
-        let mut left: f64 = lengths(first).sum();
-        for serial in first..progress.serial {
-            let length = queue.get(serial)?.shape.length();
-            if progress.distance_to_go > left - length {
-                return Some((serial, progress.distance_to_go - (left - length)));
+    /// Where the machine is, path distance.
+    pub(super) fn place(&self) -> f64 {
+        match self.segments.front() {
+            Some(segment) => {
+                let state = segment.state(self.elapsed, self.elapsed);
+                segment.path_distance(state.distance)
             }
-            left -= length;
+            None => self.rest,
         }
-        Some((progress.serial, progress.distance_to_go.min(left)))
+    }
+
+    /// On the way on, at rest: what F will count until the end of the first move of the queue, if the machine is in it.
+    pub fn distance_to_go_at_rest(&self, queue: &MoveQueue) -> Option<f64> {
+        if !self.active || self.backwards {
+            return None;
+        }
+        let (serial, distance_to_go) = running(&self.path, queue, self.rest)?;
+        (serial == queue.first_serial()).then_some(distance_to_go)
     }
 
     /// The machine has come to the end of what was handed out, at rest.
@@ -76,8 +71,7 @@ impl Reference {
             },
             None => Rest {
                 // Of merged moves the one at the rest, not the last one.
-                next: self
-                    .running(queue, s)
+                next: running(&self.path, queue, s)
                     .map_or(self.feeder.next(), |(serial, _)| serial),
                 position: before.position,
             },

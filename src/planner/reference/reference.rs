@@ -62,6 +62,8 @@ pub struct Reference {
     pub(super) serves_next: bool,
     /// Whether the machine goes back along the path.
     pub(super) backwards: bool,
+    /// Whether the machine comes to rest at the end of each move, wherever in one it began.
+    pub(super) step_by_step: bool,
     /// Whether joints have limits, which bend where the path does not.
     pub(super) bends: bool,
     /// Whether there is a path at all.
@@ -98,6 +100,7 @@ impl Reference {
             swapped: false,
             serves_next: false,
             backwards: false,
+            step_by_step: false,
             bends: false,
             active: false,
             resting: true,
@@ -117,6 +120,7 @@ impl Reference {
     /// Drops everything. At rest only.
     pub fn clear(&mut self) {
         self.backwards = false;
+        self.step_by_step = false;
         self.active = false;
         self.rested(0.0);
     }
@@ -139,6 +143,7 @@ impl Reference {
         }
         self.serves_next = false;
         self.backwards = false;
+        self.step_by_step = false;
         self.bends = bends;
         self.active = true;
         self.rested(0.0);

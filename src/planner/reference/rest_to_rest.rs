@@ -5,6 +5,7 @@ use super::outlook::Outlook;
 use super::path_route::PathRoute;
 use super::reference_segment::ProfiledMotion;
 use super::return_route::{ReturnRoute, may_go_back};
+use super::running_move::end_of_merged_line;
 use crate::moves::MoveQueue;
 use crate::path::BlendedPath;
 use crate::speed::look_ahead::{LookAhead, PlanEnd, PlanProgress, PlanRefusal, PlannedSegment};
@@ -26,6 +27,8 @@ pub(super) struct RestToRest {
     /// Whether it leads back along the path: the look-ahead then sees path distance with the other
     /// sign.
     backwards: bool,
+    /// Whether it ends with the move that it begins in, on the way on.
+    ends_with_move: bool,
     /// Where it starts, path distance; `None` if there is no run.
     start: Option<f64>,
     /// Where the machine has to come to rest.
@@ -41,6 +44,7 @@ impl RestToRest {
         Self {
             speed: LookAhead::new(),
             backwards: false,
+            ends_with_move: false,
             start: None,
             stop: None,
             searched: 0.0,
@@ -56,6 +60,7 @@ impl RestToRest {
     /// Begins a run at rest at `s`, on or back along the path.
     pub fn begin(&mut self, s: f64, backwards: bool, outlook: &Outlook) {
         self.backwards = backwards;
+        self.ends_with_move = false;
         self.speed.start(
             self.signed(s),
             outlook.limits,
@@ -66,6 +71,12 @@ impl RestToRest {
         self.stop = None;
         self.searched = s;
         self.ready_for = 0.0;
+    }
+
+    /// The machine comes to rest at the end of the move that the run begins in. Right behind [`Self::begin`]; on the way
+    /// back it means nothing.
+    pub fn end_with_move(&mut self) {
+        self.ends_with_move = !self.backwards;
     }
 
     /// Path distance as the look-ahead sees it, and back.
@@ -166,9 +177,14 @@ impl RestToRest {
             .filter(|stop| self.backwards || path.final_end() >= *stop)
     }
 
-    /// Whether a place was found where the machine has to come to rest.
-    pub fn has_stop(&self) -> bool {
-        self.stop.is_some()
+    /// Whether a place was found where the machine has to come to rest, without a move that is yet to come.
+    pub fn has_stop(&self, path: &BlendedPath) -> bool {
+        // At the end of a move as such the path is not final before it is known how it goes on.
+        if self.ends_with_move {
+            self.final_stop(path).is_some()
+        } else {
+            self.stop.is_some()
+        }
     }
 
     /// The next segment of the plan, which stays as it is; `None` at its end.
@@ -217,10 +233,17 @@ impl RestToRest {
                 self.look_back(path, queue);
                 continue;
             }
+            if self.ends_with_move && self.starts_at(self.searched) {
+                self.stop = end_of_merged_line(path, queue, self.searched);
+                if self.stop.is_some() {
+                    return;
+                }
+            }
             match path.vertex_after(self.searched) {
                 Some(vertex) => {
                     self.searched = vertex.s;
-                    self.stop = vertex.stop.then_some(vertex.s);
+                    let ends = self.ends_with_move && path.leg_ending_at(vertex.s).is_some();
+                    self.stop = (vertex.stop || ends).then_some(vertex.s);
                 }
                 None => {
                     let end = path.programmed_end();

@@ -199,7 +199,7 @@ impl Reference {
         let end = self.path.progress(current.end());
         let leaves =
             current.is_ready() && end.is_some_and(|end| end.first > outlook.queue.first_serial());
-        !leaves && !current.has_stop()
+        !leaves && !current.has_stop(&self.path)
     }
 
     /// Begins the runs that are due: from where the reference rests, and from where the run that
@@ -227,6 +227,16 @@ impl Reference {
         let (current, other) = both(&mut self.runs, self.swapped);
         let due = if self.resting { current } else { other };
         due.begin(s, self.backwards, outlook);
+        if self.step_by_step {
+            due.end_with_move();
+        }
+    }
+
+    /// Drops what is planned and not handed out.
+    pub(super) fn drop_plans(&mut self) {
+        for run in &mut self.runs {
+            run.clear();
+        }
     }
 
     pub(super) fn current(&self) -> &RestToRest {

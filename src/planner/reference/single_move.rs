@@ -3,6 +3,8 @@
 use super::outlook::Outlook;
 use super::reference::Reference;
 use super::reference_segment::{ProfiledMotion, ReferenceSegment, SegmentMotion};
+use crate::moves::shape::Shape;
+use crate::path::LegView;
 use crate::speed::{JerkLimitedProfile, PathLimits};
 
 /// A cap on the velocity has to rise by more than this factor before a move is planned anew.
@@ -11,16 +13,22 @@ const NOTICEABLE_RAISE: f64 = 1.001;
 impl Reference {
     /// Whether a move that stands alone between two rests starts at `s`.
     pub(super) fn stands_alone(&self, s: f64) -> bool {
-        !self.backwards && !self.bends && self.path.move_between_rests(s).is_some()
+        self.lone_move(s).is_some()
     }
 
-    /// Plans a move that stands alone between two rests. `false` if that is not what comes next, or its joints have limits:
-    /// where they bend, the look-ahead plans it as any other run.
-    pub(super) fn next_move(&mut self, outlook: &Outlook) -> bool {
+    /// A move that stands alone between two rests and starts at `s`, unless its joints have limits: where they bend, the
+    /// look-ahead plans it as any other run. In single steps merged lines are several moves.
+    fn lone_move(&self, s: f64) -> Option<(Shape, LegView)> {
         if self.backwards || self.bends {
-            return false;
+            return None;
         }
-        let Some((shape, leg)) = self.path.move_between_rests(self.rest) else {
+        let (shape, leg) = self.path.move_between_rests(s)?;
+        (!self.step_by_step || leg.first == leg.serial).then_some((shape, leg))
+    }
+
+    /// Plans a move that stands alone between two rests. `false` if that is not what comes next.
+    pub(super) fn next_move(&mut self, outlook: &Outlook) -> bool {
+        let Some((shape, leg)) = self.lone_move(self.rest) else {
             return false;
         };
         let Some(queued) = outlook.queue.get(leg.serial) else {

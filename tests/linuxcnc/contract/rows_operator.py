@@ -216,6 +216,37 @@ class LimitsChangedLive(Row):
         return f"{back:.1f} mm/s for 40"
 
 
+class StepFromAPause(Row):
+    """A step from a pause in motion ends at the end of its line"""
+
+    section = SECTION
+    behind = WITHOUT_A_FRAME
+
+    def operate(self, op):
+        op.begin("G61 F2400", "G1 X30", "G1 X50", "G3 X50 Y20 R10", "G1 X30")
+        op.until("the first line", lambda: op.status.position[0] > 2)
+        op.pause()
+        op.stopped()
+        rests = [op.place()[:2]]
+        for _ in range(4):
+            op.step()
+            op.sleep(0.1)
+            op.stopped(0.15)
+            rests.append(op.place()[:2])
+        op.keep("rests", rests)
+        op.resume()
+        op.finish(20)
+
+    def check(self, seen):
+        paused, *rests = seen.kept["rests"]
+        seen.require(paused[0] < 29, f"paused at {paused}, behind the first line")
+        ends = [(30, 0), (50, 0), (50, 20), (30, 20)]
+        away = [math.dist(rest, end) for rest, end in zip(rests, ends, strict=True)]
+        # LinuxCNC's planner may be a period beyond, at the end of its braking.
+        seen.require(max(away) < 0.05, f"rests {max(away):.2f} mm from the end of a line")
+        return f"rests {max(away):.2f} mm from the ends of lines"
+
+
 class StepThroughOutputsAndDwells(Row):
     """Steps through a program with rapids, dwells and outputs end, and reach the end"""
 
