@@ -31,6 +31,7 @@ RTAPI_MP_STRING(tool_axes, "Axes that turn the tool behind kinematics that canno
 /* Chooses the kinematics of another module, which lies beside the one that `here` is in; 0, or what is wrong has been said. */
 static int configure_inner(const void *here)
 {
+    struct module_file own = own_file(here), file = file_beside(inner, here);
     const char *beside = *coordinates ? "coordinates" : *machine ? "machine" : *tool_length ? "tool_length" : NULL;
     int error;
     if (beside) {
@@ -38,6 +39,11 @@ static int configure_inner(const void *here)
                         inner, beside, inner, *coordinates || *machine
                             ? "give coordinates= to that module, and to framekins inner= alone"
                             : "write TOOL_LENGTH under [FRAMEPATH] in the INI, or tool_types= for types with a tool-offset pin");
+        return -22; /* EINVAL */
+    }
+    if (file.path[0] && !strcmp(file.path, own.path)) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: inner=%s: that is framekins itself; write the kinematics behind it, those that "
+                        "[KINS]KINEMATICS had before, as in: loadrt framekins inner=xyzac-trt-kins\n", inner);
         return -22; /* EINVAL */
     }
     if (check_inner_file(inner, here))
@@ -53,9 +59,15 @@ static int configure_inner(const void *here)
 /* Chooses a machine of ours; the same. */
 static int configure_machine(void)
 {
+    const char *for_inner = *tool_types ? "tool_types" : *tool_axes ? "tool_axes" : NULL;
     int letter = 0;
     int error = framepath_kinematics_configure(coordinates, machine, tool_length, &letter);
     const char *words = framepath_kinematics_configure_text(error);
+    if (for_inner) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: %s= is for kinematics behind inner=, and there is no inner=: leave it out; a "
+                        "tilting table is machine=xyzac or machine=xyzbc\n", for_inner);
+        return -22; /* EINVAL */
+    }
     if (!error)
         return 0;
     if (error == FRAMEPATH_UNKNOWN_MACHINE)

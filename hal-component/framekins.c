@@ -219,7 +219,7 @@ int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMAT
  * LinuxCNC does not start. */
 static int begin_inner(void)
 {
-    if (find_inner(inner, &pins))
+    if (find_inner(inner, tool_types, &pins))
         return -1;
     hal_set_unready(component);
     if (hal_export_funct("framekins", update, 0, 1, 0, component))

@@ -60,17 +60,6 @@ static int is_in_inner(const char *name, const void *here, const void *caller)
     return dladdr(caller, &from) && !strcmp(from.dli_fname, file_beside(name, here).path);
 }
 
-/* What the module answers when it asks for its own type. */
-static KINEMATICS_TYPE own_type_of_inner(const char *name, const void *here)
-{
-    void *module = loaded_beside(name, here);
-    KINEMATICS_TYPE (*type)(void) = module ? functions_of(module).type : NULL;
-    KINEMATICS_TYPE answer = type ? type() : KINEMATICS_BOTH;
-    if (module)
-        dlclose(module);
-    return answer;
-}
-
 /* Says once why the module cannot be had. */
 static void tell_missed(const char *name, const char *function)
 {
@@ -85,9 +74,31 @@ static void tell_missed(const char *name, const char *function)
                         "parameters (loadrt [KINS]KINEMATICS), then loadrt motmod in the HAL files\n", name, name, name);
 }
 
+/* Says once that there are no types to choose from. */
+static void tell_one_type(const char *name, const char *tool_types)
+{
+    if (!inner_found.missed)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: tool_types=%s: inner=%s has one type only, which is 0: write tool_types=0, or leave "
+                        "it out if these kinematics do not turn the tool's length\n", tool_types, name);
+    inner_found.missed = 1;
+}
+
+/* What the module answers when it asks for its own type; one that has none is no kinematics module, motmod for one. */
+static KINEMATICS_TYPE own_type_of_inner(const char *name, const void *here)
+{
+    void *module = loaded_beside(name, here);
+    KINEMATICS_TYPE (*type)(void) = module ? functions_of(module).type : NULL;
+    KINEMATICS_TYPE answer = type ? type() : KINEMATICS_BOTH;
+    if (!type)
+        tell_missed(name, "kinematicsType");
+    if (module)
+        dlclose(module);
+    return answer;
+}
+
 /* Finds the module. Its type is asked for once, before it is switched: some make their pins then. 0, or -1 with the reason
  * said. */
-static int find_inner(const char *name, const void *here)
+static int find_inner(const char *name, const char *tool_types, const void *here)
 {
     void *module = loaded_beside(name, here);
     struct kinematics_functions found;
@@ -103,13 +114,17 @@ static int find_inner(const char *name, const void *here)
         dlclose(module);
         return -1;
     }
-    inner_found.module = module;
     inner_found.type = found.type();
     if (!found.switchable || !found.switchable())
         found.change = NULL;
+    if (framepath_kinematics_inner_functions(found.inverse, found.forward, found.change)) {
+        tell_one_type(name, tool_types);
+        dlclose(module);
+        return -1;
+    }
+    inner_found.module = module;
     if (found.change)
         found.change(0);
-    framepath_kinematics_inner_functions(found.inverse, found.forward, found.change);
     return 0;
 }
 

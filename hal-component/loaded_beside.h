@@ -26,6 +26,16 @@ static struct module_file file_beside(const char *name, const void *here)
     return file;
 }
 
+/* The file of the module that `here` is an address in. */
+static inline struct module_file own_file(const void *here)
+{
+    struct module_file file = {""};
+    Dl_info own;
+    if (dladdr(here, &own))
+        snprintf(file.path, sizeof file.path, "%s", own.dli_fname);
+    return file;
+}
+
 /* A module of this name if it is loaded, to be given back with dlclose, else NULL. */
 static void *loaded_beside(const char *name, const void *here)
 {

@@ -557,11 +557,12 @@ int framepath_kinematics_configure_inner(const char *tool_types,
                                          const char *tool_axes);
 
 /*
- The functions of the other module, which has type 0 now; null for `switch` if it cannot be switched.
+ The functions of the other module, which has type 0 now; null for `switch` if it cannot be switched. 0, or -1 if it
+ cannot and `tool_types` names another type: then nothing is taken.
  */
-void framepath_kinematics_inner_functions(int (*inverse)(const EmcPose*, double*, const unsigned long*, unsigned long*),
-                                          int (*forward)(const double*, EmcPose*, const unsigned long*, unsigned long*),
-                                          int (*switch_)(int));
+int framepath_kinematics_inner_functions(int (*inverse)(const EmcPose*, double*, const unsigned long*, unsigned long*),
+                                         int (*forward)(const double*, EmcPose*, const unsigned long*, unsigned long*),
+                                         int (*switch_)(int));
 
 /*
  Before motion looks at `motion.switchkins-type`, where the type on the pin is another one than that in force: what to

@@ -241,7 +241,11 @@ fn what_passes_between_motion_and_the_other_module() {
     unsafe { framepath_kinematics_update(&pins, &mut shown) };
     assert_eq!(shown.retract_kind, -3);
     assert_eq!((shown.tool_centre_type, shown.axes_type), (1, 0));
-    framepath_kinematics_inner_functions(Some(table), Some(forward), None);
+    // Kinematics that cannot be switched have no second type.
+    let alone = || framepath_kinematics_inner_functions(Some(table), Some(forward), None);
+    assert_eq!(alone(), -1);
+    assert_eq!(configure(c""), 0);
+    assert_eq!(alone(), 0);
     pins.command = 1014.0;
     // SAFETY: structures of the interface.
     unsafe { framepath_kinematics_update(&pins, &mut shown) };

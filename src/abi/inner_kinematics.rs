@@ -45,7 +45,8 @@ pub unsafe extern "C" fn framepath_kinematics_configure_inner(
     0
 }
 
-/// The functions of the other module, which has type 0 now; null for `switch` if it cannot be switched.
+/// The functions of the other module, which has type 0 now; null for `switch` if it cannot be switched. 0, or -1 if it
+/// cannot and `tool_types` names another type: then nothing is taken.
 #[unsafe(no_mangle)]
 pub extern "C" fn framepath_kinematics_inner_functions(
     inverse: Option<
@@ -55,12 +56,20 @@ pub extern "C" fn framepath_kinematics_inner_functions(
         unsafe extern "C" fn(*const c_double, *mut EmcPose, *const c_ulong, *mut c_ulong) -> c_int,
     >,
     switch: Option<unsafe extern "C" fn(c_int) -> c_int>,
-) {
-    module().inner = InnerModule {
+) -> c_int {
+    let module = module();
+    let behind = module.control.as_ref().map(FrameControl::behind);
+    if let (None, Some(Behind::Inner(kind))) = (switch, behind)
+        && kind.has_other_tool_types()
+    {
+        return -1;
+    }
+    module.inner = InnerModule {
         inverse,
         forward,
         switch,
     };
+    0
 }
 
 /// Before motion looks at `motion.switchkins-type`, where the type on the pin is another one than that in force: what to

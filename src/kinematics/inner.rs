@@ -57,6 +57,11 @@ impl InnerType {
         bit.is_some_and(|bit| self.tool_types & bit != 0)
     }
 
+    /// Whether a type other than the first is named as one that turns the tool's length.
+    pub fn has_other_tool_types(self) -> bool {
+        self.tool_types & !1 != 0
+    }
+
     /// The type for the tool centre point: the one in force, if it is theirs to turn the tool, or the first such one; `None`
     /// if none is named.
     pub fn for_tool_centre(self) -> Option<i32> {

@@ -119,6 +119,26 @@ class InnerRefusals(Refusals):
             self.refused(f"loadrt framekins inner=xyzac-trt-kins {beside}\n",
                          f"inner=xyzac-trt-kins and {beside.split('=')[0]}= exclude each other", remedy)
 
+    def test_framekins_itself(self):
+        self.refused("loadrt framekins inner=framekins\n", "inner=framekins: that is framekins itself",
+                     "as in: loadrt framekins inner=xyzac-trt-kins")
+
+    def test_motion_itself(self):
+        self.refused(self.PLANNER + "loadrt framekins inner=motmod\n" + self.MOTION,
+                     "inner=motmod has no kinematicsType", "write the module of [KINS]KINEMATICS")
+
+    def test_what_needs_inner(self):
+        for parameter in ("tool_types=7", "tool_axes=banana"):
+            self.refused(f"loadrt framekins coordinates=XYZ {parameter}\n",
+                         f"{parameter.split('=')[0]}= is for kinematics behind inner=, and there is no inner=: leave it out")
+
+    def test_a_type_of_kinematics_that_have_one(self):
+        text = "loadrt framekins inner=trivkins tool_types={}\nloadrt trivkins coordinates=XYZAC\n" + self.MOTION
+        self.refused(self.PLANNER + text.format("0,5"),
+                     "tool_types=0,5: inner=trivkins has one type only, which is 0: write tool_types=0")
+        output, code = halrun(self.PLANNER + text.format("0"))
+        self.assertEqual((code, "framekins:" in output), (0, False), output)
+
     def test_types_that_are_none(self):
         self.refused("loadrt framekins inner=xyzac-trt-kins tool_types=0,16\n", "tool_types=0,16: this is no list of types",
                      "as in tool_types=0,2")
