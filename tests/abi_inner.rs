@@ -21,7 +21,7 @@ use framepath::abi::kinematics_jet::framepath_kinematics_tool_tilt_axis;
 use framepath::abi::kinematics_words::framepath_kinematics_refusal_text;
 use framepath::abi::linuxcnc::EmcPose;
 
-/// Joints are twice the axes and a part of the joints of before; flags are handed back increased.
+/// Joints are twice the axes, one is where it was before, from .75 on; flags are handed back increased.
 unsafe extern "C" fn inverse(
     world: *const EmcPose,
     joints: *mut c_double,
@@ -33,7 +33,7 @@ unsafe extern "C" fn inverse(
         *joints = (*world).tran.x * 2.0;
         *joints.add(1) = (*world).tran.y * 2.0;
         *joints.add(2) = (*world).tran.z * 2.0;
-        *joints.add(3) += 0.5;
+        *joints.add(3) = (*joints.add(3)).max(0.75);
         *written = *read + 1;
     }
     0
@@ -211,10 +211,16 @@ fn what_passes_between_motion_and_the_other_module() {
     }
     assert_eq!(framepath_kinematics_tool_tilt_axis(), 3);
 
-    // Without a frame blendtp is told, too: of another type when the machine stands.
+    // From where the machine is these lead back to other joints, which would jump, unless the machine is off.
     pins.inner_type = 0.0;
     // SAFETY: a structure of the interface.
+    assert_eq!(unsafe { framepath_kinematics_switch(0, &pins) }, 19);
+    pins.enabled = 0;
+    // SAFETY: a structure of the interface.
     assert_eq!(unsafe { framepath_kinematics_switch(0, &pins) }, 0);
+    pins.enabled = 1;
+
+    // Without a frame blendtp is told, too: of another type when the machine stands.
     pins.in_position = 0;
     assert_eq!(asked(&pins), (7, (0, 0), 0.0));
     assert_eq!(framepath_kinematics_tool_tilt_axis(), -1);

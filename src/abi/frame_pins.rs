@@ -165,6 +165,7 @@ pub(super) fn inputs_of(pins: &framepath_frame_inputs, tool_length: ToolLength) 
         },
         inner_type: pins.inner_type,
         fixed_axes: [false; 3],
+        other_joints: false,
         in_position: pins.in_position != 0,
         teleop: pins.teleop != 0,
         check: pins.check,

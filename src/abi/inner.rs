@@ -53,6 +53,19 @@ impl InnerModule {
         };
         inner::fixed_axes(&mut calls, &Axes::from(*position), joints)
     }
+
+    /// Whether it leads back from the place of these joints to others; never where no other module is.
+    pub(super) fn other_joints(&self, position: &[f64; 9], joints: &[f64; JOINT_COUNT]) -> bool {
+        if self.inverse.is_none() {
+            return false;
+        }
+        let mut calls = Calls {
+            module: *self,
+            forward_flags: 0,
+            inverse_flags: 0,
+        };
+        inner::other_joints(&mut calls, &Axes::from(*position), joints)
+    }
 }
 
 /// Calls of the other module with the flags that LinuxCNC hands over.

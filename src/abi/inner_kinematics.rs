@@ -40,6 +40,7 @@ pub unsafe extern "C" fn framepath_kinematics_configure_inner(
     let module = module();
     module.tool_length = ToolLength::Frame;
     module.inner = InnerModule::NONE;
+    module.given = None;
     module.normal = AskedNormal::with(said);
     module.control = Some(FrameControl::new(Behind::Inner(InnerType::first(types))));
     0
@@ -197,5 +198,6 @@ pub unsafe extern "C" fn framepath_kinematics_inner_inverse(
         return -1;
     };
     *written = calls.forward_flags;
+    module().given = Some((module().position, module().joints));
     result
 }

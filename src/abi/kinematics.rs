@@ -45,6 +45,9 @@ pub(super) struct Kinematics {
     pub(super) position: [f64; AXIS_COUNT],
     /// The joints that belong to them, where the kinematics are another module's.
     pub(super) joints: [f64; JOINT_COUNT],
+    /// The joints that motion was given last, in a place of the machine's axes. Those that it asks with may be where the
+    /// machine is really, off what was commanded.
+    pub(super) given: Option<([f64; AXIS_COUNT], [f64; JOINT_COUNT])>,
     /// The other module.
     pub(super) inner: InnerModule,
     /// How many guesses of motion's are still positions of the frame before: that of the command and that of the feedback.
@@ -57,11 +60,23 @@ impl Kinematics {
     /// What the pins say, and what has to be known for a frame that they ask for.
     pub(super) fn inputs(&self, pins: &framepath_frame_inputs) -> FrameInputs {
         let mut inputs = inputs_of(pins, self.tool_length);
-        let expected = self.control.as_ref();
-        if expected.is_some_and(|control| control.expects_frame(&inputs)) {
+        let Some(control) = &self.control else {
+            return inputs;
+        };
+        if control.expects_switch(&inputs) {
+            inputs.other_joints = self.other_joints(&inputs);
+        }
+        if control.expects_frame(&inputs) {
             inputs.fixed_axes = self.inner.fixed_axes(&self.position, &self.joints);
         }
         inputs
+    }
+
+    /// Whether the joints would jump at a switch. With the machine off motion takes its position from them when it is
+    /// switched on again.
+    fn other_joints(&self, inputs: &FrameInputs) -> bool {
+        let given = self.given.filter(|_| inputs.enabled);
+        given.is_some_and(|(position, joints)| self.inner.other_joints(&position, &joints))
     }
 }
 
@@ -76,6 +91,7 @@ static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
     tool_length: ToolLength::Frame,
     position: [0.0; AXIS_COUNT],
     joints: [0.0; JOINT_COUNT],
+    given: None,
     inner: InnerModule::NONE,
     old_guesses: 0,
     normal: AskedNormal::NONE,
@@ -314,9 +330,10 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
     let Some(pins) = (unsafe { pins.as_ref() }) else {
         return -1;
     };
+    let mut inputs = inputs_of(pins, module().tool_length);
+    inputs.other_joints = module().other_joints(&inputs);
     let Kinematics {
         control: Some(control),
-        tool_length,
         position,
         joints,
         inner,
@@ -326,7 +343,6 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
     else {
         return -1;
     };
-    let mut inputs = inputs_of(pins, *tool_length);
     inputs.fixed_axes = inner.fixed_axes(position, joints);
     match control.switch(slot, &inputs, |kind| inner.switch(kind)) {
         Ok(()) => {

@@ -28,6 +28,7 @@ pub use super::pins::{FrameInputs, FrameOutputs};
 use super::refusal::FrameRefusal;
 use super::release::FrameRelease;
 use super::staged::Staged;
+use super::switching::{may_remove, same_joints, standing};
 use crate::frame::ActiveFrame;
 
 /// Motion switches in the period after the request. If it has not done so by now, nobody listens.
@@ -211,6 +212,10 @@ impl FrameControl {
             self.active.source = Source::nothing();
         }
         if self.release.is_ripe() && framed && self.request.is_none() {
+            if inputs.other_joints {
+                self.outputs.refusal = Some(FrameRefusal::OtherJoints);
+                return;
+            }
             let behind = self.behind_on_pins(inputs).unwrap_or(self.active.behind);
             let staged = Staged::without_frame(Source::nothing(), behind, inputs);
             self.ask(staged, Purpose::Removal);
@@ -311,6 +316,10 @@ impl FrameControl {
         } else {
             standing(inputs)?;
         }
+        // Another type of the inner kinematics is theirs to answer for.
+        if request.is_none_or(|it| it.purpose != Purpose::InnerType) {
+            same_joints(inputs)?;
+        }
         if let Some(request) = request {
             return Ok(request.staged);
         }
@@ -389,7 +398,10 @@ impl FrameControl {
                 self.active.source = staged.source;
                 self.answer_at_once(number, None);
             }
-            Ok(staged) => self.ask(staged, Purpose::Command(number)),
+            Ok(staged) => match same_joints(inputs) {
+                Err(refusal) => self.answer_at_once(number, Some(refusal)),
+                Ok(()) => self.ask(staged, Purpose::Command(number)),
+            },
         }
     }
 
@@ -457,34 +469,27 @@ impl FrameControl {
 
     /// Whether a frame may be made in this period, for which the axes that inner kinematics cannot move have to be known.
     pub fn expects_frame(&self, inputs: &FrameInputs) -> bool {
-        let commanded = Command::on_pin(inputs.command)
-            .is_some_and(|command| command.number != self.outputs.acknowledged);
         let restaged = self.active.frame.is_some()
             && self
                 .behind_on_pins(inputs)
                 .is_ok_and(|wanted| wanted != self.active.behind);
-        self.request.is_none() && standing(inputs).is_ok() && (commanded || restaged)
+        self.request.is_none()
+            && standing(inputs).is_ok()
+            && (self.is_commanded(inputs) || restaged)
     }
-}
 
-/// Whether kinematics may change now.
-fn standing(inputs: &FrameInputs) -> Result<(), FrameRefusal> {
-    if inputs.teleop {
-        Err(FrameRefusal::Teleop)
-    } else if !inputs.in_position {
-        Err(FrameRefusal::Moving)
-    } else {
-        Ok(())
+    /// Whether there is a command that has not been answered.
+    fn is_commanded(&self, inputs: &FrameInputs) -> bool {
+        Command::on_pin(inputs.command)
+            .is_some_and(|command| command.number != self.outputs.acknowledged)
     }
-}
 
-/// Whether the frame may be removed now. With the machine off teleop mode is no obstacle: motion takes its position
-/// from the kinematics when it is switched on again.
-fn may_remove(inputs: &FrameInputs) -> Result<(), FrameRefusal> {
-    standing(&FrameInputs {
-        teleop: inputs.teleop && inputs.enabled,
-        ..*inputs
-    })
+    /// Whether a frame may come or go in this period, for which it has to be known that no joint jumps.
+    pub fn expects_switch(&self, inputs: &FrameInputs) -> bool {
+        let going = self.active.frame.is_some()
+            && (self.release.is_due() || inputs.release || inputs.command == 0.0);
+        self.request.is_none() && standing(inputs).is_ok() && (self.is_commanded(inputs) || going)
+    }
 }
 
 /// A tool offset as operators see it: without a frame it may be anything, and removing a frame must not depend on it.

@@ -14,6 +14,10 @@ pub const TYPES: i32 = 16;
 /// that iterate.
 const NUDGE: f64 = 1e-3;
 
+/// How far a joint may be from where it was, machine units or degrees: nothing for a machine, much for kinematics that
+/// iterate.
+const SAME_JOINT: f64 = 1e-5;
+
 /// The kinematics of another module. What they return is 0 for success, as LinuxCNC has it.
 pub trait InnerKinematics {
     /// Joints for axes, from the joints of before.
@@ -138,6 +142,21 @@ pub fn forward(
     let result = inner.forward(joints, &mut axes);
     *position = frame.map_or(axes, |frame| frame.to_world(&axes));
     (axes, result)
+}
+
+/// Whether they lead back from the place of these joints to others. A switch takes the place from the joints and goes on with
+/// the joints of the place, so that these would jump.
+pub fn other_joints(
+    inner: &mut impl InnerKinematics,
+    axes: &Axes,
+    joints: &[f64; JOINT_COUNT],
+) -> bool {
+    let (mut there, mut back) = (*axes, *joints);
+    if inner.forward(joints, &mut there) != 0 || inner.inverse(&there, &mut back) != 0 {
+        return true;
+    }
+    let same = |(one, other): (&f64, &f64)| (one - other).abs() <= SAME_JOINT;
+    !joints.iter().zip(&back).all(same)
 }
 
 /// Which of X Y Z the machine cannot move, by trying: joints for a place beside `axes`, and back from there. An axis for

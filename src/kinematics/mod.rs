@@ -18,6 +18,7 @@ pub mod release;
 pub mod retraction;
 pub mod rotary_chain;
 pub mod staged;
+pub mod switching;
 pub mod tool_angles;
 pub mod tool_axes;
 pub mod tool_normal;

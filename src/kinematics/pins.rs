@@ -32,6 +32,8 @@ pub struct FrameInputs {
     pub inner_type: f64,
     /// Which of X Y Z the inner kinematics cannot move, where that has been looked at.
     pub fixed_axes: [bool; 3],
+    /// The inner kinematics lead to other joints than those that they were given, where that has been looked at.
+    pub other_joints: bool,
     /// Motion stands still.
     pub in_position: bool,
     /// Motion is in teleop (world jogging) mode.

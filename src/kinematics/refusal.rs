@@ -42,6 +42,8 @@ pub enum FrameRefusal {
     Unguarded = 17,
     /// The inner kinematics do not have this type.
     UnknownInnerType = 18,
+    /// The inner kinematics lead back from where the machine is to other joints.
+    OtherJoints = 19,
 }
 
 impl From<FrameError> for FrameRefusal {

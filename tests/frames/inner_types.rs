@@ -201,6 +201,37 @@ fn numbers_by_hand_are_slots_and_types() {
 }
 
 #[test]
+fn no_frame_comes_or_goes_where_joints_would_jump() {
+    let mut motion = inner();
+    let others = Some(FrameRefusal::OtherJoints);
+    motion.inputs.other_joints = true;
+    assert_eq!(
+        motion.send(9, [0.0; 3]),
+        None,
+        "there is no frame to remove"
+    );
+    assert_eq!(motion.send(1, [1.0, 0.0, 0.0]), others);
+    assert_eq!(motion.switch(16), Err(FrameRefusal::OtherJoints));
+    motion.inputs.other_joints = false;
+    assert_eq!(motion.send(1, [1.0, 0.0, 0.0]), None);
+    motion.inputs.other_joints = true;
+    assert_eq!(motion.send(9, [0.0; 3]), others);
+    assert_eq!(motion.send(13, [0.0; 3]), others);
+    // An abort waits until it can.
+    motion.inputs.command = 0.0;
+    for _ in 0..10 {
+        motion.period();
+    }
+    assert!(motion.out.active && motion.out.releasing && !motion.out.hold);
+    assert_eq!(motion.out.refusal, others);
+    motion.inputs.other_joints = false;
+    for _ in 0..10 {
+        motion.period();
+    }
+    assert!(!motion.out.active);
+}
+
+#[test]
 fn a_frame_that_needs_an_axis_the_kinematics_lack_is_refused() {
     let mut motion = inner();
     motion.inputs.fixed_axes = [false, true, false];

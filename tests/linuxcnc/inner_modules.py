@@ -31,7 +31,7 @@ MODULES = [
     Kinematics("genhexkins", 6, 3, at_position=(0, 0, 20, 0, 0, 0), around=1),
     Kinematics("genserkins", 6, 3, (10, -40, -20, 20, 50, 30), around=5),
     Kinematics("lineardeltakins", 9, at_position=(0, 0, -100)),
-    Kinematics("maxkins", 9, at_joints=(100, 50, 0, 10, 20, 30, 0, 0, 0)),
+    Kinematics("maxkins", 9, at_joints=(100, 50, 0, 10, 0, 30, 0, 0, 0)),
     Kinematics("millturn", 4, 2, (0, 0, 0, 0)),
     Kinematics("pentakins", 5, at_position=(0, 0, 200, 0, 0), around=5),
     Kinematics("pumakins", 6, 3, (10, -40, -20, 20, -50, 30)),

@@ -180,6 +180,34 @@ class WithAFrame(InnerMachines):
         self.assertIn("framekins.refusal = 14", "\n".join(result.errors), result.log)
 
 
+class OtherJoints(InnerMachines):
+    """Behind maxkins, which leads from joints to a place and from there to other joints where B and C are both turned."""
+
+    LONG = "setp maxkins.pivot-length 150\n"
+
+    def test_a_frame_where_joints_would_jump_is_refused(self):
+        machine = Machine("maxkins", (0,) * 6, "XYZABC", self.LONG)
+        steps = [["mdi", "F1000"], ["mdi", "G1 B10 C20"], ["mdi", "G1 X10 Y-20 Z5"], ["note", "before"], ["forget"],
+                 ["mdi", "o<atrans> call [1] [2] [3]"], ["sleep", 0.3], ["recall", "refused"], ["note", "after"],
+                 # where they agree, and back there
+                 ["mdi", "G1 B0"], ["mdi", "o<atrans> call [1] [2] [3]"], ["mdi", "G1 B10"], ["note", "in it"], ["forget"],
+                 ["abort"], ["sleep", 0.5], ["recall", "stays"], ["note", "aborted"], ["mdi", "G1 B0"], ["sleep", 0.3],
+                 ["getp", "active", "framekins.active"]]
+        result = machine.run(steps, inner="inner=maxkins tool_types=0")
+        self.good(result)
+        for name in ("refused", "stays"):
+            text = "\n".join(result.answers[name])
+            self.assertIn("lead back from where the machine is to other joints, which would jump", text)
+            self.assertIn("maxkins with B or C at 0", text)
+        self.near([machine.joints(result, "after")], [machine.joints(result, "before")], CLOSE)
+        self.near([machine.joints(result, "aborted")], [machine.joints(result, "in it")], CLOSE)
+        self.assertEqual(result.answers["active"], "FALSE")
+        rows = result.columns(*(f"joint.{joint}" for joint in range(6)))
+        step = max(abs(a - b) for row, after in zip(rows, rows[1:], strict=False) for a, b in zip(row, after, strict=True))
+        # the fastest of the machine in a period
+        self.assertLess(step, 1)
+
+
 class SoftLimits(InnerMachines):
     """On the way of moves, in a frame: as without one, from the joints of before."""
 

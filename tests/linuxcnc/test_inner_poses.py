@@ -87,6 +87,12 @@ class Pair:
                 module.forward(joints, position)
             module.forward(joints, position)
 
+    def return_home(self, frame):
+        """Where it began: there the kinematics lead back to the joints that they were given, as a switch asks for."""
+        position, joints = self.home
+        self.ours.flags.value = 0
+        self.ours.inverse(self.ours.forward(joints, frame.program(position)), joints)
+
     def switch(self, frame, kind):
         """A frame by hand, and the type of the kinematics behind it."""
         self.ours.set(**frame.pins())
@@ -120,10 +126,13 @@ class Poses(unittest.TestCase):
         """How far the axes are from those of the frame, and the way back from where it began."""
         number = random.Random(f"{kinematics.name} {kind}")
         pair, worst, back = Pair(kinematics, folder), 0.0, 0.0
+        frame = Frame(number)
         pair.stand(kinematics)
         for count in range(POSES // kinematics.types):
             if count % 100 == 0:
-                frame = Frame(number)
+                if count:
+                    pair.return_home(frame)
+                    frame = Frame(number)
                 pair.switch(frame, kind)
             machine, near = self.machine_pose(number, pair, kinematics, kind)
             position = frame.program(machine)
