@@ -55,6 +55,7 @@ static struct {
        killed while it holds that would stop every other one. Users link the ones of the same names above. */
     struct {
         hal_bit_t *active, *parameters_pending;
+        hal_s32_t *operations;
         hal_float_t *command, *acknowledged, *work_offset[3], *work_rotation, *tool_offset[3];
     } guard;
 } *pins;
@@ -164,6 +165,7 @@ static void write_guard_pins(const struct framepath_frame_inputs *in, const stru
 {
     *pins->guard.active = out->active;
     *pins->guard.parameters_pending = out->parameters_pending;
+    *pins->guard.operations = out->operations;
     *pins->guard.command = in->command;
     *pins->guard.acknowledged = out->acknowledged;
     for (int i = 0; i < 3; i++) {
@@ -288,6 +290,7 @@ static int export_guard_pins(void)
     error |= hal_pin_bit_newf(HAL_OUT, &pins->guarded, component, "framekins.guarded");
     error |= hal_pin_bit_newf(HAL_OUT, &pins->guard.active, component, "framekins.guard.active");
     error |= hal_pin_bit_newf(HAL_OUT, &pins->guard.parameters_pending, component, "framekins.guard.parameters-pending");
+    error |= hal_pin_s32_newf(HAL_OUT, &pins->guard.operations, component, "framekins.guard.operations");
     error |= hal_pin_float_newf(HAL_OUT, &pins->guard.command, component, "framekins.guard.command");
     error |= hal_pin_float_newf(HAL_OUT, &pins->guard.acknowledged, component, "framekins.guard.acknowledged");
     for (int i = 0; i < 3; i++) {

@@ -54,7 +54,7 @@ SETTLING = 0.2
 #: every other process that wants it.
 TOLD = {"release": ("release", hal.HAL_BIT), "releases-seen": ("releases-seen", hal.HAL_S32)}
 WATCHED = {"releases": ("releases", hal.HAL_S32), "active": ("guard.active", hal.HAL_BIT),
-           "parameters-pending": ("guard.parameters-pending", hal.HAL_BIT),
+           "parameters-pending": ("guard.parameters-pending", hal.HAL_BIT), "operations": ("guard.operations", hal.HAL_S32),
            **{name: (f"guard.{name}", hal.HAL_FLOAT) for name in (
                "command", "acknowledged", "work-offset.x", "work-offset.y", "work-offset.z", "work-offset.rotation",
                "frame-tool-offset.x", "frame-tool-offset.y", "frame-tool-offset.z")}}
@@ -99,6 +99,9 @@ class Look:
         turned = turn(status.rotation_xy, status.g92_offset)
         self.work_offset = (*(a + b for a, b in zip(status.g5x_offset[:3], turned, strict=True)), status.rotation_xy)
         self.active = pins["active"]
+        #: a frame is taken off for a while, and a command would bring it back
+        self.suspended = not self.active and pins["operations"] > 0
+        self.has_frame = self.active or self.suspended
         #: framekins holds the machine for what has changed on its pins
         self.pending = pins["parameters-pending"]
         self.command = pins["command"]
@@ -133,6 +136,8 @@ class Guard:
         self.commanded = False
         #: the frame changes lengths, so that the tool's length matters
         self.changes_lengths = False
+        #: an abort has left a frame suspended, and that was told
+        self.told_suspended = False
         #: the run that is being stopped, so that it is told only once
         self.stopped = False
         #: the offsets when the frame had to go, None while it may stay
@@ -166,13 +171,14 @@ class Guard:
             # now somebody is there to read it
             self.check_nets()
             self.checked = True
+        self.count_programs(now, last)
         self.follow_commands(now, last)
         self.find_due(now, last)
-        if self.due and not now.active:
+        if self.due and not now.has_frame:
             self.due = None
         if now.idle and not now.moving:
             self.stopped = False
-        if now.active and not now.idle and not self.stopped:
+        if now.has_frame and not now.idle and not self.stopped:
             self.check_run(now, last)
         held = self.held.reason(now.pending and now.moving and not now.idle, time.monotonic())
         if held and not self.stopped:
@@ -191,6 +197,12 @@ class Guard:
             self.read_anew()
         self.last = self.look() if going or unread else now
 
+    def count_programs(self, now, last):
+        """Counts ends of programs, and when AUTO is chosen: what subroutines keep for the next block is not for the next program.
+        Only while none runs, or a program would see its own beginning."""
+        if now.idle and ((last.auto and not last.idle) or (now.auto and not last.auto)):
+            self.pins["programs-ended"] += 1
+
     def follow_commands(self, now, last):
         """Keeps what the frame was made with."""
         if now.acknowledged == last.acknowledged:
@@ -206,14 +218,16 @@ class Guard:
     def find_due(self, now, last):
         """Whether the frame has to be removed."""
         setting = self.settings
-        if not now.active:
+        if not now.has_frame:
             self.ended = None
+            self.told_suspended = False
             return
         # o<on_abort> sets the command to 0; a program's commands are never 0
         aborted = now.command == 0 and self.commanded
         if setting.clear_on_abort and (aborted or not now.on):
             self.due = "abort"
-        if now.idle and last.auto and (not last.idle or not last.active):
+        self.tell_suspended(now.suspended and aborted and not setting.clear_on_abort)
+        if now.idle and last.auto and (not last.idle or not last.has_frame):
             # a program has come to its end; a user interface may have chosen another mode already
             self.ended = time.monotonic()
         elif now.auto and now.idle and not last.auto and setting.clear_at_start:
@@ -227,19 +241,26 @@ class Guard:
             elif time.monotonic() - self.ended >= patience:
                 self.due, self.ended = "end", None
 
+    def tell_suspended(self, left):
+        """Tells once of a frame that an abort has left suspended."""
+        if left and not self.told_suspended:
+            self.tell("something was aborted while the frame was suspended, and it still is: o<frame_resume> call brings it back, "
+                      "o<frame_off> call removes it. G90 may be in force in place of G91")
+        self.told_suspended = left
+
     def check_run(self, now, last):
         """Stops a run that must not go on with this frame."""
         # a program waits and goes on by itself as well; a start is a command
         begun = now.auto and (last.idle or (last.interpreter == linuxcnc.INTERP_WAITING
                                             and now.interpreter == linuxcnc.INTERP_READING
                                             and now.serial != last.serial))
-        if begun and last.active and last.acknowledged == now.acknowledged and \
+        if begun and last.has_frame and last.acknowledged == now.acknowledged and \
                 (self.settings.clear_at_start or self.due):
             self.due = self.due or "start"
-            self.stop("a frame was still active when the program started: it is removed now, "
-                      "start the program again")
+            self.stop(f"a frame was still {'active' if now.active else 'suspended'} when the program started: it is removed "
+                      "now, start the program again")
             return
-        if not now.moving or not now.coordinated:
+        if not now.active or not now.moving or not now.coordinated:
             return
         if now.non_modal in MACHINE_MOVES:
             code = MACHINE_MOVES[now.non_modal]
@@ -289,13 +310,18 @@ class Guard:
         return all(abs(self.status.position[axis] - hal.get_value(f"axis.{letter}.pos-cmd")) < SAME
                    for axis, letter in enumerate("xyzabcuvw") if self.status.axis_mask >> axis & 1)
 
+    def is_gone(self):
+        """Whether there is no frame any more, nor one that a command would bring back."""
+        return not self.pins["active"] and self.pins["operations"] == 0
+
     def remove(self, before):
-        """The frame has to go and no program runs: framekins removes it as soon as motion stands outside of teleop."""
-        gone = self.wait(lambda: not self.pins["active"], 0.02)
+        """The frame has to go and no program runs: framekins removes it as soon as motion stands outside of teleop, and forgets
+        one that is suspended at once."""
+        gone = self.wait(self.is_gone, 0.02)
         if not gone and before.on and before.teleop and not before.moving and self.may_try():
             # a change in teleop would make the joints jump: leave it for a moment
             self.mode(linuxcnc.MODE_MDI)
-            gone = self.wait(lambda: not self.pins["active"], 0.2)
+            gone = self.wait(self.is_gone, 0.2)
             if gone:
                 self.read_anew()
             if self.look().mode == linuxcnc.MODE_MDI:
@@ -375,11 +401,13 @@ class Guard:
 
 
 def make_component(settings):
-    """The settings as pins."""
+    """The settings as pins, and those of the guard."""
     component = hal.component(NAME)
     for pin, kind, value in (
             ("analog-output", hal.HAL_S32, settings.analog_output),
             ("units-per-mm", hal.HAL_FLOAT, settings.units_per_mm),
+            ("axes", hal.HAL_S32, settings.axes),
+            ("programs-ended", hal.HAL_S32, 0),
             ("type-output", hal.HAL_S32, settings.type_output),
             ("rots-convention", hal.HAL_S32, int(settings.rots_convention == "k2"))):
         component.newpin(pin, kind, hal.HAL_OUT)
@@ -406,7 +434,7 @@ def set_up_framekins(settings):
     if "framekins.active" not in pins:
         return ("framekins is not loaded: write [KINS]KINEMATICS = framekins coordinates=..., and load frame_guard "
                 "behind it")
-    if "framekins.guard.parameters-pending" not in pins:
+    if "framekins.guard.operations" not in pins:
         return "the framekins that is installed is older than frame_guard: install both from one version of framepath"
     hal.set_p("framekins.release-on-abort", str(int(settings.clear_on_abort)))
     machine = settings.tool_length == "machine"

@@ -104,7 +104,7 @@ KEYS = {
 class Settings:
     """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
 
-    units_per_mm: machine units in a millimetre; task_cycle: period of LinuxCNC's task, s; screen_aborts_mdi: whether the
+    units_per_mm: machine units in a millimetre; axes: which of X = 1, Y = 2 and Z = 4 there are, as a sum; task_cycle: period of LinuxCNC's task, s; screen_aborts_mdi: whether the
     screen aborts what others do in MDI right behind a program.
     """
 
@@ -133,6 +133,7 @@ class Settings:
             if where and where != SECTION and where.upper() == SECTION:
                 raise SettingsError(f"{path}:{line}: section [{where}]: write [{SECTION}], in capitals")
         self.units_per_mm = _linear_units(ini)
+        self.axes = _linear_axes(ini)
         self.task_cycle = _task_cycle(ini)
         self.screen_aborts_mdi = _aborts_mdi(ini)
         _check_coordinates(ini)
@@ -155,6 +156,12 @@ def _linear_units(ini):
     if not 0 < units < float("inf"):
         raise SettingsError(f"{ini.path}:{line}: [TRAJ]LINEAR_UNITS = {text}: write mm or inch")
     return units
+
+
+def _linear_axes(ini):
+    """The sum of X = 1, Y = 2 and Z = 4 of the machine."""
+    letters, _ = ini.find("TRAJ", "COORDINATES")
+    return sum(1 << n for n, letter in enumerate("XYZ") if letters is None or letter in letters.upper())
 
 
 def _joint_letters(ini):

@@ -13,7 +13,7 @@ pub struct FrameRelease {
     /// `framekins.command` in the period before.
     command: f64,
     due: bool,
-    /// An abort or machine off: what is suspended is not to come back either.
+    /// An abort, machine off, or the guard: what is suspended is not to come back either.
     ended: bool,
     /// for how many periods motion has allowed it
     standing: u32,
@@ -28,14 +28,14 @@ impl FrameRelease {
     pub fn watch(&mut self, inputs: &FrameInputs, guard: Guard, framed: bool, standing: bool) {
         let aborted = inputs.command == 0.0 && self.command != 0.0;
         self.command = inputs.command;
-        self.ended = inputs.release_on_abort && (aborted || !inputs.enabled);
+        self.ended = inputs.release || (inputs.release_on_abort && (aborted || !inputs.enabled));
         self.standing = if standing {
             self.standing.saturating_add(1)
         } else {
             0
         };
         let lost = guard == Guard::Lost && !inputs.enabled;
-        self.due = framed && (self.due || self.ended || inputs.release || lost);
+        self.due = framed && (self.due || self.ended || lost);
     }
 
     /// Whether motion has stood for so long that a switch takes the pose that was reached.

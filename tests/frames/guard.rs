@@ -137,6 +137,23 @@ fn a_suspended_frame_does_not_come_back_after_an_abort() {
 }
 
 #[test]
+fn a_suspended_frame_does_not_come_back_once_the_guard_has_released_it() {
+    let mut motion = framed();
+    motion.inputs.release_on_abort = false;
+    assert_eq!(motion.send(13, [0.0; 3]), None);
+    assert_eq!(motion.out.operations, 1);
+    motion.inputs.release = true;
+    motion.period();
+    motion.inputs.release = false;
+    motion.period();
+    assert_eq!(motion.out.operations, 0);
+    // The interpreter has had its position without the frame all the while.
+    assert_eq!(motion.out.releases, 0);
+    assert_eq!(motion.send(11, [0.0; 3]), None);
+    assert!(!motion.out.active);
+}
+
+#[test]
 fn nothing_moves_until_the_interpreter_knows() {
     let mut motion = framed();
     assert!(!motion.out.hold);

@@ -31,6 +31,8 @@ OFF = ["expect", "framekins.active", "FALSE"]
 #: and the interpreter has its position without it
 KNOWN = ["expect", "framekins.hold", "FALSE"]
 ON = ["expect", "framekins.active", "TRUE"]
+#: and none is kept that a command would bring back
+FORGOTTEN = ["expect", "framekins.operations", "0"]
 
 
 class Case(unittest.TestCase):
@@ -103,6 +105,46 @@ class Clearing(Case):
         y = y[next(n for n, place in enumerate(y) if abs(place - 7) < 1e-9):]
         self.assertLess(max(y) - min(y), 1e-9)
         self.at(result, "end", (15, 7, 3))
+
+    def test_a_suspended_frame_is_forgotten_as_well(self):
+        # at the end of its program, and where a program starts behind one of MDI
+        suspended = [["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "o<frame_suspend> call"], ["mdi", "G0 X0 Y0"]]
+        back = ["mdi", "o<frame_refresh> call"]
+        result = harness.run([
+            run("leave"), FORGOTTEN, back, ["mdi", "G0 X10"], ["note", "MDI"],
+            run("leave"), FORGOTTEN, run("next"), ["note", "program"],
+            *suspended, ["switch_mode", "auto"], FORGOTTEN, run("next"), ["note", "start"],
+            # in MDI itself it comes back
+            *suspended, ["sleep", 0.2], back, ["mdi", "G0 X10"], ["note", "kept"],
+        ], programs(leave="o<rot> call [0] [0] [90]\nG1 X2\no<frame_suspend> call\nG53 G0 X0 Y0 Z0\nM2\n",
+                    next="G0 X0 Y0\nG43 H2\no<frame_refresh> call\nG1 X10\nG49\nM2\n"), ini=QUICK)
+        self.fine(result)
+        for name in ("MDI", "program", "start"):
+            self.at(result, name, (10, 0, 0))
+        self.at(result, "kept", (0, 10, 0))
+
+    def test_a_suspended_frame_at_a_second_start(self):
+        result = harness.run([
+            run("leave"), ["sleep", 0.3], ["forget"], ["start", "PROGRAMS/next.ngc"], ["finish"], FORGOTTEN, ["recall", "stopped"],
+            run("next"), ["note", "end"],
+        ], programs(leave="o<rot> call [0] [0] [90]\no<frame_suspend> call\nM2\n",
+                    next="G4 P0.5\no<frame_refresh> call\nG1 X10\nM2\n"), ini={**QUICK, **clearing(True, False, True)})
+        self.fine(result)
+        self.assertIn("a frame was still suspended when the program started", "\n".join(result.answers["stopped"]))
+        self.at(result, "end", (10, 0, 0))
+
+    def test_an_abort_that_leaves_a_frame_suspended_says_so(self):
+        result = harness.run([
+            ["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G91 G1 X1 F3000"], ["forget"], ["mdi_start", "G79 Z400"], ["wait_moving"],
+            ["abort"], ["sleep", 0.3], ["recall", "aborted"], ["mdi", "o<frame_resume> call"], ["mdi", "G90 G1 X5 Z0"],
+            ["note", "end"],
+        ], ini=clearing(True, True, False))
+        self.fine(result)
+        text = "\n".join(result.answers["aborted"])
+        for part in ("the frame was suspended, and it still is", "o<frame_resume> call", "o<frame_off> call", "G90"):
+            self.assertIn(part, text)
+        self.assertEqual(text.count("still is"), 1, text)
+        self.at(result, "end", (0, 5, 0))
 
     def test_on_reset(self):
         frame = [["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X10 Y0"]]
