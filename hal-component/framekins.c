@@ -186,9 +186,11 @@ static void update(void *argument, long period)
     if (is_misplaced())
         return;
     framepath_kinematics_update(&in, &out);
-    if (out.refusal && out.refusal != *pins->refusal)
+    /* Of each command, also where the one before was refused for the same reason. */
+    int is_refused = out.refusal && (out.refusal != *pins->refusal || out.acknowledged != *pins->acknowledged);
+    if (is_refused)
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: frame refused: %s\n", framepath_kinematics_refusal_text(out.refusal));
-    if ((out.refusal && out.refusal != *pins->refusal) || (out.parameters_pending && !*pins->parameters_pending))
+    if (is_refused || (out.parameters_pending && !*pins->parameters_pending))
         tell_impossible_pin(&in);
     tell_alarm(out.alarm);
     write_pins(&out);

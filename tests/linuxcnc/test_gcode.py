@@ -256,6 +256,8 @@ class WrongUse(unittest.TestCase):
             ("G79", "G79 needs X, Y or Z"),
             ("G77.1 X1 P5", "G77.1 takes X, Y and Z only"),
             ("G77 X5", "G77 takes no words"),
+            # the reason and the remedy each time
+            *[("G77.5 X0", "framekins: frame refused: a scale factor is 0; use 1 for an axis that keeps its size")] * 2,
         ]
         steps: list[list] = [["mdi", "G21 G61.1 G17 G90"]]
         for number, (line, _) in enumerate(wrong):
