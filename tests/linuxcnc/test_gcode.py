@@ -263,8 +263,12 @@ class WrongUse(unittest.TestCase):
         for number, (line, _) in enumerate(wrong):
             steps += [["forget"], ["mdi", line], ["sleep", 0.05], ["recall", str(number)]]
         # with cutter compensation on, nothing may change
-        steps += [["forget"], ["mdi", "G41 D1"], ["mdi", "o<trans> call [1] [1] [1]"], ["recall", "compensation"],
-                  ["mdi", "G40"], ["mdi", "G17.1"], ["forget"], ["mdi", "o<rot_rpl> call [5]"], ["recall", "plane"],
+        compensated = [("o<trans> call [1] [1] [1]", "o<trans> and G77.1"), ("G78.2 X5", "o<arot> and G78.2"),
+                       ("G77.4 X5 Y5", "its siblings and G77.4"), ("G77", "o<frame_off>, G77 and G69"),
+                       ("G78", "o<frame_refresh>, o<frame_resume> and G78"), ("G79 X5", "G79 and o<machine_move>")]
+        for line, _ in compensated:
+            steps += [["forget"], ["mdi", "G41 D1"], ["mdi", line], ["sleep", 0.05], ["recall", line]]
+        steps += [["mdi", "G40"], ["mdi", "G17.1"], ["forget"], ["mdi", "o<rot_rpl> call [5]"], ["recall", "plane"],
                   ["note", "end"], ["getp", "active", "framekins.active"]]
         result = harness.run(steps, ini=QUICK)
         self.assertIsNone(result.failure, result.log)
@@ -272,7 +276,10 @@ class WrongUse(unittest.TestCase):
             text = "\n".join(result.answers[str(number)])
             self.assertTrue(text, f"{line}: nothing was said")
             self.assertIn(words, text, line)
-        self.assertIn("radius compensation", "\n".join(result.answers["compensation"]))
+        for line, words in compensated:
+            self.assertEqual(len(result.answers[line]), 1, result.answers[line])
+            self.assertIn(words, result.answers[line][0])
+            self.assertIn("end the cutter compensation with G40 first", result.answers[line][0])
         self.assertIn("G17, G18 and G19 only", "\n".join(result.answers["plane"]))
         self.assertEqual(result.answers["active"], "FALSE")
         for joint in result.answers["end"]["joints"][:3]:

@@ -146,6 +146,28 @@ class Clearing(Case):
         self.assertEqual(text.count("still is"), 1, text)
         self.at(result, "end", (0, 5, 0))
 
+    def test_an_abort_with_cutter_compensation_on(self):
+        moves = [["mdi", "o<rot> call [20] [0] [0]"], ["mdi", "G41.1 D2"], ["mdi", "G1 X10 F1000"], ["mdi_start", "G1 X100"],
+                 ["wait_moving"]]
+        result = harness.run([
+            *moves, ["abort"], OFF, KNOWN, ["sleep", 0.3], ["note", "aborted"], ["sleep", 0.3], ["note", "later"],
+            ["mdi", "G0 X0 Y0 Z0"], ["note", "moved"],
+            *moves, ["estop"], OFF, ["on"], ["mdi", "G0 X0 Y0 Z0"], ["note", "stopped"],
+            # what an error has held back for a corner does not run either
+            ["forget"], run("corner"), OFF, KNOWN, ["sleep", 0.3], ["recall", "said"], ["note", "error"],
+            ["mdi", "G0 X0 Y0 Z0"], ["note", "end"],
+        ], programs(corner="o<rot> call [20] [0] [0]\nG41.1 D2\nG1 X10 Y5\nG1 X30\nG1 X31 Y30\nG77.3 R45\nX20\nG40\nM2\n"),
+            ini=QUICK)
+        self.fine(result)
+        self.at(result, "later", result.answers["aborted"]["joints"][:3])
+        self.assertLess(result.answers["aborted"]["joints"][0], 90)
+        for name in ("moved", "stopped", "end"):
+            self.at(result, name, (0, 0, 0))
+        self.assertIn("G77.3 change the frame: end the cutter compensation with G40 first", "\n".join(result.answers["said"]))
+        self.assertEqual(len(result.answers["said"]), 1, result.answers["said"])
+        # the move to X31 Y30 was not its turn yet
+        self.assertLess(result.answers["error"]["joints"][1], 20)
+
     def test_on_reset(self):
         frame = [["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X10 Y0"]]
         result = harness.run([
