@@ -198,9 +198,11 @@ class Guard:
         self.last = self.look() if going or unread else now
 
     def count_programs(self, now, last):
-        """Counts ends of programs, and when AUTO is chosen: what subroutines keep for the next block is not for the next program.
-        Only while none runs, or a program would see its own beginning."""
-        if now.idle and ((last.auto and not last.idle) or (now.auto and not last.auto)):
+        """Counts ends of programs: what subroutines keep for the next block is not for the next program. Only while none runs, or
+        a program would see its own beginning."""
+        # a short one may come and go between two looks, and leaves the number of the command that started it
+        changed = not last.idle or now.serial != last.serial or now.mode != last.mode
+        if now.idle and changed and (now.auto or last.auto):
             self.pins["programs-ended"] += 1
 
     def follow_commands(self, now, last):

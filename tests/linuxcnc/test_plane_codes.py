@@ -195,6 +195,24 @@ class WrongUse(unittest.TestCase):
             self.assertAlmostEqual(joint, 0, places=9)
 
 
+class AcrossPrograms(unittest.TestCase):
+    def test_blocks_do_not_go_on_in_another_program(self):
+        begin = "G21 G90\nG68.2 P2 Q1 X1 Y1 Z0\n"
+        rest = "G68.2 P2 Q2 X5 Y1 Z0\nG68.2 P2 Q3 X1 Y5 Z0\n"
+        steps = [["run", "PROGRAMS/begin.ngc"], ["sleep", 0.1], ["forget"], ["run", "PROGRAMS/rest.ngc"], ["sleep", 0.1],
+                 ["recall", "rest"], ["run", "PROGRAMS/begin.ngc"], ["sleep", 0.1], ["run", "PROGRAMS/whole.ngc"],
+                 ["run", "PROGRAMS/begin.ngc"], ["sleep", 0.1], ["run", "PROGRAMS/normal.ngc"],
+                 # line by line in MDI
+                 *(["mdi", line] for line in (begin + rest).splitlines()), ["getp", "active", "framekins.active"]]
+        result = harness.run(steps, {"begin.ngc": begin + "M2\n", "rest.ngc": f"G21 G90\n{rest}G0 X1\nM2\n",
+                                     "whole.ngc": f"{begin}{rest}G0 X1\nM2\n", "normal.ngc": "G21 G90\nG68.4 J10\nM2\n"},
+                             ini=QUICK, record=False)
+        self.assertIsNone(result.failure, result.log)
+        self.assertEqual(result.errors, [], result.log)
+        self.assertIn("G68.2 P2 begins with Q0 or Q1", "\n".join(result.answers["rest"]))
+        self.assertEqual(result.answers["active"], "TRUE")
+
+
 class FiveAxes(unittest.TestCase):
     """On the sample with a tilting rotary table."""
 
