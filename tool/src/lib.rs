@@ -33,7 +33,7 @@ pub(crate) mod machine;
 pub(crate) mod memory_file;
 #[cfg(feature = "optimum")]
 pub(crate) mod optimum;
-pub(crate) mod output;
+pub mod output;
 pub(crate) mod page;
 pub mod part_program;
 pub(crate) mod path;
@@ -42,6 +42,7 @@ pub mod plan;
 pub mod program;
 pub mod record;
 pub mod report;
+pub(crate) mod signals;
 pub mod source;
 pub(crate) mod wiring;
 pub mod write;

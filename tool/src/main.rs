@@ -1,6 +1,6 @@
 //! The command line of the tool.
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use framepath_tool::check::{self, CheckArguments};
 #[cfg(feature = "linuxcnc")]
 use framepath_tool::compare::{self, CompareArguments};
@@ -8,11 +8,13 @@ use framepath_tool::completions::{self, CompletionsArguments};
 use framepath_tool::configure::{self, ConfigureArguments};
 use framepath_tool::filter::{FilterArguments, Told, filter};
 use framepath_tool::generate::{self, GenerateArguments};
+use framepath_tool::output::tell;
 #[cfg(feature = "linuxcnc")]
 use framepath_tool::plan::{self, PlanArguments};
 use framepath_tool::record::{self, RecordArguments};
 use framepath_tool::report::{self, ReportArguments};
 use std::fmt::Display;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// Frames and smooth motion for LinuxCNC.
@@ -75,18 +77,58 @@ impl NotBuilt {
             .iter()
             .map(|text| text.display().to_string())
             .collect();
-        eprintln!(
+        tell(format_args!(
             "framepath {command}: this framepath was built without LinuxCNC, whose interpreter runs the program\n\
              help: apt-get install linuxcnc-uspace linuxcnc-uspace-dev libclang-dev g++, build with \
              `cargo install --locked --path tool`, then run: framepath {command} {}",
             asked.join(" ")
-        );
+        ));
         ExitCode::FAILURE
     }
 }
 
+/// The command line. A number below 0 behind an option is its value, and refused as such.
+fn command_line() -> clap::Command {
+    let commands = Arguments::command();
+    let names: Vec<String> = commands
+        .get_subcommands()
+        .map(|command| command.get_name().to_owned())
+        .collect();
+    names.into_iter().fold(commands, |commands, name| {
+        commands.mut_subcommand(name, |command| {
+            command.mut_args(|argument| {
+                let takes_value = argument.get_action().takes_values();
+                let is_option = argument.get_long().is_some() && takes_value;
+                match is_option {
+                    true => argument.allow_negative_numbers(true),
+                    false => argument,
+                }
+            })
+        })
+    })
+}
+
+/// Help, version, or what is wrong with the arguments.
+fn answer(told: &clap::Error) -> ExitCode {
+    let written = told.print().and_then(|()| std::io::stdout().flush());
+    match written {
+        Err(error) if !told.use_stderr() => {
+            finish(Err(format!("standard output: cannot be written: {error}")))
+        }
+        _ => ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(1)),
+    }
+}
+
 fn main() -> ExitCode {
-    match Arguments::parse().command {
+    let matches = command_line().try_get_matches();
+    match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
+        Ok(arguments) => run(arguments.command),
+        Err(told) => answer(&told),
+    }
+}
+
+fn run(command: Command) -> ExitCode {
+    match command {
         Command::Filter(arguments) => run_filter(&arguments),
         Command::Record(arguments) => finish(record::run(&arguments)),
         Command::Report(arguments) => finish(report::run(&arguments)),
@@ -114,7 +156,7 @@ fn finish<E: Display>(result: Result<(), E>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{}", error.to_string().trim_end());
+            tell(error.to_string().trim_end());
             ExitCode::FAILURE
         }
     }
@@ -145,20 +187,22 @@ fn refusal_of_filter(words: &[String]) -> Result<(), String> {
 }
 
 fn run_filter(arguments: &FilterArguments) -> ExitCode {
-    let mut tell = |told: Told| match told {
-        Told::Progress(percent) => eprintln!("FILTER_PROGRESS={percent}"),
-        Told::Note(note) => eprintln!("{note}"),
+    let mut say = |told: Told| match told {
+        Told::Progress(percent) => tell(format_args!("FILTER_PROGRESS={percent}")),
+        Told::Note(note) => tell(note),
     };
-    match filter(arguments, &mut tell) {
+    match filter(arguments, &mut say) {
         Ok(translated) => match translated.write_to(&mut std::io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
-                eprintln!("error: the program cannot be written: {error}");
+                tell(format_args!(
+                    "error: the program cannot be written: {error}"
+                ));
                 ExitCode::FAILURE
             }
         },
         Err(refused) => {
-            eprint!("{}", refused.0);
+            tell(refused.0.trim_end_matches('\n'));
             ExitCode::FAILURE
         }
     }

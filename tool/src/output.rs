@@ -1,5 +1,6 @@
-//! Files that the commands write: each is there whole, or as it was before.
+//! Files that the commands write: each is there whole, or as it was before. And what they say beside it.
 
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 #[cfg(unix)]
@@ -7,20 +8,40 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use tempfile::TempPath;
 
+/// A line on standard error. That nobody can read it changes nothing of what is done.
+pub fn tell(text: impl Display) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
 /// The first of these files that is named twice; devices take what comes as often as it comes.
 #[cfg(feature = "linuxcnc")]
 pub(crate) fn named_twice<'a>(files: &[&'a Option<PathBuf>]) -> Option<&'a Path> {
     let mut named = Vec::new();
     for file in files.iter().filter_map(|file| file.as_deref()) {
-        let is_device = file.exists() && !file.is_file();
-        // "out" and "./out" are the same.
-        let place = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-        if named.contains(&place) && !is_device {
+        let place = place_of(file);
+        if named.contains(&place) && !is_device(file) {
             return Some(file);
         }
         named.push(place);
     }
     None
+}
+
+fn is_device(file: &Path) -> bool {
+    file.exists() && !file.is_file()
+}
+
+/// "out" and "./out" are the same, and so is a link to it.
+fn place_of(file: &Path) -> PathBuf {
+    if let Ok(place) = std::fs::canonicalize(file) {
+        return place;
+    }
+    let absolute = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    let folder = absolute.parent().map(std::fs::canonicalize);
+    match (folder, absolute.file_name()) {
+        (Some(Ok(folder)), Some(name)) => folder.join(name),
+        _ => absolute,
+    }
 }
 
 /// A file that takes its place when it is complete: until then it is written beside it, under

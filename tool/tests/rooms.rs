@@ -6,12 +6,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What the commands share, and what each is for.
-const ROOMS: [(&str, &str); 24] = [
+const ROOMS: [(&str, &str); 25] = [
     (
         "arguments",
         "what the commands share in reading their arguments",
     ),
     ("output", "files that are there whole or not at all"),
+    ("signals", "being asked to stop"),
     ("json", "the one form of all JSON that is printed"),
     ("memory_file", "files in memory, for programs to be started"),
     (

@@ -41,7 +41,7 @@ pub(crate) fn serve() -> ExitCode {
     match try_serve() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            crate::output::tell(format_args!("error: {error}"));
             ExitCode::FAILURE
         }
     }

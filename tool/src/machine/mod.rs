@@ -16,6 +16,6 @@ pub use error::IniError;
 /// Tells the user what an INI file does not say and what is taken instead.
 pub(crate) fn warn_of<'a>(assumed: impl IntoIterator<Item = &'a String>) {
     for text in assumed {
-        eprintln!("warning: {text}");
+        crate::output::tell(format_args!("warning: {text}"));
     }
 }

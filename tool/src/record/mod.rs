@@ -18,15 +18,14 @@ pub use error::RecordError;
 
 use crate::arguments::positive;
 use crate::format::grouped;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, tell};
+use crate::signals::stop_on_signals;
 use attachment::{Attached, recover};
 use program_end::{LONG_REST, ProgramEnd};
 use rows::{Sample, Table};
 use sampler::{Halsampler, Printed};
-use signal_hook::consts::{SIGINT, SIGTERM};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use wiring::{Columns, Wiring};
@@ -99,17 +98,6 @@ pub fn run(arguments: &RecordArguments) -> Result<(), RecordError> {
         .map_or(Ok(()), |reason| Err(RecordError::Ended(reason)))
 }
 
-/// What is set when the process is asked to stop.
-fn stop_on_signals() -> io::Result<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        signal_hook::flag::register(signal, Arc::clone(&stop))?;
-    }
-    #[cfg(unix)]
-    signal_hook::flag::register(signal_hook::consts::SIGHUP, Arc::clone(&stop))?;
-    Ok(stop)
-}
-
 /// Looks at the LinuxCNC that runs, and takes away what an earlier recording has left.
 fn prepare(arguments: &RecordArguments) -> Result<Wiring, RecordError> {
     let state = halcmd::state();
@@ -122,7 +110,7 @@ fn prepare(arguments: &RecordArguments) -> Result<Wiring, RecordError> {
     }
     let mut state = state?;
     if recover(&state)? {
-        eprintln!("taken away what a recording had left that was killed");
+        tell("taken away what a recording had left that was killed");
         state = halcmd::state()?;
     }
     Wiring::new(&state, std::process::id(), arguments.buffer)
@@ -143,15 +131,15 @@ fn announce(arguments: &RecordArguments, wiring: &Wiring) {
             .map(|seconds| format!("{seconds} s are over")),
     );
     until.push("Ctrl-C".to_owned());
-    eprintln!(
+    tell(format_args!(
         "recording {joints} joints and the axes {axes} every {} ms, until {}",
         wiring.period * 1e3,
         until.join(" or ")
-    );
+    ));
     if arguments.until_done && !wiring.columns.idle {
-        eprintln!(
+        tell(format_args!(
             "halui is not loaded: the program counts as ended when the machine has stood for {LONG_REST} s"
-        );
+        ));
     }
 }
 
