@@ -10,6 +10,14 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A speed, an acceleration or a jerk that machines may have, in their units: the planner counts with its square and cube.
+pub(crate) fn rate(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        number if (1e-3..=1e9).contains(&number) => Ok(number),
+        _ => Err("a number from 0.001 to 1e9 is needed".to_owned()),
+    }
+}
+
 /// A number from 0 up.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

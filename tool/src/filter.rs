@@ -14,7 +14,7 @@ use crate::dialects::run_program;
 use crate::dialects::settings::Settings;
 use crate::part_program::{Opened, Refused, open, refusal};
 use crate::program::{Block, FrameScope, Sink};
-use crate::source::Sources;
+use crate::source::{Sources, Span};
 use crate::write::{self, WriteSettings, Writer};
 use std::io::{self, Seek, SeekFrom, Write};
 use tempfile::SpooledTempFile;
@@ -64,6 +64,9 @@ pub fn filter(
     let settings = arguments
         .settings()
         .map_err(|error| Refused(format!("error: {error}\n")))?;
+    for warning in arguments.warnings() {
+        tell(Told::Note(warning));
+    }
     let opened = open(arguments.dialect, &arguments.file, &settings.reading)?;
     let mut job = Job {
         arguments,
@@ -152,12 +155,14 @@ impl Job<'_> {
             chord_tolerance: self.arguments.chord_tolerance,
             arc_tolerance: &self.settings.arc_tolerance,
         };
+        let blocks;
         let written = {
             let mut output = Output {
                 writer: write::writer(backend, &write_settings, &mut body),
                 length: self.opened.length,
                 told: &mut self.told,
                 tell: &mut *self.tell,
+                blocks: 0,
             };
             let about = About {
                 sources: &mut sources,
@@ -166,8 +171,12 @@ impl Job<'_> {
             };
             let path = &self.arguments.file;
             run_program(self.opened.dialect, path, &self.settings, about);
+            blocks = output.blocks;
             output.writer.finish()
         };
+        if blocks == 0 && diagnostics.errors() == 0 {
+            diagnostics.push(nothing_in_it());
+        }
         for note in diagnostics.notes() {
             (self.tell)(Told::Note(note.clone()));
         }
@@ -191,6 +200,13 @@ impl Job<'_> {
     }
 }
 
+/// A file that was not transferred, or an empty one: LinuxCNC would refuse a program without its end.
+fn nothing_in_it() -> Diagnostic {
+    let message = "there is no block in this program: nothing that a machine could do, and no end";
+    Diagnostic::error(Span::start_of(0), message)
+        .help("send the file once more, or write M30 (M02) at its end if it is to do nothing")
+}
+
 /// The warnings as the operator is to see them when the program starts.
 fn operator_messages(diagnostics: &Diagnostics, sources: &Sources) -> Vec<String> {
     let warnings = diagnostics.warnings();
@@ -208,6 +224,8 @@ struct Output<'a> {
     length: u64,
     told: &'a mut u32,
     tell: &'a mut dyn FnMut(Told),
+    /// How many blocks there were.
+    blocks: usize,
 }
 
 impl Output<'_> {
@@ -227,6 +245,7 @@ impl Sink for Output<'_> {
         if let Some(last) = blocks.last().filter(|last| pieces && last.origin.file == 0) {
             self.progress(last.origin.span.end as f64 / self.length.max(1) as f64);
         }
+        self.blocks += blocks.len();
         for (index, block) in blocks.iter().enumerate() {
             self.writer.block(block, scope, sources);
             if !pieces && index.is_multiple_of(1024) {

@@ -77,6 +77,7 @@ impl Conditions {
     fn of_machine(file: &Path, arguments: &CompareArguments) -> Result<Conditions, CompareError> {
         let ini = Ini::read(file)?;
         let machine = Machine::from_ini(&ini)?;
+        warn_of(ini.passed_over());
         warn_of(machine.axes.iter().flat_map(|axis| &axis.assumed));
         let period = machine.servo_period;
         let mut joints = JointSettings::read(&ini);

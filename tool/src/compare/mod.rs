@@ -34,7 +34,7 @@ mod tube;
 
 pub use error::CompareError;
 
-use crate::arguments::{not_negative, period, positive};
+use crate::arguments::{not_negative, period, positive, rate};
 use crate::format::significant;
 use crate::host;
 use crate::host::operator::{Action, Event, at_time, random_events};
@@ -101,7 +101,7 @@ pub struct CompareArguments {
     )]
     pub jerk: Vec<Jerk>,
     /// Raise every F to at least this
-    #[arg(long, value_name = "MM_MIN", value_parser = positive)]
+    #[arg(long, value_name = "MM_MIN", value_parser = rate)]
     pub feed_at_least: Option<f64>,
     /// Servo period [default: 0.001]
     #[arg(long, value_name = "SECONDS", value_parser = period)]
@@ -114,7 +114,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(2..))]
     pub queue: Vec<u16>,
     /// Greatest velocity along the path, mm/s ([TRAJ]MAX_LINEAR_VELOCITY) [default: none]
-    #[arg(long, value_name = "V", value_parser = positive)]
+    #[arg(long, value_name = "V", value_parser = rate)]
     pub velocity_limit: Option<f64>,
     /// Greatest feed override of the machine ([DISPLAY]MAX_FEED_OVERRIDE), for which LinuxCNC's own
     /// planner leaves room when it blends [default: 1]

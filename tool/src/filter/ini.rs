@@ -28,6 +28,17 @@ pub fn retract_z(file: &Path) -> Result<Option<f64>, IniError> {
     number(file, "RETRACT_Z", &PLACES, problem)
 }
 
+/// The lines that LinuxCNC passes over.
+pub fn warnings(file: &Path) -> Vec<String> {
+    let passed_over = |ini: Ini| ini.passed_over().to_vec();
+    // That it cannot be read is said by who needs a value of it.
+    let lines = Ini::read(file).map(passed_over).unwrap_or_default();
+    lines
+        .iter()
+        .map(|line| format!("warning: {line}"))
+        .collect()
+}
+
 fn number(
     file: &Path,
     key: &str,

@@ -168,6 +168,12 @@ impl FilterArguments {
         })
     }
 
+    /// What is to be said of the INI file: the lines that LinuxCNC passes over.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        self.ini_file()
+            .map_or(Vec::new(), |file| ini::warnings(&file))
+    }
+
     /// The INI file of the LinuxCNC that runs the filter: the script that starts it names the file to all that it
     /// runs.
     fn ini_file(&self) -> Option<PathBuf> {

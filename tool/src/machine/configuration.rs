@@ -273,6 +273,9 @@ fn joint(
 /// What LinuxCNC takes for a velocity or acceleration of an axis or a joint that the INI file does not give.
 const DEFAULT_LIMIT: f64 = 1.0;
 
+/// Stands for a velocity or acceleration that is infinite, which LinuxCNC takes as well: no machine reaches it.
+pub const UNLIMITED: f64 = 1e9;
+
 /// The limits of an axis or a joint, and what is said of those that are missing.
 fn limits(
     ini: &Ini,
@@ -292,8 +295,8 @@ fn limits(
         }
     };
     let limits = MemberLimits {
-        velocity: limit("MAX_VELOCITY", "s", "100")?,
-        acceleration: limit("MAX_ACCELERATION", "s2", "1000")?,
+        velocity: limit("MAX_VELOCITY", "s", "100")?.min(UNLIMITED),
+        acceleration: limit("MAX_ACCELERATION", "s2", "1000")?.min(UNLIMITED),
         jerk: ini.optional_limit(section, "MAX_JERK")?.or(other_jerk),
     };
     Ok((limits, assumed))

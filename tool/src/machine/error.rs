@@ -23,6 +23,16 @@ pub enum IniError {
         /// What is wrong and the remedy.
         problem: String,
     },
+    /// A line that LinuxCNC reads and this does not: what it has to say is not known.
+    #[error("{}:{line}: {problem}", file.display())]
+    Unread {
+        /// The file.
+        file: PathBuf,
+        /// Line, 1 for the first.
+        line: usize,
+        /// What is wrong and the remedy.
+        problem: String,
+    },
     /// A section or key is missing.
     #[error("{}: {entry} is missing: {remedy}", file.display())]
     Missing {

@@ -10,23 +10,35 @@ pub(super) fn included(line: &str) -> Option<&str> {
     is_word.then(|| rest.trim())
 }
 
+/// Why a file is not there.
+pub(super) enum NotIncluded {
+    /// For LinuxCNC neither.
+    Missing(String),
+    /// LinuxCNC may well read it.
+    NotExpanded(String),
+}
+
 /// The file that `name` stands for in the INI file `ini`, and its text.
-pub(super) fn read(ini: &Path, name: &str) -> Result<(PathBuf, String), String> {
-    let path = expanded(name)?;
+pub(super) fn read(ini: &Path, name: &str) -> Result<(PathBuf, String), NotIncluded> {
+    let name = name.split(" #").next().unwrap_or("").trim();
+    let name = name.trim_matches(['"', '\'']);
+    if name.is_empty() {
+        let problem = "the name of a file is missing";
+        return Err(NotIncluded::Missing(problem.to_owned()));
+    }
+    let path = expanded(name).map_err(NotIncluded::NotExpanded)?;
     let path = ini.parent().unwrap_or(Path::new("")).join(path);
     match text_file::read(&path) {
         Ok(text) => Ok((path, text)),
-        Err(error) => Err(format!("{} cannot be read: {error}", path.display())),
+        Err(error) => {
+            let problem = format!("{} cannot be read: {error}", path.display());
+            Err(NotIncluded::Missing(problem))
+        }
     }
 }
 
 /// The shell reads the name. Variables and the home folder are put in here, nothing is run.
 fn expanded(name: &str) -> Result<String, String> {
-    let name = name.split(" #").next().unwrap_or("").trim();
-    let name = name.trim_matches(['"', '\'']);
-    if name.is_empty() {
-        return Err("the name of a file is missing".to_owned());
-    }
     let name = match name.strip_prefix("~/") {
         Some(rest) => format!("$HOME/{rest}"),
         None => name.to_owned(),

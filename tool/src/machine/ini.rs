@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::error::IniError;
-use super::include;
+use super::include::{self, NotIncluded};
 use super::place::Place;
 use super::text_file;
 
@@ -46,15 +46,25 @@ pub struct Ini {
     file: PathBuf,
     entries: Vec<Entry>,
     headings: Vec<Heading>,
+    passed_over: Vec<String>,
 }
 
 impl Ini {
-    /// Reads a file.
+    /// Reads a file as LinuxCNC does: [`Ini::passed_over`] has the lines that are nothing to it.
     ///
     /// # Errors
-    /// [`IniError::Read`] or the errors of [`Ini::parse`].
+    /// [`IniError::Read`], and [`IniError::Unread`].
     pub fn read(file: &Path) -> Result<Ini, IniError> {
-        Ini::without_problems(Ini::read_all(file)?)
+        let (mut ini, problems) = Ini::read_all(file)?;
+        for problem in problems {
+            match problem {
+                IniError::Line { .. } => ini
+                    .passed_over
+                    .push(format!("{problem}: LinuxCNC passes over this line")),
+                unread => return Err(unread),
+            }
+        }
+        Ok(ini)
     }
 
     /// Reads `text`; `file` is its name in messages, and its folder that of the files that it includes.
@@ -64,10 +74,7 @@ impl Ini {
     /// before the first section, and for an `#INCLUDE` of what cannot be read.
     #[cfg(test)]
     pub fn parse(file: &Path, text: &str) -> Result<Ini, IniError> {
-        Ini::without_problems(Ini::parse_all(file, text))
-    }
-
-    fn without_problems((ini, problems): (Ini, Vec<IniError>)) -> Result<Ini, IniError> {
+        let (ini, problems) = Ini::parse_all(file, text);
         problems.into_iter().next().map_or(Ok(ini), Err)
     }
 
@@ -90,6 +97,7 @@ impl Ini {
                 file: file.to_owned(),
                 entries: Vec::new(),
                 headings: Vec::new(),
+                passed_over: Vec::new(),
             },
             problems: Vec::new(),
             section: None,
@@ -101,6 +109,11 @@ impl Ini {
     /// The file itself.
     pub fn file(&self) -> &Path {
         &self.file
+    }
+
+    /// The lines that LinuxCNC passes over: for the user to be told.
+    pub fn passed_over(&self) -> &[String] {
+        &self.passed_over
     }
 
     /// All keys, also those that LinuxCNC does not read.
@@ -151,16 +164,28 @@ impl Ini {
     /// # Errors
     /// [`IniError::Value`] if it is no finite number.
     pub fn number(&self, section: &str, key: &str) -> Result<Option<f64>, IniError> {
+        match self.limit(section, key)? {
+            Some(number) if number.is_infinite() => Err(self.no_number(section, key)),
+            number => Ok(number),
+        }
+    }
+
+    /// The number of a key that is a limit, if the key is there; LinuxCNC takes `inf` for one.
+    fn limit(&self, section: &str, key: &str) -> Result<Option<f64>, IniError> {
         let Some(entry) = self.entry(section, key) else {
             return Ok(None);
         };
         match entry.value.parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(Some(number)),
-            _ => Err(self.bad_value(section, key, "a number is needed here, for example 100.0")),
+            Ok(number) if !number.is_nan() => Ok(Some(number)),
+            _ => Err(self.no_number(section, key)),
         }
     }
 
-    /// The number of a key, above 0.
+    fn no_number(&self, section: &str, key: &str) -> IniError {
+        self.bad_value(section, key, "a number is needed here, for example 100.0")
+    }
+
+    /// The number of a key, above 0; it may be infinite.
     ///
     /// # Errors
     /// [`IniError::Missing`] with `remedy`, or [`IniError::Value`].
@@ -171,7 +196,7 @@ impl Ini {
         remedy: &str,
     ) -> Result<f64, IniError> {
         let number = self
-            .number(section, key)?
+            .limit(section, key)?
             .ok_or_else(|| self.missing(section, key, remedy))?;
         if number > 0.0 {
             Ok(number)
@@ -180,16 +205,16 @@ impl Ini {
         }
     }
 
-    /// The number of a key that may be missing; 0 and missing both mean "not limited".
+    /// The number of a key that may be missing; 0, `inf` and missing all mean "not limited".
     ///
     /// # Errors
     /// [`IniError::Value`] if it is no number or below 0.
     pub fn optional_limit(&self, section: &str, key: &str) -> Result<Option<f64>, IniError> {
-        match self.number(section, key)? {
+        match self.limit(section, key)? {
             Some(number) if number < 0.0 => {
                 Err(self.bad_value(section, key, "a limit is not negative; 0 means not limited"))
             }
-            Some(number) if number > 0.0 => Ok(Some(number)),
+            Some(number) if number > 0.0 && number.is_finite() => Ok(Some(number)),
             _ => Ok(None),
         }
     }
@@ -201,12 +226,12 @@ impl Ini {
     #[cfg(feature = "linuxcnc")]
     pub fn path_velocity(&self) -> Result<Option<f64>, IniError> {
         let (section, key) = ("TRAJ", "MAX_LINEAR_VELOCITY");
-        match self.number(section, key)? {
+        match self.limit(section, key)? {
             Some(number) if number <= 0.0 => {
                 let problem = "nothing moves with it; leave the line out where the axes alone limit the speed";
                 Err(self.bad_value(section, key, problem))
             }
-            other => Ok(other),
+            other => Ok(other.filter(|number| number.is_finite())),
         }
     }
 
@@ -264,7 +289,14 @@ impl Reader {
     fn include(&mut self, place: &Place, name: &str) {
         match include::read(&self.ini.file, name) {
             Ok((path, text)) => self.take(&Arc::from(path), &text, false),
-            Err(problem) => self.refuse(place, &format!("#INCLUDE {name}: {problem}")),
+            Err(NotIncluded::Missing(problem)) => {
+                self.refuse(place, &format!("#INCLUDE {name}: {problem}"));
+            }
+            Err(NotIncluded::NotExpanded(problem)) => self.problems.push(IniError::Unread {
+                file: place.file.to_path_buf(),
+                line: place.line,
+                problem: format!("#INCLUDE {name}: {problem}"),
+            }),
         }
     }
 

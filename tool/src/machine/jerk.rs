@@ -26,8 +26,8 @@ impl FromStr for Jerk {
             return Ok(Jerk::Unlimited);
         }
         match text.strip_suffix(['A', 'a']) {
-            Some(number) => Ok(Jerk::Accelerations(positive(number)?)),
-            None => Ok(Jerk::Value(positive(text)?)),
+            Some(number) => Ok(Jerk::Accelerations(rate(number)?)),
+            None => Ok(Jerk::Value(rate(text)?)),
         }
     }
 }
@@ -53,7 +53,7 @@ impl std::fmt::Display for Jerk {
     }
 }
 
-/// A number above 0, with the text in the words of the refusal.
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    arguments::positive(text.trim()).map_err(|problem| format!("`{text}`: {problem}"))
+/// A rate, with the text in the words of the refusal.
+pub(super) fn rate(text: &str) -> Result<f64, String> {
+    arguments::rate(text.trim()).map_err(|problem| format!("`{text}`: {problem}"))
 }

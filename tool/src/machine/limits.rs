@@ -3,7 +3,7 @@
 #[cfg(feature = "linuxcnc")]
 use super::configuration::Machine;
 pub use super::jerk::Jerk;
-use super::jerk::positive;
+use super::jerk::rate;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
@@ -100,12 +100,17 @@ impl FromStr for LimitChanges {
                 let (kind, number) = value
                     .split_once('=')
                     .ok_or_else(|| format!("`{value}`: V= or A= and a number is needed"))?;
-                let limit = positive(number)?;
+                let limit = rate(number)?;
                 let quantity = match kind.trim() {
                     "V" | "v" => Quantity::Velocity,
                     "A" | "a" => Quantity::Acceleration,
                     _ => return Err(format!("`{kind}` is neither V nor A; jerk is --jerk")),
                 };
+                if letters.trim().is_empty() {
+                    return Err(format!(
+                        "`{part}` names no axis before the colon: write X:{value}, or {value} for all"
+                    ));
+                }
                 for letter in letters.trim().chars() {
                     let axis = AXIS_LETTERS
                         .iter()
@@ -163,6 +168,8 @@ mod tests {
         assert!(refused("Q:V=1").contains('Q'));
         assert!(refused("V=-1").contains("-1"));
         assert!(refused("V").contains('V'));
+        assert!(refused(":V=5").contains("names no axis"));
+        assert!(refused("X:V=1e308").contains("1e9"));
     }
 
     #[test]

@@ -1,5 +1,8 @@
 //! The codes for the frame commands: `REMAP` lines of the INI file.
 
+use crate::machine::ini::{Entry, Ini};
+use std::path::{Path, PathBuf};
+
 /// The words that the subroutines take, or refuse by name.
 const ARGUMENTS: &str = "abcdehijklpqruvwxyz";
 
@@ -99,4 +102,38 @@ pub fn code_of(subroutine: &str, written: &str) -> Option<Code> {
         .filter(|code| code.subroutine == subroutine);
     let same = calling.clone().find(|code| code.code == written);
     same.or_else(|| calling.next())
+}
+
+/// Remaps whose subroutine is in none of the folders in which LinuxCNC looks for its file, with the name of that.
+pub fn missing_files(ini: &Ini) -> Vec<(&Entry, String)> {
+    let text = |section, key| ini.text(section, key).filter(|text| !text.is_empty());
+    // There it looks in all folders within.
+    if text("WIZARD", "WIZARD_ROOT").is_some() {
+        return Vec::new();
+    }
+    let prefix = text("DISPLAY", "PROGRAM_PREFIX").into_iter();
+    let path = text("RS274NGC", "SUBROUTINE_PATH").unwrap_or("");
+    let named = prefix
+        .chain(path.split(':'))
+        .filter(|name| !name.is_empty());
+    let folders: Vec<PathBuf> = named.map(|name| folder(ini, name)).collect();
+    let mut missing = Vec::new();
+    for entry in ini.all("RS274NGC", "REMAP") {
+        let Some(subroutine) = Remap::parse(&entry.value).subroutine else {
+            continue;
+        };
+        let file = format!("{subroutine}.ngc");
+        if !folders.iter().any(|folder| folder.join(&file).is_file()) {
+            missing.push((entry, file));
+        }
+    }
+    missing
+}
+
+/// A folder that the INI file names.
+fn folder(ini: &Ini, name: &str) -> PathBuf {
+    match (name.strip_prefix("~/"), std::env::var_os("HOME")) {
+        (Some(rest), Some(home)) => Path::new(&home).join(rest),
+        _ => ini.file().parent().unwrap_or(Path::new("")).join(name),
+    }
 }

@@ -8,6 +8,7 @@ mod findings;
 mod inner;
 mod left_out;
 mod modules;
+mod not_starting;
 mod panel;
 mod random;
 mod samples;

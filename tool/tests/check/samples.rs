@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const STOCK: &str = "/usr/share/doc/linuxcnc/examples/sample-configs";
 
 /// What is wrong with some of them in LinuxCNC 2.9.0: the end of the path, and what is found.
-const FAULTY: [(&str, &str); 3] = [
+const FAULTY: [(&str, &str); 5] = [
     (
         "qtdragon/qtdragon_xyyz.ini",
         "the HAL file simulated-xyyz-home.hal is not there",
@@ -18,6 +18,9 @@ const FAULTY: [(&str, &str); 3] = [
         "the HAL file simulated-xyyz-home.hal is not there",
     ),
     ("dallur-thc/dallur-advanced.ini", " already"),
+    // of panels, not of machines
+    ("panelui-demo/_panelui.ini", "no INI file of LinuxCNC"),
+    ("craftsman/cnc_settings.ini", "no INI file of LinuxCNC"),
 ];
 
 #[test]

@@ -36,9 +36,22 @@ const MODULES: [&str; 24] = [
     "xyzacb_trsrn",
 ];
 
+/// Those of framekins.
+const PARAMETERS: [&str; 6] = [
+    "coordinates",
+    "machine",
+    "tool_length",
+    "inner",
+    "tool_types",
+    "tool_axes",
+];
+
 pub fn look(subject: &Subject, findings: &mut Findings) {
     several(subject, findings);
     let loaded = subject.state.module("framekins");
+    if let Some(module) = loaded {
+        unknown_parameters(subject, module, findings);
+    }
     match loaded {
         Some(module) if subject.inner().is_some() => {
             let inner = subject.inner().unwrap_or("");
@@ -56,6 +69,21 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
         None if subject.kinematics() == "framekins" => not_loaded(subject, findings),
         None if subject.has_frames() => not_named(subject, findings),
         None => {}
+    }
+}
+
+/// With one that it does not have the module is not loaded.
+fn unknown_parameters(subject: &Subject, module: &Module, findings: &mut Findings) {
+    let place = match subject.kinematics() {
+        "framekins" => subject.place_of("KINS", "KINEMATICS"),
+        _ => module.statement.place.clone(),
+    };
+    for (name, _) in &module.parameters {
+        if !PARAMETERS.contains(&name.as_str()) {
+            let found = format!("framekins is not loaded: it has no parameter {name}=");
+            let remedy = format!("leave it out; there are {}", PARAMETERS.join(", "));
+            findings.error(&place, found, advice(remedy));
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::check::finding::{Findings, Remedy, add, advice, replace};
 use crate::machine::configuration::is_rotary;
-use crate::wiring::subject::Subject;
+use crate::wiring::subject::{Subject, leading_float};
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     for letter in &subject.axes {
@@ -28,6 +28,7 @@ fn own(subject: &Subject, section: &str, findings: &mut Findings) {
                     add(format!("[{section}]"), format!("{key} = ...")),
                 );
             }
+            (Some(text), None) if leading_float(text) == Some(f64::INFINITY) => {}
             (Some(text), None) => {
                 let found = format!("[{section}]{key} = {text} is no number");
                 findings.error(

@@ -12,10 +12,12 @@ mod joint_limits;
 mod kinematics;
 mod limits;
 mod modules;
+mod motion_numbers;
 mod panel;
 mod planner;
 mod planner_module;
 mod previews;
+mod remap_files;
 mod remaps;
 mod sections;
 mod subroutines;
@@ -41,6 +43,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
     files::look(subject, &mut findings);
     planner_module::look(subject, &mut findings);
     modules::look(subject, linuxcnc, &mut findings);
+    motion_numbers::look(subject, &mut findings);
     kinematics::look(subject, &mut findings);
     if subject.has_planner() {
         planner::look(subject, &mut findings);
@@ -59,6 +62,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
         remaps::look(subject, &mut findings);
         previews::look(subject, &mut findings);
     }
+    remap_files::look(subject, &mut findings);
     panel::look(subject, &mut findings);
     frame_settings::look(subject, &mut findings);
     limits::look(subject, &mut findings);

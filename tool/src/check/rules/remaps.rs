@@ -14,7 +14,7 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
         .map(|entry| (entry, Remap::parse(&entry.value)))
         .collect();
     for (index, (entry, remap)) in remaps.iter().enumerate() {
-        ours(subject, entry, remap, findings);
+        ours(entry, remap, findings);
         if remaps[..index]
             .iter()
             .any(|(_, other)| other.code == remap.code)
@@ -26,7 +26,7 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
     missing(subject, &remaps, findings);
 }
 
-fn ours(subject: &Subject, entry: &Entry, remap: &Remap, findings: &mut Findings) {
+fn ours(entry: &Entry, remap: &Remap, findings: &mut Findings) {
     let subroutine = remap.subroutine.as_deref().unwrap_or("");
     let Some(code) = code_of(subroutine, &remap.code) else {
         return;
@@ -45,15 +45,6 @@ fn ours(subject: &Subject, entry: &Entry, remap: &Remap, findings: &mut Findings
             remap.code, code.subroutine
         );
         findings.error(&entry.place, found, replace(line));
-    }
-    let file = format!("{}.ngc", code.subroutine);
-    let folders = subject.subroutine_folders();
-    let mut there = folders
-        .iter()
-        .map(|folder| subject.path(folder).join(&file));
-    if !folders.is_empty() && !there.any(|file| file.is_file()) {
-        let found = format!("{file} is in no folder of [RS274NGC]SUBROUTINE_PATH");
-        findings.error(&entry.place, found, Remedy::Remove);
     }
 }
 

@@ -7,19 +7,29 @@ use crate::wiring::subject::{Subject, shared};
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     for problem in &subject.ini_problems {
-        if let IniError::Line {
-            file,
-            line,
-            problem,
-        } = problem
-        {
-            let place = Place::new(&shared(file), *line, 0);
-            findings.warning(
-                &place,
+        let (file, line, found) = match problem {
+            IniError::Line {
+                file,
+                line,
+                problem,
+            } => (
+                file,
+                *line,
                 format!("LinuxCNC passes over this line: {problem}"),
-                advice("correct or remove it"),
-            );
-        }
+            ),
+            IniError::Unread {
+                file,
+                line,
+                problem,
+            } => (
+                file,
+                *line,
+                format!("this line is not read here: {problem}"),
+            ),
+            _ => continue,
+        };
+        let place = Place::new(&shared(file), line, 0);
+        findings.warning(&place, found, advice("correct or remove it"));
     }
     for heading in subject.ini.headings() {
         if let Some(first) = &heading.first {
@@ -45,7 +55,22 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
             );
         }
     }
-    needed(subject, findings);
+    match is_ini(subject) {
+        true => needed(subject, findings),
+        false => findings.error(
+            &Place::file(subject.ini.file()),
+            "this is no INI file of LinuxCNC: there is no key under [EMC], [KINS], [TRAJ], [EMCMOT] or [HAL]",
+            advice("name the INI file of a machine, a text file in UTF-8"),
+        ),
+    }
+}
+
+/// Whether there is anything that LinuxCNC looks for.
+fn is_ini(subject: &Subject) -> bool {
+    let sections = ["EMC", "KINS", "TRAJ", "EMCMOT", "HAL"];
+    sections
+        .iter()
+        .any(|section| subject.ini.has_section(section))
 }
 
 /// Whether the file is for this LinuxCNC.

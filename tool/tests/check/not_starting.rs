@@ -1,0 +1,96 @@
+//! What LinuxCNC does not start with, and what it takes.
+
+use crate::bench::{Bench, framepath};
+use serde_json::Value;
+
+/// The levels and words of what is found in a changed sample.
+fn found(from: &str, to: &str) -> Vec<(String, String)> {
+    let bench = Bench::new();
+    let folder = bench.sample("framepath-sim");
+    let file = folder.join("framepath-sim.ini");
+    let before = std::fs::read_to_string(&file).expect("a text");
+    let after = before.replacen(from, to, 1);
+    assert_ne!(before, after, "{from} is not there");
+    std::fs::write(&file, after).expect("written");
+    let output = framepath(&folder, &["check", "framepath-sim.ini", "--json"]);
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let text = |value: &Value| value.as_str().expect("a text").to_owned();
+    let findings = report["findings"].as_array().expect("a list").iter();
+    findings
+        .map(|finding| (text(&finding["level"]), text(&finding["found"])))
+        .collect()
+}
+
+#[test]
+fn what_is_no_number_or_no_parameter_is_an_error() {
+    for (from, to, words) in [
+        (
+            "SERVO_PERIOD = 1000000",
+            "SERVO_PERIOD = text",
+            "[EMCMOT]SERVO_PERIOD = text",
+        ),
+        (
+            "JOINTS = 3",
+            "JOINTS = text",
+            "[KINS]JOINTS = text is no whole number",
+        ),
+        (
+            "JOINTS = 3",
+            "JOINTS = 3.5",
+            "[KINS]JOINTS = 3.5 is no whole number",
+        ),
+        (
+            "coordinates=XYZ",
+            "coordinates=XYZ colour=red",
+            "it has no parameter colour=",
+        ),
+        (
+            "[TRAJ]",
+            "[TRAJ]\nMAX_LINEAR_VELOCITY = text",
+            "MAX_LINEAR_VELOCITY = text is no number",
+        ),
+        (
+            "ngc=frame_tool_change",
+            "ngc=frame_tool_changed",
+            "frame_tool_changed.ngc is in no folder",
+        ),
+    ] {
+        let found = found(from, to);
+        let error = |(level, said): &(String, String)| level == "error" && said.contains(words);
+        assert!(found.iter().any(error), "{to}: {found:?}");
+    }
+}
+
+#[test]
+fn infinite_limits_are_no_errors() {
+    for limit in [
+        "MAX_VELOCITY = 100",
+        "MAX_ACCELERATION = 1000",
+        "MAX_JERK = 20000",
+    ] {
+        let (key, _) = limit.split_once(" = ").expect("a key");
+        let found = found(limit, &format!("{key} = inf"));
+        let error = found.iter().find(|(level, _)| level == "error");
+        assert_eq!(error, None, "{key}");
+    }
+}
+
+#[test]
+fn what_is_no_ini_file_is_an_error() {
+    let utf_16: Vec<u8> = "\u{feff}[EMC]\nVERSION = 1.1\n"
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    for bytes in [
+        Vec::new(),
+        vec![0x7f, b'E', b'L', b'F', 0, 1, 2, 255],
+        utf_16,
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("mill.ini"), bytes).expect("written");
+        let output = framepath(folder.path(), &["check", "mill.ini"]);
+        let said = String::from_utf8(output.stdout).expect("text");
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("this is no INI file of LinuxCNC"), "{said}");
+    }
+}
