@@ -27,6 +27,17 @@ pub(crate) fn named_twice<'a>(files: &[&'a Option<PathBuf>]) -> Option<&'a Path>
     None
 }
 
+/// The first of the files to be written that is one of those that are `read`, whose content would be lost.
+pub(crate) fn overwrites<'a>(
+    written: impl IntoIterator<Item = &'a Path>,
+    read: &[&Path],
+) -> Option<&'a Path> {
+    let read: Vec<PathBuf> = read.iter().map(|file| place_of(file)).collect();
+    written
+        .into_iter()
+        .find(|file| !is_device(file) && read.contains(&place_of(file)))
+}
+
 fn is_device(file: &Path) -> bool {
     file.exists() && !file.is_file()
 }

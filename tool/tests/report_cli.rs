@@ -307,6 +307,54 @@ fn a_report_that_cannot_be_written_leaves_nothing() {
     assert!(said.contains("no/out.html: cannot be written"), "{said}");
 }
 
+#[test]
+fn a_page_does_not_take_the_place_of_what_is_read() {
+    let bench = Bench::new(&constant_jerk_run(20000.0), INI);
+    std::os::unix::fs::symlink("run.csv", bench.path().join("link")).expect("a link");
+    std::fs::write(bench.path().join("part.ngc"), "G1 X1\n").expect("written");
+    for file in ["bench.ini", "./run.csv", "link", "part.ngc"] {
+        let before = std::fs::read(bench.path().join(file)).expect("a file");
+        let output = bench.report(&["--html", file, "part.ngc"]);
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(
+            said.starts_with(&format!("{file}: this file is read")),
+            "{said}"
+        );
+        assert_eq!(
+            std::fs::read(bench.path().join(file)).expect("a file"),
+            before
+        );
+    }
+}
+
+#[test]
+fn what_is_no_recording_is_told_with_its_line() {
+    let zeros = "\0".repeat(1 << 20);
+    let quoted = format!("{}\"", constant_jerk_run(20000.0)) + &"x\n".repeat(1 << 17);
+    for (recording, said) in [
+        (zeros, "run.csv:1: a line of more than 65536 bytes"),
+        (
+            constant_jerk_run(20000.0) + &"1".repeat(1 << 17),
+            "run.csv:203: a line of more",
+        ),
+        (quoted, "run.csv:203: "),
+    ] {
+        let bench = Bench::new(&recording, INI);
+        let output = bench.report(&[]);
+        let told = String::from_utf8(output.stderr).expect("text");
+        assert!(!output.status.success() && told.starts_with(said), "{told}");
+    }
+    let bench = Bench::new("", INI);
+    std::fs::remove_file(bench.path().join("run.csv")).expect("removed");
+    std::fs::create_dir(bench.path().join("run.csv")).expect("a folder");
+    let told = String::from_utf8(bench.report(&[]).stderr).expect("text");
+    assert!(
+        told.starts_with("run.csv: cannot be read: it is a folder"),
+        "{told}"
+    );
+}
+
 /// The same run with another frame from row 180 on, and without row 190.
 fn with_frame_change_and_gap(run: &str) -> String {
     let mut text = String::new();

@@ -38,6 +38,18 @@ pub enum ConfigureError {
     /// A file of this name is there.
     #[error("{}: error: this file is there already\n  help: --force replaces it", .0.display())]
     Exists(PathBuf),
+    /// A file of this name is part of the configuration that is read.
+    #[error(
+        "{}: error: the configuration itself reads this file, and it would be written anew\n  help: rename it where \
+         the configuration names it",
+        .0.display()
+    )]
+    Overwritten(PathBuf),
+    /// What changes cannot be told.
+    #[error(
+        "standard output: error: it cannot be written: {0}\n  help: nothing is changed; send it elsewhere, as with > changes.diff"
+    )]
+    Told(std::io::Error),
     /// A file cannot be written.
     #[error("{}: error: it cannot be written: {source}\n  help: copy the configuration to a folder of your own", file.display())]
     Write {

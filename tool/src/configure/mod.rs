@@ -15,7 +15,7 @@ pub use error::{ConfigureError, Refusal};
 use crate::hal::read_script;
 use crate::machine::ini::Ini;
 use crate::machine::jerk::Jerk;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, overwrites};
 use crate::wiring::SUBROUTINES;
 use crate::wiring::subject::Subject;
 use edits::Edits;
@@ -71,26 +71,35 @@ pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
     if let Some((file, _)) = there.filter(|_| !arguments.force) {
         return Err(ConfigureError::Exists(file.to_path_buf()));
     }
+    let included = subject.ini.entries().iter().map(|entry| &*entry.place.file);
+    let script = subject.script.files.iter().map(PathBuf::as_path);
+    let read: Vec<&Path> = [arguments.ini.as_path()]
+        .into_iter()
+        .chain(included)
+        .chain(script)
+        .collect();
+    if let Some(file) = overwrites(files.iter().map(|(file, _)| file.as_path()), &read) {
+        return Err(ConfigureError::Overwritten(file.to_owned()));
+    }
     let begun: Result<Vec<OutputFile>, ConfigureError> =
         files.iter().map(|(file, text)| begun(file, text)).collect();
-    for file in begun? {
-        let name = file.name().to_owned();
-        let finished = file.finish();
-        finished.map_err(|source| ConfigureError::Write { file: name, source })?;
-    }
+    let begun = begun?;
     let new = files.iter().skip(1);
     let difference = difference(&arguments.ini, &text, &ini_file, &written.ini)
         + &new
             .map(|(file, text)| difference(Path::new("/dev/null"), "", file, text))
             .collect::<String>();
     let mut output = io::stdout().lock();
-    let written = output.write_all(difference.as_bytes());
-    written
-        .and_then(|()| output.flush())
-        .map_err(|source| ConfigureError::Write {
-            file: PathBuf::from("standard output"),
-            source,
-        })
+    let told = output.write_all(difference.as_bytes());
+    told.and_then(|()| output.flush())
+        .map_err(ConfigureError::Told)?;
+    // Last of all: nothing is changed where the changes cannot be told.
+    for file in begun {
+        let name = file.name().to_owned();
+        let finished = file.finish();
+        finished.map_err(|source| ConfigureError::Write { file: name, source })?;
+    }
+    Ok(())
 }
 
 fn name_of(file: &Path) -> String {

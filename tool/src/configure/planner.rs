@@ -3,7 +3,10 @@
 use super::ConfigureArguments;
 use super::edits::Edits;
 use crate::machine::place::Place;
-use crate::wiring::blendtp::{TOLERANCE_PIN, inch_line, inch_tolerance_line, jerk_line, jerk_pin};
+use crate::wiring::USUAL_JERK;
+use crate::wiring::blendtp::{
+    TOLERANCE_PIN, inch_line, inch_tolerance_line, jerk_line, jerk_pin, least_jerk,
+};
 use crate::wiring::subject::Subject;
 
 /// Adds what is not there yet.
@@ -48,6 +51,15 @@ fn usable(subject: &Subject, edits: &mut Edits) {
             "LinuxCNC does not start with this: framepath check says what to write",
         );
     }
+    let name = subject.ini.file().file_name().unwrap_or_default();
+    let name = name.to_string_lossy();
+    if name.contains(char::is_whitespace) {
+        edits.refuse(
+            &Place::file(subject.ini.file()),
+            "the name of the file has a blank, at which LinuxCNC cuts the name of the HAL file that is called after it (HALFILE)",
+            format!("call the file {}", name.split_whitespace().collect::<Vec<_>>().join("-")),
+        );
+    }
     if subject.axes.is_empty() {
         let place = Place::file(subject.ini.file());
         edits.refuse(
@@ -73,7 +85,7 @@ fn jerk(subject: &Subject, letter: char, arguments: &ConfigureArguments, edits: 
     }
     edits.add_hal(jerk_line(letter));
     if subject.text(&section, "MAX_JERK").is_some() {
-        return;
+        return own_jerk(subject, &section, edits);
     }
     match subject
         .number(&section, "MAX_ACCELERATION")
@@ -81,6 +93,19 @@ fn jerk(subject: &Subject, letter: char, arguments: &ConfigureArguments, edits: 
     {
         Some(acceleration) => {
             let jerk = arguments.jerk.of_axis(acceleration);
+            if jerk > 0.0 && jerk < least_jerk(acceleration) {
+                let found = format!(
+                    "--jerk {} lets nothing move: {}",
+                    arguments.jerk,
+                    needed(&section, acceleration)
+                );
+                let place = subject.place_of(&section, "MAX_ACCELERATION");
+                edits.refuse(
+                    &place,
+                    found,
+                    "--jerk 20A, which is usual, or --jerk unlimited",
+                );
+            }
             edits.add_last(&section, "MAX_JERK", &jerk.to_string());
         }
         None => {
@@ -93,4 +118,29 @@ fn jerk(subject: &Subject, letter: char, arguments: &ConfigureArguments, edits: 
             );
         }
     }
+}
+
+/// The limit of jerk that the configuration has already, which nothing has used so far.
+fn own_jerk(subject: &Subject, section: &str, edits: &mut Edits) {
+    let [jerk, acceleration] =
+        ["MAX_JERK", "MAX_ACCELERATION"].map(|key| subject.number(section, key));
+    if let (Some(jerk), Some(acceleration)) = (jerk, acceleration)
+        && (jerk < 0.0 || jerk > 0.0 && jerk < least_jerk(acceleration))
+    {
+        let found = format!(
+            "[{section}]MAX_JERK = {jerk} lets nothing move: {}",
+            needed(section, acceleration)
+        );
+        let place = subject.place_of(section, "MAX_JERK");
+        let usual = acceleration * USUAL_JERK;
+        edits.refuse(&place, found, format!("MAX_JERK = {usual}"));
+    }
+}
+
+/// What blendtp asks of a limit of jerk.
+fn needed(section: &str, acceleration: f64) -> String {
+    format!(
+        "blendtp takes 0 (not limited) or at least {}, a fifth of [{section}]MAX_ACCELERATION",
+        least_jerk(acceleration)
+    )
 }

@@ -23,6 +23,12 @@ pub enum ReportError {
         /// What the operating system says.
         source: std::io::Error,
     },
+    /// The page would take the place of what is read.
+    #[error(
+        "{}: this file is read for the report, and --html would be written there: give it a file of its own",
+        .0.display()
+    )]
+    Overwritten(PathBuf),
     /// The INI file cannot be used.
     #[error(transparent)]
     Ini(#[from] IniError),

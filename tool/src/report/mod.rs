@@ -14,6 +14,7 @@ mod following;
 mod frame_changes;
 mod page;
 mod recording;
+mod short_lines;
 mod summary;
 mod text;
 
@@ -31,7 +32,7 @@ use crate::json;
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
 use crate::machine::ini::Ini;
 use crate::machine::warn_of;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, overwrites};
 use crate::part_program::contour;
 use crate::program::trace::Setup;
 use page::Listing;
@@ -86,8 +87,11 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
         }
         _ => Vec::new(),
     };
-    let machine = Machine::from_ini(&Ini::read(&arguments.ini)?)?;
+    let ini = Ini::read(&arguments.ini)?;
+    let machine = Machine::from_ini(&ini)?;
+    refuse_to_overwrite(arguments, &ini)?;
     let members = machine.joints.iter().chain(&machine.axes);
+    warn_of(ini.passed_over());
     warn_of(members.flat_map(|member| &member.assumed));
     let mut recording = Recording::read(&arguments.recording)?;
     let letter_order = |letter: char| AXIS_LETTERS.find(letter.to_ascii_uppercase());
@@ -135,6 +139,18 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
             Err(ReportError::Incomplete(findings(&analysis.report)))
         }
         _ => Ok(()),
+    }
+}
+
+/// The page may not take the place of what the report is made from.
+fn refuse_to_overwrite(arguments: &ReportArguments, ini: &Ini) -> Result<(), ReportError> {
+    let named = [&arguments.recording, &arguments.ini];
+    let named = named.into_iter().chain(&arguments.program);
+    let included = ini.entries().iter().map(|entry| &*entry.place.file);
+    let read: Vec<&Path> = named.map(PathBuf::as_path).chain(included).collect();
+    match overwrites(arguments.html.as_deref(), &read) {
+        Some(file) => Err(ReportError::Overwritten(file.to_owned())),
+        None => Ok(()),
     }
 }
 

@@ -9,6 +9,7 @@ use std::path::Path;
 use csv::ByteRecord;
 
 use super::error::ReportError;
+use super::short_lines::{ShortLines, line_of};
 
 /// A recording in columns; all columns have [`Recording::rows`] entries.
 #[derive(Debug)]
@@ -49,6 +50,12 @@ impl Recording {
             file: file.to_owned(),
             source,
         })?;
+        if opened.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+            return Err(ReportError::Read {
+                file: file.to_owned(),
+                source: std::io::Error::other("it is a folder, and a recording is one file"),
+            });
+        }
         Recording::parse(file, opened)
     }
 
@@ -66,7 +73,9 @@ impl Recording {
         let mut reader = csv::ReaderBuilder::new()
             .buffer_capacity(1 << 20)
             .trim(csv::Trim::None)
-            .from_reader(source);
+            // A field in quotes might go on to the end of the file.
+            .quoting(false)
+            .from_reader(ShortLines::new(source));
         let header = reader
             .byte_headers()
             .map_err(|error| unreadable(file, &error))?;
@@ -177,7 +186,10 @@ impl Recording {
 }
 
 fn unreadable(file: &Path, error: &csv::Error) -> ReportError {
-    let line = error.position().map_or(0, csv::Position::line);
+    let line = match error.kind() {
+        csv::ErrorKind::Io(error) => line_of(error).unwrap_or(1),
+        _ => error.position().map_or(1, csv::Position::line),
+    };
     let problem = match error.kind() {
         csv::ErrorKind::UnequalLengths {
             expected_len, len, ..

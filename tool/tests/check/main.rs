@@ -2,6 +2,7 @@
 
 mod bench;
 mod configure;
+mod configure_refusals;
 #[path = "../common/fields.rs"]
 mod fields;
 mod findings;

@@ -1,0 +1,66 @@
+//! Lines as long as those of a recording may be: what has no end of line is not gathered until memory is used up.
+
+use std::error::Error;
+use std::fmt;
+use std::io::{self, Read};
+
+/// No row is longer, bytes: sixteen joints and nine axes take less than a kilobyte.
+const LONGEST: usize = 1 << 16;
+
+/// Hands on what it reads, up to a line that is too long.
+pub struct ShortLines<R> {
+    from: R,
+    /// The line that is read, from 1.
+    line: u64,
+    /// How long it is so far, bytes.
+    length: usize,
+}
+
+impl<R: Read> ShortLines<R> {
+    /// From its beginning.
+    pub fn new(from: R) -> ShortLines<R> {
+        ShortLines {
+            from,
+            line: 1,
+            length: 0,
+        }
+    }
+}
+
+impl<R: Read> Read for ShortLines<R> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let length = self.from.read(into)?;
+        for piece in into[..length].split_inclusive(|&byte| byte == b'\n') {
+            self.length += piece.len();
+            if self.length > LONGEST {
+                return Err(io::Error::other(TooLong(self.line)));
+            }
+            if piece.ends_with(b"\n") {
+                self.line += 1;
+                self.length = 0;
+            }
+        }
+        Ok(length)
+    }
+}
+
+/// A line that is too long.
+#[derive(Debug)]
+struct TooLong(u64);
+
+impl fmt::Display for TooLong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "a line of more than {LONGEST} bytes: this is no recording"
+        )
+    }
+}
+
+impl Error for TooLong {}
+
+/// The line of which this error tells.
+pub fn line_of(error: &io::Error) -> Option<u64> {
+    let told = error.get_ref()?.downcast_ref::<TooLong>()?;
+    Some(told.0)
+}
