@@ -10,12 +10,20 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// The interpreter program, compiled by the build script.
 const PROGRAM: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/interpreter"));
+
+/// What the interpreter program says where LinuxCNC's interpreter says nothing.
+const GIVES_UP: &str = "the interpreter gives up with code";
+
+/// How many lines are shown of what it has said otherwise.
+const LAST_LINES: usize = 4;
 
 /// Why a program could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -52,6 +60,9 @@ pub enum CanonError {
         /// How long was waited, s.
         seconds: u64,
     },
+    /// The process was asked to stop.
+    #[error("{}: ended before it was done; no file is written or changed", .0.display())]
+    Stopped(PathBuf),
     /// The interpreter could not be run to its end.
     #[error("{}: LinuxCNC's interpreter does not run: {problem}", file.display())]
     Interpreter {
@@ -97,7 +108,11 @@ pub fn stream_program(file: &Path, surroundings: &Surroundings) -> Result<CallSt
         source,
     };
     // The interpreter's own message would not say why.
-    File::open(file).map_err(read_error)?;
+    let metadata = File::open(file).and_then(|opened| opened.metadata());
+    if metadata.map_err(read_error)?.is_dir() {
+        let problem = "it is a folder, and a program is one file";
+        return Err(read_error(io::Error::other(problem)));
+    }
     let absolute = std::fs::canonicalize(file).map_err(read_error)?;
     CallStream::start(file, &absolute, home(file)?, surroundings)
 }
@@ -206,6 +221,12 @@ impl CallStream {
         self
     }
 
+    /// Ends with an error when this is set.
+    pub fn until(mut self, stop: Arc<AtomicBool>) -> CallStream {
+        self.output.get_mut().stop = Some(stop);
+        self
+    }
+
     /// The next line that the interpreter prints, `None` at the end of its output.
     fn read_line(&mut self) -> io::Result<Option<Cow<'_, str>>> {
         self.line.clear();
@@ -244,12 +265,46 @@ impl CallStream {
             _ => String::new(),
         };
         let text = source.strip_prefix("SOURCE ").unwrap_or_default();
+        let mut message = message.to_owned();
+        if message.contains(GIVES_UP) {
+            message += &self.reasons();
+        }
         Err(CanonError::Refused {
             file: self.file.clone(),
             line: number.parse().unwrap_or(0),
-            message: message.to_owned(),
+            message,
             text: text.trim_end().to_owned(),
         })
+    }
+
+    /// Why the interpreter gave up, as it has said beside its refusal, and what to do.
+    fn reasons(&mut self) -> String {
+        let said = self.complaints();
+        let lines: Vec<&str> = said
+            .lines()
+            .filter(|line| !line.trim().is_empty())
+            .collect();
+        let last: String = lines[lines.len().saturating_sub(LAST_LINES)..]
+            .iter()
+            .map(|line| format!("\n    {}", line.trim_end()))
+            .collect();
+        let help = match said.contains("ModuleNotFoundError") || said.contains("ImportError") {
+            true => {
+                "\n  help: the configuration has remaps in Python that import what only LinuxCNC's own task has: plan with a \
+                 copy of the INI file without [PYTHON] and the lines REMAP with python=, py=, prolog= or epilog="
+            }
+            false => "",
+        };
+        match last.is_empty() {
+            true => String::new(),
+            false => format!(", having said:{last}{help}"),
+        }
+    }
+
+    /// All that the interpreter says beside its output, when it has ended.
+    fn complaints(&mut self) -> String {
+        let complaints = self.complaints.take().map(JoinHandle::join);
+        complaints.and_then(Result::ok).unwrap_or_default()
     }
 
     /// It printed something else, or stopped in the middle.
@@ -258,8 +313,7 @@ impl CallStream {
             Ok(status) => status.to_string(),
             Err(error) => error.to_string(),
         };
-        let complaints = self.complaints.take().map(JoinHandle::join);
-        let complaints = complaints.and_then(Result::ok).unwrap_or_default();
+        let complaints = self.complaints();
         let text = if line.is_empty() { &complaints } else { line };
         failure(
             &self.file,
@@ -275,7 +329,11 @@ impl Iterator for CallStream {
         if self.ended {
             return None;
         }
-        let next = self.next_call().transpose();
+        let mut next = self.next_call().transpose();
+        // Ctrl-C ends the interpreter as well.
+        if matches!(next, Some(Err(_))) && self.output.get_ref().is_stopped() {
+            next = Some(Err(CanonError::Stopped(self.file.clone())));
+        }
         self.ended = !matches!(next, Some(Ok(_)));
         next
     }

@@ -1,8 +1,10 @@
 //! The output of another program, which may take for ever.
 
 use std::io::{self, ErrorKind, Read};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// How much is read at once, bytes.
 const CHUNK: usize = 1 << 16;
@@ -18,7 +20,12 @@ pub struct Timed {
     at: usize,
     /// Nothing is read any more then: the error is [`ErrorKind::TimedOut`].
     pub deadline: Option<Instant>,
+    /// The same when this is set: the error is [`ErrorKind::ConnectionAborted`].
+    pub stop: Option<Arc<AtomicBool>>,
 }
+
+/// How long nothing is waited for without a look at what may be asked.
+const WAIT: Duration = Duration::from_millis(50);
 
 impl Timed {
     /// Reads `from` in a thread of its own, which ends with `from` or with this.
@@ -42,22 +49,37 @@ impl Timed {
             chunk: Vec::new(),
             at: 0,
             deadline: None,
+            stop: None,
         }
     }
 
     fn next_chunk(&mut self) -> io::Result<Vec<u8>> {
-        let Some(deadline) = self.deadline else {
+        if self.deadline.is_none() && self.stop.is_none() {
             return self.chunks.recv().unwrap_or(Ok(Vec::new()));
-        };
-        let left = deadline.saturating_duration_since(Instant::now());
-        if left.is_zero() {
-            return Err(ErrorKind::TimedOut.into());
         }
-        match self.chunks.recv_timeout(left) {
-            Ok(chunk) => chunk,
-            Err(RecvTimeoutError::Timeout) => Err(ErrorKind::TimedOut.into()),
-            Err(RecvTimeoutError::Disconnected) => Ok(Vec::new()),
+        loop {
+            let now = Instant::now();
+            let left = self
+                .deadline
+                .map(|deadline| deadline.saturating_duration_since(now));
+            if left.is_some_and(|left| left.is_zero()) {
+                return Err(ErrorKind::TimedOut.into());
+            }
+            if self.is_stopped() {
+                return Err(ErrorKind::ConnectionAborted.into());
+            }
+            match self.chunks.recv_timeout(left.unwrap_or(WAIT).min(WAIT)) {
+                Ok(chunk) => return chunk,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Ok(Vec::new()),
+            }
         }
+    }
+
+    /// Whether it is to stop.
+    pub fn is_stopped(&self) -> bool {
+        let stop = self.stop.as_ref();
+        stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 }
 

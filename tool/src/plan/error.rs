@@ -69,8 +69,8 @@ pub enum PlanError {
     },
     /// A dwell takes longer than anybody waits.
     #[error(
-        "{}: behind line {line} the program dwells for {seconds:e} s, which is too long to be planned",
-        file.display()
+        "{}: {} the program dwells for {seconds:e} s, which is too long to be planned",
+        file.display(), behind_line(*line)
     )]
     Dwell {
         /// The program.
@@ -113,6 +113,14 @@ pub enum PlanError {
         /// Why.
         source: io::Error,
     },
+}
+
+/// Where nothing has moved yet there is no line.
+fn behind_line(line: i32) -> String {
+    match line {
+        0 => "before its first move".to_owned(),
+        line => format!("behind line {line}"),
+    }
 }
 
 impl PlanError {

@@ -2,7 +2,10 @@
 
 use super::PlanArguments;
 use super::error::PlanError;
+use crate::canon::CanonError;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Servo cycles between two looks at the clock.
@@ -15,6 +18,7 @@ pub struct Limit {
     most_time: Duration,
     begun: Instant,
     cycles: u32,
+    stop: Arc<AtomicBool>,
 }
 
 impl Limit {
@@ -22,7 +26,11 @@ impl Limit {
     ///
     /// # Errors
     /// What is no file on a disk: it is read more than once. A file that is too long.
-    pub fn check(file: &Path, arguments: &PlanArguments) -> Result<Limit, PlanError> {
+    pub fn check(
+        file: &Path,
+        arguments: &PlanArguments,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Limit, PlanError> {
         let unfit = |problem: String| PlanError::Unfit {
             file: file.to_owned(),
             problem,
@@ -50,6 +58,7 @@ impl Limit {
             most_time: Duration::from_secs(arguments.most_seconds),
             begun: Instant::now(),
             cycles: 0,
+            stop: Arc::clone(stop),
         })
     }
 
@@ -58,11 +67,21 @@ impl Limit {
         self.most_time
     }
 
+    /// # Errors
+    /// When the process was asked to stop.
+    pub fn go_on(&self) -> Result<(), PlanError> {
+        match self.stop.load(Ordering::Relaxed) {
+            true => Err(CanonError::Stopped(self.file.clone()).into()),
+            false => Ok(()),
+        }
+    }
+
     /// A servo cycle has been planned, in which a line of the program runs.
     ///
     /// # Errors
-    /// When the plan has taken too long.
+    /// When the plan has taken too long, or is not wanted any more.
     pub fn note(&mut self, line: i32) -> Result<(), PlanError> {
+        self.go_on()?;
         self.cycles += 1;
         if !self.cycles.is_multiple_of(CYCLES) || self.begun.elapsed() <= self.most_time {
             return Ok(());

@@ -38,12 +38,13 @@ mod turn_feeds;
 
 pub use error::PlanError;
 
-use crate::arguments::{file_name, period, positive};
+use crate::arguments::{file_name, period, positive, rate};
 use crate::json;
 use crate::layer::LayerSettings;
 use crate::layer::stream::LayerStream;
 use crate::machine::limits::{Jerk, LimitChanges};
-use crate::output::{OutputFile, named_twice};
+use crate::output::{OutputFile, named_twice, overwrites};
+use crate::signals::stop_on_signals;
 use arrivals::Arrivals;
 use collector::Collector;
 use csv::Table;
@@ -56,6 +57,8 @@ use setup::Setup;
 use source::Source;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use times::Times;
 
 /// Stack for a planner, which is a few megabytes and made in place.
@@ -88,13 +91,13 @@ pub struct PlanArguments {
     #[arg(long, value_name = "JERK")]
     pub jerk: Option<Jerk>,
     /// Greatest velocity along the path, mm/s, in place of [TRAJ]MAX_LINEAR_VELOCITY
-    #[arg(long, value_name = "V", value_parser = positive)]
+    #[arg(long, value_name = "V", value_parser = rate)]
     pub velocity_limit: Option<f64>,
     /// Servo period in place of [EMCMOT]SERVO_PERIOD
     #[arg(long, value_name = "SECONDS", value_parser = period)]
     pub period: Option<f64>,
     /// Raise every F to at least this
-    #[arg(long, value_name = "MM_MIN", value_parser = positive)]
+    #[arg(long, value_name = "MM_MIN", value_parser = rate)]
     pub feed_at_least: Option<f64>,
     /// Hold the machine at the start until the queue is full or the program waits, as a feed hold
     /// does: the plan then depends less on how fast moves come
@@ -171,10 +174,29 @@ pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
         )));
     }
     let setup = Setup::new(arguments)?;
+    let of_arguments = arguments
+        .files
+        .iter()
+        .chain(&arguments.ini)
+        .chain(&arguments.arrivals);
+    let read: Vec<&Path> = of_arguments
+        .chain(&setup.read)
+        .map(PathBuf::as_path)
+        .collect();
+    if let Some(file) = overwrites(files.iter().filter_map(|file| file.as_deref()), &read) {
+        return Err(PlanError::Option(format!(
+            "{}: this file is read for the plan, and --html, --svg, --csv or --times would be written there: give it a file \
+             of its own",
+            file.display()
+        )));
+    }
     crate::machine::warn_of(&setup.assumed);
+    let unheard = |error| PlanError::Option(format!("Ctrl-C cannot be waited for: {error}"));
+    // Or what is begun would be left behind.
+    let stop = stop_on_signals().map_err(unheard)?;
     let mut all = Vec::new();
     for file in &arguments.files {
-        all.push(in_a_thread(|| plan(file, &setup, arguments))?);
+        all.push(in_a_thread(|| plan(file, &setup, arguments, &stop))?);
     }
     let mut output = std::io::stdout().lock();
     let unwritable = |source| PlanError::unwritable(Path::new("standard output"), source);
@@ -231,14 +253,19 @@ fn begin(file: Option<&PathBuf>) -> Result<Option<OutputFile>, PlanError> {
 }
 
 /// Plans a program and writes its files, all of them when nothing can be refused any more.
-fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures, PlanError> {
+fn plan(
+    file: &Path,
+    setup: &Setup,
+    arguments: &PlanArguments,
+    stop: &Arc<AtomicBool>,
+) -> Result<Figures, PlanError> {
     let settings = LayerSettings {
         limits: setup.limits,
         feed_at_least: arguments.feed_at_least,
     };
     let layer = LayerStream::new(&settings, setup.surroundings.start);
-    let mut limit = Limit::check(file, arguments)?;
-    let mut source = Source::open(file, setup, layer, limit.most_time())?;
+    let mut limit = Limit::check(file, arguments, stop)?;
+    let mut source = Source::open(file, setup, layer, limit.most_time(), stop)?;
     let name = file_name(file);
     let mut progress = Progress::new(&name, listing::count_lines(file));
     // Now: that a file cannot be written should not turn out behind a long plan.
@@ -259,7 +286,10 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
     let mut drive = Drive::new(file, setup, supply)?;
     let mut collector = Collector::new(setup);
     let mut end = 0.0;
-    while let Some(sample) = drive.step(&mut source, |handed| collector.add(&handed))? {
+    while let Some(sample) = drive
+        .step(&mut source, |handed| collector.add(&handed))
+        .map_err(|error| setup.explained(error))?
+    {
         let shown = collector.note(&sample);
         if let Some(table) = &mut table {
             table.note(&shown)?;
@@ -299,6 +329,7 @@ fn plan(file: &Path, setup: &Setup, arguments: &PlanArguments) -> Result<Figures
         let drawing = svg::render(&figures, &collected).map_err(io::Error::other);
         files.push(filled(svg, drawing)?);
     }
+    limit.go_on()?;
     for file in files {
         let name = file.name().to_owned();
         let finished = file.finish();

@@ -4,12 +4,14 @@ use super::PlanArguments;
 use super::error::PlanError;
 use super::soft_limits::SoftLimits;
 use super::spindle::SpeedLimits;
-use crate::canon::Surroundings;
 use crate::canon::tool_table::{Tool, read_tool_table};
+use crate::canon::{CanonError, Surroundings};
 use crate::joints::{Joints, tool_tilt_axis};
-use crate::machine::configuration::{AXIS_LETTERS, Machine};
+use crate::machine::configuration::{AXIS_LETTERS, Machine, UNLIMITED};
 use crate::machine::ini::Ini;
 use crate::machine::limits::{Jerk, Limits, infinite_for_none, is_rotary};
+use crate::wiring::blendtp::least_jerk;
+use crate::wiring::codes::missing_files;
 use crate::wiring::joints::JointSettings;
 use framepath::axes::AXIS_COUNT;
 use std::path::{Path, PathBuf};
@@ -53,6 +55,10 @@ pub struct Setup {
     pub corners_inside: bool,
     /// What the interpreter finds around it.
     pub surroundings: Surroundings,
+    /// Files that the INI file names and that are read with it.
+    pub read: Vec<PathBuf>,
+    /// The file of a remapped code that is not there: with it LinuxCNC runs no program.
+    missing_file: Option<String>,
     /// What the INI file does not say, and what LinuxCNC takes instead: for the user to be told.
     pub assumed: Vec<String>,
 }
@@ -78,6 +84,7 @@ impl Setup {
         }
         if let Some(jerk) = arguments.jerk {
             setup.jerk = jerk.of_axes(&setup.limits).map(infinite_for_none);
+            setup.refuse_jerk(jerk)?;
             setup.joints = setup.joints.with_jerk(jerk, 1.0 / setup.millimetres);
             changed.push(format!("--jerk {jerk}"));
         } else if setup.ini.is_none() {
@@ -111,6 +118,35 @@ impl Setup {
             setup.origin = format!("{}, changed by {}", setup.origin, changed.join(" "));
         }
         Ok(setup)
+    }
+
+    /// blendtp refuses every move of an axis that would take too long to its acceleration.
+    fn refuse_jerk(&self, jerk: Jerk) -> Result<(), PlanError> {
+        let axes = (0..AXIS_COUNT).filter(|&axis| self.axes[axis]);
+        for axis in axes {
+            let least = least_jerk_of(self.limits.acceleration[axis]);
+            if self.jerk[axis] < least {
+                let unit = if is_rotary(axis) { "degrees" } else { "mm" };
+                return Err(PlanError::Option(format!(
+                    "--jerk {jerk}: blendtp refuses every move of {} with less than {least} {unit}/s3, a fifth of its acceleration; \
+                     write at least that, or unlimited",
+                    framepath::axes::AXIS_LETTERS[axis]
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// That the interpreter does not find the file of a remapped code it says as if it were the program.
+    pub(super) fn explained(&self, error: PlanError) -> PlanError {
+        let in_no_line = matches!(
+            &error,
+            PlanError::Program(CanonError::Refused { line: 0, .. })
+        );
+        match &self.missing_file {
+            Some(problem) if in_no_line => PlanError::Option(problem.clone()),
+            _ => error,
+        }
     }
 
     /// What holds for the axes: velocity, acceleration, jerk, shape (3, 9), mm (degrees) and seconds. Where joints have limits of
@@ -166,6 +202,8 @@ fn without_ini() -> Setup {
         default_tolerance: DEFAULT_TOLERANCE,
         corners_inside: false,
         surroundings: Surroundings::default(),
+        read: Vec::new(),
+        missing_file: None,
         assumed: Vec::new(),
     }
 }
@@ -185,10 +223,11 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
         millimetres,
         axes: [false; AXIS_COUNT],
         default_tolerance: DEFAULT_TOLERANCE * millimetres,
-        assumed: machine
-            .axes
+        assumed: ini
+            .passed_over()
             .iter()
-            .flat_map(|axis| axis.assumed.clone())
+            .chain(machine.axes.iter().flat_map(|axis| &axis.assumed))
+            .cloned()
             .collect(),
         ..without_ini()
     };
@@ -201,6 +240,9 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
         setup.axes[axis] = true;
         setup.jerk[axis] = member.limits.jerk.unwrap_or(f64::INFINITY) * unit;
     }
+    if arguments.jerk.is_none() {
+        refuse_jerk(&ini, &setup, arguments)?;
+    }
     if let Some(velocity) = ini.path_velocity()? {
         setup.velocity_limit = velocity * millimetres;
     }
@@ -212,6 +254,14 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     setup.tool_tilt_axis = tool_tilt_axis(&joints, &ini);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
     setup.surroundings = surroundings(&ini, file, &machine, millimetres, &mut setup.assumed)?;
+    setup.read = files_read(&ini, file);
+    setup.missing_file = missing_files(&ini).first().map(|(entry, file)| {
+        format!(
+            "{}:{}: [RS274NGC]REMAP = {}: {file} is in no folder of [RS274NGC]SUBROUTINE_PATH or [DISPLAY]PROGRAM_PREFIX, and \
+             LinuxCNC runs no program: correct the name or the folders",
+            entry.place.file.display(), entry.place.line, entry.value
+        )
+    });
     if let Some(home) = setup.joints.limited().and_then(|joints| joints.home()) {
         setup.surroundings.start = std::array::from_fn(|axis| home[axis] / setup.scale(axis));
     }
@@ -222,6 +272,47 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     setup.surroundings.kinematics_switch = output.map(|output| (output, kind));
     setup.ini.clone_from(&setup.surroundings.ini);
     Ok(setup)
+}
+
+/// Of an axis whose acceleration is not limited blendtp takes any.
+fn least_jerk_of(acceleration: f64) -> f64 {
+    match acceleration >= UNLIMITED {
+        true => 0.0,
+        false => least_jerk(acceleration),
+    }
+}
+
+/// blendtp refuses every move of an axis that would take too long to its acceleration, which an option may have changed.
+fn refuse_jerk(ini: &Ini, setup: &Setup, arguments: &PlanArguments) -> Result<(), PlanError> {
+    let mut limits = setup.limits;
+    if let Some(changes) = &arguments.limits {
+        limits.apply(changes);
+    }
+    for axis in (0..AXIS_COUNT).filter(|&axis| setup.axes[axis]) {
+        let least = least_jerk_of(limits.acceleration[axis]);
+        if setup.jerk[axis] < least {
+            let section = format!("AXIS_{}", framepath::axes::AXIS_LETTERS[axis]);
+            let problem = format!(
+                "blendtp refuses every move: it has to be 0 (not limited) or at least {}, a fifth of the acceleration",
+                least * setup.scale(axis)
+            );
+            return Err(ini.bad_value(&section, "MAX_JERK", &problem).into());
+        }
+    }
+    Ok(())
+}
+
+/// What the INI file includes, the tool table and the numbered parameters.
+fn files_read(ini: &Ini, file: &Path) -> Vec<PathBuf> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let named = [("EMCIO", "TOOL_TABLE"), ("RS274NGC", "PARAMETER_FILE")];
+    let named = named.map(|(section, key)| ini.text(section, key));
+    let named = named.into_iter().flatten().map(|name| folder.join(name));
+    let included = ini
+        .entries()
+        .iter()
+        .map(|entry| entry.place.file.to_path_buf());
+    included.chain(named).collect()
 }
 
 /// A changer that puts tools back where there is room has in pocket 0 what the spindle holds. Of several

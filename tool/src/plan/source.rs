@@ -8,6 +8,8 @@ use crate::layer::program::{Operation, Piece, Shape};
 use crate::layer::stream::{Laid, LayerStream};
 use std::collections::VecDeque;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// Millimetres (degrees): travel of an axis below it counts as none.
@@ -26,7 +28,7 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// `most_time` is how long the program may take.
+    /// `most_time` is how long the program may take, `stop` is set when it is not wanted any more.
     ///
     /// # Errors
     /// A program that cannot be opened.
@@ -35,11 +37,14 @@ impl<'a> Source<'a> {
         setup: &'a Setup,
         layer: LayerStream<'a>,
         most_time: Duration,
+        stop: &Arc<AtomicBool>,
     ) -> Result<Self, PlanError> {
         Ok(Source {
             file,
             setup,
-            calls: stream_program(file, &setup.surroundings)?.within(most_time),
+            calls: stream_program(file, &setup.surroundings)?
+                .within(most_time)
+                .until(Arc::clone(stop)),
             layer,
             waiting: VecDeque::new(),
             ended: false,

@@ -9,6 +9,11 @@ fn a_missing_file() {
         message.starts_with("nothing.ngc: cannot be read: No such file"),
         "{message}"
     );
+    let message = Bench::new().refused(&[".", "--with", STOCK]);
+    assert!(
+        message.starts_with(".: cannot be read: it is a folder"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -26,7 +31,7 @@ fn a_program_that_the_interpreter_refuses() {
     bench.write("spline.ngc", "G64 F100\nG5 I0 J3 P0 Q-3 X1 Y1\nM2\n");
     let message = bench.refused(&["spline.ngc", "--with", STOCK]);
     assert!(
-        message.contains("spline.ngc:2: a spline (G5, G5.2) is not supported"),
+        message.contains("spline.ngc:2: a spline (G5, G5.1, G5.2; write arcs or short lines in its place) is not supported"),
         "{message}"
     );
 }

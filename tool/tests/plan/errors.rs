@@ -125,6 +125,13 @@ fn programs_that_cannot_be_planned() {
     );
     let no_feed = refused("G21\nG1 X1\nM2\n");
     assert!(no_feed.starts_with("part.ngc:2: "), "{no_feed}");
+    for spline in [
+        "G5.1 X3 Y3 I1 J1",
+        "G5.2 X3 Y3 P1 L3\nX4 Y4 P1\nX5 Y6 P1\nG5.3",
+    ] {
+        let error = refused(&format!("G21 F100\nG1 X1\n{spline}\nM2\n"));
+        assert!(error.contains("write arcs or short lines"), "{error}");
+    }
     let nothing = refused("G21\nM2\n");
     assert!(nothing.contains("part.ngc: nothing moves"), "{nothing}");
     let axis = refused("G21 F100\nG1 X1\nG1 A5\nM2\n");
@@ -187,6 +194,19 @@ fn options_that_make_no_sense() {
             "{shown}"
         );
     }
+    for option in ["--velocity-limit", "--feed-at-least", "--jerk"] {
+        for value in ["-1", "1e-308", "1e308"] {
+            let output = bench.plan(&["part.ngc", option, value]);
+            assert_eq!(output.status.code(), Some(2), "{option} {value}");
+            let shown = refusal(output);
+            assert!(
+                shown.contains("invalid value") && shown.contains("a number"),
+                "{shown}"
+            );
+        }
+    }
+    let nobody = bench.plan(&["part.ngc", "--limits", ":V=5"]);
+    assert!(refusal(nobody).contains("names no axis before the colon"));
     let two = bench.refused(&["part.ngc", "part.ngc", "--html", "both.html"]);
     assert!(two.contains("one by one"), "{two}");
     let unwritable = bench.refused(&["part.ngc", "--svg", "no/folder.svg"]);
@@ -245,6 +265,12 @@ fn a_dwell_of_ages_is_refused() {
     let error = bench.refused(&["part.ngc"]);
     assert!(
         error.contains("part.ngc: behind line 2 the program dwells for 1e30 s"),
+        "{error}"
+    );
+    bench.write("part.ngc", &format!("{ages}\nG1 X2 F1000\nM2\n"));
+    let error = bench.refused(&["part.ngc"]);
+    assert!(
+        error.starts_with("part.ngc: before its first move the program dwells"),
         "{error}"
     );
 }
@@ -354,5 +380,29 @@ fn a_switch_of_the_tool_centre_point_says_what_to_write() {
             error.starts_with("part.ngc:3: in frame_send.ngc, line 1: a switch of the tool centre point (write G43 "),
             "{error}"
         );
+    }
+}
+
+/// Remapped codes and calls lead the interpreter elsewhere.
+#[test]
+fn the_line_of_a_mistake_is_that_of_the_program() {
+    let bench = Bench::new();
+    let remap = "[RS274NGC]\nSUBROUTINE_PATH = .\nREMAP = M6 modalgroup=6 ngc=change\n";
+    let tools = "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
+    bench.write("mill.ini", &(MILL.replace("[RS274NGC]\n", remap) + tools));
+    bench.write("tools.tbl", "T1 P1\n");
+    bench.write(
+        "change.ngc",
+        "o<change> sub\nM6\no<change> endsub [1]\nM2\n",
+    );
+    for (mistake, said) in [
+        ("T999 M6", "part.ngc:3: Requested tool 999 not found"),
+        ("o<nosuch> call", "part.ngc:3: "),
+    ] {
+        let program = format!("G21 G90 F500\nG1 X1\n{mistake}\nX2\nX3\nM2\n");
+        bench.write("part.ngc", &program);
+        let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+        assert!(error.starts_with(said), "{error}");
+        assert!(error.trim_end().ends_with(mistake), "{error}");
     }
 }

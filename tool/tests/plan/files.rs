@@ -73,6 +73,30 @@ fn the_drawing_is_whole_and_labelled() {
     );
 }
 
+/// What README shows is drawn by the command that stands below it.
+#[test]
+fn the_picture_of_the_readme_is_of_today() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let readme = std::fs::read_to_string(format!("{root}/README.md")).expect("a file");
+    let ini = "hal-component/configs/framepath-sim/framepath-sim.ini";
+    let command = format!("`framepath plan docs/outline.ngc --ini {ini} --svg outline.svg`");
+    assert!(readme.contains(&command));
+    let bench = Bench::new();
+    let [program, ini] = ["docs/outline.ngc", ini].map(|file| format!("{root}/{file}"));
+    let output = bench.plan(&[&program, "--ini", &ini, "--svg", "outline.svg"]);
+    assert!(output.status.success(), "{output:?}");
+    let shown = std::fs::read_to_string(format!("{root}/docs/outline.svg")).expect("a file");
+    let words = |drawing: &str| -> Vec<String> {
+        let texts = drawing.lines().filter(|line| line.starts_with("<text"));
+        texts.map(str::to_owned).collect()
+    };
+    assert_eq!(
+        words(&shown),
+        words(&bench.read("outline.svg")),
+        "copy it to docs"
+    );
+}
+
 /// What is refused leaves no file, and what was there as it was; also where rows were written already.
 #[test]
 fn a_refused_plan_writes_nothing() {

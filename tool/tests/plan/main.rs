@@ -12,9 +12,12 @@ mod figures;
 mod files;
 mod joints;
 mod long_programs;
+mod machine_files;
+mod overwriting;
 mod page;
 #[path = "../common/pages.rs"]
 mod pages;
+mod signals;
 mod soft_limits;
 mod support;
 #[path = "../common/surface.rs"]

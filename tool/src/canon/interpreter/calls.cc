@@ -204,17 +204,17 @@ void ARC_FEED(int line, double first_end, double second_end, double first_axis, 
 #ifdef LINUXCNC_HAS_SCOPED_PLANES
 void NURBS_G5_FEED(int, const std::vector<NURBS_CONTROL_POINT> &, unsigned int, CANON_PLANE)
 {
-    refused = "a spline (G5, G5.2)";
+    refused = "a spline (G5, G5.1, G5.2; write arcs or short lines in its place)";
 }
 
 void NURBS_G6_FEED(int, const std::vector<NURBS_G6_CONTROL_POINT> &, unsigned int, double, int, CANON_PLANE)
 {
-    refused = "a spline (G6.2)";
+    refused = "a spline (G6.2; write arcs or short lines in its place)";
 }
 #else
 void NURBS_FEED(int, std::vector<CONTROL_POINT>, unsigned int)
 {
-    refused = "a spline (G5, G5.2)";
+    refused = "a spline (G5, G5.1, G5.2; write arcs or short lines in its place)";
 }
 #endif
 

@@ -14,6 +14,7 @@
  */
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <unistd.h>
 #include "interp_base.hh"
@@ -65,12 +66,34 @@ static void note_line(InterpBase &interpreter)
         program_line = interpreter.sequence_number();
 }
 
-static int print_refusal(InterpBase &interpreter, int number, const std::string &message)
+/* The text of the line that is carried out, or of the program's line that could not be read. What looks for a subroutine leaves
+ * the interpreter at the end of the file. */
+static std::string line_carried_out;
+
+static std::string text_of(int number)
+{
+    char line[1024] = "";
+    FILE *file = fopen(program, "r");
+    for (int at = 0; file && at < number; at += strchr(line, '\n') != nullptr)
+        if (!fgets(line, sizeof line, file))
+            break;
+    if (file)
+        fclose(file);
+    return line;
+}
+
+static std::string line_text(InterpBase &interpreter)
 {
     char line[1024] = "";
     interpreter.line_text(line, sizeof line);
+    return line;
+}
+
+static int print_refusal(InterpBase &interpreter, int number, const std::string &message)
+{
+    std::string line = line_carried_out.empty() ? line_text(interpreter) : line_carried_out;
     fprintf(output, "REFUSED %d %s\n", number, one_line(message.c_str()).c_str());
-    fprintf(output, "SOURCE %s\n", one_line(line).c_str());
+    fprintf(output, "SOURCE %s\n", one_line(line.c_str()).c_str());
     return 1;
 }
 
@@ -81,7 +104,9 @@ static int refuse(InterpBase &interpreter, int status, const char *what = "")
     interpreter.error_text(status, message, sizeof message);
     if (!message[0])
         snprintf(message, sizeof message, "the interpreter gives up with code %d", status);
-    return print_refusal(interpreter, interpreter.sequence_number(), std::string(what) + message);
+    /* Behind a remapped code it is 0. */
+    int number = interpreter.sequence_number();
+    return print_refusal(interpreter, number ? number : program_line, std::string(what) + message);
 }
 
 static bool failed(int status)
@@ -134,12 +159,17 @@ static int interpret(InterpBase &interpreter, const char *file)
     if (failed(status))
         return refuse(interpreter, status);
     for (;;) {
+        bool in_subroutine = !subroutine_file(interpreter).empty();
+        line_carried_out.clear();
         status = interpreter.read();
         if (status == INTERP_ENDFILE || status == INTERP_EXIT)
             break;
+        if (failed(status) && !in_subroutine)
+            line_carried_out = text_of(interpreter.sequence_number());
         if (failed(status))
             return refuse(interpreter, status);
         note_line(interpreter);
+        line_carried_out = line_text(interpreter);
         if (sends_frame(interpreter))
             return unsupported(interpreter, sent_by_tool_centre ? tool_centre : "a programmed frame (framekins)");
         if (status == INTERP_OK)
