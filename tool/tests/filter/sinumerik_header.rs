@@ -94,3 +94,23 @@ fn subprograms_that_are_declared_run() {
     let output = accepted(&shop.run("part.mpf", &["--backend", "program"]));
     assert!(output.contains("G1 Z-3 F100"), "{output}");
 }
+
+/// The head of a subprogram names it, by a number too.
+#[test]
+fn heads_of_subprograms_have_names() {
+    let program = "%_N_PART_MPF\nG0 X0\nL10\nM30\n%_N_L10_SPF\nPROC L10 DISPLOF\nG0 X3\nM17\n";
+    let (_, written) = said_and_written(program);
+    assert_eq!(written, ["G0 X0", "G0 X3", "M30"]);
+    for (head, words) in [
+        ("PROC", "the name of the subprogram is missing"),
+        ("PROC (REAL DEPTH)", "the name of the subprogram is missing"),
+        (
+            "PROC L",
+            "the number of a subprogram must be a whole number",
+        ),
+    ] {
+        let shop = Shop::new(&[("part.mpf", format!("{head}\nM30\n").as_bytes())]);
+        let shown = refused(&shop.run("part.mpf", &[]));
+        assert!(shown.contains(words), "{head}\n{shown}");
+    }
+}

@@ -257,13 +257,11 @@ fn parts_are_repeated() {
     ];
     assert_eq!(moves, wanted);
     assert_eq!(ends("M30"), 1);
-    let end = "G0 X0\nG91\nAA: X1\nENDLABEL: Y1\nG90\nREPEAT AA P=2\nM30\n";
+    // The block of the end label belongs to what is repeated.
+    let end = "G0 X0 Y0\nG91\nAA: X1\nENDLABEL: Y1\nREPEAT AA P=2\nM30\n";
     assert_eq!(
-        lines(end)
-            .iter()
-            .filter(|line| line.starts_with("G0 X"))
-            .count(),
-        4
+        lines(end)[1..],
+        [x(1), y(1), x(2), y(2), x(3), y(3), "M30".to_string()]
     );
     for (program, words) in [
         (

@@ -106,7 +106,8 @@ impl Interpreter<'_> {
                 let mut ends = self.targets(&end_label, routine).into_iter();
                 let end = ends.find(|end| *end > first && (*end < at || first > at));
                 match end {
-                    Some(end) => end,
+                    // What stands behind ENDLABEL in its block is repeated too.
+                    Some(end) => end + 1,
                     None if first < at => at,
                     None => return Err(missing("ENDLABEL")),
                 }

@@ -209,7 +209,7 @@ impl BlockParser<'_> {
     /// `PROC NAME DISPLOF`: the head of a subprogram. The name is that of the file or section.
     fn procedure(&mut self) -> Parsed<Statement> {
         self.cursor.advance();
-        self.cursor.advance();
+        self.procedure_name()?;
         let parameters = match self.cursor.is_symbol(0, Symbol::Open) {
             true => flow_parser::parameters(self)?,
             false => Vec::new(),
@@ -221,6 +221,23 @@ impl BlockParser<'_> {
             };
         }
         Ok(Statement::Procedure(parameters))
+    }
+
+    /// `POCKET`, `L10`.
+    fn procedure_name(&mut self) -> Parsed<()> {
+        if self.cursor.take_letter('L') {
+            return self.cursor.whole("the number of a subprogram").map(|_| ());
+        }
+        match self.cursor.peek() {
+            Some(TokenKind::Name(_) | TokenKind::Letter(_)) => {
+                self.cursor.advance();
+                Ok(())
+            }
+            _ => Err(self.error_with_help(
+                "the name of the subprogram is missing",
+                "write it behind PROC: PROC POCKET(REAL DEPTH)",
+            )),
+        }
     }
 
     /// `MCALL POCKET(5)`, `MCALL`.

@@ -252,7 +252,7 @@ pub enum Flow {
 pub struct RepeatPart {
     /// The label of its first block.
     pub first: Target,
-    /// The label of its last block. Without one: the block before ENDLABEL or before the statement, or
+    /// The label of its last block. Without one: the block of ENDLABEL or that before the statement, or
     /// with `one_block` the first itself.
     pub last: Option<Target>,
     /// REPEATB.
