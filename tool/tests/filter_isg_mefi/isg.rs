@@ -339,16 +339,19 @@ fn corners_are_rounded_as_the_program_says() {
             "G1 X12",
         ]
     );
-    for noted in [
-        "#SLOPE",
-        "#SET SLOPE PROFIL",
-        "#CONTOUR MODE",
-        "#HSC MERGE",
-        "#FLUSH",
-    ] {
+    for noted in ["#SLOPE", "#SET SLOPE PROFIL", "#HSC MERGE", "#FLUSH"] {
         assert!(
             output.contains(&format!("{noted} tunes the other control")),
             "{noted}"
+        );
+    }
+    // What is carried out is not said to be left out.
+    assert!(!output.contains("CONTOUR MODE tunes"), "{output}");
+    for more in ["DEV PATH_DEV=0.5 TRACK_DEV 1", "DEV PATH_DEV=0.5 RATIO"] {
+        let more = shop(&format!("#CONTOUR MODE ON [{more}]\nG01 X1 F100\nM30\n")).accepted(&[]);
+        assert!(
+            more.contains("all of #CONTOUR MODE but PATH_DEV tunes"),
+            "{more}"
         );
     }
     let default = shop("#HSC ON\nG01 X1 F100\nM30\n").accepted(&[]);

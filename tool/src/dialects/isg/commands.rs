@@ -118,7 +118,10 @@ fn contouring(reader: &mut Reader) -> Command {
     reader.keyword("CONTOUR");
     reader.keyword("MODE");
     let on = on_or_off(reader);
-    let given = parameters(&mut reader.clone()).unwrap_or_default();
+    let mut ahead = reader.clone();
+    let given = parameters(&mut ahead).ok();
+    ahead.blanks();
+    let given = given.filter(|_| ahead.peek().is_none());
     reader.take_while(|_| true);
     Command::Contouring(on, given)
 }

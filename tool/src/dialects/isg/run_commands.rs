@@ -33,7 +33,9 @@ impl Interpreter<'_> {
         match command {
             Command::Message(text, values) => self.message(text, values, span),
             Command::Smoothing(on, parameters) => self.smoothing(*on, parameters, span),
-            Command::Contouring(on, parameters) => self.contouring(*on, parameters, span),
+            Command::Contouring(on, parameters) => {
+                self.contouring(*on, parameters.as_deref(), span)
+            }
             Command::DefineSystem(number, values) => {
                 let number = self.system_number(number.as_ref())?;
                 let system = self.system(values)?;
@@ -169,8 +171,17 @@ impl Interpreter<'_> {
     }
 
     /// `#CONTOUR MODE`: the deviation of G61 and G261. All else in it tunes the control.
-    fn contouring(&mut self, on: Option<bool>, parameters: &[Parameter], span: Span) -> Done {
-        self.control.note("#CONTOUR MODE", span);
+    fn contouring(
+        &mut self,
+        on: Option<bool>,
+        parameters: Option<&[Parameter]>,
+        span: Span,
+    ) -> Done {
+        let tunes = |given: &Parameter| !matches!(given.name.as_str(), "DEV" | "PATH_DEV");
+        if parameters.is_none_or(|list| list.iter().any(tunes)) {
+            self.control.note("all of #CONTOUR MODE but PATH_DEV", span);
+        }
+        let parameters = parameters.unwrap_or_default();
         if let Some(given) = parameters.iter().find(|given| given.name == "PATH_DEV") {
             self.modes.contour_deviation = Some(self.parameter(given)?);
         }

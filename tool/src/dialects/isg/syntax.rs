@@ -139,8 +139,8 @@ pub enum Command {
     Message(String, Vec<Expression>),
     /// `#HSC ON [CONTERROR 0.1]`: whether it is switched, and its parameters.
     Smoothing(Option<bool>, Vec<Parameter>),
-    /// `#CONTOUR MODE ON [DEV PATH_DEV=0.1]`: likewise.
-    Contouring(Option<bool>, Vec<Parameter>),
+    /// `#CONTOUR MODE ON [DEV PATH_DEV=0.1]`: likewise; `None` for parameters of another form.
+    Contouring(Option<bool>, Option<Vec<Parameter>>),
     /// `#CS DEF [1] [0,0,10,0,30,0]`.
     DefineSystem(Option<Expression>, Vec<Option<Expression>>),
     /// `#CS ON [1] [0,0,10,0,30,0]`.
