@@ -157,3 +157,43 @@ fn the_first_rotary_move_goes_to_its_angle() {
         assert!(errors(program).contains("which way this axis turns"));
     }
 }
+
+/// CIP and CT are modes as G1 is: they hold from a block on in which nothing moves.
+#[test]
+fn tangent_arcs_and_arcs_over_a_point_hold() {
+    let begin = "G0 X0 Y0 Z0\nG1 X10 F100\n";
+    for (alone, beside) in [
+        ("CT\nX20 Y10\nX30 Y0", "CT X20 Y10\nCT X30 Y0"),
+        ("CIP\nX30 Y0 I1=20 J1=10", "CIP X30 Y0 I1=20 J1=10"),
+        ("CIP F50\nCT\nX20 Y10\nG1 X30", "F50\nCT X20 Y10\nG1 X30"),
+    ] {
+        let of = |form: &str| commands(&translate(&format!("{begin}{form}\nM30\n"), &[]));
+        let ends = |form: &str| of(form).join(" ").replace("F50 ", "").replace(" F50", "");
+        assert_eq!(ends(alone), ends(beside), "{alone}");
+        assert!(ends(alone).contains("G2") || ends(alone).contains("G3"));
+    }
+    for (program, place, words) in [
+        ("G1 CT X20 Y10", "3:4", "G1 and CT exclude each other"),
+        ("CIP CT X20 Y10", "3:5", "CIP and CT exclude each other"),
+        ("G1 I1=3", "3:4", "belong to CIP"),
+        ("CT\nG53 X20", "4:1", "only G0 and G1 can move in machine"),
+        (
+            "G500\nCT X20 Y10",
+            "4:4",
+            "an arc while the work offset is off",
+        ),
+        (
+            "G500\nG1 X20 AR=30",
+            "4:8",
+            "an arc while the work offset is off",
+        ),
+    ] {
+        let shop = Shop::new(&[("part.mpf", format!("{begin}{program}\nM30\n").as_bytes())]);
+        let shown = refused(&shop.run("part.mpf", &[]));
+        assert!(shown.contains(words), "{program}\n{shown}");
+        assert!(
+            shown.contains(&format!("part.mpf:{place}")),
+            "{program}\n{shown}"
+        );
+    }
+}

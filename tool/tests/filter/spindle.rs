@@ -68,6 +68,51 @@ fn threads_keep_their_pitch() {
     }
 }
 
+/// G33, G331 and G332 hold as G0 and G1 do; the pitch belongs to its block.
+#[test]
+fn threads_and_taps_hold_until_another_motion() {
+    let begin = "S500 M3\nG0 X0 Y0 Z10\n";
+    let program = format!("{begin}G33\nZ-20 K2\nZ-30 K3\nM8\nG1 X5 F100\nX6\nM30\n");
+    assert_eq!(
+        lines(&program)[2..],
+        [
+            "G33 Z-20 K2",
+            "G33 Z-30 K3",
+            "M8",
+            "G1 X5 F100",
+            "G1 X6",
+            "M30"
+        ]
+    );
+    let taps = "G331 Z-5 K1\nG332 Z10 K1\n";
+    for (program, place, words) in [
+        ("G33 Z-20 K2\nZ-30\n", "4:1", "a thread needs its pitch"),
+        ("G33 Z-20 K2\nX24 Z-22\n", "4:1", "a thread needs its pitch"),
+        ("G33 K2\nZ-20\n", "3:1", "no axis moves"),
+        (
+            "G33 Z-20 K2\nG53 Z0\n",
+            "4:1",
+            "only G0 and G1 can move in machine",
+        ),
+        (taps.trim_end(), "", ""),
+        (
+            &format!("{taps}X10"),
+            "5:1",
+            "while G331 or G332 is in force",
+        ),
+    ] {
+        let program = format!("{begin}{program}\nM30\n");
+        match words {
+            "" => drop(lines(&program)),
+            _ => {
+                let shown = errors(&program);
+                assert!(shown.contains(words), "{program}{shown}");
+                assert!(shown.contains(&format!("part.mpf:{place}")), "{shown}");
+            }
+        }
+    }
+}
+
 #[test]
 fn rigid_taps_go_in_and_out() {
     let program = "G0 X10 Y10 Z2\nSPOS=0\nG331 Z-15 K1.25 S400\nG332 Z2 K1.25\nG0 Z50\n\
@@ -198,6 +243,111 @@ fn surface_speeds_and_diameters() {
         shown.contains("G97 keeps a speed that is not known"),
         "{shown}"
     );
+}
+
+/// G94 and G95 end the cutting speed as G97 does; what the speed is then has to be said before it matters.
+#[test]
+fn cutting_speeds_end_with_the_other_feeds() {
+    let begin = "G18 G95 F0.1\nG0 X20 Z0\nG96 S200 LIMS=3000 M4\nG1 Z-1\n";
+    for (program, wanted) in [
+        ("G94 F100\nS500\nG1 Z-2", "G94 F100 G97 S500 G1 Z-2"),
+        ("G94 F100 S500\nG1 Z-2", "G94 F100 G97 S500 G1 Z-2"),
+        ("G95 S300\nG1 Z-2", "G95 G97 S300 G1 Z-2"),
+        // Whatever the speed is, it does not matter to a rapid motion and to a spindle that stands.
+        ("G94 G0 Z5\nM5\nG1 X9 F50", "G94 G0 Z5 M5 G1 X9 F50"),
+    ] {
+        let text = lines(&format!("{begin}{program}\nM30\n")).join(" ");
+        assert!(
+            text.ends_with(&format!("{wanted} M30")),
+            "{program}\n{text}"
+        );
+    }
+    for program in [
+        "G94 F100\nG1 Z-2",
+        "G95\nG33 Z-2 K1",
+        "G95\nCYCLE81(10,0,2,-5)",
+    ] {
+        let shown = errors(&format!("{begin}{program}\nM30\n"));
+        assert!(shown.contains("part.mpf:5:1"), "{program}\n{shown}");
+        assert!(shown.contains("the end of G96 keeps a speed"), "{shown}");
+    }
+}
+
+/// LIMS counts with G96 and G97; with G93 to G95 S is what it is.
+#[test]
+fn speeds_keep_to_their_limit() {
+    for (program, wanted) in [
+        ("LIMS=1000\nG97 S3000 M3", &["S1000"][..]),
+        (
+            "G97 S3000 M3\nLIMS=1000\nLIMS=2000",
+            &["S3000", "S1000", "S2000"],
+        ),
+        (
+            "S3000 M3\nLIMS=1000\nG97\nG94",
+            &["S3000", "S1000", "S3000"],
+        ),
+        ("LIMS=1000\nG97 S300 M3\nG95 S2000", &["S300", "S2000"]),
+    ] {
+        let all = lines(&format!("{program}\nM30\n"));
+        let words = all.iter().flat_map(|line| line.split(' '));
+        let speeds: Vec<&str> = words.filter(|word| word.starts_with('S')).collect();
+        assert_eq!(speeds, wanted, "{program}");
+    }
+    let shown = errors("G97 S100 LIMS=0 M3\nM30\n");
+    assert!(shown.contains("the limit of the spindle speed"), "{shown}");
+}
+
+/// In inches S of G96 is in feet per minute, which LinuxCNC takes as they are with G20.
+#[test]
+fn cutting_speeds_are_in_the_unit_of_the_program() {
+    for (unit, arguments, wanted) in [
+        ("G700", &[][..], "S60.96"),
+        ("G70", &[], "S60.96"),
+        ("G710", &[], "S200"),
+        ("G700", &["--machine-in-inch"], "S200"),
+        ("G710", &["--machine-in-inch"], "S656.167979"),
+    ] {
+        let arguments = [&["--backend", "program"], arguments].concat();
+        let text = translate(&format!("{unit}\nG96 S200 M4\nM30\n"), &arguments);
+        assert!(text.contains(&format!("{wanted} ")), "{unit}\n{text}");
+    }
+}
+
+#[test]
+fn g97_counts_the_feed_per_turn() {
+    let program = "G0 X20 Z2\nG97 S500 M4\nG1 Z-10 F0.2\nM30\n";
+    let text = lines(program).join("\n");
+    assert!(text.contains("G95\nG97 S500 M4\nG1 Z-10 F0.2"), "{text}");
+    // F in mm/min does not go on as mm per turn.
+    let shown = errors("G94 F100\nG0 X20 Z2\nG97 S500 M4\nG1 Z-10\nM30\n");
+    assert!(
+        shown.contains("part.mpf:4:4") && shown.contains("no F is in force"),
+        "{shown}"
+    );
+}
+
+/// An absolute centre is a diameter as the end of the arc is, one from the start is a radius.
+#[test]
+fn absolute_centres_are_diameters() {
+    let begin = "G18 G95 F0.1\nG0 X20 Z0\n";
+    let wanted = "G3 X20 Z-20 I0 K-10";
+    for program in [
+        "DIAMON\nG0 X40\nG3 X40 Z-20 I=AC(40) K=AC(-10)",
+        "DIAM90\nG0 X40\nG3 X40 Z-20 I=AC(40) K=AC(-10)",
+        "DIAMON\nG0 X40\nG3 X40 Z-20 I0 K-10",
+        "G3 X20 Z-20 I=AC(20) K=AC(-10)",
+        "DIAMON\nG0 X40\nCIP X40 Z-20 I1=AC(60) K1=AC(-10)",
+        "DIAM90\nG0 X40\nCIP X40 Z-20 I1=AC(60) K1=AC(-10)",
+        "DIAM90\nG0 X40\nCIP X40 Z-20 I1=IC(10) K1=AC(-10)",
+    ] {
+        let text = lines(&format!("{begin}{program}\nM30\n")).join("\n");
+        let side = text.replace("G2 X20 Z-20 I0 K-10", wanted);
+        assert!(side.contains(wanted), "{program}\n{text}");
+    }
+    let shown = errors(&format!(
+        "{begin}DIAMON\nCIP X40 Z-20 I1=IC(10) K1=IC(-10)\nM30\n"
+    ));
+    assert!(shown.contains("part.mpf:4:14"), "{shown}");
 }
 
 #[test]

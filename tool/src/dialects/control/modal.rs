@@ -4,6 +4,7 @@ use crate::dialects::settings::Settings;
 use crate::program::frame::Frame;
 use crate::program::position::Position;
 use crate::program::{Compensation, FeedMode, PathControl, Plane, Spindle};
+use crate::source::Span;
 
 /// The motion that a block of axis words alone carries on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,11 @@ pub struct Modal {
     pub feed: Option<f64>,
     /// S, revolutions per minute.
     pub spindle_speed: Option<f64>,
+    /// Whether S of LinuxCNC is a cutting speed (G96).
+    pub surface_speed: bool,
+    /// Where a constant cutting speed ended without S, until one follows: the control goes on with the speed
+    /// that it had there.
+    pub kept_speed: Option<Span>,
     /// M3 to M5.
     pub spindle: Option<Spindle>,
     /// How it turned when a tool change stopped it, until the program switches it.
@@ -76,6 +82,8 @@ impl Modal {
             has_feed: false,
             feed: None,
             spindle_speed: None,
+            surface_speed: false,
+            kept_speed: None,
             spindle: None,
             spindle_before_change: None,
             compensation: Compensation::Off,

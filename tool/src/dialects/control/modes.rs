@@ -53,6 +53,9 @@ impl Control<'_> {
                     .help("M4 turns the other way"),
             );
         }
+        if self.modal.surface_speed {
+            self.end_surface_speed();
+        }
         self.modal.spindle_speed = Some(speed.value);
         self.actions.push(Action::SpindleSpeed(speed.value));
         Ok(())
@@ -200,6 +203,7 @@ impl Control<'_> {
 
     /// A motion with feed needs one. `has_own`: whether the block has an F.
     pub fn check_feed(&mut self, has_own: bool, span: Span) -> Done {
+        self.check_kept_speed()?;
         let inverse = self.modal.feed_mode == FeedMode::InverseTime;
         if self.modal.has_feed && (!inverse || has_own) {
             return Ok(());

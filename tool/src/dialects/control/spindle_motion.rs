@@ -25,6 +25,7 @@ impl Control<'_> {
     pub fn thread(&mut self, words: &MotionWords, pitch: f64, axis: usize, span: Span) -> Done {
         self.refuse_compensation(span, "a thread")?;
         self.check_spindle(span)?;
+        self.check_kept_speed()?;
         check_pitch(pitch, span)?;
         let mut path = Move {
             kind: MoveKind::Line,
@@ -166,6 +167,8 @@ impl Control<'_> {
         };
         // What a dwell in revolutions takes is not known any more.
         self.modal.spindle_speed = None;
+        self.modal.surface_speed = true;
+        self.modal.kept_speed = None;
         self.actions.push(Action::SurfaceSpeed(Some(SurfaceSpeed {
             speed: speed * per_minute,
             limit,
@@ -182,8 +185,32 @@ impl Control<'_> {
             )
             .help("program the speed beside it: G97 S1000"));
         }
-        self.actions.push(Action::SurfaceSpeed(None));
+        self.end_surface_speed();
         Ok(())
+    }
+
+    /// S counts turns from here on.
+    pub fn end_surface_speed(&mut self) {
+        self.modal.surface_speed = false;
+        self.modal.kept_speed = None;
+        self.actions.push(Action::SurfaceSpeed(None));
+    }
+
+    /// Refuses a motion with feed at a speed that only the control knows.
+    pub fn check_kept_speed(&mut self) -> Done {
+        let turns = matches!(
+            self.modal.spindle,
+            Some(Spindle::Clockwise | Spindle::Counterclockwise)
+        );
+        // Said once; the blocks after it have the same fault.
+        match self.modal.kept_speed.take_if(|_| turns) {
+            None => Ok(()),
+            Some(end) => Err(Diagnostic::error(
+                end,
+                "the end of G96 keeps a speed that is not known ahead of time",
+            )
+            .help("program the speed beside it: G94 S1000")),
+        }
     }
 
     fn check_spindle(&self, span: Span) -> Done {

@@ -23,14 +23,6 @@ pub enum ArcForm {
 impl Interpreter<'_> {
     /// The motion of a block, by G0 to G3, CIP or CT.
     pub(super) fn path_motion(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
-        match (words.cip, words.ct) {
-            (Some(_), Some(span)) => {
-                return Err(Diagnostic::error(span, "CIP and CT exclude each other"));
-            }
-            (Some(_), None) => self.arc_form = Some(ArcForm::Cip),
-            (None, Some(_)) => self.arc_form = Some(ArcForm::Ct),
-            (None, None) => {}
-        }
         let own_feed = words.feed.is_some();
         let mut motion = words.motion;
         self.resolve_polar(words, &mut motion)?;
@@ -47,6 +39,7 @@ impl Interpreter<'_> {
             return Ok(());
         }
         if self.offset_free.active {
+            self.refuse_arc_words(words, span)?;
             let mut state = self.offset_free;
             self.control.offset_free_motion(
                 &motion,
@@ -83,6 +76,19 @@ impl Interpreter<'_> {
                     ArcForm::Cip => self.arc_over(words, &motion, own_feed, span),
                 }
             }
+        }
+    }
+
+    /// While the work offset is off there are straight lines only.
+    fn refuse_arc_words(&self, words: &BlockWords, span: Span) -> Done {
+        let opening = words.opening.map(|word| word.span);
+        match self.arc_form.map(|_| span).or(opening) {
+            None => Ok(()),
+            Some(span) => Err(Diagnostic::error(
+                span,
+                "an arc while the work offset is off (G500)",
+            )
+            .help("set a work offset of the machine to 0 and select it instead of G500")),
         }
     }
 

@@ -240,6 +240,7 @@ impl BlockWords {
             || self.contour_angle.is_some()
             || self.polar_angle.is_some()
             || self.polar_radius.is_some()
+            || self.middle.iter().any(Option::is_some)
     }
 }
 

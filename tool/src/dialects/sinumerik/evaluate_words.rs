@@ -37,6 +37,17 @@ pub(super) struct OneShot {
     pub(super) smooth: Option<bool>,
 }
 
+impl OneShot {
+    /// Whether the axes of the block are something else than the end of a motion by the mode in force.
+    pub(super) fn takes_axes(&self) -> bool {
+        self.machine_coordinates.is_some()
+            || self.preset.is_some()
+            || self.pole.is_some()
+            || self.local_offset.is_some()
+            || self.smooth.is_some()
+    }
+}
+
 impl Interpreter<'_> {
     /// Runs the words of a block and appends what they do to the actions of the block.
     pub(super) fn run_words(
@@ -93,7 +104,7 @@ impl Interpreter<'_> {
             self.contour_tolerance(tolerance)?;
         }
         self.control.apply_states(compensated);
-        if !self.spindle_motion(words, block)? {
+        if !self.move_with_spindle(words, &once, block)? {
             self.motion(words, &once, block)?;
         }
         self.stops(words);

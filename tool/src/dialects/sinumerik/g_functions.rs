@@ -1,9 +1,11 @@
 //! What the G functions of a block change.
 
 use super::approach::shape_of;
+use super::arc_words::ArcForm;
 use super::block_words::BlockWords;
 use super::evaluate_words::OneShot;
 use super::interpreter::Interpreter;
+use super::spindle::SpindleMotion;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::groups::{Groups, in_order_of_compensation};
@@ -20,24 +22,45 @@ impl Interpreter<'_> {
             let group = self.g_function(code, span, once)?;
             groups.claim(group, format!("G{}", shown(code)), span)?;
         }
+        for (name, span, form) in [
+            ("CIP", words.cip, ArcForm::Cip),
+            ("CT", words.ct, ArcForm::Ct),
+        ] {
+            if let Some(span) = span {
+                groups.claim(1, name.to_string(), span)?;
+                self.begin_motion(None, None);
+                self.arc_form = Some(form);
+            }
+        }
         Ok(())
+    }
+
+    /// The motion of the blocks from here on: one of G0 to G3, or one in step with the spindle.
+    fn begin_motion(&mut self, motion: Option<Motion>, spindle: Option<SpindleMotion>) {
+        self.arc_form = None;
+        self.spindle_motion = spindle;
+        self.control.modal.motion = motion;
     }
 
     /// One G function; returns the number of its group, of which a block may hold one.
     fn g_function(&mut self, code: u32, span: Span, once: &mut OneShot) -> Result<u8, Diagnostic> {
         let group = match code {
             0 | 10 | 20 | 30 => {
-                self.arc_form = None;
-                self.control.modal.motion = Some(match code {
+                let motion = match code {
                     0 => Motion::Rapid,
                     10 => Motion::Line,
                     20 => Motion::Clockwise,
                     _ => Motion::Counterclockwise,
-                });
+                };
+                self.begin_motion(Some(motion), None);
                 1
             }
-            // They move by themselves, the others of the group go on behind them.
-            330 | 630 | 3310 | 3320 => 1,
+            330 | 3310 | 3320 => {
+                self.begin_motion(None, SpindleMotion::of(code));
+                1
+            }
+            // It moves by itself, the others of the group go on behind it.
+            630 => 1,
             1470 | 2470 | 3470 | 1480 | 2480 | 3480 => {
                 once.smooth = shape_of(code).map(|(_, approaches)| approaches);
                 2
@@ -55,7 +78,13 @@ impl Interpreter<'_> {
                 self.control.feed_mode(FeedMode::PerRevolution);
                 15
             }
-            970 => 15,
+            // It counts the feed as G95 does, whatever was in force.
+            970 => {
+                if self.control.modal.feed_mode != FeedMode::PerRevolution {
+                    self.control.feed_mode(FeedMode::PerRevolution);
+                }
+                15
+            }
             40 => {
                 once.dwell = Some(span);
                 2
@@ -193,7 +222,7 @@ fn shown(tenfold: u32) -> String {
 fn unsupported_g(code: u32, span: Span) -> Diagnostic {
     let reason = match code {
         340 | 350 => "threads whose pitch changes are not supported",
-        961 | 962 | 971 | 9610 | 9620 | 9710 | 9720 | 9730 => "write G96 or G97",
+        961 | 962 | 971 | 9610 | 9620 | 9710 | 9720 | 9730 => "write G96 or G97, with F per turn",
         200 | 210 => "inch and millimetre are G70 and G71 in this dialect",
         _ => {
             "look it up in the manual of the control, and write it with functions that are supported"

@@ -11,7 +11,8 @@ use super::procedures::ModalCall;
 use super::programmed_offset::ProgrammedOffset;
 use super::routine::Routine;
 use super::smoothing::Smoothing;
-use super::spindle::{Diameter, Tapping};
+use super::spindle::{Diameter, SpindleMotion, Tapping};
+use super::spindle_speed::SpindleSpeed;
 use super::syntax::{Assigned, Assignment, Block, Definition, Statement, Word};
 use super::variables::{Filling, VariableStore};
 use crate::diagnostics::Diagnostic;
@@ -35,6 +36,8 @@ pub struct Interpreter<'a> {
     pub(super) variables: VariableStore,
     /// CIP or CT, while one of them is the modal motion.
     pub(super) arc_form: Option<ArcForm>,
+    /// G33, G331 or G332, likewise.
+    pub(super) spindle_motion: Option<SpindleMotion>,
     pub(super) pole: Pole,
     /// RNDM, machine units.
     pub(super) rounding: Option<f64>,
@@ -69,12 +72,8 @@ pub struct Interpreter<'a> {
     pub(super) system: Option<u8>,
     /// Values for work offsets, until one is chosen.
     pub(super) waiting_offsets: Vec<SystemValues>,
-    /// LIMS: the most that G96 turns the spindle.
-    pub(super) most_speed: Option<f64>,
-    /// G96.
-    pub(super) surface_speed: bool,
-    /// S of the last G96.
-    pub(super) cutting_speed: Option<f64>,
+    /// What S means, and LIMS.
+    pub(super) speed: SpindleSpeed,
 }
 
 impl<'a> Interpreter<'a> {
@@ -91,6 +90,7 @@ impl<'a> Interpreter<'a> {
             library,
             variables: VariableStore::new(&settings.variables),
             arc_form: None,
+            spindle_motion: None,
             pole: Pole::default(),
             rounding: None,
             smoothing: Smoothing::default(),
@@ -110,9 +110,7 @@ impl<'a> Interpreter<'a> {
             open_line: None,
             system: None,
             waiting_offsets: Vec::new(),
-            most_speed: None,
-            surface_speed: false,
-            cutting_speed: None,
+            speed: SpindleSpeed::default(),
         }
     }
 
@@ -399,6 +397,7 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
 
     fn takes(&self, _: &PlainBlock) -> bool {
         self.arc_form.is_none()
+            && self.spindle_motion.is_none()
             && self.rounding.is_none()
             && self.modal_call.is_none()
             && self.tapping.is_none()
@@ -406,5 +405,6 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
             && self.approach.is_none()
             && self.diameter == Diameter::default()
             && !self.offset_free.active
+            && self.control.modal.kept_speed.is_none()
     }
 }

@@ -38,6 +38,7 @@ mod settable_offset;
 mod slots;
 mod smoothing;
 mod spindle;
+mod spindle_speed;
 mod structure;
 mod swivel;
 pub mod syntax;

@@ -1,6 +1,7 @@
-//! Threads, taps, the angle and the surface speed of the spindle; diameters, which come with them.
+//! Threads and taps; diameters and ways of rotary axes.
 
 use super::block_words::BlockWords;
+use super::evaluate_words::OneShot;
 use super::interpreter::Interpreter;
 use super::syntax::Way;
 use crate::diagnostics::Diagnostic;
@@ -26,6 +27,29 @@ pub enum Diameter {
     Always,
 }
 
+/// The motions in step with the spindle that hold until another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpindleMotion {
+    /// G33.
+    Thread,
+    /// G331.
+    TapIn,
+    /// G332.
+    TapOut,
+}
+
+impl SpindleMotion {
+    /// That of a G number times ten.
+    pub fn of(code: u32) -> Option<SpindleMotion> {
+        match code {
+            330 => Some(SpindleMotion::Thread),
+            3310 => Some(SpindleMotion::TapIn),
+            3320 => Some(SpindleMotion::TapOut),
+            _ => None,
+        }
+    }
+}
+
 /// A tap that has gone in with G331 and must come out with G332.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tapping {
@@ -35,10 +59,12 @@ pub struct Tapping {
 }
 
 impl Interpreter<'_> {
-    /// The motion of a block with G33, G63, G331 or G332; `false` where it has none of them.
-    pub(super) fn spindle_motion(
+    /// The motion of a block with G33, G63, G331 or G332, or under one of them; `false` where it moves
+    /// otherwise or not at all.
+    pub(super) fn move_with_spindle(
         &mut self,
         words: &BlockWords,
+        once: &OneShot,
         block: Span,
     ) -> Result<bool, Diagnostic> {
         let code = words
@@ -55,21 +81,31 @@ impl Interpreter<'_> {
             )
             .help("write G332 in the next block with an axis, back to where G331 began"));
         }
-        let Some(code) = code else {
+        if once.takes_axes() {
             return Ok(false);
-        };
-        match code.value {
-            330 => self.thread(words, code.span)?,
-            630 => self.floating_tap(words, block)?,
-            3310 => self.tap_in(words, code.span)?,
-            _ => self.tap_out(words, code.span)?,
+        }
+        let named = code.map(|code| code.span);
+        let span = named.or(words.motion.first_axis()).unwrap_or(block);
+        match (code.map(|code| code.value), self.spindle_motion) {
+            (Some(630), _) => self.floating_tap(words, block)?,
+            (_, Some(SpindleMotion::Thread)) if words.is_motion() => self.thread(words, span)?,
+            (Some(3310), _) => self.tap_in(words, span)?,
+            (Some(3320), _) => self.tap_out(words, span)?,
+            (None, Some(_)) if words.is_motion() => return Err(taps_on(span)),
+            _ => return Ok(false),
         }
         Ok(true)
     }
 
-    /// `G33 Z-20 K2`: I, J or K is the pitch along X, Y or Z.
+    /// `G33 Z-20 K2`: I, J or K is the pitch along X, Y or Z. It is that of its block, G33 holds.
     fn thread(&mut self, words: &BlockWords, span: Span) -> Done {
         let (axis, pitch) = pitch(words, span)?;
+        if !words.motion.names_an_axis() {
+            return Err(
+                Diagnostic::error(span, "the pitch of a thread, and no axis moves")
+                    .help("write it beside the end of the thread: G33 Z-20 K2"),
+            );
+        }
         let mut motion = words.motion;
         motion.centre = [None; 3];
         self.control.thread(&motion, pitch, axis, span)
@@ -148,53 +184,6 @@ impl Interpreter<'_> {
         }
     }
 
-    /// G96, G97, S with them, LIMS, SPOS.
-    pub(super) fn spindle_words(&mut self, words: &BlockWords) -> Done {
-        if let Some(most) = words.most_speed {
-            self.most_speed = Some(most.value);
-        }
-        let mode = words.g.iter().find(|g| matches!(g.value, 960 | 970));
-        if let Some(mode) = mode {
-            self.surface_speed = mode.value == 960;
-            if !self.surface_speed {
-                self.control
-                    .turning_speed(words.speed.map(|speed| speed.value), mode.span)?;
-            }
-        }
-        // G96 without S takes the cutting speed of before, and LIMS holds for the one in force.
-        let again = mode.map(|mode| mode.span);
-        let again = again.or(words.most_speed.map(|most| most.span));
-        match (words.speed, self.surface_speed, again) {
-            (Some(speed), true, _) => self.cutting_speed(speed)?,
-            (Some(speed), false, _) => self.control.speed(speed)?,
-            (None, true, Some(span)) => match (self.cutting_speed, mode) {
-                (Some(value), _) => self.cutting_speed(At { value, span })?,
-                (None, None) => {}
-                (None, Some(mode)) => {
-                    return Err(Diagnostic::error(
-                        mode.span,
-                        "G96, and no cutting speed is programmed",
-                    )
-                    .help("write it beside G96, in m/min: G96 S200"));
-                }
-            },
-            (None, ..) => {}
-        }
-        if let Some(angle) = words.spindle_angle {
-            self.control.modal.spindle = None;
-            self.control
-                .actions
-                .push(Action::Orient(angle.value.rem_euclid(360.0)));
-        }
-        Ok(())
-    }
-
-    fn cutting_speed(&mut self, speed: At<f64>) -> Done {
-        self.cutting_speed = Some(speed.value);
-        self.control
-            .surface_speed(speed.value, self.most_speed, speed.span)
-    }
-
     /// Diameters become radii, and ways of rotary axes coordinates.
     pub(super) fn resolve_axes(&mut self, words: &mut BlockWords) -> Done {
         if let Some(diameter) = words.diameter {
@@ -211,6 +200,7 @@ impl Interpreter<'_> {
                 x.value.0 /= 2.0;
             }
         }
+        self.resolve_centres(words)?;
         for (axis, way) in words.ways.iter().enumerate() {
             let (Some(way), Some(word)) = (way, &mut words.motion.axes[axis]) else {
                 continue;
@@ -252,6 +242,39 @@ impl Interpreter<'_> {
         }
         Ok(())
     }
+
+    /// Absolute places on the way of an arc are diameters as its end is; what counts from the start of the arc
+    /// is a radius. (Siemens, SINUMERIK ONE, Programming Manual NC, "Channel-specific diameter programming".)
+    fn resolve_centres(&self, words: &mut BlockWords) -> Done {
+        if self.diameter == Diameter::Never {
+            return Ok(());
+        }
+        if let Some(centre) = &mut words.motion.centre[0]
+            && centre.value.1 == Dimension::Absolute
+        {
+            centre.value.0 /= 2.0;
+        }
+        if let Some(middle) = &mut words.middle[0] {
+            match (self.is_incremental(middle.value.1), self.diameter) {
+                (false, _) => middle.value.0 /= 2.0,
+                (true, Diameter::Always) => {
+                    return Err(Diagnostic::error(
+                        middle.span,
+                        "an increment to the intermediate point while diameters are programmed",
+                    )
+                    .help("write its diameter: I1=AC(..)"));
+                }
+                (true, _) => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// G331 and G332 hold, and only axes with a pitch are a tap.
+fn taps_on(span: Span) -> Diagnostic {
+    Diagnostic::error(span, "a motion while G331 or G332 is in force")
+        .help("write G0 or G1 in this block")
 }
 
 /// The axis along which a thread goes, and its pitch: I, J or K.
@@ -265,7 +288,9 @@ fn pitch(words: &BlockWords, span: Span) -> Result<(usize, f64), Diagnostic> {
         .collect();
     match given[..] {
         [(axis, pitch)] => Ok((axis, pitch)),
-        _ => Err(Diagnostic::error(span, "a thread needs its pitch")
-            .help("write K2 for a pitch of 2 along Z; I is that along X, J that along Y")),
+        _ => Err(Diagnostic::error(span, "a thread needs its pitch").help(
+            "G33 holds until G0 or G1; in each of its blocks write K2 for a pitch of 2 along Z; I is that \
+             along X, J that along Y",
+        )),
     }
 }
