@@ -134,6 +134,87 @@ fn m_functions_of_linuxcnc_are_not_passed_on() {
     }
 }
 
+/// What only a part of the words of a block uses leaves no other word without effect.
+#[test]
+fn words_that_nothing_uses_are_refused() {
+    for (block, place, word) in [
+        ("G4 F1 SPOS=90", "2:7", "SPOS"),
+        ("G4 F1 LIMS=1000", "2:7", "LIMS"),
+        ("G4 F1 RNDM=2", "2:7", "RNDM"),
+        ("G4 F1 CTOL=0.5 G64", "2:7", "CTOL"),
+        ("G4 F1 AP=30 RP=5", "2:7", "AP"),
+        ("G4 F1 ADIS=1", "2:7", "ADIS"),
+        ("G4 F1 G9", "2:7", "G9"),
+        ("G4 F1 SUPA", "2:7", "SUPA"),
+        ("G4 F1 G111", "2:7", "G111"),
+        ("G111 X5 Y5 RNDM=3", "2:12", "RNDM"),
+        ("G110 X5 Y5 CR=4 AR=3", "2:12", "CR"),
+        ("G112 X5 Y5 ANG=5", "2:12", "ANG"),
+        ("G111 X5 Y5 K2", "2:12", "K"),
+        ("G111 X5 Y5 G53", "2:1", "G111"),
+        ("G53 G1 X10 RND=2", "2:12", "RND"),
+        ("SUPA G0 X10 CHF=2", "2:13", "CHF"),
+        ("G153 G0 X10 G9", "2:13", "G9"),
+        ("G52 X10 RNDM=2", "2:9", "RNDM"),
+        ("G92 X10 AP=20", "2:9", "AP"),
+        ("G33 Z-5 K1 RND=2", "2:12", "RND"),
+        ("G33 Z-5 K1 G9", "2:12", "G9"),
+        ("G63 Z-5 F100 CR=3", "2:14", "CR"),
+        ("G331 Z-5 K1 CHR=1", "2:13", "CHR"),
+        ("G41 G247 DISR=5 X10 Y10 RND=1", "2:25", "RND"),
+    ] {
+        let shown = refusal(
+            "sinumerik",
+            format!("S100 M3 G0 X0 Y0 Z5 F100\n{block}\nM30\n").as_bytes(),
+            &[],
+        );
+        let wanted = format!("{word} has no meaning beside G");
+        assert!(shown.contains(&wanted), "{block}\n{shown}");
+        assert!(
+            shown.contains(&format!("part.nc:{place}")),
+            "{block}\n{shown}"
+        );
+    }
+    for (block, word) in [
+        ("X10 FAD=200", "FAD"),
+        ("X10 DISCL=3", "DISCL"),
+        ("DISR=3", "DISR"),
+    ] {
+        let program = format!("G1 X0 Y0 F100\n{block}\nM30\n");
+        let shown = refusal("sinumerik", program.as_bytes(), &[]);
+        let wanted = format!("{word} belongs to a smooth approach");
+        assert!(shown.contains(&wanted), "{block}\n{shown}");
+    }
+    // Modes beside a dwell are set.
+    assert_eq!(lines("G4 F1 G64\nG1 X1 F9")[..2], ["G64 P0.01", "G4 P1"]);
+    for word in ["F100", "S500", "D1", "R5"] {
+        let program = format!("G0 X0\nG4 K100 {word}\nM30\n");
+        let shown = refusal("fagor", program.as_bytes(), &[]);
+        assert!(
+            shown.contains("G4 stands alone in its block"),
+            "{word}\n{shown}"
+        );
+    }
+}
+
+/// A tool that T selects and no M6 changes to is not that of the lengths that D takes.
+#[test]
+fn tools_without_a_change_are_named() {
+    let said = |program: &str| {
+        let output = translate(&format!("{program}\nM30\n"), &[]);
+        output.matches("is selected and not changed to").count()
+    };
+    assert_eq!(said("T1 D1\nG0 X0\nX5\nT2 D1\nX6"), 1);
+    for program in [
+        "T1 M6\nD1\nG0 X0",
+        "T1 D1\nM6\nG0 X0",
+        "T1\nG0 X0",
+        "T1 D0\nG0 X0",
+    ] {
+        assert_eq!(said(program), 0, "{program}");
+    }
+}
+
 /// NULs before and behind lines are fillers of tapes; inside of one something was lost.
 #[test]
 fn nul_bytes_are_errors_with_a_place() {

@@ -77,6 +77,7 @@ impl Interpreter<'_> {
 
     /// The block of an approach: it waits for the contour.
     pub(super) fn begin_approach(&mut self, words: &BlockWords) -> Done {
+        words.check_of_approach()?;
         let mut smooth = self.smooth(words, true)?;
         smooth.target = self.place_in_plane(words, smooth.span)?;
         self.approach = Some(smooth);
@@ -95,6 +96,7 @@ impl Interpreter<'_> {
             return Ok(false);
         };
         let Some(target) = smooth.target else {
+            words.check_beside(1470, &["RNDM"])?;
             smooth.target = self.place_in_plane(words, smooth.span)?;
             let straight = matches!(
                 self.control.modal.motion,
@@ -198,6 +200,7 @@ impl Interpreter<'_> {
 
     /// The block of a retraction, before its G functions: off the contour on the side of the tool.
     pub(super) fn begin_retraction(&mut self, words: &BlockWords) -> Done {
+        words.check_of_approach()?;
         for g in &words.g {
             self.approach_mode(g.value);
         }

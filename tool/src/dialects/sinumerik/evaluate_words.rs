@@ -104,6 +104,9 @@ impl Interpreter<'_> {
             self.contour_tolerance(tolerance)?;
         }
         self.control.apply_states(compensated);
+        if words.motion.names_an_axis() {
+            self.note_tool_left(block);
+        }
         if !self.move_with_spindle(words, &once, block)? {
             self.motion(words, &once, block)?;
         }
@@ -123,6 +126,7 @@ impl Interpreter<'_> {
             return Err(Diagnostic::error(span, "G4 stands alone in its block")
                 .help("put axes, T, D and M functions in another block"));
         }
+        words.check_alone(40, &["F", "S"])?;
         let seconds = match (words.feed, words.speed) {
             (Some(seconds), None) => seconds.value,
             (None, Some(revolutions)) => match self.control.modal.spindle_speed {
@@ -154,6 +158,7 @@ impl Interpreter<'_> {
                 6 => {
                     self.control.tool_change(span, true)?;
                     self.tool = self.selected;
+                    self.tool_left = None;
                     self.edge = Some(1.0);
                 }
                 19 => self.control.actions.push(Action::Orient(0.0)),
@@ -183,7 +188,21 @@ impl Interpreter<'_> {
         self.control.modal.compensation = compensation;
         done?;
         self.edge = Some(offset.value);
+        if offset.value != 0.0 && self.tool.is_none() {
+            self.tool_left = self.selected.filter(|tool| *tool > 0);
+        }
         Ok(())
+    }
+
+    /// Lathes with a turret take T for the change.
+    fn note_tool_left(&mut self, span: Span) {
+        if let Some(tool) = self.tool_left.take() {
+            let message = format!(
+                "T{tool} is selected and not changed to: LinuxCNC keeps the tool that it has, and its lengths; \
+                 write M6 behind T if the tool is to be changed"
+            );
+            self.control.note_once("a tool without M6", &message, span);
+        }
     }
 
     fn choose_edge(&mut self, offset: At<f64>) -> Done {
@@ -224,15 +243,19 @@ impl Interpreter<'_> {
 
     fn motion(&mut self, words: &BlockWords, once: &OneShot, block: Span) -> Done {
         if let Some(span) = once.preset {
+            words.check_beside(920, &[])?;
             return self.preset(words, span);
         }
         if let Some(span) = once.machine_coordinates {
+            words.check_beside(530, &[])?;
             return self.machine_move(words, span);
         }
         if let Some(pole) = once.pole {
+            words.check_beside(10 * pole.value, &["AP", "RP"])?;
             return self.set_pole(words, pole);
         }
         if let Some(span) = once.local_offset {
+            words.check_beside(520, &[])?;
             return self.local_offset(words, span);
         }
         if let Some(rounding) = words.rounding {
@@ -241,14 +264,7 @@ impl Interpreter<'_> {
         match once.smooth {
             Some(true) => return self.begin_approach(words),
             Some(false) => return self.end_retraction(words, block),
-            None => {}
-        }
-        if let Some(word) = words.approach_distance {
-            return Err(Diagnostic::error(
-                word.span,
-                "DISR belongs to a smooth approach or retraction",
-            )
-            .help("write G147, G247 or G347, or G148, G248 or G348 in this block"));
+            None => words.refuse_approach_words()?,
         }
         if !words.is_motion() {
             if let Some(corner) = words.corner {

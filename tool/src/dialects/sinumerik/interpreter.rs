@@ -47,6 +47,8 @@ pub struct Interpreter<'a> {
     pub(super) tool: Option<u32>,
     /// D, while that is known.
     pub(super) edge: Option<f64>,
+    /// The tool that D means, where no M6 has changed to it, until it moves.
+    pub(super) tool_left: Option<u32>,
     /// G500.
     pub(super) offset_free: OffsetFree,
     /// The frame of CYCLE800, in which that of TRANS and its like acts.
@@ -97,6 +99,7 @@ impl<'a> Interpreter<'a> {
             selected: None,
             tool: None,
             edge: None,
+            tool_left: None,
             offset_free: OffsetFree::default(),
             swivelled: Vec::new(),
             offset: ProgrammedOffset::default(),
@@ -406,5 +409,6 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
             && self.diameter == Diameter::default()
             && !self.offset_free.active
             && self.control.modal.kept_speed.is_none()
+            && self.tool_left.is_none()
     }
 }

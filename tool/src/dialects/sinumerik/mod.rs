@@ -47,6 +47,7 @@ pub mod token;
 mod variables;
 mod word_parser;
 mod words;
+mod words_beside;
 
 use super::control::About;
 use super::guess::Evidence;

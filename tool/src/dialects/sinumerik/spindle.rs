@@ -84,6 +84,7 @@ impl Interpreter<'_> {
         if once.takes_axes() {
             return Ok(false);
         }
+        self.check_beside_spindle(words, code.map(|code| code.value))?;
         let named = code.map(|code| code.span);
         let span = named.or(words.motion.first_axis()).unwrap_or(block);
         match (code.map(|code| code.value), self.spindle_motion) {
@@ -95,6 +96,18 @@ impl Interpreter<'_> {
             _ => return Ok(false),
         }
         Ok(true)
+    }
+
+    /// Refuses what neither threads nor taps use.
+    fn check_beside_spindle(&self, words: &BlockWords, code: Option<u32>) -> Done {
+        match (code, self.spindle_motion) {
+            (Some(630), _) => words.check_beside(630, &[]),
+            (Some(code), _) => words.check_beside(code, &["I", "J", "K"]),
+            (None, Some(SpindleMotion::Thread)) if words.is_motion() => {
+                words.check_beside(330, &["I", "J", "K"])
+            }
+            (None, _) => Ok(()),
+        }
     }
 
     /// `G33 Z-20 K2`: I, J or K is the pitch along X, Y or Z. It is that of its block, G33 holds.
