@@ -31,6 +31,7 @@ mod sinumerik_forms;
 mod sinumerik_header;
 mod sinumerik_long_cycles;
 mod sinumerik_milling;
+mod sinumerik_save;
 mod sinumerik_values;
 mod spindle;
 mod swivel;

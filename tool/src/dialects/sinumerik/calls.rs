@@ -60,7 +60,8 @@ impl Interpreter<'_> {
         block: &Block,
     ) -> Result<bool, Diagnostic> {
         let name = call.name.as_str();
-        let arguments = self.arguments(call, routine)?;
+        let head = self.head(routine);
+        let arguments = self.arguments(call, &head.parameters)?;
         let passes = match &call.passes {
             Some(passes) => passes.whole(&self.variables, 1)?,
             None => 1,
@@ -72,12 +73,17 @@ impl Interpreter<'_> {
             self.control
                 .enter(name, routine.file, [pass, passes], place);
             self.variables.enter();
+            let kept = head.saves.then(|| self.keep_modes());
             let outcome = self.run_pass(routine, &arguments);
             self.variables.leave();
             self.control.leave(name, place);
             let returned;
             (goes_on, returned) = outcome?;
             self.assign_returned(returned)?;
+            if let Some(kept) = kept {
+                self.restore_modes(kept, call.span)?;
+                self.control.finish_marker(place);
+            }
             if !goes_on {
                 break;
             }

@@ -127,12 +127,7 @@ impl Interpreter<'_> {
                 8
             }
             5000 => {
-                self.control
-                    .refuse_compensation(span, "the work offset changes")?;
-                self.control.modal.forget_position();
-                self.system = Some(0);
-                self.set_offsets();
-                self.offset_free.begin();
+                self.suppress_offset(span)?;
                 8
             }
             520 => {
@@ -205,10 +200,26 @@ impl Interpreter<'_> {
                 .diagnostics
                 .push(Diagnostic::warning(span, message));
         }
+        self.choose_offset(system as u8, span)
+    }
+
+    /// Work offset 1 to 9, which are those of LinuxCNC.
+    pub(super) fn choose_offset(&mut self, system: u8, span: Span) -> Done {
         self.offset_free.end();
-        self.system = Some(system as u8);
+        self.system = Some(system);
         self.set_offsets();
-        self.control.work_offset(system as u8, span)
+        self.control.work_offset(system, span)
+    }
+
+    /// G500.
+    pub(super) fn suppress_offset(&mut self, span: Span) -> Done {
+        self.control
+            .refuse_compensation(span, "the work offset changes")?;
+        self.control.modal.forget_position();
+        self.system = Some(0);
+        self.set_offsets();
+        self.offset_free.begin();
+        Ok(())
     }
 }
 

@@ -24,6 +24,7 @@ mod frame_commands;
 mod g_functions;
 mod hole_patterns;
 mod interpreter;
+mod kept_modes;
 pub mod lexer;
 mod milling;
 mod offset_parser;

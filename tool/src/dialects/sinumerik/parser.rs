@@ -5,7 +5,7 @@ use super::cursor::{Cursor, Parsed};
 use super::expressions::{arguments, expression};
 use super::flow_parser;
 use super::lexer::tokens;
-use super::syntax::{Assigned, Assignment, Block, Call, Statement, Word, WordValue};
+use super::syntax::{Assigned, Assignment, Block, Call, Procedure, Statement, Word, WordValue};
 use super::token::{SectionName, Symbol, Token, TokenKind};
 use super::word_parser::unknown_word;
 use super::words;
@@ -214,13 +214,16 @@ impl BlockParser<'_> {
             true => flow_parser::parameters(self)?,
             false => Vec::new(),
         };
+        let mut saves = false;
         while let Some(TokenKind::Name(attribute)) = self.cursor.peek() {
             match attribute.as_str() {
-                "DISPLOF" | "DISPLON" | "SBLOF" | "SBLON" | "SAVE" => self.cursor.advance(),
+                "SAVE" => saves = true,
+                "DISPLOF" | "DISPLON" | "SBLOF" | "SBLON" => {}
                 _ => break,
-            };
+            }
+            self.cursor.advance();
         }
-        Ok(Statement::Procedure(parameters))
+        Ok(Statement::Procedure(Procedure { parameters, saves }))
     }
 
     /// `POCKET`, `L10`.

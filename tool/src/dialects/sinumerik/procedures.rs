@@ -3,7 +3,7 @@
 use super::drilling::is_drilling;
 use super::interpreter::Interpreter;
 use super::routine::Routine;
-use super::syntax::{Assigned, Block, Call, Parameter, Statement, VariableKind};
+use super::syntax::{Assigned, Block, Call, Parameter, Procedure, Statement, VariableKind};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::expression::{Expression, ExpressionKind, Value};
@@ -31,21 +31,25 @@ pub(super) struct Argument {
 }
 
 impl Interpreter<'_> {
-    /// The values for the parameters of a subprogram, worked out where it is called.
-    pub(super) fn arguments(
-        &mut self,
-        call: &Call,
-        routine: &Routine,
-    ) -> Result<Vec<Argument>, Diagnostic> {
+    /// The head of a subprogram; one without PROC has neither parameters nor attributes.
+    pub(super) fn head(&mut self, routine: &Routine) -> Procedure {
         let control = &mut self.control;
         let says = |block: &Block| block.statement != Statement::Empty;
         let head = routine
             .blocks
             .find(control.sources, control.diagnostics, says);
-        let parameters: &[Parameter] = match head.as_ref().map(|block| &block.statement) {
-            Some(Statement::Procedure(parameters)) => parameters,
-            _ => &[],
-        };
+        match head.as_ref().map(|block| &block.statement) {
+            Some(Statement::Procedure(head)) => head.clone(),
+            _ => Procedure::default(),
+        }
+    }
+
+    /// The values for the parameters of a subprogram, worked out where it is called.
+    pub(super) fn arguments(
+        &self,
+        call: &Call,
+        parameters: &[Parameter],
+    ) -> Result<Vec<Argument>, Diagnostic> {
         if call.arguments.len() > parameters.len() {
             let name = &call.name;
             return Err(match parameters.len() {

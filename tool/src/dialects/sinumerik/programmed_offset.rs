@@ -39,10 +39,15 @@ impl Interpreter<'_> {
         }
     }
 
+    /// The programmable frame, which acts in that of CYCLE800.
+    pub(super) fn programmable_operations(&self) -> &[FrameOperation] {
+        let all = self.control.modal.frame.operations();
+        all.get(self.swivelled.len()..).unwrap_or(&[])
+    }
+
     /// The programmable frame behind the shift with which it begins.
     fn later_operations(&self) -> &[FrameOperation] {
-        let all = self.control.modal.frame.operations();
-        let programmed = all.get(self.swivelled.len()..).unwrap_or(&[]);
+        let programmed = self.programmable_operations();
         let shift = |operation: &&FrameOperation| matches!(operation, FrameOperation::Translate(_));
         let shifts = programmed.iter().take_while(shift).count();
         programmed.get(shifts..).unwrap_or(&[])

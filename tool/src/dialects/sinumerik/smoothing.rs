@@ -16,7 +16,7 @@ pub struct Smoothing {
     /// ADIS: how far before the corner G641 begins to round, which is more than it rounds.
     distance: Option<f64>,
     /// G641.
-    by_distance: bool,
+    pub(super) by_distance: bool,
     /// The mode that CYCLE832 has taken the place of, until it ends.
     before: Option<PathControl>,
 }
@@ -96,7 +96,7 @@ impl Interpreter<'_> {
         }
     }
 
-    fn round_corners(&mut self) {
+    pub(super) fn round_corners(&mut self) {
         let Smoothing {
             tolerance,
             distance,

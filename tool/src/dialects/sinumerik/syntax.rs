@@ -45,8 +45,8 @@ pub enum Statement {
     CallByText(Expression),
     /// `MCALL POCKET(5)`; `MCALL` alone ends it.
     ModalCall(Option<Call>),
-    /// `PROC POCKET(REAL DEPTH)`: the head of a subprogram with parameters.
-    Procedure(Vec<Parameter>),
+    /// `PROC POCKET(REAL DEPTH)`: the head of a subprogram.
+    Procedure(Procedure),
     /// `MSG("text")`; without a text, `MSG()` clears.
     Message(Option<Expression>),
     /// `SETAL(65000, "text")`: the program stops itself. Where the word stands.
@@ -138,6 +138,15 @@ pub struct Call {
     pub arguments: Vec<Option<Expression>>,
     /// `P3`.
     pub passes: Option<Expression>,
+}
+
+/// The head of a subprogram.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Procedure {
+    /// What stands in parentheses.
+    pub parameters: Vec<Parameter>,
+    /// SAVE: the modes of the program that calls are in force again behind it.
+    pub saves: bool,
 }
 
 /// A parameter of a subprogram.
