@@ -168,6 +168,23 @@ fn feed_per_turn_is_not_exceeded_where_it_begins() {
     }
 }
 
+/// Whatever a spindle is said to turn, what the operator sees is a number.
+#[test]
+fn what_feed_per_turn_asks_for_is_a_number_whatever_the_spindle_turns() {
+    for speed in [f64::NAN, f64::INFINITY, 1e308] {
+        with_machine(|machine| {
+            machine.inputs.spindles[SPINDLE].speed = speed;
+            let planner = &mut machine.planner;
+            planner.set_spindle_synchronisation(SPINDLE as i32, 10.0, true);
+            machine.line(z(1.0), &fast()).expect("a line");
+            for _ in 0..200 {
+                let requested = machine.cycle().requested_velocity;
+                assert!(requested.is_finite(), "{speed}: {requested}");
+            }
+        });
+    }
+}
+
 /// The rapid is run, however the spindle stands behind it, and the machine goes on once that turns.
 #[test]
 fn feed_per_turn_waits_behind_a_rapid_for_a_spindle_that_stands() {

@@ -178,10 +178,13 @@ impl SpindleFollower {
         spindle.map_or(f64::INFINITY, |spindle| spindle.speed.abs())
     }
 
-    /// What a move asks for at the present speed of its spindle, machine units per second.
+    /// What a move asks for at the present speed of its spindle, machine units per second; what it is planned for where that
+    /// speed is no number.
     pub fn feed(&self, queued: &Move) -> f64 {
-        queued.synchronisation.map_or(queued.feed, |with| {
-            with.per_turn * self.feed_turns(Some(with.spindle))
-        })
+        let with = queued.synchronisation;
+        let asked = with.map(|with| with.per_turn * self.feed_turns(Some(with.spindle)));
+        asked
+            .filter(|asked| asked.is_finite())
+            .unwrap_or(queued.feed)
     }
 }
