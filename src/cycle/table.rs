@@ -1,6 +1,6 @@
 //! The cells of the reference that lie ahead, in a ring of fixed size.
 
-use super::cell::{Cell, FeedPerTurn};
+use super::cell::Cell;
 use super::feed_block::{BLOCK_LENGTH, FeedBlock};
 use super::stored_cell::StoredCell;
 use crate::axes::{AXIS_COUNT, Axes};
@@ -276,9 +276,10 @@ fn check(cell: &Cell) -> Result<(), PushError> {
     if feed.iter().any(|value| !value.is_finite()) || cell.programmed_feed <= 0.0 {
         return Err(PushError::Feed);
     }
-    let with_spindle =
-        |with: FeedPerTurn| with.planned_turns > 0.0 && with.planned_turns.is_finite();
-    if !cell.feed_per_turn.is_none_or(with_spindle) {
+    if cell
+        .feed_per_turn
+        .is_some_and(|with| with.planned_turns.is_nan())
+    {
         return Err(PushError::Feed);
     }
     Ok(())
@@ -286,6 +287,7 @@ fn check(cell: &Cell) -> Result<(), PushError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::cell::FeedPerTurn;
     use super::*;
 
     /// A cell of a cubic position along X with a jerk of 0.006 in units of the period.

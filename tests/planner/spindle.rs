@@ -185,6 +185,29 @@ fn what_feed_per_turn_asks_for_is_a_number_whatever_the_spindle_turns() {
     }
 }
 
+/// However little or much a turn is to feed, a spindle that stands holds the machine: it is no fault.
+#[test]
+fn feed_per_turn_of_any_size_waits_for_a_spindle_that_stands() {
+    for per_turn in [1e-310, 1e-30, 1e-12, 1e12, 1e300] {
+        with_machine(|machine| {
+            let mut lathe = Lathe::new(machine, 0.0);
+            let planner = &mut lathe.machine.planner;
+            planner.set_spindle_synchronisation(SPINDLE as i32, per_turn, true);
+            lathe.machine.line(z(10.0), &fast()).expect("a line");
+            // Each cycle asserts that there is no fault.
+            for _ in 0..600 {
+                lathe.cycle();
+            }
+            let status = lathe.machine.planner.status();
+            assert_eq!(
+                (status.position, status.done),
+                (z(0.0), false),
+                "{per_turn}"
+            );
+        });
+    }
+}
+
 /// The rapid is run, however the spindle stands behind it, and the machine goes on once that turns.
 #[test]
 fn feed_per_turn_waits_behind_a_rapid_for_a_spindle_that_stands() {

@@ -205,6 +205,46 @@ fn outputs_of_moves_that_are_stepped_through_are_written_once() {
     });
 }
 
+/// Wherever in a step, and while it waits for the machine to stand.
+#[test]
+fn an_abort_in_a_step_leaves_nothing_behind() {
+    for braking in [0, 20, 400] {
+        for stepped in [0, 1, 5, 60, 300] {
+            with_machine(|machine| {
+                let blended = Continuous { tolerance: 0.1 };
+                machine.planner.set_termination(blended);
+                for n in 1..=3 {
+                    machine.planner.set_id(n);
+                    let end = at(20.0 * f64::from(n), f64::from(n % 2));
+                    machine.line(end, &feed_move(80.0)).expect("a line");
+                }
+                for _ in 0..150 {
+                    machine.cycle();
+                }
+                machine.planner.pause();
+                for _ in 0..braking {
+                    machine.cycle();
+                }
+                machine.inputs.stepping = true;
+                machine.planner.resume();
+                for _ in 0..stepped {
+                    machine.cycle();
+                }
+                machine.planner.abort();
+                machine.inputs.stepping = false;
+                machine.run(LONG);
+                assert!(!machine.planner.status().aborting);
+                machine
+                    .line(at(5.0, 5.0), &feed_move(50.0))
+                    .expect("a line");
+                machine.run(LONG);
+                assert_eq!(machine.planner.status().position, at(5.0, 5.0));
+                assert_within_limits(machine);
+            });
+        }
+    }
+}
+
 #[test]
 fn a_step_that_is_taken_while_the_machine_still_brakes_ends_there_too() {
     with_machine(|machine| {
