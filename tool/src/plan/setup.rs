@@ -120,21 +120,24 @@ impl Setup {
         Ok(setup)
     }
 
-    /// blendtp refuses every move of an axis that would take too long to its acceleration.
-    fn refuse_jerk(&self, jerk: Jerk) -> Result<(), PlanError> {
+    /// The first axis that would take too long to its acceleration, so that blendtp refuses every move of it, and the least
+    /// jerk that is taken there.
+    fn too_little_jerk(&self, limits: &Limits) -> Option<(usize, f64)> {
         let axes = (0..AXIS_COUNT).filter(|&axis| self.axes[axis]);
-        for axis in axes {
-            let least = least_jerk_of(self.limits.acceleration[axis]);
-            if self.jerk[axis] < least {
-                let unit = if is_rotary(axis) { "degrees" } else { "mm" };
-                return Err(PlanError::Option(format!(
-                    "--jerk {jerk}: blendtp refuses every move of {} with less than {least} {unit}/s3, a fifth of its acceleration; \
-                     write at least that, or unlimited",
-                    framepath::axes::AXIS_LETTERS[axis]
-                )));
-            }
-        }
-        Ok(())
+        axes.map(|axis| (axis, least_jerk_of(limits.acceleration[axis])))
+            .find(|&(axis, least)| self.jerk[axis] < least)
+    }
+
+    fn refuse_jerk(&self, jerk: Jerk) -> Result<(), PlanError> {
+        let Some((axis, least)) = self.too_little_jerk(&self.limits) else {
+            return Ok(());
+        };
+        let unit = if is_rotary(axis) { "degrees" } else { "mm" };
+        Err(PlanError::Option(format!(
+            "--jerk {jerk}: blendtp refuses every move of {} with less than {least} {unit}/s3, a fifth of its acceleration; \
+             write at least that, or unlimited",
+            framepath::axes::AXIS_LETTERS[axis]
+        )))
     }
 
     /// That the interpreter does not find the file of a remapped code it says as if it were the program.
@@ -241,7 +244,7 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
         setup.jerk[axis] = member.limits.jerk.unwrap_or(f64::INFINITY) * unit;
     }
     if arguments.jerk.is_none() {
-        refuse_jerk(&ini, &setup, arguments)?;
+        refuse_jerk_of_ini(&ini, &setup, arguments)?;
     }
     if let Some(velocity) = ini.path_velocity()? {
         setup.velocity_limit = velocity * millimetres;
@@ -282,24 +285,25 @@ fn least_jerk_of(acceleration: f64) -> f64 {
     }
 }
 
-/// blendtp refuses every move of an axis that would take too long to its acceleration, which an option may have changed.
-fn refuse_jerk(ini: &Ini, setup: &Setup, arguments: &PlanArguments) -> Result<(), PlanError> {
+/// Refuses too little jerk of the INI file beside its accelerations, which an option may have changed.
+fn refuse_jerk_of_ini(
+    ini: &Ini,
+    setup: &Setup,
+    arguments: &PlanArguments,
+) -> Result<(), PlanError> {
     let mut limits = setup.limits;
     if let Some(changes) = &arguments.limits {
         limits.apply(changes);
     }
-    for axis in (0..AXIS_COUNT).filter(|&axis| setup.axes[axis]) {
-        let least = least_jerk_of(limits.acceleration[axis]);
-        if setup.jerk[axis] < least {
-            let section = format!("AXIS_{}", framepath::axes::AXIS_LETTERS[axis]);
-            let problem = format!(
-                "blendtp refuses every move: it has to be 0 (not limited) or at least {}, a fifth of the acceleration",
-                least * setup.scale(axis)
-            );
-            return Err(ini.bad_value(&section, "MAX_JERK", &problem).into());
-        }
-    }
-    Ok(())
+    let Some((axis, least)) = setup.too_little_jerk(&limits) else {
+        return Ok(());
+    };
+    let section = format!("AXIS_{}", framepath::axes::AXIS_LETTERS[axis]);
+    let problem = format!(
+        "blendtp refuses every move: it has to be 0 (not limited) or at least {}, a fifth of the acceleration",
+        least * setup.scale(axis)
+    );
+    Err(ini.bad_value(&section, "MAX_JERK", &problem).into())
 }
 
 /// What the INI file includes, the tool table and the numbered parameters.
