@@ -109,6 +109,10 @@ class RowOperator(Operator):
     def begin(self, *lines):
         self.start(self.write(lines))
 
+    def wait_read(self):
+        """Waits until the interpreter has read the program to its end; motion may be far behind."""
+        self.until("the whole program to be read", lambda: self.status.interp_state != linuxcnc.INTERP_READING)
+
     def say(self, text):
         """A line of MDI, to its end."""
         self.mdi(text, PATIENCE)

@@ -108,15 +108,19 @@ class MachineOff(Row):
 
 
 class EstopThenResume(Row):
-    """A resume after an emergency stop, in motion or in a pause, moves nothing; the next program is right"""
+    """A resume after an emergency stop, in motion or in a pause, moves nothing where the program had been read to its end; the
+    next program is right"""
 
     section = SECTION
     interrupted = True
 
     def operate(self, op):
         moved = []
-        for paused in (False, True):
+        # In a pause first: a resume without one takes up what task was doing at the last pause. Where it was reading, it
+        # reads the program from its beginning, with either planner.
+        for paused in (True, False):
             op.begin("G64 P1", *ZIGZAG_LINES)
+            op.wait_read()
             op.wait_moving()
             op.sleep(0.25)
             if paused:
@@ -129,6 +133,7 @@ class EstopThenResume(Row):
             op.stopped()
             before = op.place()[:2]
             op.resume()
+            op.until("the resume to be heard", op.was_heard)
             op.sleep(0.3)
             moved.append(math.dist(before, op.place()[:2]))
             op.go("G64 P0.2", "G1 X0 Y0", "G1 X10", "G1 Y10")
