@@ -134,6 +134,18 @@ impl MachineMap {
         Axes::from([linear.x, linear.y, linear.z, a, b, c, u, v, w])
     }
 
+    /// How much longer what leads in this direction, shape (9), is in X Y Z of the machine than in those of the program; 1 where
+    /// it leads along none of them.
+    pub fn stretch(&self, direction: &Axes) -> f64 {
+        let length = |axes: &Axes| axes.fixed_rows::<3>(0).norm();
+        let programmed = length(direction);
+        if programmed > 0.0 {
+            length(&self.apply(direction)) / programmed
+        } else {
+            1.0
+        }
+    }
+
     /// Three derivatives of the path at a position of the program, all shape (9), as what [`Self::limits`] hold for
     /// sees them.
     #[inline]
@@ -178,6 +190,23 @@ mod tests {
             assert!(MachineMap::new(&(quarter_turn * factor)).is_none());
         }
         assert!(MachineMap::new(&(quarter_turn * 1e4)).is_some());
+    }
+
+    #[test]
+    fn turns_and_mirrors_stretch_nothing_and_scales_what_leads_along_them() {
+        let direction = Axes::from([0.0, 0.0, -2.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let stretch = |linear: Matrix3<f64>| {
+            MachineMap::new(&linear)
+                .expect("finite")
+                .stretch(&direction)
+        };
+        let turn = Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.6, -0.8, 0.0, 0.8, 0.6);
+        let scale = |x, y, z| Matrix3::from_diagonal(&Vector3::new(x, y, z));
+        assert_eq!(stretch(turn), 1.0);
+        assert_eq!(stretch(scale(2.0, 3.0, -1.0)), 1.0);
+        assert_eq!(stretch(scale(1.0, 1.0, 2.0)), 2.0);
+        let map = MachineMap::new(&scale(2.0, 2.0, 2.0)).expect("finite");
+        assert_eq!(map.stretch(&Axes::zeros()), 1.0);
     }
 
     #[test]

@@ -22,6 +22,9 @@ const UNLIMITED_AXES: AxisLimits = AxisLimits {
 /// Parts of a move between whose ends its joints are looked at, where it follows a spindle.
 const PLACES: u32 = 4;
 
+/// A frame whose lengths differ by no more than this share scales nothing: rounding.
+const UNSTRETCHED: f64 = 1e-9;
+
 /// The axes of the machine.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MachineAxes {
@@ -186,6 +189,12 @@ impl MachineAxes {
             self.map = map.with_joints(self.map.joints().copied());
         }
         map.is_some()
+    }
+
+    /// Whether the frame makes the way of a shape longer or shorter where it begins.
+    pub fn stretches(&self, shape: &Shape) -> bool {
+        let stretch = self.map.stretch(&shape.point(0.0).first);
+        (stretch - 1.0).abs() > UNSTRETCHED
     }
 
     /// The first axis of the machine that a shape moves and that has no usable limits.

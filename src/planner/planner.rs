@@ -274,6 +274,9 @@ impl Planner {
             Err(error) => return Err(AddError::Shape(error)),
         };
         let synchronisation = self.spindle.synchronisation_in(mode)?;
+        if synchronisation.is_some_and(|with| with.follows_angle()) && self.axes.stretches(&shape) {
+            return Err(AddError::ScaledPitch);
+        }
         let [feed, max_velocity] = match synchronisation {
             Some(with) => {
                 let greatest = request.max_velocity;

@@ -75,6 +75,8 @@ pub enum AddError {
     },
     /// The feed per turn or pitch is negative or not finite.
     PerTurn(f64),
+    /// A thread or a rigid tap along a way that the frame in force makes longer or shorter: so would be its pitch.
+    ScaledPitch,
     /// A rigid tap that does not follow the angle of a spindle, or whose factor for the way back is
     /// not positive and finite.
     RigidTap,

@@ -91,6 +91,39 @@ fn a_turned_line_takes_what_its_joints_allow() {
     );
 }
 
+/// With a scale along its axis the pitch of a thread would be scaled as well.
+#[test]
+fn a_thread_or_tap_that_the_frame_scales_is_refused() {
+    let scale = |x, z| Matrix3::from_diagonal(&Vector3::new(x, 1.0, z));
+    let turn = Rotation3::from_euler_angles(0.3, -0.5, 2.0).into_inner();
+    let refused = Err(AddError::ScaledPitch);
+    let queued = Ok(Added::Queued);
+    for (map, expected) in [
+        (scale(1.0, 2.0), refused),
+        (scale(1.0, 0.999), refused),
+        (turn * scale(1.0, 2.0), refused),
+        (scale(3.0, 1.0), queued),
+        (scale(-1.0, -1.0), queued),
+        (turn, queued),
+    ] {
+        with_machine(|machine| {
+            assert!(machine.planner.set_machine_map(&map));
+            let deep = Axes::from([0.0, 0.0, -10.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+            let request = feed_move(50.0);
+            machine.planner.set_spindle_synchronisation(0, 2.0, false);
+            let tap = machine.planner.add_rigid_tap(&deep, 1.0, &request);
+            assert_eq!(tap, expected);
+            assert_eq!(machine.line(deep, &request), expected);
+        });
+        with_machine(|machine| {
+            assert!(machine.planner.set_machine_map(&map));
+            // Feed per turn is a feed, and counts in the frame as F does.
+            machine.planner.set_spindle_synchronisation(0, 0.1, true);
+            assert_eq!(machine.line(at(5.0, 0.0), &feed_move(50.0)), queued);
+        });
+    }
+}
+
 #[test]
 fn an_axis_that_a_frame_moves_needs_limits() {
     let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);

@@ -113,6 +113,9 @@ fn words(error: AddError) -> &'static CStr {
         AddError::PerTurn(_) => {
             c"the feed per turn (F in G95) or the pitch (K) is negative or not a number"
         }
+        AddError::ScaledPitch => {
+            c"a thread (G33, G76) or a tap (G33.1) along an axis that the frame in force scales: its pitch would be scaled as well; remove the scale, and write the lengths that are meant"
+        }
         AddError::RigidTap => c"a rigid tap (G33.1) has no spindle to follow, or I is not positive",
         AddError::Tripped => c"a move was sent after an error had stopped the motion; abort first",
     }

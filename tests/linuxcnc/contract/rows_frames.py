@@ -112,6 +112,28 @@ class SoftLimitInFrame(Row):
         return f"Y of the machine goes to {greatest:.1f}"
 
 
+class ThreadUnderScale(Row):
+    """A thread along an axis that the frame scales is refused, since its pitch would be scaled as well"""
+
+    section = SECTION
+    behind = ("frame",)
+    errors_expected = True
+
+    def operate(self, op):
+        op.begin("o<ascale> call [1] [1] [2]", "M3 S300", "G4 P0.4", "G33 Z-8 K2", "G0 X5")
+        op.sleep(4)
+        op.abort()
+        op.stopped()
+        op.say("o<frame_off> call")
+
+    def check(self, seen):
+        moving = [x != 0 or z != 0 for x, z in seen.columns("machine_x", "machine_z")]
+        if any(moving):
+            turned = [turns for turns, moves in zip(seen.column("turns"), moving, strict=True) if moves]
+            seen.require(False, f"cut in {turned[-1] - turned[0]:.1f} turns without a word")
+        seen.require(any("pitch" in error for error in seen.errors), f"{seen.errors}")
+
+
 class ExternalOffsetInFrame(Row):
     """An external offset runs along an axis of the turned frame, no joint moves when the frame goes, and it is taken away
     again"""

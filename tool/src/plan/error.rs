@@ -151,6 +151,7 @@ pub(super) fn refusal(error: &AddError) -> String {
             ShapeError::TooManyRevolutions => "it has too many turns",
         }
         .to_owned(),
+        AddError::ScaledPitch => "the frame would scale its pitch as well".to_owned(),
         AddError::Spindle { spindle } => format!("the machine has no spindle {spindle}"),
         AddError::Aborting
         | AddError::QueueFull
