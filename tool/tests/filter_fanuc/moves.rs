@@ -125,9 +125,39 @@ fn work_offsets_have_their_systems() {
 
 #[test]
 fn shifts_of_the_zero_are_those_of_linuxcnc() {
-    let program = "G52 X10. Y5.\nG0 X1.\nG52 X0 Y0\nG92 X5. Z1.\nG20 G52 X1.\nM30\n";
+    let program = "G52 X10. Y5.\nG0 X1.\nG52 X0 Y0\nG92 X5. Z1.\nG20 G52 X1. Y1.\nM30\n";
     let written = Shop::with(Dialect::Fanuc, program).accepted(&[]);
-    for shift in ["G52 X10 Y5", "G52 X0 Y0", "G92 X5 Z1", "G52 X25.4"] {
+    for shift in [
+        "G52 X10 Y5",
+        "G52 X0 Y0",
+        "G92 X5 Z1",
+        "G52 Y25.4",
+        "G92 X-20.4",
+    ] {
         assert!(written.contains(shift), "{shift}\n{written}");
+    }
+}
+
+/// On the control G52 and G92 shift zero one after the other; LinuxCNC keeps them in one place.
+#[test]
+fn a_local_offset_leaves_g92_in_force() {
+    let begin = "G0 X0 Y0 Z0\n";
+    for (program, ends) in [
+        ("G92 X5.\nG52 X0 Y0 Z0\nG0 X5.", [0.0, 0.0]),
+        ("G92 X5.\nG52 X2.\nG0 X5. Y1.", [2.0, 1.0]),
+        ("G92 X5.\nG52 X2. Y3.\nG52 X0\nG0 X5. Y1.", [0.0, 4.0]),
+        (
+            "G52 X2.\nG0 X1.\nG92 X0\nG0 X1.\nG52 X0\nG0 X0 Y0",
+            [3.0, 0.0],
+        ),
+        ("G92 X5.\nG52 X2.\nG0 X5.\nG92 X1.\nG0 X0 Y0", [1.0, 0.0]),
+    ] {
+        let program = format!("{begin}{program}\nG0 Z1.\nM30\n");
+        let contour = Shop::with(Dialect::Fanuc, &program).contour();
+        let end = contour.last().expect("a move").shape.point(1.0);
+        assert!(
+            (0..2).all(|axis| (end[axis] - ends[axis]).abs() < 1e-9),
+            "{program}{end:?}"
+        );
     }
 }

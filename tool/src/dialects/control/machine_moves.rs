@@ -1,8 +1,8 @@
-//! Motions in coordinates of the machine, and G92.
+//! Motions in coordinates of the machine, G52 and G92.
 
 use super::modal::Motion;
 use super::motion::{length_factor, targets};
-use super::words::{Dimension, MotionWords};
+use super::words::{AXES, Dimension, MotionWords};
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
 use crate::program::Action;
@@ -72,24 +72,44 @@ impl Control<'_> {
     pub fn preset_off(&mut self, span: Span) -> Done {
         self.refuse_compensation(span, "the end of G92")?;
         self.modal.forget_position();
+        self.modal.preset = [None; 9];
         self.states.push(Action::PresetOff);
         Ok(())
     }
 
     /// G52: the zero of the work offset lies at these coordinates, for the axes that are named.
+    ///
+    /// LinuxCNC keeps G52 and G92 in one place, where the later one counts; on the control both count. Where
+    /// G92 is in force G52 is therefore written as another G92, which needs to know where the axis is.
     pub fn local_offset(&mut self, words: &MotionWords, span: Span) -> Done {
-        let mut values = [None; 9];
-        for (axis, word) in words.axes.iter().enumerate() {
-            if let Some(word) = word {
-                values[axis] = Some(word.value.0 * length_factor(axis, &self.modal));
-                self.modal.position.set(axis, None);
-            }
-        }
-        if values == [None; 9] {
+        self.refuse_compensation(span, "G52")?;
+        if !words.names_an_axis() {
             return Err(Diagnostic::error(span, "G52 needs axes").help("G52 X0 Y0 Z0 ends it"));
         }
+        let (mut offsets, mut presets) = ([None; 9], [None; 9]);
+        for (axis, word) in words.axes.iter().enumerate() {
+            let Some(word) = word else { continue };
+            let value = word.value.0 * length_factor(axis, &self.modal);
+            let Some(before) = self.modal.preset[axis] else {
+                offsets[axis] = Some(value);
+                self.modal.position.set(axis, None);
+                continue;
+            };
+            if before != value {
+                let place = self.modal.position.get(axis);
+                let place = place.ok_or_else(|| unknown_preset(axis, word.span))?;
+                presets[axis] = Some(place + before - value);
+                self.modal.position.set(axis, presets[axis]);
+                self.modal.preset[axis] = Some(value);
+            }
+        }
         self.modal.tangent = None;
-        self.actions.push(Action::LocalOffset(values));
+        if offsets != [None; 9] {
+            self.actions.push(Action::LocalOffset(offsets));
+        }
+        if presets != [None; 9] {
+            self.actions.push(Action::Preset(presets));
+        }
         Ok(())
     }
 
@@ -120,10 +140,24 @@ impl Control<'_> {
                 }
             }
             position.set(axis, values[axis]);
+            // It ends G52 of its axes.
+            self.modal.preset[axis] = Some(0.0);
         }
         position.change_frame(&Frame::default(), &frame);
         self.modal.position = position;
         self.actions.push(Action::Preset(values));
         Ok(())
     }
+}
+
+/// G52 behind G92, while the tool is nobody knows where.
+fn unknown_preset(axis: usize, span: Span) -> Diagnostic {
+    let letter = AXES[axis];
+    Diagnostic::error(
+        span,
+        format!("G52 behind G92, and where {letter} is, is not known ahead of time"),
+    )
+    .help(format!(
+        "LinuxCNC keeps both in one place: program {letter} absolute before G52"
+    ))
 }

@@ -60,6 +60,8 @@ pub struct Modal {
     pub axis_factors: [f64; 9],
     /// Where the axes are.
     pub position: Position,
+    /// Of each axis that G92 has given a coordinate: how far G52 has shifted it since, machine units.
+    pub preset: [Option<f64>; 9],
     /// Coordinates from before the last change of frame, for axes that have not moved since.
     pub carried: [Option<Option<f64>>; 3],
     /// The direction in which the last motion ended, along X Y Z of the frame, if that is known.
@@ -91,6 +93,7 @@ impl Modal {
             frame: Frame::default(),
             axis_factors: [1.0; 9],
             position: Position::default(),
+            preset: [None; 9],
             carried: [None; 3],
             tangent: None,
             follows_setting: false,

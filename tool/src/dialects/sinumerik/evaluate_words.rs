@@ -341,7 +341,6 @@ impl Interpreter<'_> {
 
     /// `G52 X10`: the zero of the work offset lies there until another G52; `G52 X0` ends it.
     fn local_offset(&mut self, words: &BlockWords, span: Span) -> Done {
-        self.control.refuse_compensation(span, "G52")?;
         if !self.control.modal.frame.is_empty() {
             return Err(Diagnostic::error(span, "G52 while a frame is active")
                 .help("use TRANS or ATRANS, or clear the frame with TRANS before"));
