@@ -95,6 +95,11 @@ fn frames() {
         "the frame changes while cutter compensation is on",
     );
     one_error(
+        "G19\nG41 G1 Y1 F100\nM30\n",
+        "2:1",
+        "cutter compensation in the plane of G19",
+    );
+    one_error(
         "SCALE X2 Y2\nG41 G1 X1 Y1 F100\nM30\n",
         "2:1",
         "cutter compensation under SCALE",

@@ -276,6 +276,12 @@ fn what_is_not_a_contour_is_refused() {
         let shown = refused(&shop(&contour(cycle)).run("part.mpf", &ARGUMENTS));
         assert!(shown.contains(words), "{cycle}\n{shown}");
     }
+    // LinuxCNC compensates in two planes only.
+    let upright = contour("G19\nCYCLE72(\"CORNER\",10,0,2,-4,0,0,0,300,100,2,41,1,5,0,1,5)")
+        .replace("G0 X20 Y10", "G0 Y20 Z10")
+        .replace("G1 X40\nG3 X45 Y15 I0 J5\nG1 Y30", "G1 Y40\nZ30");
+    let shown = refused(&shop(&upright).run("part.mpf", &ARGUMENTS));
+    assert!(shown.contains("in the plane of G19"), "{shown}");
     for blocks in ["G1 X5 Z3", "S100 G1 X5", "G0 X5 Y5", ""] {
         let program = contour("CYCLE72(\"CORNER\",10,0,2,-4,0,0,0,300,100,2,41,1,5,0,1,5)")
             .replace("G1 Y30", blocks)

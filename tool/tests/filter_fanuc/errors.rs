@@ -224,6 +224,26 @@ fn offsets_frames_and_cycles() {
         ("G68 X0 Y0 R5.\nG18\nM30\n", "2:1", "another plane"),
         ("G68 X0 Y0 R5.\nG55\nM30\n", "2:1", "G55 while"),
         ("G51.1 X0\nG92 X0\nM30\n", "2:1", "G92 while"),
+        (
+            "G92 X5.\nM6\nG52 X1. Y2.\nM30\n",
+            "3:5",
+            "where X is, is not known ahead of time",
+        ),
+        (
+            "G0 X0 Y0\nG41 D1 G1 X20. F1.\nG52 X3.\nG40 X60.\nM30\n",
+            "3:1",
+            "G52 while cutter compensation is on",
+        ),
+        (
+            "G0 X0 Y0\nG19 G41 D1 G1 Y20. F1.\nM30\n",
+            "2:5",
+            "cutter compensation in the plane of G19",
+        ),
+        (
+            "G0 X0 Y0\nG41 D1 G1 X20. F1.\nG19\nG40 X60.\nM30\n",
+            "3:1",
+            "the plane changes while cutter compensation is on",
+        ),
         // Which place an axis that is not named has is a setting of the control.
         (
             "G0 X5. Y5.\nG68 X0 Y0 R5.\nX1.\nM30\n",

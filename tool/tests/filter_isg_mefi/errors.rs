@@ -77,6 +77,11 @@ fn mefi() {
             "3:1",
             "while cutter compensation is on",
         ),
+        (
+            "G0 X0 Y0\nG19\nG41 G1 Y1 F100\nM30\n",
+            "3:1",
+            "cutter compensation in the plane of G19",
+        ),
         ("G71\nM30\n", "1:1", "G71 needs the number of a subprogram"),
         ("G71 L9\nM30\n", "1:5", "the subprogram L9 was not found"),
         ("G71 L9 X1\nM30\n", "1:8", "with the call of a subprogram"),
@@ -193,6 +198,11 @@ fn isg() {
             "G00 X0 Y0\nG41 G01 X1 F100\nG21\nG40\nM30\n",
             "3:1",
             "while cutter compensation is on",
+        ),
+        (
+            "G00 X0 Y0\nG19 G41 G01 Y1 F100\nM30\n",
+            "2:5",
+            "cutter compensation in the plane of G19",
         ),
         ("#CS ON [1,2]\nG92 X1\nM30\n", "2:1", "while #CS is active"),
         ("#CS ON [1,2]\nG55\nM30\n", "2:1", "while #CS is active"),

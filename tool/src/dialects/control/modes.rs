@@ -179,9 +179,25 @@ impl Control<'_> {
     }
 
     /// G40 to G42.
-    pub fn compensation(&mut self, compensation: Compensation) {
+    pub fn compensation(&mut self, compensation: Compensation, span: Span) -> Done {
+        if compensation != Compensation::Off {
+            self.refuse_compensation_plane(span, "cutter compensation")?;
+        }
         self.modal.compensation = compensation;
         self.states.push(Action::Compensation(compensation));
+        Ok(())
+    }
+
+    /// LinuxCNC compensates the radius of the cutter in G17 and G18 only. `what` needs it.
+    pub fn refuse_compensation_plane(&self, span: Span, what: &str) -> Done {
+        if self.modal.plane != Plane::Yz {
+            return Ok(());
+        }
+        Err(
+            Diagnostic::error(span, format!("{what} in the plane of G19")).help(
+                "LinuxCNC compensates in G17 and G18 only: post the path of the tool's centre",
+            ),
+        )
     }
 
     /// Work offset 1 to 9: G54 to G59.3 of LinuxCNC.

@@ -1,9 +1,10 @@
 //! Tools: offsets by the row of a table (`D3`), and the M functions of a block.
 
-use super::Control;
 use super::words::At;
+use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
 use crate::program::{Action, Compensation};
+use crate::source::Span;
 
 /// The row that D selected, and whether it has been said what D becomes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,11 +47,16 @@ impl Control<'_> {
     }
 
     /// G40 to G42, with the radius of the row that D selected; before the first D with that of the tool.
-    pub fn compensation_by_row(&mut self, compensation: Compensation, row: OffsetRow) {
+    pub fn compensation_by_row(
+        &mut self,
+        compensation: Compensation,
+        row: OffsetRow,
+        span: Span,
+    ) -> Done {
         if compensation != Compensation::Off && row.selected.is_some() {
             self.radius_of_row(row.selected);
         }
-        self.compensation(compensation);
+        self.compensation(compensation, span)
     }
 
     /// The M functions of a block except the stops at its end; returns the one that ends the routine.

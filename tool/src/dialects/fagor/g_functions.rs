@@ -129,7 +129,7 @@ impl Interpreter<'_> {
                     value: compensation,
                     span,
                 });
-                self.control.compensation(compensation);
+                self.control.compensation(compensation, span)?;
                 7
             }
             43 | 44 => {

@@ -101,7 +101,7 @@ impl Interpreter<'_> {
             }
             400 => {
                 let active = self.control.modal.compensation != Compensation::Off;
-                self.control.compensation(Compensation::Off);
+                self.control.compensation(Compensation::Off, span)?;
                 if active {
                     // What follows may not be done under compensation.
                     self.control.apply_states(true);

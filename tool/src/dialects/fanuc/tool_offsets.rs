@@ -100,8 +100,7 @@ impl Interpreter<'_> {
             ));
         }
         self.control.states.push(Action::RadiusRow(Some(row)));
-        self.control.compensation(value);
-        Ok(())
+        self.control.compensation(value, span)
     }
 }
 

@@ -75,7 +75,7 @@ impl Interpreter<'_> {
                 let compensation = [Compensation::Off, Compensation::Left, Compensation::Right];
                 let compensation = compensation[code as usize - 40];
                 self.control
-                    .compensation_by_row(compensation, self.offset_row);
+                    .compensation_by_row(compensation, self.offset_row, span)?;
                 4
             }
             // Diameter programming off, and speed in revolutions: the state in which programs begin.

@@ -60,7 +60,8 @@ impl Interpreter<'_> {
             }
             40..=42 => {
                 let compensation = [Compensation::Off, Compensation::Left, Compensation::Right];
-                control.compensation_by_row(compensation[code as usize - 40], self.offset_row);
+                let compensation = compensation[code as usize - 40];
+                control.compensation_by_row(compensation, self.offset_row, span)?;
                 4
             }
             53 => {

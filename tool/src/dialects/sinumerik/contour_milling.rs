@@ -131,6 +131,8 @@ impl Interpreter<'_> {
         let [_, first, second, last] = ways.places;
         let compensates = compensation != Compensation::Off;
         if compensates {
+            self.control
+                .refuse_compensation_plane(span, "CYCLE72 with the radius of the cutter")?;
             self.switch_compensation(compensation);
         }
         self.element(MoveKind::Line, first, span)?;

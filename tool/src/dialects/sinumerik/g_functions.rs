@@ -108,7 +108,7 @@ impl Interpreter<'_> {
                     410 => Compensation::Left,
                     _ => Compensation::Right,
                 };
-                self.control.compensation(compensation);
+                self.control.compensation(compensation, span)?;
                 7
             }
             530 | 1530 => {

@@ -71,7 +71,7 @@ impl Interpreter<'_> {
         let compensation = self.control.modal.compensation;
         let ends = compensation != Compensation::Off && kept.compensation == Compensation::Off;
         if ends {
-            self.control.compensation(Compensation::Off);
+            self.control.compensation(Compensation::Off, span)?;
         }
         if self.control.modal.plane != kept.plane {
             self.control.plane(kept.plane, span)?;
@@ -91,7 +91,7 @@ impl Interpreter<'_> {
             self.enter_speed_mode(before, span)?;
         }
         if self.control.modal.compensation != kept.compensation {
-            self.control.compensation(kept.compensation);
+            self.control.compensation(kept.compensation, span)?;
             self.control.apply_states(compensation != Compensation::Off);
         }
         Ok(())

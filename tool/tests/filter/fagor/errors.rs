@@ -167,6 +167,11 @@ fn transforms() {
         "3:1",
         "the frame changes while cutter compensation is on",
     );
+    one_error(
+        "G90 G0 X0 Y0 Z0\nG19 G41 G1 Y1 F100\nM30\n",
+        "2:5",
+        "cutter compensation in the plane of G19",
+    );
 }
 
 #[test]
