@@ -1,6 +1,8 @@
 //! Canned cycles: what LinuxCNC does with them is what it does with its own.
 
 use crate::path::assert_pair;
+use crate::shop::Shop;
+use framepath_tool::dialects::Dialect;
 
 /// Behind this, both programs are at Z50 with S and F in force.
 const BEFORE: &str = "G0 X0 Y0 Z50.\nS500 M3\nF100.\n";
@@ -92,6 +94,25 @@ fn taps_follow_the_spindle_behind_m29() {
         "G98 G84 X10. Z-10. R2. P500 F500.\nG80",
         "G0 X10\nZ2\nG1 Z-10 F500\nG4 P.5\nM4\nZ2\nM3\nG0 Z50",
     );
+}
+
+/// Where the program has switched the overrides off itself, a tap leaves them off.
+#[test]
+fn taps_keep_the_overrides_of_the_program() {
+    let tap = "G84 X10. Z-10. R2. F500.\nG80";
+    for (before, switches) in [
+        ("", vec!["M49", "M48"]),
+        ("M49\n", vec!["M49"]),
+        ("M49\nM48\n", vec!["M49", "M48", "M49", "M48"]),
+    ] {
+        let program = format!("{BEFORE}{before}{tap}\nG0 X1.\nM30\n");
+        let written = Shop::with(Dialect::Fanuc, &program).accepted(&[]);
+        let words = written.lines().flat_map(str::split_whitespace);
+        let found: Vec<&str> = words
+            .filter(|word| matches!(*word, "M48" | "M49"))
+            .collect();
+        assert_eq!(found, switches, "{written}");
+    }
 }
 
 #[test]

@@ -49,6 +49,8 @@ pub struct Modal {
     pub spindle: Option<Spindle>,
     /// How it turned when a tool change stopped it, until the program switches it.
     pub spindle_before_change: Option<Spindle>,
+    /// Whether the operator's overrides act: M48 and M49 of the program.
+    pub overrides: bool,
     /// G40 to G42.
     pub compensation: Compensation,
     /// How corners are passed.
@@ -88,6 +90,7 @@ impl Modal {
             kept_speed: None,
             spindle: None,
             spindle_before_change: None,
+            overrides: true,
             compensation: Compensation::Off,
             path_control: settings.path_mode,
             frame: Frame::default(),

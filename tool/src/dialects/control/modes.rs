@@ -122,6 +122,27 @@ impl Control<'_> {
         true
     }
 
+    /// Whether the operator's overrides act from here on.
+    pub fn overrides(&mut self, on: bool) {
+        self.modal.overrides = on;
+        self.actions.push(Action::Overrides(on));
+    }
+
+    /// The overrides are off while a tap is cut with feed. Where the program has switched them off itself,
+    /// they stay so behind it.
+    pub fn begin_tap_without_overrides(&mut self) {
+        if self.modal.overrides {
+            self.actions.push(Action::Overrides(false));
+        }
+    }
+
+    /// The tap is cut; see [`Control::begin_tap_without_overrides`].
+    pub fn end_tap_without_overrides(&mut self) {
+        if self.modal.overrides {
+            self.actions.push(Action::Overrides(true));
+        }
+    }
+
     /// An M function that neither the dialect nor LinuxCNC defines: passed on if the settings say so.
     pub fn other_m(&mut self, m: u32, span: Span) -> Done {
         if !self.settings.passed_m.contains(&m) {

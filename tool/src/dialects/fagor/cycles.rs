@@ -348,12 +348,12 @@ impl Interpreter<'_> {
             Spindle::Counterclockwise => Spindle::Clockwise,
             _ => Spindle::Counterclockwise,
         };
-        self.control.actions.push(Action::Overrides(false));
+        self.control.begin_tap_without_overrides();
         self.to(cycle.bottom, &MoveKind::Line, cycle)?;
         self.wait(cycle);
         self.control.set_spindle(back);
         self.to(cycle.reference, &MoveKind::Line, cycle)?;
-        self.control.actions.push(Action::Overrides(true));
+        self.control.end_tap_without_overrides();
         self.control.set_spindle(before);
         Ok(())
     }

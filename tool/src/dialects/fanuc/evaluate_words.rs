@@ -73,7 +73,7 @@ impl Interpreter<'_> {
                     );
                 }
                 29 => self.rigid = true,
-                48 | 49 => self.control.actions.push(Action::Overrides(m.value == 48)),
+                48 | 49 => self.control.overrides(m.value == 48),
                 _ => others.push(*m),
             }
         }

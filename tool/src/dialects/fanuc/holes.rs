@@ -119,13 +119,13 @@ impl Interpreter<'_> {
                 false => "switch it on before: S500 M3",
             }));
         }
-        self.control.actions.push(Action::Overrides(false));
+        self.control.begin_tap_without_overrides();
         self.to(hole.bottom, false, cycle)?;
         self.wait(cycle);
         self.control.set_spindle(outward);
         self.to(hole.top, false, cycle)?;
         self.control.set_spindle(inward);
-        self.control.actions.push(Action::Overrides(true));
+        self.control.end_tap_without_overrides();
         Ok(())
     }
 

@@ -9,7 +9,6 @@ use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::spindle_motion::Tap;
 use crate::dialects::control::words::{AXES, At, Dimension};
-use crate::program::Action;
 use crate::source::Span;
 
 /// Places of the spindle axis that differ by less, in units of the program, are the same.
@@ -134,11 +133,11 @@ impl Interpreter<'_> {
         }
         let motion = self.control.modal.motion.replace(Motion::Line);
         self.control.begin_cycle();
-        self.control.actions.push(Action::Overrides(false));
+        self.control.begin_tap_without_overrides();
         let done = self
             .control
             .motion(&words.motion, block, words.feed.is_some(), false);
-        self.control.actions.push(Action::Overrides(true));
+        self.control.end_tap_without_overrides();
         self.control.end_cycle();
         self.control.modal.motion = motion;
         done

@@ -8,7 +8,7 @@ use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::spindle_motion::Tap;
 use crate::dialects::control::words::At;
-use crate::program::{Action, FeedMode, Spindle};
+use crate::program::{FeedMode, Spindle};
 use std::f64::consts::PI;
 
 /// How many strokes a tap may take.
@@ -139,14 +139,14 @@ impl Interpreter<'_> {
             let span = cycle.span;
             self.control.feed(At { value, span })?;
         }
-        self.control.actions.push(Action::Overrides(false));
+        self.control.begin_tap_without_overrides();
         self.plunge(hole.bottom, false, cycle.span)?;
         if encoder != 0.0 {
             self.wait(dwell, cycle.span)?;
         }
         self.control.set_spindle(turning_out);
         self.plunge(hole.safe, false, cycle.span)?;
-        self.control.actions.push(Action::Overrides(true));
+        self.control.end_tap_without_overrides();
         self.restore_feed(before);
         // SDAC says nothing where the way back is left to the control (SDR = 0).
         let after = match turning(back) {
