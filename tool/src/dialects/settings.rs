@@ -26,6 +26,8 @@ pub struct Settings {
     pub machine_in_inch: bool,
     /// What an increment counts from when the frame has changed since the axis last moved.
     pub increment_after_frame: IncrementBase,
+    /// Whether the machine that runs the program is a lathe.
+    pub lathe: bool,
     /// Whether blocks that begin with `/` are left out.
     pub skip_blocks: bool,
     /// M functions that are passed on to LinuxCNC unchanged.
@@ -69,6 +71,7 @@ impl Default for Settings {
             },
             machine_in_inch: false,
             increment_after_frame: IncrementBase::Programmed,
+            lathe: false,
             skip_blocks: false,
             passed_m: Vec::new(),
             feed: None,

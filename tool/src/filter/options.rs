@@ -87,7 +87,7 @@ pub struct FilterArguments {
     /// Number of a tool that the program calls by name; may be given several times
     #[arg(long, value_name = "NAME=NUMBER", value_parser = tool_name)]
     pub tool: Vec<(String, u32)>,
-    /// INI file of the machine, for the names and diameters in its tool table; INI_FILE_NAME of the
+    /// INI file of the machine, for the names and diameters in its tool table, and whether it is a lathe; INI_FILE_NAME of the
     /// environment if it is not given, which LinuxCNC sets
     #[arg(long, value_name = "FILE")]
     pub ini: Option<PathBuf>,
@@ -139,6 +139,10 @@ impl FilterArguments {
             (None, Some(file)) => ini::retract_z(file)?,
             (place, _) => place,
         };
+        let lathe = match &ini_file {
+            Some(file) => ini::is_lathe(file)?,
+            None => false,
+        };
         let path_mode = match self.path_mode {
             PathMode::Exact(control) => control,
             PathMode::Rounded(own) => PathControl::Continuous {
@@ -150,6 +154,7 @@ impl FilterArguments {
             reading: self.reading(),
             machine_in_inch: self.machine_in_inch,
             increment_after_frame: self.increment_after_frame,
+            lathe,
             skip_blocks: self.skip_blocks,
             passed_m: self.pass_m.clone(),
             variables: self.set.iter().cloned().collect(),

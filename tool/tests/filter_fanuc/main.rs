@@ -6,6 +6,7 @@ mod frames;
 #[path = "../filter/front_end.rs"]
 mod front_end;
 mod language;
+mod lathe;
 mod moves;
 #[path = "../filter/one_error.rs"]
 mod one_error;

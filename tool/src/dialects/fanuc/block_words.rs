@@ -31,8 +31,8 @@ pub struct BlockWords {
     pub feed: Option<At<f64>>,
     /// S.
     pub speed: Option<At<f64>>,
-    /// T.
-    pub tool: Option<At<f64>>,
+    /// T, and how many digits it has if it has no point.
+    pub tool: Option<At<(f64, Option<u32>)>>,
     /// D.
     pub d: Option<At<f64>>,
     /// H.
@@ -119,7 +119,7 @@ impl BlockWords {
             'L' => set(&mut self.l, value, span, letter),
             'F' => set(&mut self.feed, value, span, letter),
             'S' => set(&mut self.speed, value, span, letter),
-            'T' => set(&mut self.tool, value, span, letter),
+            'T' => set(&mut self.tool, (value, word.pointless), span, letter),
             'D' => set(&mut self.d, value, span, letter),
             'H' => set(&mut self.h, value, span, letter),
             'N' => Err(Diagnostic::error(

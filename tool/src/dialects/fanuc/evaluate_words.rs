@@ -19,6 +19,10 @@ impl Interpreter<'_> {
         mut words: BlockWords,
         block: Span,
     ) -> Result<Outcome, Diagnostic> {
+        if let Some(error) = self.lathe_words(&words) {
+            self.control.fail(error);
+            return Ok(Outcome::Stops);
+        }
         let compensated = self.control.modal.compensation != Compensation::Off;
         let once = self.g_functions(&mut words)?;
         if let Some(feed) = words.feed {
@@ -26,8 +30,9 @@ impl Interpreter<'_> {
         }
         self.spindle_speed(&mut words, &once)?;
         if let Some(tool) = words.tool {
-            self.control.tool(tool.value, tool.span)?;
-            self.tool = Some(tool.value);
+            let (number, _) = tool.value;
+            self.control.tool(number, tool.span)?;
+            self.tool = Some(number);
         }
         let end = self.m_functions(&words)?;
         self.tool_offsets(&mut words, once.length, once.compensation)?;

@@ -3,6 +3,7 @@
 use super::block_words::BlockWords;
 use super::calls::ModalMacro;
 use super::cycles::{Cycle, is_cycle};
+use super::lathe::ToolCalls;
 use super::routine::Routine;
 use super::syntax::{Assignment, Block, Statement, Word};
 use super::tool_offsets::ToolOffsets;
@@ -40,6 +41,7 @@ pub struct Interpreter<'a> {
     pub(super) inch: bool,
     /// T.
     pub(super) tool: Option<f64>,
+    pub(super) tool_calls: ToolCalls,
     pub(super) modal_macro: Option<ModalMacro>,
     /// The block of the caller that M99 P returns to.
     pub(super) return_to: Option<(u32, Span)>,
@@ -68,6 +70,7 @@ impl<'a> Interpreter<'a> {
             metres_per_minute: None,
             inch: settings.machine_in_inch,
             tool: None,
+            tool_calls: ToolCalls::default(),
             modal_macro: None,
             return_to: None,
             point_explained: false,
@@ -169,6 +172,7 @@ impl<'a> Interpreter<'a> {
         let called = match (outcome, call) {
             (Outcome::End, _) => return Next::End,
             (Outcome::Return, _) => return Next::Return,
+            (Outcome::Stops, _) => return Next::Abort,
             (Outcome::Call(call), _) => self.subprogram(call, routine, at, block),
             (Outcome::GoesOn, Some((call, arguments))) => {
                 self.macro_call(call, arguments, routine, at, block)
@@ -223,6 +227,8 @@ pub(super) enum Outcome {
     Return,
     /// M30 or M2.
     End,
+    /// Nowhere: what follows has another meaning than here.
+    Stops,
 }
 
 impl<'a> Interpret<'a> for Interpreter<'a> {
@@ -241,7 +247,11 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
     }
 
     fn run_main(&mut self, main: &Rc<Routine>) -> bool {
-        matches!(self.run_routine(main), Next::Block(_))
+        let end = self.run_routine(main);
+        if end != Next::Abort {
+            self.check_tool_calls();
+        }
+        matches!(end, Next::Block(_))
     }
 
     fn end_is_missing(&mut self, last: &Rc<Routine>) {

@@ -13,6 +13,7 @@ mod flow;
 mod g_functions;
 mod holes;
 mod interpreter;
+mod lathe;
 pub mod lexer;
 mod look_ahead;
 mod machine_moves;
@@ -48,6 +49,10 @@ const FILES: Files<routine::Routine> = Files {
 
 impl Language for Fanuc {
     fn evaluate<'a>(&self, path: &Path, settings: &'a Settings, about: About<'a>) {
+        if settings.lathe {
+            about.diagnostics.push(lathe::on_lathe());
+            return;
+        }
         run_file(path, FILES, settings, about, interpreter::Interpreter::new);
     }
 
