@@ -91,7 +91,7 @@ pub struct FilterArguments {
     /// environment if it is not given, which LinuxCNC sets
     #[arg(long, value_name = "FILE")]
     pub ini: Option<PathBuf>,
-    /// What X100, without a decimal point, is in Fanuc-like programs
+    /// What X100, without a decimal point, is in Fanuc-like programs. F is taken as it is written, with G93 too
     #[arg(long, value_enum, default_value = "calculator")]
     pub decimal_point: DecimalPoint,
     /// What G21, G22 and G23 of ISG programs mirror outside of G17

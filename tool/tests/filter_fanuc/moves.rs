@@ -104,6 +104,21 @@ fn numbers_without_a_point_are_whole_units_or_increments() {
     assert!(!pointed.contains("decimal point"), "{pointed}");
 }
 
+/// Roundings and chamfers are lengths as all others; F is as it is written.
+#[test]
+fn roundings_without_a_point_are_whole_units_or_increments() {
+    let program = "G0 X0 Y0 Z0\nG1 X10000 F100 ,R2000\nY10000 ,C1000\nX0\nG93 X5000 F2\nM30\n";
+    let pointed = "G0 X0 Y0 Z0\nG1 X10. F100 ,R2.\nY10. ,C1.\nX0\nG93 X5. F2\nM30\n";
+    let increments = translated(Dialect::Fanuc, program, &["--decimal-point", "increments"]);
+    assert_eq!(increments, translated(Dialect::Fanuc, pointed, &[]));
+    let program = "G0 X0 Y0 Z0\nG1 X10. F100 ,R2\nY10.\nM30\n";
+    let written = Shop::with(Dialect::Fanuc, program).accepted(&[]);
+    assert!(
+        written.contains("line 2: ,R or ,C without a decimal point"),
+        "{written}"
+    );
+}
+
 #[test]
 fn work_offsets_have_their_systems() {
     let shop = Shop::with(

@@ -39,12 +39,16 @@ pub struct BlockWords {
     pub h: Option<At<f64>>,
     /// `,R` (`true`) or `,C`.
     pub corner: Option<At<(bool, f64)>>,
-    /// The addresses of lengths and angles whose values are plain numbers without a point, other than 0.
+    /// The addresses of lengths and angles whose values are plain numbers without a point, other than 0; ,R and
+    /// ,C are [`CORNER`].
     pub pointless: Vec<(char, Span)>,
 }
 
 /// The addresses of lengths and angles.
 const LENGTHS: &str = "XYZABCUVWIJKQR";
+
+/// What stands for the addresses ,R and ,C.
+pub const CORNER: char = ',';
 
 impl BlockWords {
     /// Evaluates the words in their order. `length_step`: the least increment of lengths. `None` when something was wrong with one of them; what is
@@ -71,7 +75,7 @@ impl BlockWords {
         let letter = word.letter;
         // A word whose value is vacant is not there.
         let step = match letter {
-            'A' | 'B' | 'C' => Some(0.001),
+            'A' | 'B' | 'C' if !word.comma => Some(0.001),
             _ if LENGTHS.contains(letter) => Some(length_step),
             'F' => None,
             _ => Some(1.0),
@@ -79,7 +83,11 @@ impl BlockWords {
         let Some(value) = value(&word.value, &InWord { lookup, step })? else {
             return Ok(());
         };
+        let is_pointless = word.pointless.is_some() && value != 0.0;
         if word.comma {
+            if is_pointless {
+                self.pointless.push((CORNER, span));
+            }
             return match letter {
                 'R' | 'C' => set(
                     &mut self.corner,
@@ -93,7 +101,7 @@ impl BlockWords {
                 ),
             };
         }
-        if LENGTHS.contains(letter) && word.pointless.is_some() && value != 0.0 {
+        if LENGTHS.contains(letter) && is_pointless {
             self.pointless.push((letter, span));
         }
         if let Some(axis) = AXES.iter().position(|axis| axis.starts_with(letter)) {
@@ -160,6 +168,10 @@ impl BlockWords {
                 'X' | 'U' if dwell => angle,
                 _ => length,
             };
+            if let (CORNER, Some(corner)) = (*letter, &mut self.corner) {
+                corner.value.1 *= length;
+                continue;
+            }
             let axis = AXES.iter().position(|axis| axis.starts_with(*letter));
             let centre = ['I', 'J', 'K'].iter().position(|axis| axis == letter);
             let place = match (axis, centre, letter) {

@@ -1,7 +1,7 @@
 //! What the words of a block do, in the order in which the control does it: modes, feed and speed, tool,
 //! spindle, coolant, offsets, motion, stop.
 
-use super::block_words::{BlockWords, g_name};
+use super::block_words::{BlockWords, CORNER, g_name};
 use super::g_functions::OneShot;
 use super::interpreter::{Interpreter, Outcome};
 use crate::diagnostics::Diagnostic;
@@ -247,15 +247,19 @@ impl Interpreter<'_> {
     }
 
     /// Says once that numbers without a point are whole units.
-    pub(super) fn explain_point(&mut self, letter: char, span: Span) {
+    pub(super) fn explain_point(&mut self, address: char, span: Span) {
         if self.point_explained {
             return;
         }
         self.point_explained = true;
+        let name = match address {
+            CORNER => ",R or ,C".to_string(),
+            letter => letter.to_string(),
+        };
         self.control.diagnostics.push(
             Diagnostic::warning(
                 span,
-                format!("{letter} without a decimal point is taken as whole units: X100 is X100.0"),
+                format!("{name} without a decimal point is taken as whole units: X100 is X100.0"),
             )
             .help("--decimal-point increments takes X100 as .1 mm, as some controls are set"),
         );

@@ -197,13 +197,13 @@ impl<'a> Interpreter<'a> {
         }
         let cycle = words.g.iter().any(|g| is_cycle(g.value));
         words.forget_counts(cycle || self.cycle.is_some());
-        let Some((letter, span)) = words.pointless.first().copied() else {
+        let Some((address, span)) = words.pointless.first().copied() else {
             return Some(words);
         };
         match self.control.settings.decimal_point {
             // The factors of G51 have their own rule.
             DecimalPoint::Calculator if words.has_g(510) => {}
-            DecimalPoint::Calculator => self.explain_point(letter, span),
+            DecimalPoint::Calculator => self.explain_point(address, span),
             DecimalPoint::Increments => words.count_increments(length, 0.001),
         }
         Some(words)
