@@ -73,6 +73,7 @@ fn functions_that_are_not_supported() {
             &format!("{code} is not supported"),
         );
     }
+    one_error("G31 Z-5.\nM30\n", "1:1", "measure at the machine");
     one_error("G30 P2 X0\nM30\n", "1:1", "second reference position");
     one_error("G66.1 P1\nM30\n", "1:1", "G66.1 is not supported");
 }
@@ -367,6 +368,11 @@ fn offsets_frames_and_cycles() {
             "G0 Z5.\nG81 X1. Z-5. R2. F1.\nG53 Z0\nM30\n",
             "3:1",
             "G53 in a canned cycle",
+        ),
+        (
+            "G0 Z5.\nG81 X1. Z-5. R2. F1.\nG20\nX1.\nM30\n",
+            "3:1",
+            "another unit of length in a canned cycle",
         ),
         (
             "G0 Z5.\nG91 G81 X1. Z-5. R-2. K0 F1.\nM30\n",

@@ -94,9 +94,7 @@ impl Interpreter<'_> {
                 2
             }
             200 | 210 => {
-                self.inch = code == 200;
-                let settings = self.control.settings;
-                self.control.modal.use_inch(self.inch, true, settings);
+                self.unit(code == 200, span)?;
                 6
             }
             400 => {
@@ -197,6 +195,20 @@ impl Interpreter<'_> {
         self.control.plane(plane, span)
     }
 
+    /// G20 and G21. The levels of a cycle are kept as they were written.
+    fn unit(&mut self, inch: bool, span: Span) -> Done {
+        if self.cycle.is_some() && inch != self.inch {
+            return Err(
+                Diagnostic::error(span, "another unit of length in a canned cycle")
+                    .help("end the cycle with G80 before"),
+            );
+        }
+        self.inch = inch;
+        let settings = self.control.settings;
+        self.control.modal.use_inch(inch, true, settings);
+        Ok(())
+    }
+
     /// `G54` to `G59`, `G54.1 P1` and `G54 P1`.
     fn work_offset(&mut self, code: u32, words: &mut BlockWords, span: Span) -> Done {
         if !code.is_multiple_of(10) && code != 541 {
@@ -282,11 +294,13 @@ fn unsupported(code: u32, span: Span) -> Diagnostic {
         }
         121 | 160 => "polar coordinates are not supported: post X and Y",
         220..=230 => "stored stroke limits are set at the machine: take it out",
-        270 | 290 | 301 | 310 => {
+        270 | 290 | 301 => {
             "which way the machine goes depends on its settings: write G53 with coordinates"
         }
         330 => "threads are not supported: tap with M29 S500 and G84",
-        370 | 311..=313 => "measuring cannot be evaluated ahead of time",
+        310..=313 | 370 => {
+            "measuring cannot be evaluated ahead of time: measure at the machine, and take it out"
+        }
         450..=480 => "single tool offsets are not supported: use G41 and G42",
         512 => "turning polygons is not supported",
         600 => "positioning from one side is not supported: write both motions",
