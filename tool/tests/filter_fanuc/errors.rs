@@ -94,6 +94,18 @@ fn variables_and_flow() {
             "1:5",
             "tools are measured at the machine",
         ),
+        ("G0 X#4014\nM30\n", "1:5", "program it before it is read"),
+        ("G0 X#4016\nM30\n", "1:5", "#4012 and #4014 can be read"),
+        (
+            "G43 H1 G0 X1.\n#1=#5041\nM30\n",
+            "2:4",
+            "#5041 while G43, G41 or G42 is in force",
+        ),
+        (
+            "G0 X0 Y0\nG41 D1 G1 X9. F1.\n#1=#5042\nG40 X20.\nM30\n",
+            "3:4",
+            "read #5002",
+        ),
         ("#0=1\nM30\n", "1:1", "#0 is always vacant"),
         ("#5221=1\nM30\n", "1:1", "#5221 cannot be assigned"),
         ("##1=5\nM30\n", "1:2", "stands in brackets here"),

@@ -175,6 +175,27 @@ fn values_can_be_given_and_modes_be_read() {
 }
 
 #[test]
+fn modes_are_those_that_the_program_has_set() {
+    for (blocks, variable, value) in [
+        ("G55", 4014, 55.0),
+        ("G54 P2", 4014, 54.1),
+        ("G43 H3", 4008, 43.0),
+        ("G43 H3", 4111, 3.0),
+        ("G43 H3\nG49", 4008, 49.0),
+        ("D5", 4107, 5.0),
+        ("", 4009, 80.0),
+        ("G0 Z5.\nG82 X1. Z-1. R1. F9.", 4009, 82.0),
+        ("", 4012, 67.0),
+        ("G43 H3 G0 X7.", 5001, 7.0),
+        ("G43 H3\nG49 G0 X7.", 5041, 7.0),
+    ] {
+        let program = format!("{blocks}\n#1=#{variable}\nG80 G0 X[100+#1]\nM30\n");
+        let found = places(&[("part.nc", &program)], &[]);
+        assert_eq!(found.last(), Some(&(100.0 + value)), "{program}");
+    }
+}
+
+#[test]
 fn a_stop_shows_its_message_and_an_alarm_ends() {
     let shop = Shop::with(Dialect::Fanuc, "G0 X1.\n#3006=1(TURN THE PART)\nM30\n");
     let written = shop.accepted(&[]);

@@ -42,6 +42,8 @@ pub struct Interpreter<'a> {
     /// T.
     pub(super) tool: Option<f64>,
     pub(super) tool_calls: ToolCalls,
+    /// G54 to G59.
+    pub(super) work_offset: Option<f64>,
     pub(super) modal_macro: Option<ModalMacro>,
     /// The block of the caller that M99 P returns to.
     pub(super) return_to: Option<(u32, Span)>,
@@ -71,6 +73,7 @@ impl<'a> Interpreter<'a> {
             inch: settings.machine_in_inch,
             tool: None,
             tool_calls: ToolCalls::default(),
+            work_offset: None,
             modal_macro: None,
             return_to: None,
             point_explained: false,

@@ -46,17 +46,39 @@ impl Interpreter<'_> {
                 Compensation::Left => 41.0,
                 Compensation::Right => 42.0,
             }),
+            4008 => self
+                .offsets
+                .length_on
+                .map(|on| if on { 43.0 } else { 49.0 }),
+            4009 => Some(
+                self.cycle
+                    .as_ref()
+                    .map_or(80.0, |cycle| f64::from(cycle.code) / 10.0),
+            ),
             4010 => Some(if self.to_return_level { 99.0 } else { 98.0 }),
+            4012 => Some(if self.modal_macro.is_some() {
+                66.0
+            } else {
+                67.0
+            }),
+            4014 => self.work_offset,
+            4107 => self.offsets.radius_row.map(f64::from),
             4109 => modal.feed.map(|feed| feed / modal.feed_factor),
             4111 => self.offsets.length_row.map(f64::from),
             4119 => modal.spindle_speed,
             4120 => self.tool,
+            // Where the tool is, and with the compensation of its length and radius.
+            5041..=5049 if self.is_compensated() => return Err(compensated(number, span)),
             5001..=5009 | 5041..=5049 if modal.frame.is_empty() => {
                 self.control.present((number % 10) as usize - 1)
             }
             _ => None,
         };
         known.ok_or_else(|| unknown(number, span))
+    }
+
+    fn is_compensated(&self) -> bool {
+        self.offsets.length_on == Some(true) || self.control.modal.compensation != Compensation::Off
     }
 
     /// Gives any variable a value.
@@ -101,6 +123,17 @@ impl Interpreter<'_> {
     }
 }
 
+fn compensated(number: u32, span: Span) -> Diagnostic {
+    Diagnostic::error(
+        span,
+        format!("#{number} while G43, G41 or G42 is in force: it has the length and the radius of the tool"),
+    )
+    .help(format!(
+        "read #{}, the end of the block as it is programmed, or write G49 and G40 before",
+        number - 40
+    ))
+}
+
 fn unknown(number: u32, span: Span) -> Diagnostic {
     let reason = match number {
         2001..=2999 | 10_001..=19_999 => "tools are measured at the machine",
@@ -112,7 +145,11 @@ fn unknown(number: u32, span: Span) -> Diagnostic {
             "where the machine or a probe is, is not known ahead of time: write the coordinates"
         }
         5201..=5349 | 7001..=7999 => "work offsets are set at the machine",
-        4001..=4130 => "program it before it is read",
+        4001 | 4008 | 4014 | 4107 | 4109 | 4111 | 4119 | 4120 => "program it before it is read",
+        4001..=4130 => {
+            "of the modes #4001 to #4003, #4005 to #4010, #4012 and #4014 can be read, of the words #4107 (D), #4109 \
+             (F), #4111 (H), #4119 (S) and #4120 (T): write its value instead"
+        }
         _ => "write its value instead, or a variable with --set '#500=VALUE'",
     };
     Diagnostic::error(span, format!("#{number} cannot be evaluated ahead of time")).help(reason)

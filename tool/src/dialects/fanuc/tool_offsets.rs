@@ -14,10 +14,10 @@ use crate::source::Span;
 pub struct ToolOffsets {
     /// H.
     pub length_row: Option<u32>,
-    /// Whether G43 is in force.
-    length_on: bool,
+    /// Whether G43 or G49 is in force; `None` before the first.
+    pub length_on: Option<bool>,
     /// D.
-    radius_row: Option<u32>,
+    pub radius_row: Option<u32>,
     explained: bool,
 }
 
@@ -35,14 +35,14 @@ impl Interpreter<'_> {
         }
         match (length, row) {
             (Some(At { value: false, span }), _) => {
-                self.offsets.length_on = false;
+                self.offsets.length_on = Some(false);
                 self.control.tool_length(false, span)?;
             }
             (Some(At { value: true, span }), _) => {
-                self.offsets.length_on = true;
+                self.offsets.length_on = Some(true);
                 self.length(span)?;
             }
-            (None, Some(row)) if self.offsets.length_on => self.length(row.span)?,
+            (None, Some(row)) if self.offsets.length_on == Some(true) => self.length(row.span)?,
             _ => {}
         }
         let row = words.d.take();
