@@ -33,6 +33,10 @@ fn drilling_is_that_of_linuxcnc() {
             "G99 G73 X10. Z-12. R1. Q5.\nG80",
             "G99 G73 X10 Z-12 R1 Q5\nG80",
         ),
+        (
+            "#1=500\nG98 G82 X10. Z-5. R2. P#1\nG80",
+            "G98 G82 X10 Z-5 R2 P.5\nG80",
+        ),
         ("G98 G85 X10. Z-12. R1.\nG80", "G98 G85 X10 Z-12 R1\nG80"),
         (
             "G98 G86 X10. Z-12. R1. P100\nG80",

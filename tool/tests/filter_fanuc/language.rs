@@ -29,6 +29,8 @@ fn arithmetic_has_the_values_of_the_control() {
         ("ASIN[-.5]", 330.0),
         ("ATAN[1]/[-1]", 135.0),
         ("ATAN[-1]/[1]", 315.0),
+        ("ATAN[1,-1]", 135.0),
+        ("AT[1]/[1]+RO[1.2]+SQ[4]+FI[1.5]+fu [1.5]", 51.2),
         ("ATAN[-1]", -45.0),
         ("SQRT[16]+ABS[-2]", 6.0),
         ("FIX[-1.7]+FUP[-1.2]+FUP[1.2]", -1.0),
@@ -73,6 +75,10 @@ fn flow_goes_where_the_control_goes() {
         (
             "#1=10\nGOTO#1\nG0 X1.\nN10 G0 X2.\nGOTO[#1+1]\nN11 M30\n",
             vec![2.0],
+        ),
+        (
+            "#1=1\nWH[#1LE2]DO1\nG0 X#1\n#1=#1+1\nEND1\nM30\n",
+            vec![1.0, 2.0],
         ),
         // Downwards first.
         ("N5 G0 X1.\nGOTO5\nG0 X2.\nN5 G0 X3.\nM30\n", vec![1.0, 3.0]),

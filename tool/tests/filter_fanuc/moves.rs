@@ -37,8 +37,8 @@ fn motions_are_those_of_linuxcnc() {
         ),
         // Inch, dwells, inverse time, feed a turn.
         (
-            "G20 G0 X1. Y1. Z0\nG1 X2. F10.\nG4 X1.5\nG4 P500\nG4 U2.\nM30\n",
-            "G0 X25.4 Y25.4 Z0\nG1 X50.8 F254\nG4 P1.5\nG4 P.5\nG4 P2\nM30\n",
+            "G20 G0 X1. Y1. Z0\nG1 X2. F10.\nG4 X1.5\nG4 P500\nG4 U2.\n#1=250\nG4 P#1\nG4 P[#1*3]\nM30\n",
+            "G0 X25.4 Y25.4 Z0\nG1 X50.8 F254\nG4 P1.5\nG4 P.5\nG4 P2\nG4 P.25\nG4 P.75\nM30\n",
         ),
         (
             "G0 X0 Y0 Z0\nG93 G1 X10. F2.\nG94 X20. F100.\nM30\n",

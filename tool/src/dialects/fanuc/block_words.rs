@@ -6,6 +6,7 @@ use super::values::{InWord, Lookup, value};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::control::Done;
 use crate::dialects::control::words::{AXES, At, set};
+use crate::dialects::expression::{Expression, ExpressionKind};
 use crate::source::Span;
 
 /// All words of a block.
@@ -23,6 +24,8 @@ pub struct BlockWords {
     pub radius: Option<At<f64>>,
     /// P, and how many digits it has if it has no point.
     pub p: Option<At<(f64, Option<u32>)>>,
+    /// Whether P is neither a number nor one with a sign.
+    pub p_is_worked_out: bool,
     /// Q.
     pub q: Option<At<f64>>,
     /// L.
@@ -122,7 +125,10 @@ impl BlockWords {
                 Ok(())
             }
             'R' => set(&mut self.radius, value, span, letter),
-            'P' => set(&mut self.p, (value, word.pointless), span, letter),
+            'P' => {
+                self.p_is_worked_out = is_worked_out(&word.value);
+                set(&mut self.p, (value, word.pointless), span, letter)
+            }
             'Q' => set(&mut self.q, value, span, letter),
             'L' => set(&mut self.l, value, span, letter),
             'F' => set(&mut self.feed, value, span, letter),
@@ -187,6 +193,25 @@ impl BlockWords {
         self.pointless.clear();
     }
 
+    /// P as a time in seconds: thousandths of a second without a point, or a whole number that was worked out.
+    pub fn take_dwell(&mut self) -> Result<Option<f64>, Diagnostic> {
+        let worked_out = self.p_is_worked_out;
+        match self.p.take() {
+            None => Ok(None),
+            Some(At {
+                value: (value, digits),
+                ..
+            }) if value >= 0.0 && (digits.is_some() || worked_out && value.fract() == 0.0) => {
+                Ok(Some(value / 1000.0))
+            }
+            Some(At { span, .. }) => Err(Diagnostic::error(
+                span,
+                "P is a whole number of thousandths of a second, without a point",
+            )
+            .help("write P500 for half a second")),
+        }
+    }
+
     /// Whether this G function, times ten, is in the block.
     pub fn has_g(&self, code: u32) -> bool {
         self.g.iter().any(|g| g.value == code)
@@ -221,6 +246,13 @@ impl BlockWords {
             )
             .help("take it out, or put it beside the function that it belongs to")),
         }
+    }
+}
+
+fn is_worked_out(value: &Expression) -> bool {
+    match &value.kind {
+        ExpressionKind::Unary(_, operand) => is_worked_out(operand),
+        kind => !matches!(kind, ExpressionKind::Number(_)),
     }
 }
 

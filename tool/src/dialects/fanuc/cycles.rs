@@ -101,7 +101,7 @@ impl Interpreter<'_> {
         cycle.bottom = words.axes[normal].take().map(level).or(cycle.bottom);
         cycle.return_level = words.radius.take().map(level).or(cycle.return_level);
         cycle.step = words.q.take().or(cycle.step);
-        cycle.dwell = dwell(words)?.unwrap_or(cycle.dwell);
+        cycle.dwell = words.take_dwell()?.unwrap_or(cycle.dwell);
         self.read_shift(words, &mut cycle)?;
         let times = repeats(words)?;
         self.cycle = Some(cycle);
@@ -198,27 +198,6 @@ impl Interpreter<'_> {
             .help("check Z and R; in G91 Z counts from R, and R from the level before the cycle"));
         }
         Ok(Hole { top, bottom })
-    }
-}
-
-/// P: thousandths of a second.
-fn dwell(words: &mut BlockWords) -> Result<Option<f64>, Diagnostic> {
-    match words.p.take() {
-        None => Ok(None),
-        Some(At {
-            value: (value, Some(_)),
-            ..
-        }) if value >= 0.0 => Ok(Some(value / 1000.0)),
-        // The value of an expression.
-        Some(At {
-            value: (value, None),
-            ..
-        }) if value >= 1.0 && value.fract() == 0.0 => Ok(Some(value / 1000.0)),
-        Some(At { span, .. }) => Err(Diagnostic::error(
-            span,
-            "P is in thousandths of a second, without a point",
-        )
-        .help("write P500 for half a second")),
     }
 }
 

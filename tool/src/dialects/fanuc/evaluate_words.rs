@@ -179,19 +179,7 @@ impl Interpreter<'_> {
         let given = [
             words.axes[0].take().map(|word| word.value),
             words.axes[6].take().map(|word| word.value),
-            match words.p.take() {
-                Some(At {
-                    value: (_, None),
-                    span,
-                }) => {
-                    return Err(Diagnostic::error(
-                        span,
-                        "P of G4 is in thousandths of a second, without a point",
-                    )
-                    .help("write G4 P500, or G4 X0.5, for half a second"));
-                }
-                thousandths => thousandths.map(|word| word.value.0 / 1000.0),
-            },
+            words.take_dwell()?,
         ];
         let mut given = given.into_iter().flatten();
         match (given.next(), given.next()) {

@@ -154,15 +154,33 @@ fn function_call(cursor: &mut Cursor, name: &str, depth: u32) -> Parsed<Expressi
             operands.1,
         ));
     }
-    let argument = inner(cursor, depth)?;
-    // ATAN[y]/[x]: the direction of a point.
-    if name == "ATAN" && cursor.is_symbol(0, '/') && cursor.is_symbol(1, '[') {
-        cursor.take('/');
-        let x = inner(cursor, depth)?;
-        let arguments = vec![x, argument];
-        return Ok(ExpressionKind::Function(Function::Direction, arguments));
+    if name == "ATAN" {
+        return arc_tangent(cursor, depth);
     }
+    let argument = inner(cursor, depth)?;
     Ok(ExpressionKind::Function(function, vec![argument]))
+}
+
+/// ATAN[t], or the direction of a point: ATAN[y]/[x], ATAN[y,x].
+fn arc_tangent(cursor: &mut Cursor, depth: u32) -> Parsed<ExpressionKind> {
+    cursor.expect('[', "[")?;
+    let first = GRAMMAR.parse(cursor, 0, depth + 1)?;
+    let x = if cursor.take(',') {
+        let x = GRAMMAR.parse(cursor, 0, depth + 1)?;
+        cursor.expect(']', "]")?;
+        x
+    } else {
+        cursor.expect(']', "]")?;
+        if !(cursor.is_symbol(0, '/') && cursor.is_symbol(1, '[')) {
+            return Ok(ExpressionKind::Function(Function::Atan, vec![first]));
+        }
+        cursor.take('/');
+        inner(cursor, depth)?
+    };
+    Ok(ExpressionKind::Function(
+        Function::Direction,
+        vec![x, first],
+    ))
 }
 
 fn function(name: &str) -> Option<Function> {

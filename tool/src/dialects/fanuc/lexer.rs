@@ -14,6 +14,13 @@ const NAMES: [&str; 37] = [
     "AND", "XOR", "BIN", "BCD", "EXP", "POW", "ADP", "END", "IF", "DO", "OR", "LN", "EQ",
 ];
 
+/// Those that may be shortened to their first two letters; what follows is `[`, which no address has behind two
+/// letters.
+const SHORTENED: [&str; 13] = [
+    "ROUND", "WHILE", "ASIN", "ACOS", "ATAN", "SQRT", "SIN", "COS", "TAN", "ABS", "FIX", "FUP",
+    "EXP",
+];
+
 /// The names of comparisons besides `EQ`.
 const COMPARISONS: [&str; 5] = ["NE", "GT", "GE", "LT", "LE"];
 
@@ -126,12 +133,12 @@ impl Lexer<'_> {
             letters.is_some_and(|letters| letters.eq_ignore_ascii_case(name.as_bytes()))
         };
         let name = NAMES.iter().chain(&COMPARISONS).find(is_next);
-        if let Some(name) = name {
-            let mut left = name.len();
+        let name = name.map(|name| (*name, name.len()));
+        if let Some((name, mut left)) = name.or_else(|| shortened(rest)) {
             while left > 0 && self.scanner.advance().is_some() {
                 left -= 1;
             }
-            return match *name {
+            return match name {
                 "DPRNT" | "BPRNT" => {
                     let rest = self.scanner.take_while(|c| c != '\n').to_string();
                     TokenKind::Text(rest)
@@ -148,6 +155,21 @@ impl Lexer<'_> {
         let digits = self.scanner.digits()?;
         Ok(TokenKind::Number(self.scanner.number(start, digits)?))
     }
+}
+
+/// `WH[`, `SQ[`: the name, and how many of its letters are there.
+fn shortened(rest: &[u8]) -> Option<(&'static str, usize)> {
+    const LETTERS: usize = 2;
+    let (letters, behind) = rest.split_at_checked(LETTERS)?;
+    let next = behind.iter().find(|byte| !matches!(byte, b' ' | b'\t'));
+    if next != Some(&b'[') {
+        return None;
+    }
+    let begins = |name: &&&str| {
+        let first = name.as_bytes().get(..LETTERS);
+        first.is_some_and(|first| first.eq_ignore_ascii_case(letters))
+    };
+    SHORTENED.iter().find(begins).map(|name| (*name, LETTERS))
 }
 
 #[cfg(test)]

@@ -231,7 +231,8 @@ fn words(cursor: &mut Cursor, text: Text) -> Parsed<Vec<Word>> {
             }
         };
         cursor.advance();
-        let value = word_value(cursor).map_err(|error| missing_value(error, letter))?;
+        let next = cursor.peek();
+        let value = word_value(cursor).map_err(|error| missing_value(error, letter, next))?;
         let span = start.to(cursor.last_span());
         let digits = text.slice(cursor.last_span().start..span.end);
         let literal = match &value.kind {
@@ -251,10 +252,21 @@ fn words(cursor: &mut Cursor, text: Text) -> Parsed<Vec<Word>> {
     Ok(list)
 }
 
-fn missing_value(error: Diagnostic, letter: char) -> Diagnostic {
+/// `next` is what stands behind the letter.
+fn missing_value(error: Diagnostic, letter: char, next: Option<&TokenKind>) -> Diagnostic {
+    let name = match (letter, next) {
+        ('G', Some(TokenKind::Letter('O'))) => Some("GOTO"),
+        ('T', Some(TokenKind::Letter('H'))) => Some("THEN"),
+        ('E', Some(TokenKind::Letter('N'))) => Some("END"),
+        _ => None,
+    };
+    let value = format!("write {letter}10., {letter}#1 or {letter}[#1+1]");
     Diagnostic::error(
         error.span,
         format!("the value of {letter} is missing or not a number"),
     )
-    .help(format!("write {letter}10., {letter}#1 or {letter}[#1+1]"))
+    .help(match name {
+        Some(name) => format!("{value}, or the name {name} with all its letters"),
+        None => value,
+    })
 }
