@@ -98,8 +98,31 @@ impl<'a> Lines<'a> {
         if too_late {
             self.flush();
         }
+        let start = self.line.len();
         words(&mut self.line);
+        if start > 0 && self.shares_numbers(start) {
+            let later = self.line.split_off(start);
+            self.flush();
+            self.line.push_str(&later);
+        }
         self.words.push((rank, self.line.len()));
+    }
+
+    /// Whether LinuxCNC would give numbers of the words from `start` on to others of the line, or the
+    /// other way round.
+    fn shares_numbers(&self, start: usize) -> bool {
+        let later = taken_letters(self.line.get(start..).unwrap_or(""));
+        if later.is_empty() {
+            return false;
+        }
+        let mut begin = 0;
+        self.words.iter().any(|&(_, end)| {
+            let letters = taken_letters(self.line.get(begin..end).unwrap_or(""));
+            begin = end;
+            letters
+                .bytes()
+                .any(|letter| later.as_bytes().contains(&letter))
+        })
     }
 
     /// Ends the line that is being made.
@@ -196,6 +219,24 @@ impl<'a> Lines<'a> {
         self.flush();
         self.write_out();
         self.error.map_or(Ok(()), Err)
+    }
+}
+
+/// The letters of numbers that LinuxCNC takes for these words, as far as others take them too. There is one
+/// of each letter in a line, and all take it: beside an arc P of G64 is a number of turns.
+fn taken_letters(words: &str) -> &'static str {
+    let code = words.split(' ').next().unwrap_or("");
+    match code {
+        // Turns, radius; direction, angle.
+        "G2" | "G3" | "M19" => "PR",
+        "G64" => "P",
+        // Speed at most; row or diameter.
+        "G96" | "G41" | "G42" | "G41.1" | "G42.1" => "D",
+        _ => match code.as_bytes() {
+            // M functions of the user, and those that a number switches.
+            [b'M', b'1', _, _] | [b'M', b'5' | b'6', _] => "P",
+            _ => "",
+        },
     }
 }
 

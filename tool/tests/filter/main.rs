@@ -13,6 +13,7 @@ mod linuxcnc;
 mod nothing;
 mod numbers;
 mod one_error;
+mod one_line;
 mod output;
 mod pairs;
 mod path_modes;
