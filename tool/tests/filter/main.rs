@@ -10,6 +10,7 @@ mod front_end;
 mod language;
 mod limits;
 mod linuxcnc;
+mod modes_in_force;
 mod nothing;
 mod numbers;
 mod one_error;

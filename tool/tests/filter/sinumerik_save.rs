@@ -88,6 +88,12 @@ fn what_was_in_force_has_to_be_known() {
             "",
         ),
         (
+            "G0 X0 Y0\nG41 G1 X5 Y5 F10 D1\nFLIP",
+            "G40 X9\nG42 X12",
+            "4:1",
+            "the other side while cutter compensation is on",
+        ),
+        (
             "G0 X0 Y0 Z0\nG96 S100 M3\nFLIP\nG1 X5 F9",
             "G97 S100",
             "",

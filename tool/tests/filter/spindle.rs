@@ -252,7 +252,7 @@ fn cutting_speeds_end_with_the_other_feeds() {
     for (program, wanted) in [
         ("G94 F100\nS500\nG1 Z-2", "G94 F100 G97 S500 G1 Z-2"),
         ("G94 F100 S500\nG1 Z-2", "G94 F100 G97 S500 G1 Z-2"),
-        ("G95 S300\nG1 Z-2", "G95 G97 S300 G1 Z-2"),
+        ("G95 S300\nG1 Z-2", "G97 S300 G1 Z-2"),
         // Whatever the speed is, it does not matter to a rapid motion and to a spindle that stands.
         ("G94 G0 Z5\nM5\nG1 X9 F50", "G94 G0 Z5 M5 G1 X9 F50"),
     ] {

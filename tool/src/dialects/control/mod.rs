@@ -6,6 +6,7 @@
 mod arc_fit;
 mod arc_forms;
 pub mod calls;
+mod end_of_compensation;
 pub mod frame;
 pub mod groups;
 mod machine_moves;
@@ -28,6 +29,7 @@ use crate::program::corners::Corners;
 use crate::program::frame::FrameCommand;
 use crate::program::{self, Action, Compensation, FrameScope, Origin, Sink};
 use crate::source::{SourceFile, Sources, Span};
+use end_of_compensation::EndOfCompensation;
 use modal::Modal;
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -87,6 +89,7 @@ pub struct Control<'a> {
     cycles: usize,
     has_modal_cycle: bool,
     corners: Corners,
+    end_of_compensation: EndOfCompensation,
     finished: usize,
     running: Vec<String>,
     blocks_run: usize,
@@ -115,6 +118,7 @@ impl<'a> Control<'a> {
             cycles: 0,
             has_modal_cycle: false,
             corners: Corners::default(),
+            end_of_compensation: EndOfCompensation::default(),
             finished: 0,
             running: Vec::new(),
             blocks_run: 0,
@@ -233,6 +237,15 @@ impl<'a> Control<'a> {
             return;
         }
         self.finished += 1;
+        if self.end_of_compensation.meets_arc(&block.actions) {
+            self.diagnostics.push(
+                Diagnostic::error(
+                    block.origin.span,
+                    "an arc is the first motion behind the end of cutter compensation",
+                )
+                .help("LinuxCNC leaves the compensated path on a straight line: write G40 with a G1 before the arc"),
+            );
+        }
         if self.diagnostics.errors() > 0 {
             // What follows an error may not be where it belongs, and is not written anyway.
             self.corners = Corners::default();

@@ -21,6 +21,10 @@ impl Control<'_> {
 
     /// G93 to G95.
     pub fn feed_mode(&mut self, mode: FeedMode) {
+        if mode == self.modal.feed_mode && self.modal.feed.is_some() {
+            // LinuxCNC would forget F.
+            return;
+        }
         if mode != self.modal.feed_mode {
             self.modal.feed_mode = mode;
             // A number that meant mm/min must not go on as mm per revolution.
@@ -197,6 +201,23 @@ impl Control<'_> {
         }
         self.states.push(Action::Plane(plane));
         Ok(())
+    }
+
+    /// G40 to G42 of a block; `false` where nothing changes. LinuxCNC cannot switch on what is on: the
+    /// same side again is left out, the other side is refused.
+    pub fn switch_compensation(
+        &mut self,
+        compensation: At<Compensation>,
+    ) -> Result<bool, Diagnostic> {
+        let At { value, span } = compensation;
+        if value != Compensation::Off {
+            if value == self.modal.compensation {
+                return Ok(false);
+            }
+            self.refuse_compensation(span, "the other side")?;
+        }
+        self.compensation(value, span)?;
+        Ok(true)
     }
 
     /// G40 to G42.

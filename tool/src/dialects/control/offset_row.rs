@@ -4,7 +4,6 @@ use super::words::At;
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
 use crate::program::{Action, Compensation};
-use crate::source::Span;
 
 /// The row that D selected, and whether it has been said what D becomes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,16 +46,12 @@ impl Control<'_> {
     }
 
     /// G40 to G42, with the radius of the row that D selected; before the first D with that of the tool.
-    pub fn compensation_by_row(
-        &mut self,
-        compensation: Compensation,
-        row: OffsetRow,
-        span: Span,
-    ) -> Done {
-        if compensation != Compensation::Off && row.selected.is_some() {
+    pub fn compensation_by_row(&mut self, compensation: At<Compensation>, row: OffsetRow) -> Done {
+        let changes = self.switch_compensation(compensation)?;
+        if changes && compensation.value != Compensation::Off && row.selected.is_some() {
             self.radius_of_row(row.selected);
         }
-        self.compensation(compensation, span)
+        Ok(())
     }
 
     /// The M functions of a block except the stops at its end; returns the one that ends the routine.

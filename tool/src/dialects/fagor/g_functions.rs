@@ -125,11 +125,13 @@ impl Interpreter<'_> {
                     41 => Compensation::Left,
                     _ => Compensation::Right,
                 };
-                once.compensation = Some(At {
+                let compensation = At {
                     value: compensation,
                     span,
-                });
-                self.control.compensation(compensation, span)?;
+                };
+                if self.control.switch_compensation(compensation)? {
+                    once.compensation = Some(compensation);
+                }
                 7
             }
             43 | 44 => {

@@ -73,9 +73,9 @@ impl Interpreter<'_> {
             }
             40..=42 => {
                 let compensation = [Compensation::Off, Compensation::Left, Compensation::Right];
-                let compensation = compensation[code as usize - 40];
+                let value = compensation[code as usize - 40];
                 self.control
-                    .compensation_by_row(compensation, self.offset_row, span)?;
+                    .compensation_by_row(At { value, span }, self.offset_row)?;
                 4
             }
             // Diameter programming off, and speed in revolutions: the state in which programs begin.

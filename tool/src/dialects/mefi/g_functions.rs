@@ -60,8 +60,8 @@ impl Interpreter<'_> {
             }
             40..=42 => {
                 let compensation = [Compensation::Off, Compensation::Left, Compensation::Right];
-                let compensation = compensation[code as usize - 40];
-                control.compensation_by_row(compensation, self.offset_row, span)?;
+                let value = compensation[code as usize - 40];
+                control.compensation_by_row(At { value, span }, self.offset_row)?;
                 4
             }
             53 => {

@@ -103,12 +103,12 @@ impl Interpreter<'_> {
                 6
             }
             400 | 410 | 420 => {
-                let compensation = match code {
+                let value = match code {
                     400 => Compensation::Off,
                     410 => Compensation::Left,
                     _ => Compensation::Right,
                 };
-                self.control.compensation(compensation, span)?;
+                self.control.switch_compensation(At { value, span })?;
                 7
             }
             530 | 1530 => {

@@ -13,6 +13,7 @@ use super::spindle_speed::SpeedMode;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
+use crate::dialects::control::words::At;
 use crate::program::frame::FrameOperation;
 use crate::program::{Compensation, FeedMode, PathControl, Plane};
 use crate::source::Span;
@@ -91,7 +92,8 @@ impl Interpreter<'_> {
             self.enter_speed_mode(before, span)?;
         }
         if self.control.modal.compensation != kept.compensation {
-            self.control.compensation(kept.compensation, span)?;
+            let value = kept.compensation;
+            self.control.switch_compensation(At { value, span })?;
             self.control.apply_states(compensation != Compensation::Off);
         }
         Ok(())
