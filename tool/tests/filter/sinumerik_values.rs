@@ -132,6 +132,20 @@ fn work_offsets_are_set_where_the_control_takes_them() {
         written(offset),
         ["G10 L2 P1 X10.5 Y20 Z0 R30", "G54", "G0 X1", "M30"]
     );
+    // What stands before a part of the chain turns it.
+    for (chain, wanted) in [
+        ("CROT(Z,90):CTRANS(X,10)", "X0 Y10 Z0 R90"),
+        ("CROT(Z,90):CTRANS(Y,10,Z,3)", "X-10 Y0 Z3 R90"),
+        ("CROT(Z,30):CROT(Z,15)", "X0 Y0 Z0 R45"),
+        ("CTRANS(X,10):CROT(Z,90):CFINE(X,1)", "X10 Y1 Z0 R90"),
+    ] {
+        let program = format!("$P_UIFR[1]={chain}\nG54\nM30\n");
+        assert_eq!(
+            written(&program)[0],
+            format!("G10 L2 P1 {wanted}"),
+            "{chain}"
+        );
+    }
     // One in force changes with the next G54, one that is not at once.
     let program =
         "G54\nG0 X1\n$P_UIFR[1,X,TR]=R1+5\nG0 X2\n$P_UIFR[2,C,TR]=90\nG0 X3\nG54\nG0 X4\nM30\n";

@@ -31,10 +31,14 @@ impl Interpreter<'_> {
             values.rotation = Some(0.0);
         }
         for (part, list) in &offset.parts {
+            // What stands before a part of the chain turns it.
+            let turned = values.rotation.unwrap_or(0.0);
             for (axis, value) in list {
                 let value = value.number(&self.variables)?;
                 match part {
-                    OffsetPart::Rotation if *axis == ABOUT_Z => values.rotation = Some(value),
+                    OffsetPart::Rotation if *axis == ABOUT_Z => {
+                        values.rotation = Some(turned + value);
+                    }
                     OffsetPart::Rotation if value == 0.0 => {}
                     OffsetPart::Rotation => {
                         return Err(Diagnostic::error(
@@ -55,8 +59,7 @@ impl Interpreter<'_> {
                             3..6 => 1.0,
                             _ => self.control.modal.length_factor,
                         };
-                        let before = values.axes[*axis].unwrap_or(0.0);
-                        values.axes[*axis] = Some(before + value * factor);
+                        add_shift(&mut values.axes, *axis, value * factor, turned);
                     }
                 }
             }
@@ -77,5 +80,21 @@ impl Interpreter<'_> {
             let values = Box::new(values);
             self.control.actions.push(Action::SystemValues(values));
         }
+    }
+}
+
+/// Adds a shift along an axis that is turned by this angle about Z, degrees.
+fn add_shift(axes: &mut [Option<f64>; 9], axis: usize, value: f64, turned: f64) {
+    let mut add = |axis: usize, value: f64| {
+        axes[axis] = Some(axes[axis].unwrap_or(0.0) + value);
+    };
+    if axis > 1 || turned == 0.0 {
+        return add(axis, value);
+    }
+    let (sin, cos) = turned.to_radians().sin_cos();
+    add(axis, value * cos);
+    match axis {
+        0 => add(1, value * sin),
+        _ => add(0, -value * sin),
     }
 }
