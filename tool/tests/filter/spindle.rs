@@ -217,6 +217,12 @@ fn a_chuck_that_gives_way_needs_no_overrides() {
         "{text}"
     );
     interpreted(program);
+    let shown = errors("S300 M3\nG0 X0 Y0 Z2\nG41 G1 X9 F300\nG63 Z-10\nM30\n");
+    assert!(shown.contains("part.mpf:4:1"), "{shown}");
+    assert!(
+        shown.contains("a tap while cutter compensation is on"),
+        "{shown}"
+    );
 }
 
 #[test]

@@ -131,6 +131,7 @@ impl Interpreter<'_> {
                     .help("write G63 Z-20 F300"),
             );
         }
+        self.control.refuse_compensation(block, "a tap")?;
         let motion = self.control.modal.motion.replace(Motion::Line);
         self.control.begin_cycle();
         self.control.begin_tap_without_overrides();
