@@ -111,6 +111,9 @@ impl Interpreter<'_> {
     ) -> Done {
         let [_, _, normal] = self.control.modal.plane.axes();
         let factor = self.control.modal.length_factor;
+        if g.value == 79 {
+            refuse_beside_change(words, normal)?;
+        }
         let old = match (g.value, self.cycle.take()) {
             (79, None) => {
                 return Err(Diagnostic::error(
@@ -393,5 +396,27 @@ impl Interpreter<'_> {
         if cycle.dwell > 0.0 {
             self.control.actions.push(Action::Dwell(cycle.dwell));
         }
+    }
+}
+
+/// G79 changes the cycle and does not run it: no place stands beside it, and no number of repetitions.
+fn refuse_beside_change(words: &BlockWords, normal: usize) -> Done {
+    let mut rest = words.clone();
+    rest.axes[normal] = None;
+    let further = [
+        rest.angle,
+        rest.times,
+        rest.further,
+        rest.pitch,
+        rest.finish_feed,
+    ];
+    let spans = further.iter().flatten().map(|word| word.span);
+    match spans.chain(rest.first_axis()).min_by_key(|span| span.start) {
+        Some(other) => Err(Diagnostic::error(
+            other,
+            "G79 changes a canned cycle, and has no use for this word",
+        )
+        .help("name the places in the blocks behind it: G79 Z3 I-6, then X50 Y60")),
+        None => Ok(()),
     }
 }

@@ -261,6 +261,16 @@ fn cycles() {
         "does not lie beyond",
     );
     one_error("G79 Z5\nM30\n", "1:1", "none is active");
+    for (word, column) in [
+        ("G79 X5 I-6", 5),
+        ("G79 Z2 Y5", 8),
+        ("G79 I-6 Q9", 9),
+        ("G79 I-6 N3", 9),
+    ] {
+        let program = format!("S300 M3\nF200\nG0 X0 Y0 Z9\nG81 X0 Y0 Z1 I-5\n{word}\nM30\n");
+        let text = "has no use for this word";
+        one_error(&program, &format!("5:{column}"), text);
+    }
     one_error(
         "G0 X0 Y0 Z5\nG81 X5 Z2 I-5 F100\nZ3\nM30\n",
         "3:1",
