@@ -67,7 +67,8 @@ impl Corners {
     /// The last blocks, at the end of the program.
     pub fn take_rest(&mut self, diagnostics: &mut Diagnostics) -> Vec<Block> {
         let mut finished = self.take_finished(diagnostics);
-        if let Some([block, _]) = self.open.take() {
+        let within = self.rounds_within();
+        if let Some([block, _]) = self.open.take().filter(|_| !within) {
             let span = self.waiting[block].origin.span;
             diagnostics.push(Diagnostic::error(
                 span,
@@ -79,30 +80,34 @@ impl Corners {
         finished
     }
 
+    /// The corner that is open.
+    fn open_corner(&self) -> Option<Corner> {
+        let [block, index] = self.open?;
+        match self.waiting.get(block)?.actions.get(index)? {
+            Action::Move(motion) => motion.corner,
+            _ => None,
+        }
+    }
+
     /// Whether the open corner is a tangential exit.
     fn leaves_contour(&self) -> bool {
-        let Some([block, index]) = self.open else {
-            return false;
-        };
-        let action = self
-            .waiting
-            .get(block)
-            .and_then(|block| block.actions.get(index));
-        matches!(
-            action,
-            Some(Action::Move(Move {
-                corner: Some(Corner::TangentialExit(_)),
-                ..
-            }))
-        )
+        matches!(self.open_corner(), Some(Corner::TangentialExit(_)))
+    }
+
+    /// Whether the open corner is made within a contour only.
+    fn rounds_within(&self) -> bool {
+        matches!(self.open_corner(), Some(Corner::RoundWithin(_)))
     }
 
     fn look_at(&mut self, block: usize, diagnostics: &mut Diagnostics) {
         let mut index = 0;
         while let Some(action) = self.waiting[block].actions.get(index) {
-            if let Action::Plane(next) = action {
-                self.plane = *next;
-            }
+            // The contour ends with the plane and with the program.
+            let ends_contour = match action {
+                Action::Plane(next) => std::mem::replace(&mut self.plane, *next) != *next,
+                Action::End { .. } => true,
+                _ => false,
+            };
             let is_move = matches!(action, Action::Move(_));
             let ends = self.open.is_some() && !is_move && {
                 // A tangential exit leads to the line on which the compensation ends.
@@ -111,11 +116,21 @@ impl Corners {
                 interrupts(action) && !leaves
             };
             let has_corner = matches!(action, Action::Move(motion) if motion.corner.is_some());
-            if ends && let Some(first) = self.open.take() {
+            let within = self.rounds_within();
+            if ends
+                && let Some(first) = self.open.take()
+                && !(within && ends_contour)
+            {
                 let span = self.waiting[first[0]].origin.span;
+                let help = match within {
+                    true => {
+                        "the next motion must follow in the same plane and frame: end the rounding before (RNDM=0)"
+                    }
+                    false => "the next motion must follow in the same plane and frame",
+                };
                 diagnostics.push(
                     Diagnostic::error(span, "no motion follows that the corner could be made with")
-                        .help("the next motion must follow in the same plane and frame"),
+                        .help(help),
                 );
             }
             if is_move {
@@ -171,18 +186,32 @@ fn join(
     let Some(corner) = first.corner else {
         return Ok(false);
     };
+    let within = matches!(corner, Corner::RoundWithin(_));
+    if within
+        && [&first, &second]
+            .iter()
+            .any(|motion| leaves_plane(motion, plane))
+    {
+        if let Some(motion) = move_at(blocks, first_place) {
+            motion.corner = None;
+        }
+        return Ok(false);
+    }
     let elements = [&first, &second].map(|motion| element(motion, plane));
     let [Some(a), Some(b)] = elements else {
         return Err(Diagnostic::error(
             span,
             "a corner is made between two motions with feed in the plane, with known coordinates",
         )
-        .help(
-            "program both axes of the plane absolute before, and no other axis in these blocks",
-        ));
+        .help(match within {
+            true => "program both axes of the plane absolute before; RNDM=0 ends the rounding",
+            false => {
+                "program both axes of the plane absolute before, and no other axis in these blocks"
+            }
+        }));
     };
     let joint = match corner {
-        Corner::Round(radius) => round(&a, &b, radius),
+        Corner::Round(radius) | Corner::RoundWithin(radius) => round(&a, &b, radius),
         Corner::ChamferFrom(distance) => chamfer_from(&a, &b, distance),
         Corner::ChamferOf(length) => chamfer_of(&a, &b, length),
         Corner::TangentialEntry(radius) => enter(&a, &b, radius).map(Some),
@@ -214,6 +243,18 @@ fn move_at(blocks: &mut [Block], [block, index]: Place) -> Option<&mut Move> {
         Action::Move(motion) => Some(motion),
         _ => None,
     }
+}
+
+/// Whether a move is known to be none with feed in the plane.
+fn leaves_plane(motion: &Move, plane: Plane) -> bool {
+    let [_, _, normal] = plane.axes();
+    let moves = |axis: usize| match motion.target[axis] {
+        Coordinate::Keep => false,
+        Coordinate::By(step) => step != 0.0,
+        Coordinate::At(end) => motion.start[axis].is_some_and(|start| start != end),
+    };
+    let with_feed = matches!(motion.kind, MoveKind::Line | MoveKind::Arc(_));
+    !with_feed || moves(normal) || (3..9).any(moves)
 }
 
 /// A move as a motion of the plane; `None` for one that leaves the plane, is rapid, or goes nowhere or

@@ -31,6 +31,8 @@ pub struct Move {
 pub enum Corner {
     /// A tangent arc of this radius.
     Round(f64),
+    /// The same between two motions with feed in the plane; elsewhere there is no corner to be made.
+    RoundWithin(f64),
     /// A straight line that begins and ends at this distance from the corner.
     ChamferFrom(f64),
     /// A straight line of this length.

@@ -150,6 +150,29 @@ M30
         .ccw([18., 20., 0.], (18., 18.))
         .lines(&[(0., 20.), (0., 0.)]);
     check(modal, &expected);
+    // The contour ends without a rounding.
+    let begin = "G0 X0 Y0 Z0\nRNDM=2\nG1 X20 F100\nY20\n";
+    let contour = Path::from([0.0; 3])
+        .lines(&[(18., 0.)])
+        .ccw([20., 2., 0.], (18., 2.))
+        .lines(&[(20., 20.)]);
+    for end in ["", "G0 Z9\n", "G1 Z9\n", "G0 X0\n", "G1 A9\n", "G18\n"] {
+        let begin = begin.replace("Z0", "Z0 A0");
+        let written = commands(&translate(&format!("{begin}{end}M30\n"), &[]));
+        let until = written.iter().position(|line| line.ends_with(" Y20"));
+        let until = until.unwrap_or_else(|| panic!("{end}{written:?}"));
+        assert!(
+            !written[until..].iter().any(|line| line.starts_with("G3")),
+            "{end}"
+        );
+    }
+    check(&format!("{begin}M30\n"), &contour);
+    for end in ["G54\nG1 X0\n", "TRANS X1\nG1 X0\n"] {
+        let shown = errors(&format!("{begin}{end}M30\n"));
+        assert!(shown.contains("(RNDM=0)"), "{shown}");
+    }
+    let shown = errors("RNDM=2\nG1 X20 F100\nY20\nX0\nM30\n");
+    assert!(shown.contains("RNDM=0 ends the rounding"), "{shown}");
     assert!(errors("G0 X5 RND=3\nM30\n").contains("after a rapid motion"));
     assert!(errors("G0 X0 Y0\nG1 X5 F9 RND=3\nM30\n").contains("no motion follows"));
 }

@@ -318,7 +318,7 @@ impl Interpreter<'_> {
                 other => other,
             },
             None => match self.rounding {
-                Some(radius) => Corner::Round(radius),
+                Some(radius) => Corner::RoundWithin(radius),
                 None => return Ok(()),
             },
         };
