@@ -30,6 +30,15 @@ fn words_that_are_none() {
         "1:7",
         "`FOO` is not a word of this dialect",
     );
+    for (program, column) in [
+        ("MCALL CYCLE81(10,0,2,-5) X5", 26),
+        ("CYCLE81(10,0,2,-5) X5", 20),
+        ("G0 X5 CYCLE81(10,0,2,-5)", 7),
+    ] {
+        let text = "the call of CYCLE81 stands alone in its block";
+        one_error(&format!("{program}\nM30\n"), &format!("1:{column}"), text);
+    }
+    one_error("G641 ADISPOS=2\nM30\n", "1:6", "ADISPOS is not supported");
     one_error("G0 Q5\nM30\n", "1:4", "the address Q is not supported");
     one_error("G0 X1.2.3\nM30\n", "1:5", "two decimal points");
     one_error("G0 X=\nM30\n", "1:6", "a value is missing here");

@@ -139,6 +139,10 @@ fn subprograms_are_called_by_text_and_may_have_a_head() {
     let program = "%_N_PART_MPF\nCALL \"Edge\"\nM30\n\
                    %_N_EDGE_SPF\nPROC EDGE DISPLOF\nG0 X3\nRET\n";
     assert_eq!(last_x(program), 3.0);
+    // The length of a text does not matter.
+    let program = "%_N_PART_MPF\nEDGE(\"abc\",3)\nM30\n\
+                   %_N_EDGE_SPF\nPROC EDGE(STRING[20] TXT, REAL PLACE)\nMSG(TXT)\nG0 X=PLACE\nRET\n";
+    assert_eq!(last_x(program), 3.0);
 }
 
 #[test]

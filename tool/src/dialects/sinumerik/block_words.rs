@@ -213,6 +213,8 @@ impl BlockWords {
                     .help("they switch something on this one machine: use an M function that LinuxCNC has")),
             "P" => Err(Diagnostic::error(span, "P has no meaning here")
                     .help("P gives the number of passes after a subprogram call: L10 P3")),
+            "ADISPOS" => Err(Diagnostic::error(span, "ADISPOS is not supported: LinuxCNC rounds rapid motions as it does the others")
+                    .help("leave it out; where rapid motions may not be rounded by ADIS, write G60 before them")),
             "RPL" => Err(Diagnostic::error(span, "RPL has no meaning here").help("it belongs to ROT and AROT")),
             _ => Err(Diagnostic::error(span, format!("the address {address} is not supported"))
                     .help("axes are X Y Z A B C U V W")),

@@ -175,10 +175,6 @@ fn case(parser: &mut BlockParser) -> Parsed<Flow> {
 fn definitions(parser: &mut BlockParser) -> Parsed<Statement> {
     parser.cursor.advance();
     let kind = variable_kind(parser)?;
-    if kind == VariableKind::Text && parser.cursor.take(Symbol::OpenBracket) {
-        // The length of a text does not matter here.
-        arguments(&mut parser.cursor, Symbol::CloseBracket, "]")?;
-    }
     let mut list = Vec::new();
     loop {
         list.push(definition(parser, kind)?);
@@ -216,7 +212,7 @@ pub(super) fn parameters(parser: &mut BlockParser) -> Parsed<Vec<Parameter>> {
     }
 }
 
-/// `REAL`, `INT`, `BOOL`, `STRING`.
+/// `REAL`, `INT`, `BOOL`, `STRING`, `STRING[20]`.
 fn variable_kind(parser: &mut BlockParser) -> Parsed<VariableKind> {
     let kind = match parser.cursor.peek() {
         Some(TokenKind::Name(name)) => match name.as_str() {
@@ -234,6 +230,10 @@ fn variable_kind(parser: &mut BlockParser) -> Parsed<VariableKind> {
         _ => return Err(parser.cursor.error("the type of the variable is missing")),
     };
     parser.cursor.advance();
+    if kind == VariableKind::Text && parser.cursor.take(Symbol::OpenBracket) {
+        // The length of a text does not matter here.
+        arguments(&mut parser.cursor, Symbol::CloseBracket, "]")?;
+    }
     Ok(kind)
 }
 

@@ -311,15 +311,18 @@ impl BlockParser<'_> {
             Some(TokenKind::Name(name)) => name.clone(),
             _ => return Err(self.cursor.error("the name of a subprogram is missing")),
         };
-        let arguments = if self.cursor.take(Symbol::Open) {
-            arguments(&mut self.cursor, Symbol::Close, ")")?
-        } else {
-            Vec::new()
+        let has_values = self.cursor.take(Symbol::Open);
+        let arguments = match has_values {
+            true => arguments(&mut self.cursor, Symbol::Close, ")")?,
+            false => Vec::new(),
         };
         let passes = self.passes()?;
         if !self.cursor.is_at_end() {
-            // A call stands alone: this is a word that nobody knows, among others.
-            return Err(unknown_word(&name, span));
+            return Err(match has_values {
+                true => self.not_alone(&name),
+                // A call stands alone: this is a word that nobody knows, among others.
+                false => unknown_word(&name, span),
+            });
         }
         Ok(Statement::Call(Call {
             name,
@@ -327,6 +330,14 @@ impl BlockParser<'_> {
             arguments,
             passes,
         }))
+    }
+
+    /// An error for what stands beside the call of a subprogram.
+    pub(super) fn not_alone(&self, name: &str) -> Diagnostic {
+        self.error_with_help(
+            &format!("the call of {name} stands alone in its block"),
+            "put what stands beside it in a block of its own",
+        )
     }
 
     pub(super) fn passes(&mut self) -> Parsed<Option<Expression>> {

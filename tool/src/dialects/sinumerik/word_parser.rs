@@ -84,6 +84,9 @@ impl BlockParser<'_> {
             ));
         }
         self.refuse_known(name, span)?;
+        if self.cursor.is_symbol(1, Symbol::Open) && words::similar(name).is_none() {
+            return Err(self.not_alone(name));
+        }
         Err(unknown_word(name, span))
     }
 
