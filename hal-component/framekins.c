@@ -307,9 +307,6 @@ static int export_guard_pins(void)
     return 0;
 }
 
-/* The elements of a map in the order of its rows. */
-static const char *const row_names[12] = {"xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z"};
-
 /* Where the machine is with its frame, for screens. */
 static int export_position_pins(void)
 {

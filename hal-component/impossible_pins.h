@@ -18,9 +18,18 @@ struct named_value {
     int is_length;
 };
 
+/* The elements of a map in the order of its rows. */
+static const char *const row_names[12] = {"xx", "xy", "xz", "x", "yx", "yy", "yz", "y", "zx", "zy", "zz", "z"};
+
 static int is_impossible(const struct named_value *pin)
 {
     return !isfinite(pin->value) || (pin->is_length && fabs(pin->value) > GREATEST_LENGTH);
+}
+
+static void tell_of(const char *group, const struct named_value *pin)
+{
+    rtapi_print_msg(RTAPI_MSG_ERR, "framekins: framekins.%s%s is %g, which is no %s: look at what sets it in the HAL file\n",
+                    group, pin->name, pin->value, pin->is_length ? "length of a machine" : "finite number");
 }
 
 /* Names the first such pin, if there is one. The limits of a table may be infinite, so they are not looked at. */
@@ -47,11 +56,17 @@ static void tell_impossible_pin(const struct framepath_frame_inputs *in)
         {"tool-offset", in->table_tool_offset, 1},
     };
     for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {
-        if (!is_impossible(&all[i]))
-            continue;
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: framekins.%s is %g, which is no %s: look at what sets it in the HAL file\n",
-                        all[i].name, all[i].value, all[i].is_length ? "length of a machine" : "finite number");
-        return;
+        if (is_impossible(&all[i])) {
+            tell_of("", &all[i]);
+            return;
+        }
+    }
+    for (int i = 0; i < 12; i++) {
+        struct named_value element = {row_names[i], in->map[i], i % 4 == 3};
+        if (is_impossible(&element)) {
+            tell_of("map.", &element);
+            return;
+        }
     }
 }
 

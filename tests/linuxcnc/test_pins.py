@@ -19,7 +19,7 @@ class Framekins(unittest.TestCase):
         self.module = kinematics_host.Module(os.path.join(harness.MODULES, "framekins.so"), "framekins",
                                              coordinates="XYZAC", machine="xyzac")
         for pin in ("command", "value.1", "value.2", "work-offset.y", "tool-offset.z", "x-rot-point", "y-offset",
-                    "tool-offset"):
+                    "tool-offset", "map.xx", "map.z"):
             self.module.find(pin, FLOAT)
         for pin in ("in-position", "parameters-pending"):
             self.module.find(pin, BIT)
@@ -36,11 +36,12 @@ class Framekins(unittest.TestCase):
 
     def test_a_refused_frame_names_the_pin(self):
         for pin, value in (("value.2", math.nan), ("work-offset.y", math.inf), ("tool-offset.z", -math.inf),
-                           ("work-offset.y", 1e7)):
+                           ("work-offset.y", 1e7), ("map.xx", math.nan), ("map.z", 1e7)):
             with self.subTest(pin=pin, value=value):
                 self.setUp()
                 before = self.module.pins[pin].value
-                self.module.set(**{pin: value, "command": 1001.0})
+                code = 12 if pin.startswith("map") else 1
+                self.module.set(**{pin: value, "command": 1000.0 + code})
                 self.module.update()
                 said = self.new_messages()
                 self.assertEqual(len(said), 2, said)
