@@ -135,6 +135,9 @@ impl AskedNormal {
         }
         let normal = match &self.turning {
             _ if !has_frame => NormalPins::refused(ToolNormalError::NoFrame),
+            Ok(turning) if turning.is_tilted_by_another(&axes) => {
+                NormalPins::refused(ToolNormalError::ThirdAxis)
+            }
             Ok(turning) => NormalPins::of_chain(turning.chain.as_ref(), control, &limits, &axes),
             Err(Unknown::NotFound) => NormalPins::refused(ToolNormalError::UnknownKinematics),
             Err(Unknown::NotAsSaid) => NormalPins::refused(ToolNormalError::NotAsSaid),

@@ -9,7 +9,7 @@ use crate::axes::Axes;
 use crate::frame::ActiveFrame;
 
 /// The place of A among the axes.
-const A: usize = 3;
+pub(super) const A: usize = 3;
 
 /// As [`super::tool_normal()`] for axes of which is known how they turn the tool, `None` if none does; `position` are the axes
 /// of the machine now.

@@ -17,6 +17,7 @@ use nalgebra::{Matrix3, Unit, Vector3};
 
 use super::head_circles::chain_by_circles;
 use super::inner::InnerKinematics;
+use super::inner_normal::A;
 use super::rotary_chain::{RotaryAxis, RotaryChain};
 use super::tool_angles::RotaryAngles;
 use super::tool_axes::ToolAxes;
@@ -29,6 +30,8 @@ const NUDGE: f64 = 1e-3;
 const ROUGH: f64 = 1e-5;
 /// Of what is found with whole machine units, and of directions.
 const CLOSE: f64 = 1e-7;
+/// How far, degrees, an axis that is not to tilt the tool may be off: kinematics that iterate.
+const UNTILTED: f64 = 1e-4;
 /// Angles that are tried, degrees.
 const TRIED: f64 = 20.0;
 /// Angles of both axes at which what was found is compared once more, degrees.
@@ -41,6 +44,26 @@ pub struct ToolTurning {
     pub chain: Option<RotaryChain>,
     /// The joint that runs along Z; `None` of an arm.
     pub z_joint: Option<usize>,
+}
+
+impl ToolTurning {
+    /// Whether an arm, of which the user says what turns the tool, has another axis where it tilts the tool: A or B, which may
+    /// be anywhere among its joints, neither at 0 nor half a turn from there.
+    pub fn is_tilted_by_another(&self, axes: &Axes) -> bool {
+        let Some(chain) = self.chain.filter(|_| self.z_joint.is_none()) else {
+            return false;
+        };
+        let is_named = |letter: usize| {
+            letter == chain.tilt.letter || chain.rotary.is_some_and(|it| it.letter == letter)
+        };
+        let off = |letter: usize| {
+            let half_turns = axes.get(A + letter).map_or(0.0, |angle| angle / 180.0);
+            180.0 * (half_turns - half_turns.round()).abs()
+        };
+        [0, 1]
+            .into_iter()
+            .any(|letter| !is_named(letter) && off(letter) > UNTILTED)
+    }
 }
 
 /// Which axes turn the tool and how. `axes` and `joints` are those of now, `said` is what the user says of it.

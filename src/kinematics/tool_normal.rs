@@ -32,6 +32,8 @@ pub enum ToolNormalError {
     NoFrame = 7,
     /// The kinematics of another module turn the tool otherwise than `tool_axes=` says.
     NotAsSaid = 8,
+    /// An axis that `tool_axes=` does not name tilts the tool of an arm.
+    ThirdAxis = 9,
 }
 
 impl From<OrientationError> for ToolNormalError {

@@ -65,6 +65,15 @@ fn said(
     found.map(|found| found.chain)
 }
 
+/// Joints of an arm, which cannot be asked.
+fn arm(tip: Vector3<f64>, angles: [f64; 3]) -> [f64; 6] {
+    let (reach, bearing) = (
+        tip.x.hypot(tip.y) + 10.0,
+        tip.y.atan2(tip.x + 1.0).to_degrees(),
+    );
+    joints(Vector3::new(reach, bearing, tip.z), angles)
+}
+
 fn found(formula: impl FnMut(Vector3<f64>, [f64; 3]) -> [f64; 6]) -> RotaryChain {
     ask(&mut Formula(formula))
         .expect("known")
@@ -240,16 +249,9 @@ fn a_bent_head_of_one_axis_alone_beside_a_table_or_with_a_spindle_that_turns() {
 
 #[test]
 fn what_a_user_says_counts_where_nothing_can_be_found_and_has_to_be_so_where_it_can() {
-    let arms = |tip: Vector3<f64>, angles: [f64; 3]| {
-        let (reach, bearing) = (
-            tip.x.hypot(tip.y) + 10.0,
-            tip.y.atan2(tip.x + 1.0).to_degrees(),
-        );
-        joints(Vector3::new(reach, bearing, tip.z), angles)
-    };
-    assert_eq!(said("", arms), Err(Unknown::NotFound));
-    assert_eq!(said("none", arms), Ok(None));
-    let chain = said("C,B", arms).expect("said").expect("axes");
+    assert_eq!(said("", arm), Err(Unknown::NotFound));
+    assert_eq!(said("none", arm), Ok(None));
+    let chain = said("C,B", arm).expect("said").expect("axes");
     assert_eq!(letters(&chain), (1, Some(2)));
     // a head and a table that are asked
     let upright = || head(Vector3::y(), 250.0);
@@ -261,6 +263,34 @@ fn what_a_user_says_counts_where_nothing_can_be_found_and_has_to_be_so_where_it_
     assert_eq!(said("C,-B", mixed), Err(Unknown::NotAsSaid));
     // a type without the tool centre point
     assert_eq!(said("C,B", joints), Ok(None));
+}
+
+#[test]
+fn another_axis_of_an_arm_may_tilt_the_tool() {
+    let at = |text: &str, angles: [f64; 3]| {
+        let axes = ToolAxes::from_text(text.as_bytes()).expect("axes");
+        let mut formula = Formula(arm);
+        let turning = tool_turning(&mut formula, &Axes::zeros(), &[0.0; 16], &axes);
+        let [a, b, c] = angles;
+        let place = Axes::from([1.0, 2.0, 3.0, a, b, c, 0.0, 0.0, 0.0]);
+        turning.expect("said").is_tilted_by_another(&place)
+    };
+    for (text, angles, is_tilted) in [
+        ("C,B", [0.0, 40.0, 50.0], false),
+        // the tool hangs down
+        ("C,B", [180.0, 40.0, 50.0], false),
+        ("C,B", [-540.0, 40.0, 50.0], false),
+        ("C,B", [150.0, 40.0, 50.0], true),
+        ("C,B", [0.01, 0.0, 0.0], true),
+        ("C,A", [150.0, 0.0, 50.0], false),
+        ("C,A", [150.0, 20.0, 50.0], true),
+        ("B", [20.0, 0.0, 0.0], true),
+        // C turns the tool about itself
+        ("A,B", [20.0, 30.0, 50.0], false),
+        ("none", [20.0, 30.0, 50.0], false),
+    ] {
+        assert_eq!(at(text, angles), is_tilted, "{text} {angles:?}");
+    }
 }
 
 #[test]
