@@ -169,10 +169,10 @@ static void write_guard_pins(const struct framepath_frame_inputs *in, const stru
     *pins->guard.command = in->command;
     *pins->guard.acknowledged = out->acknowledged;
     for (int i = 0; i < 3; i++) {
-        *pins->guard.work_offset[i] = in->work_offset[i];
+        *pins->guard.work_offset[i] = out->work_offset[i];
         *pins->guard.tool_offset[i] = out->tool_offset[i];
     }
-    *pins->guard.work_rotation = in->work_rotation;
+    *pins->guard.work_rotation = out->work_rotation;
 }
 
 /* In the servo thread, behind motion-controller: takes commands, asks motion for a switch, shows the state. */

@@ -377,6 +377,14 @@ struct framepath_frame_outputs {
    */
   double tool_offset[3];
   /*
+   The work offset in X Y Z that the frame was made with.
+   */
+  double work_offset[3];
+  /*
+   Its rotation about Z.
+   */
+  double work_rotation;
+  /*
    Why the last command was refused; 0 if it was not.
    */
   int refusal;

@@ -28,6 +28,7 @@ from frame_heart import Heart
 from frame_held import Held
 from frame_offsets import SAME, Offsets, differ
 from frame_settings import Settings, SettingsError
+from frame_stays import complaint, late_start, work_offset_changed
 
 NAME = "frame-guard"
 
@@ -94,6 +95,10 @@ class Look:
         self.coordinated = status.motion_mode == linuxcnc.TRAJ_MODE_COORD
         self.non_modal = status.gcodes[2]
         self.motion_type = status.motion_type
+        # what is left of the move: nothing at all before it begins
+        to_go = [abs(way) > SAME for way in status.dtg]
+        #: it is not one of rotary axes alone, which neither the work offset nor a frame leads elsewhere
+        self.runs = any(to_go[:3] + to_go[6:])
         self.tool_offset = tuple(status.tool_offset[:3])
         # G92 turns with the work offset; the same sum as in frame_send.ngc, of X Y Z
         turned = turn(status.rotation_xy, status.g92_offset)
@@ -115,6 +120,11 @@ def turn(degrees, offset):
     """X Y Z turned about Z."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     return c * offset[0] - s * offset[1], s * offset[0] + c * offset[1], offset[2]
+
+
+def is_type_refused():
+    """Whether the kinematics of inner= do not have the type that the pin says."""
+    return hal.get_value("framekins.inner-refusal") != 0
 
 
 class Guard:
@@ -180,12 +190,13 @@ class Guard:
             self.stopped = False
         if now.has_frame and not now.idle and not self.stopped:
             self.check_run(now, last)
-        held = self.held.reason(now.pending and now.moving and not now.idle, time.monotonic())
+        held = self.held.reason(now.pending and now.moving and not now.idle, time.monotonic(), is_type_refused)
         if held and not self.stopped:
             self.stop(held)
         going = bool(self.due) and now.idle
         unread = now.releases != self.pins["releases-seen"]
-        self.pins["release"] = going
+        # framekins holds what has started, until it is stopped
+        self.pins["release"] = going or (bool(self.due) and self.stopped)
         if not going and not unread:
             self.offsets = self.stays_since = None
             self.told = False
@@ -195,7 +206,9 @@ class Guard:
             self.remove(now)
         if self.pins["releases"] != self.pins["releases-seen"]:
             self.read_anew()
-        self.last = self.look() if going or unread else now
+        later = self.look() if going or unread else now
+        # a start that came meanwhile is one for the next look
+        self.last = now if now.idle and not later.idle else later
 
     def count_programs(self, now, last):
         """Counts ends of programs: what subroutines keep for the next block is not for the next program. Only while none runs, or
@@ -259,8 +272,7 @@ class Guard:
         if begun and last.has_frame and last.acknowledged == now.acknowledged and \
                 (self.settings.clear_at_start or self.due):
             self.due = self.due or "start"
-            self.stop(f"a frame was still {'active' if now.active else 'suspended'} when the program started: it is removed "
-                      "now, start the program again")
+            self.stop(late_start(now.active, self.stays_since is not None))
             return
         if not now.active or not now.moving or not now.coordinated:
             return
@@ -273,8 +285,8 @@ class Guard:
                       "frame_tool_change, or call o<frame_suspend> before M6 and o<frame_resume> after it")
         elif not self.commanded:
             return  # a frame set on the pins by hand: what it was made for is not known
-        elif differ(now.work_offset, [self.pins[f"work-offset.{k}"] for k in ("x", "y", "z", "rotation")]):
-            self.stop("the work offset has changed while a frame is active: call o<frame_refresh> behind the change")
+        elif now.runs and differ(now.work_offset, [self.pins[f"work-offset.{k}"] for k in ("x", "y", "z", "rotation")]):
+            self.stop(work_offset_changed(self.due is not None))
         elif self.changes_lengths and differ(now.tool_offset, [self.pins[f"frame-tool-offset.{k}"] for k in "xyz"]):
             self.stop("the tool offset has changed while a frame with a scale or a mirror is active: "
                       "call o<frame_refresh> behind the change")
@@ -334,9 +346,7 @@ class Guard:
                 self.command.text_msg("framepath: the frame is removed, programs start without one")
             self.due = None
         elif not before.moving:
-            self.complain("the frame has to go, and framekins does not remove it: neither touch off nor start a program; "
-                          "are framekins.in-position, framekins.teleop and motion.switchkins-type linked as in the HAL "
-                          "file of the sample?")
+            self.complain(complaint())
 
     def may_try(self):
         """Whether teleop mode is to be left now: where that did not help for a while, only once a second."""

@@ -6,6 +6,9 @@ OWN = ("the length of the tool (G43, G49), the tool centre point or the table ha
 #: and where another module's kinematics are behind it
 INNER = ("the type on framekins.inner-type is not in force, see framekins.inner-refusal: change it while the machine stands, "
          "and write M66 E0 L0 behind the change")
+JUMPED = ("the length of the tool (G43, G49) has changed with rotary axes turned, and the joints of the kinematics of inner= "
+          "have jumped: write G43.4 in place of G43, o<tool_centre_off> call in place of G49; o<frame_refresh> call goes on "
+          "from here")
 
 
 class Held:
@@ -15,16 +18,21 @@ class Held:
     def __init__(self, patience, inner):
         """patience: s that this may last; inner: the kinematics are another module's."""
         self.patience = patience
-        self.text = INNER if inner else OWN
+        self.inner = inner
         self.since = None
 
-    def reason(self, waits, clock):
+    def reason(self, waits, clock, is_type_refused):
         """Why a move has to be stopped, None while it need not.
 
-        waits: a move is on its way and framekins holds it. clock: s of now.
+        waits: a move is on its way and framekins holds it. clock: s of now. is_type_refused(): inner
+        kinematics do not have their type; asked only where it has to be known.
         """
         if not waits:
             self.since = None
             return None
         self.since = clock if self.since is None else self.since
-        return self.text if clock - self.since >= self.patience else None
+        if clock - self.since < self.patience:
+            return None
+        if not self.inner:
+            return OWN
+        return INNER if is_type_refused() else JUMPED

@@ -93,6 +93,10 @@ pub struct framepath_frame_outputs {
     pub parameters_pending: c_int,
     /// The tool offset in X Y Z that the frame was made with.
     pub tool_offset: [c_double; 3],
+    /// The work offset in X Y Z that the frame was made with.
+    pub work_offset: [c_double; 3],
+    /// Its rotation about Z.
+    pub work_rotation: c_double,
     /// Why the last command was refused; 0 if it was not.
     pub refusal: c_int,
     /// Why the tool cannot be put normal to the frame; 0 if it can.
@@ -165,6 +169,7 @@ pub(super) fn inputs_of(pins: &framepath_frame_inputs, tool_length: ToolLength) 
         },
         inner_type: pins.inner_type,
         fixed_axes: [false; 3],
+        tool_jumped: false,
         other_joints: false,
         in_position: pins.in_position != 0,
         teleop: pins.teleop != 0,
@@ -233,6 +238,8 @@ pub(super) fn outputs_of(
         tool_centre_point: outputs.tool_centre_point.into(),
         parameters_pending: outputs.parameters_pending.into(),
         tool_offset: outputs.tool_offset,
+        work_offset: outputs.work_offset,
+        work_rotation: outputs.work_rotation,
         refusal: outputs.refusal.map_or(0, |refusal| refusal as c_int),
         normal_refusal: normal.refusal,
         normal_tilt: normal.tilt,

@@ -15,6 +15,7 @@ use crate::axes::Axes;
 use crate::frame::{ActiveFrame, ToolLength};
 use crate::kinematics::control::FrameControl;
 use crate::kinematics::inner::{self, Guess, InnerType};
+use crate::kinematics::tool_jump::ToolJump;
 use crate::kinematics::{Behind, ToolAxes};
 use crate::machine::JOINT_COUNT;
 
@@ -41,6 +42,7 @@ pub unsafe extern "C" fn framepath_kinematics_configure_inner(
     module.tool_length = ToolLength::Frame;
     module.inner = InnerModule::NONE;
     module.given = None;
+    module.tool_jump = ToolJump::new();
     module.normal = AskedNormal::with(said);
     module.control = Some(FrameControl::new(Behind::Inner(InnerType::first(types))));
     0

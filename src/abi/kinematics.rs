@@ -17,6 +17,7 @@ use super::pose::{axes_of, pose_of};
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::frame::{AffineMap, ToolLength};
 use crate::kinematics::control::{FrameControl, FrameInputs};
+use crate::kinematics::tool_jump::ToolJump;
 use crate::machine::{ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, TiltAxis};
 
 /// Errors of `framepath_kinematics_configure`: `coordinates=` names no axis.
@@ -54,6 +55,8 @@ pub(super) struct Kinematics {
     pub(super) old_guesses: u8,
     /// Where its rotary axes have to go for the tool to stand normal to the frame.
     pub(super) normal: AskedNormal,
+    /// Whether its joints jump with the tool offset.
+    pub(super) tool_jump: ToolJump,
 }
 
 impl Kinematics {
@@ -95,6 +98,7 @@ static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
     inner: InnerModule::NONE,
     old_guesses: 0,
     normal: AskedNormal::NONE,
+    tool_jump: ToolJump::new(),
 }));
 
 /// The machine of the module.
@@ -366,18 +370,21 @@ pub unsafe extern "C" fn framepath_kinematics_update(
     let (Some(pins), Some(out)) = (unsafe { (pins.as_ref(), out.as_mut()) }) else {
         return;
     };
-    let inputs = module().inputs(pins);
+    let mut inputs = module().inputs(pins);
     let Kinematics {
         control: Some(control),
         position,
         joints,
+        given,
         inner,
         normal,
+        tool_jump,
         ..
     } = module()
     else {
         return;
     };
+    inputs.tool_jumped = tool_jump.watch(&pins.tool_offset, given.as_ref());
     let outputs = control.update(&inputs);
     let shown = normal.update(control, pins, position, joints, inner, outputs.slot);
     *out = outputs_of(&outputs, control, pins, &Axes::from(*position), &shown);

@@ -21,7 +21,7 @@ pub extern "C" fn framepath_kinematics_alarm_text(alarm: c_int) -> *const c_char
 /// The words for a refusal, with the remedy.
 #[unsafe(no_mangle)]
 pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_char {
-    const WORDS: [(FrameRefusal, &CStr); 19] = [
+    const WORDS: [(FrameRefusal, &CStr); 20] = [
         (FrameRefusal::UnknownCommand, c"there is no such command; use the subroutines of framepath"),
         (FrameRefusal::NotFinite, c"a value is infinite or not a number"),
         (FrameRefusal::ZeroScale, c"a scale factor is 0; use 1 for an axis that keeps its size"),
@@ -35,12 +35,13 @@ pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_
         (FrameRefusal::Teleop, c"motion is in teleop mode, where a switch would make the joints jump; leave it first"),
         (FrameRefusal::NotSwitched, c"motion did not switch; link framekins.switchkins-type to motion.switchkins-type"),
         (FrameRefusal::UnknownType, c"motion.switchkins-type has to be 0, 1 or 2, with inner= 16 times that and the type of the inner kinematics"),
-        (FrameRefusal::MissingAxis, c"the frame moves an axis that the machine does not have; see coordinates= of framekins"),
+        (FrameRefusal::MissingAxis, c"the frame moves an axis that the machine does not have; see coordinates= of framekins, behind inner= the axes that its kinematics move"),
         (FrameRefusal::MachineParameters, c"a dimension of the machine is not a number or larger than a machine; see the pins framekins.x-rot-point and those beside it"),
         (FrameRefusal::WrongCheck, c"the values that have arrived are not those that were sent: a net from an analog output to framekins is missing or wrong, for one the new net frame-check motion.analog-out-08 => framekins.check; compare with the HAL file of a sample"),
         (FrameRefusal::Unguarded, c"frame_guard does not live, and nobody would remove the frame: load it in the HAL file, loadusr -Wn frame-guard .../frame_guard.py"),
         (FrameRefusal::UnknownInnerType, c"framekins.inner-type is no type of the kinematics of inner=; what is linked to it, M68 for one, has to say a whole number from 0 that they can be switched to"),
         (FrameRefusal::OtherJoints, c"the kinematics of inner= lead back from where the machine is to other joints, which would jump: go where they do not, maxkins with B or C at 0, and give the command again"),
+        (FrameRefusal::Suspended, c"the frame is suspended, and this command would add to it: o<frame_resume> call brings it back first, o<frame_off> call gives it up"),
     ];
     WORDS
         .iter()

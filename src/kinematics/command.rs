@@ -14,6 +14,9 @@ const ADDITIVE: i32 = 100;
 /// The code of the command that removes the frame.
 const REMOVE: f64 = 9.0;
 
+/// The code of the command that drops the scales of the frame.
+const DROP_SCALES: f64 = 10.0;
+
 /// The code of the command that asks how the tool is turned.
 const ASK: f64 = 14.0;
 
@@ -48,6 +51,11 @@ impl Command {
     /// Whether the program wants to know how the kinematics of another module turn the tool, also without a frame.
     pub fn asks(&self) -> bool {
         self.code == ASK
+    }
+
+    /// Whether it acts in the frame that is active, and keeps what that is made of.
+    pub fn adds(&self) -> bool {
+        self.code == DROP_SCALES || self.code > f64::from(ADDITIVE)
     }
 
     /// Whether the machine is to run without the frame for a while: what the frame is made of stays,
@@ -112,7 +120,12 @@ impl Source {
         }
         let mut next = if self.map { Self::nothing() } else { *self };
         match code {
-            10 => next.list.drop_scales()?,
+            10 => {
+                next.list.drop_scales()?;
+                if next.list.is_empty() {
+                    return Ok(Self::nothing());
+                }
+            }
             11 | 14 => return Ok(*self),
             12 => return Ok(Self::map_pins()),
             _ if code > ADDITIVE => {

@@ -27,42 +27,13 @@ use super::inner::InnerType;
 pub use super::pins::{FrameInputs, FrameOutputs};
 use super::refusal::FrameRefusal;
 use super::release::FrameRelease;
+use super::request::{Purpose, Request};
 use super::staged::Staged;
 use super::switching::{may_remove, same_joints, standing};
 use crate::frame::ActiveFrame;
 
 /// Motion switches in the period after the request. If it has not done so by now, nobody listens.
 const PATIENCE: u32 = 100;
-
-/// Why motion is asked for a switch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Purpose {
-    /// A command of this number.
-    Command(f64),
-    /// Nobody asked, the frame has to go.
-    Removal,
-    /// The inner kinematics are to have another type.
-    InnerType,
-}
-
-/// A switch that motion was asked for.
-#[derive(Clone, Copy, Debug)]
-struct Request {
-    staged: Staged,
-    /// The kinematics type, see [`Behind::number`].
-    number: i32,
-    /// The one that was asked for before.
-    previous: i32,
-    purpose: Purpose,
-    waited: u32,
-}
-
-impl Request {
-    /// Whether it is to remove the frame without a command.
-    fn removes(&self) -> bool {
-        self.purpose == Purpose::Removal
-    }
-}
 
 /// The frame of a machine with the machine's own kinematics, and the way to change them.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +48,8 @@ pub struct FrameControl {
     refused_type: Option<(i32, FrameRefusal)>,
     /// The kinematics type that motion is shown again after one that the inner kinematics did not take: nothing changes.
     put_back: Option<i32>,
+    /// The joints of the inner kinematics have jumped with the tool offset, and no command has taken it over.
+    tool_jumped: bool,
     /// The machine's dimensions have been read once.
     started: bool,
     heartbeat: Heartbeat,
@@ -92,30 +65,16 @@ impl FrameControl {
                 frame: None,
                 behind: behind.into(),
                 tool_offset: [0.0; 3],
+                work_offset: [0.0; 3],
+                work_rotation: 0.0,
             },
             slot: 0,
             request: None,
-            outputs: FrameOutputs {
-                switchkins_type: 0,
-                acknowledged: 0.0,
-                active: false,
-                slot: 0,
-                operations: 0,
-                tool_centre_point: false,
-                parameters_pending: false,
-                tool_offset: [0.0; 3],
-                refusal: None,
-                releasing: false,
-                releases: 0,
-                hold: false,
-                guarded: true,
-                guard: Guard::Never,
-                inner_type: 0,
-                inner_refusal: None,
-            },
+            outputs: FrameOutputs::first(),
             asked: 0,
             refused_type: None,
             put_back: None,
+            tool_jumped: false,
             started: false,
             heartbeat: Heartbeat::new(),
             release: FrameRelease::default(),
@@ -164,6 +123,8 @@ impl FrameControl {
             }
             None => self.take_command(inputs),
         }
+        // With the machine off motion takes its position from the joints when it is switched on again.
+        self.tool_jumped = inputs.enabled && (self.tool_jumped || inputs.tool_jumped);
         self.remove_what_has_to_go(inputs);
         self.follow_inner_type(inputs);
         self.show(inputs);
@@ -178,15 +139,25 @@ impl FrameControl {
         let wanted = self.behind_on_pins(inputs);
         self.outputs.tool_centre_point = self.active.behind.turns_tool();
         self.outputs.inner_type = self.active.behind.inner_type();
-        self.outputs.parameters_pending = wanted != Ok(self.active.behind);
+        self.outputs.parameters_pending = wanted != Ok(self.active.behind) || self.tool_jumped;
         self.outputs.tool_offset = shown(&self.active.tool_offset);
+        self.outputs.work_offset = shown(&self.active.work_offset);
+        [self.outputs.work_rotation] = shown(&[self.active.work_rotation]);
         let guard = self.heartbeat.guard();
         let framed = self.outputs.active;
         self.outputs.guard = guard;
         self.outputs.releasing = self.release.is_due();
         self.outputs.guarded = !(framed && guard == Guard::Lost);
         let late = framed && matches!(guard, Guard::Late | Guard::Lost);
-        self.outputs.hold = self.outputs.parameters_pending || late || self.is_unread(inputs);
+        let going = self.is_kept_from_going(inputs);
+        self.outputs.hold =
+            self.outputs.parameters_pending || late || going || self.is_unread(inputs);
+    }
+
+    /// The guard wants the frame removed, no program runs as far as it knows, and the frame is still there: what starts now
+    /// waits until the guard has looked at it. A jog in teleop mode is none.
+    fn is_kept_from_going(&self, inputs: &FrameInputs) -> bool {
+        self.active.frame.is_some() && inputs.release && !inputs.teleop
     }
 
     /// The interpreter has positions with a frame that is gone or about to go, and somebody is there to
@@ -289,6 +260,7 @@ impl FrameControl {
             Ok(staged) => {
                 self.active = staged;
                 self.slot = staged.behind.switched_to(number).0;
+                self.tool_jumped = false;
                 // The refusal that ended the program stays to be read.
                 self.answer(&asked, None);
                 if by_itself && self.heartbeat.guard() != Guard::Lost {
@@ -388,6 +360,10 @@ impl FrameControl {
         if number == self.outputs.acknowledged {
             return;
         }
+        // Of a program that has started in a frame that has to go: the guard stops it.
+        if self.is_kept_from_going(inputs) && !command.removes() {
+            return;
+        }
         // It would be given a pose on the way. In motion it is refused at once.
         if standing(inputs).is_ok() && !self.release.is_settled() {
             return;
@@ -396,6 +372,7 @@ impl FrameControl {
             Err(refusal) => self.answer_at_once(number, Some(refusal)),
             Ok(staged) if self.changes_nothing(&staged) => {
                 self.active.source = staged.source;
+                self.tool_jumped = false;
                 self.answer_at_once(number, None);
             }
             Ok(staged) => match same_joints(inputs) {
@@ -413,6 +390,9 @@ impl FrameControl {
             let behind = self.behind_on_pins(inputs)?;
             return Ok(Staged::without_frame(self.active.source, behind, inputs));
         }
+        if command.adds() && self.is_suspended() {
+            return Err(FrameRefusal::Suspended);
+        }
         let source = self.active.source.after(command, &inputs.value)?;
         standing(inputs)?;
         let behind = match self.behind_on_pins(inputs) {
@@ -426,9 +406,18 @@ impl FrameControl {
     /// The frame of now with something else behind it.
     fn again(&self, behind: Behind, inputs: &FrameInputs) -> Result<Staged, FrameRefusal> {
         match self.active.frame {
-            Some(_) => Staged::new(self.active.source, behind, inputs),
+            Some(_) => Staged::new(
+                self.active.source,
+                behind,
+                &self.active.with_its_work_offset(inputs),
+            ),
             None => Ok(Staged::without_frame(self.active.source, behind, inputs)),
         }
+    }
+
+    /// A frame is taken off for a while.
+    fn is_suspended(&self) -> bool {
+        self.active.frame.is_none() && self.active.source.count() > 0
     }
 
     /// There was no frame, there will be none, and the machine is the same.
@@ -492,7 +481,7 @@ impl FrameControl {
     }
 }
 
-/// A tool offset as operators see it: without a frame it may be anything, and removing a frame must not depend on it.
-fn shown(tool_offset: &[f64; 3]) -> [f64; 3] {
-    tool_offset.map(|offset| if offset.is_finite() { offset } else { 0.0 })
+/// Offsets as operators see them: without a frame they may be anything, and removing a frame must not depend on them.
+fn shown<const COUNT: usize>(offsets: &[f64; COUNT]) -> [f64; COUNT] {
+    offsets.map(|offset| if offset.is_finite() { offset } else { 0.0 })
 }

@@ -155,8 +155,13 @@ pub fn other_joints(
     if inner.forward(joints, &mut there) != 0 || inner.inverse(&there, &mut back) != 0 {
         return true;
     }
+    !same_joints(joints, &back)
+}
+
+/// Whether no joint is elsewhere.
+pub fn same_joints(joints: &[f64; JOINT_COUNT], others: &[f64; JOINT_COUNT]) -> bool {
     let same = |(one, other): (&f64, &f64)| (one - other).abs() <= SAME_JOINT;
-    !joints.iter().zip(&back).all(same)
+    joints.iter().zip(others).all(same)
 }
 
 /// Which of X Y Z the machine cannot move, by trying: joints for a place beside `axes`, and back from there. An axis for

@@ -15,12 +15,14 @@ pub mod inner_tool;
 pub mod pins;
 pub mod refusal;
 pub mod release;
+pub mod request;
 pub mod retraction;
 pub mod rotary_chain;
 pub mod staged;
 pub mod switching;
 pub mod tool_angles;
 pub mod tool_axes;
+pub mod tool_jump;
 pub mod tool_normal;
 
 pub use behind::Behind;

@@ -32,6 +32,8 @@ pub struct FrameInputs {
     pub inner_type: f64,
     /// Which of X Y Z the inner kinematics cannot move, where that has been looked at.
     pub fixed_axes: [bool; 3],
+    /// The joints of the inner kinematics have jumped in this period, with the tool offset.
+    pub tool_jumped: bool,
     /// The inner kinematics lead to other joints than those that they were given, where that has been looked at.
     pub other_joints: bool,
     /// Motion stands still.
@@ -70,17 +72,21 @@ pub struct FrameOutputs {
     /// The tool centre point is on.
     pub tool_centre_point: bool,
     /// The machine's dimensions on the pins, or the tool centre point asked for, are not those in
-    /// effect: they take effect at the next switch.
+    /// effect: they take effect at the next switch. Or joints of the inner kinematics have jumped with the tool offset.
     pub parameters_pending: bool,
     /// The tool offset in X Y Z that the frame was made with.
     pub tool_offset: [f64; 3],
+    /// The work offset in X Y Z that the frame was made with.
+    pub work_offset: [f64; 3],
+    /// Its rotation about Z.
+    pub work_rotation: f64,
     /// Why the last command was refused.
     pub refusal: Option<FrameRefusal>,
     /// The frame has to go, and does so as soon as motion stands outside of teleop mode.
     pub releasing: bool,
     /// How often a frame was removed without a command while a guard lived.
     pub releases: i32,
-    /// Nothing may be moved: dimensions are pending, the guard is late with a frame in force, or the
+    /// Nothing may be moved: dimensions are pending, the guard is late with a frame in force or wants it removed, or the
     /// interpreter does not know yet that the frame is gone.
     pub hold: bool,
     /// The machine may be on: the guard is not lost, or there is no frame.
@@ -91,4 +97,30 @@ pub struct FrameOutputs {
     pub inner_type: i32,
     /// Why it is not the one that the pin says.
     pub inner_refusal: Option<FrameRefusal>,
+}
+
+impl FrameOutputs {
+    /// Before the first period.
+    pub fn first() -> Self {
+        Self {
+            switchkins_type: 0,
+            acknowledged: 0.0,
+            active: false,
+            slot: 0,
+            operations: 0,
+            tool_centre_point: false,
+            parameters_pending: false,
+            tool_offset: [0.0; 3],
+            work_offset: [0.0; 3],
+            work_rotation: 0.0,
+            refusal: None,
+            releasing: false,
+            releases: 0,
+            hold: false,
+            guarded: true,
+            guard: Guard::Never,
+            inner_type: 0,
+            inner_refusal: None,
+        }
+    }
 }

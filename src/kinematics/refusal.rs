@@ -44,6 +44,8 @@ pub enum FrameRefusal {
     UnknownInnerType = 18,
     /// The inner kinematics lead back from where the machine is to other joints.
     OtherJoints = 19,
+    /// The command adds to a frame that is suspended.
+    Suspended = 20,
 }
 
 impl From<FrameError> for FrameRefusal {

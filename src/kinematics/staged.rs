@@ -24,6 +24,10 @@ pub struct Staged {
     pub behind: Behind,
     /// The tool offset it was made with.
     pub tool_offset: [f64; 3],
+    /// The work offset it was made with.
+    pub work_offset: [f64; 3],
+    /// Its rotation about Z.
+    pub work_rotation: f64,
 }
 
 impl Staged {
@@ -34,6 +38,17 @@ impl Staged {
             frame: None,
             behind,
             tool_offset: inputs.tool_offset,
+            work_offset: inputs.work_offset,
+            work_rotation: inputs.work_rotation,
+        }
+    }
+
+    /// Inputs with the work offset of this: what is on the pins may have been sent with a command that was refused.
+    pub fn with_its_work_offset(&self, inputs: &FrameInputs) -> FrameInputs {
+        FrameInputs {
+            work_offset: self.work_offset,
+            work_rotation: self.work_rotation,
+            ..*inputs
         }
     }
 

@@ -348,3 +348,45 @@ fn a_frame_is_removed_whatever_the_tool_offset_is() {
         Some(FrameRefusal::NotFinite)
     );
 }
+
+#[test]
+fn nothing_is_added_to_a_suspended_frame() {
+    let mut motion = xyz();
+    assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), None);
+    assert_eq!(motion.send(13, [0.0; 3]), None);
+    for (code, value) in [(101, [1.0, 0.0, 0.0]), (107, [2.0; 3]), (10, [0.0; 3])] {
+        let refusal = motion.send(code, value);
+        assert_eq!(refusal, Some(FrameRefusal::Suspended), "{code}");
+        assert_eq!(motion.machine([1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+    }
+    assert_eq!(motion.send(11, [0.0; 3]), None);
+    assert_eq!(motion.machine([1.0, 0.0, 0.0]), [6.0, 0.0, 0.0]);
+    // one that begins anew takes its place
+    assert_eq!(motion.send(13, [0.0; 3]), None);
+    assert_eq!(motion.send(1, [7.0, 0.0, 0.0]), None);
+    assert_eq!(motion.machine([1.0, 0.0, 0.0]), [8.0, 0.0, 0.0]);
+    // a frame of which nothing is left is not suspended
+    assert_eq!(motion.send(7, [2.0; 3]), None);
+    assert_eq!(motion.send(10, [0.0; 3]), None);
+    assert_eq!((motion.out.active, motion.out.operations), (false, 0));
+    assert_eq!(motion.send(101, [1.0, 0.0, 0.0]), None);
+}
+
+#[test]
+fn the_work_offset_that_is_shown_is_that_of_the_frame() {
+    let mut motion = xyz();
+    motion.inputs.work_offset = [10.0, 20.0, 30.0];
+    motion.inputs.work_rotation = 40.0;
+    assert_eq!(motion.send(3, [90.0, 2.0, 0.0]), None);
+    // a command that is refused has brought another one
+    motion.inputs.work_offset = [50.0, 0.0, 0.0];
+    motion.inputs.work_rotation = 0.0;
+    assert_eq!(
+        motion.send(107, [0.0, 1.0, 1.0]),
+        Some(FrameRefusal::ZeroScale)
+    );
+    let shown = |motion: &Motion| (motion.out.work_offset, motion.out.work_rotation);
+    assert_eq!(shown(&motion), ([10.0, 20.0, 30.0], 40.0));
+    assert_eq!(motion.send(11, [0.0; 3]), None);
+    assert_eq!(shown(&motion), ([50.0, 0.0, 0.0], 0.0));
+}

@@ -348,3 +348,36 @@ fn a_command_without_its_check_changes_nothing() {
     motion.period();
     assert_eq!((motion.out.refusal, motion.out.active), (None, false));
 }
+
+#[test]
+fn what_starts_while_the_guard_waits_for_a_frame_to_go_is_held() {
+    let mut motion = framed();
+    motion.inputs.other_joints = true;
+    motion.inputs.release = true;
+    for _ in 0..10 {
+        motion.period();
+        assert!(motion.out.active && motion.out.hold);
+    }
+    assert_eq!(motion.out.refusal, Some(FrameRefusal::OtherJoints));
+    // a program has started in it: its command waits, until the guard has looked
+    let answered = motion.out.acknowledged;
+    motion.put(101, [1.0, 0.0, 0.0]);
+    for _ in 0..10 {
+        motion.period();
+        assert!(motion.out.hold);
+        assert_eq!(motion.out.acknowledged, answered);
+    }
+    // in MDI the guard lets it go on, to where the frame can go
+    motion.inputs.release = false;
+    motion.period();
+    assert!(!motion.out.hold);
+    assert_eq!(motion.out.acknowledged, motion.number);
+    // a jog leads there, too
+    motion.inputs.release = true;
+    motion.inputs.teleop = true;
+    motion.period();
+    assert!(!motion.out.hold);
+    motion.inputs.teleop = false;
+    motion.inputs.other_joints = false;
+    assert!(periods_until_gone(&mut motion).is_some());
+}

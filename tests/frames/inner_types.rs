@@ -239,3 +239,49 @@ fn a_frame_that_needs_an_axis_the_kinematics_lack_is_refused() {
     assert_eq!(motion.send(3, [30.0, 2.0, 0.0]), missing);
     assert_eq!(motion.send(3, [30.0, 1.0, 0.0]), None);
 }
+
+#[test]
+fn joints_that_jump_with_the_tool_hold_the_machine_until_a_command_takes_it_over() {
+    type Remedy = fn(&mut Motion);
+    let remedies: [Remedy; 3] = [
+        |motion| assert_eq!(motion.send(11, [0.0; 3]), None),
+        |motion| ask(motion, 1.0),
+        |motion| {
+            motion.inputs.enabled = false;
+            motion.period();
+            motion.inputs.enabled = true;
+            motion.period();
+        },
+    ];
+    for framed in [false, true] {
+        for remedy in remedies {
+            let mut motion = inner();
+            motion.inputs.release_on_abort = false;
+            if framed {
+                assert_eq!(motion.send(1, [5.0, 0.0, 0.0]), None);
+            }
+            motion.inputs.tool_jumped = true;
+            motion.period();
+            motion.inputs.tool_jumped = false;
+            for _ in 0..10 {
+                motion.period();
+                assert!(motion.out.hold && motion.out.parameters_pending);
+                assert_eq!(motion.out.inner_refusal, None);
+            }
+            remedy(&mut motion);
+            assert!(!motion.out.hold && !motion.out.parameters_pending);
+        }
+    }
+}
+
+#[test]
+fn another_type_keeps_the_work_offset_of_the_frame() {
+    let mut motion = inner();
+    motion.inputs.work_offset = [10.0, 0.0, 0.0];
+    assert_eq!(motion.send(3, [90.0, 2.0, 0.0]), None);
+    let before = motion.machine([1.0, 2.0, 3.0]);
+    motion.inputs.work_offset = [70.0, 0.0, 0.0];
+    ask(&mut motion, 2.0);
+    assert_eq!((motion.out.inner_type, motion.out.active), (2, true));
+    assert_eq!(motion.machine([1.0, 2.0, 3.0]), before);
+}

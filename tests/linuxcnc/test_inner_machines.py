@@ -207,6 +207,25 @@ class OtherJoints(InnerMachines):
         # the fastest of the machine in a period
         self.assertLess(step, 1)
 
+    def test_no_program_starts_in_a_frame_that_cannot_go(self):
+        machine = Machine("maxkins", (0,) * 6, "XYZABC", self.LONG)
+        programs = {"leave.ngc": "G90 F3000\no<trans> call [100] [0] [0]\nG1 B20 C30 X5\nM2\n",
+                    "next.ngc": "G90 F3000\nG1 X20 Y0 Z0\nM2\n"}
+        starts = 8
+        start: list[list] = [["start_at_once"], ["sleep", 0.3], ["finish"]]
+        steps: list[list] = [["forget"], ["run", "PROGRAMS/leave.ngc"], ["open", "PROGRAMS/next.ngc"], ["sleep", 1.5],
+                             ["note", "before"], *start * starts, ["recall", "errors"], ["note", "after"]]
+        # behind a touch off rotary axes still lead to where it can go
+        steps += [["mdi", "G10 L20 P1 X0"], ["mdi", "G0 C0"], ["sleep", 0.5], ["getp", "active", "framekins.active"]]
+        result = machine.run(steps, programs, inner="inner=maxkins tool_types=0")
+        self.good(result)
+        texts = result.answers["errors"]
+        stopped = [text for text in texts if "a frame was still active when the program started" in text]
+        self.assertEqual(len(stopped), starts, texts)
+        self.assertTrue(all("it cannot go" in text and "G0 B0 or G0 C0" in text for text in stopped), texts)
+        self.near([machine.joints(result, "after")], [machine.joints(result, "before")], 1e-9)
+        self.assertEqual(result.answers["active"], "FALSE")
+
 
 class SoftLimits(InnerMachines):
     """On the way of moves, in a frame: as without one, from the joints of before."""

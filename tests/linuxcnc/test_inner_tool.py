@@ -97,6 +97,16 @@ class ToolCentre(InnerTool):
         for code in ("G43.4 H2", "o<tool_centre_off> call"):
             self.refused(MIXED, MIXED_TYPES, "o<rotary_zero> call first", "G43.4 H1", "G1 B20", code)
 
+    def test_a_length_that_lets_the_joints_jump_stops_the_next_move(self):
+        for code in ("G49", "G43 H2"):
+            for before in ((), ("o<trans> call [1] [2] [3]",)):
+                lines = (*before, "G43.4 H1", "G1 X5 A30 C20", code, *told("jumped", 5))
+                result = self.refused(TABLE, TABLE_TYPES, "write G43.4 in place of G43", *lines)
+                self.near([TABLE.joints(result)], [self.values(result, "jumped")[1]], 1e-4)
+        # what takes it over goes on, and at zero nothing jumps
+        for lines in (("G1 A30 C20", "G43 H2", "o<frame_refresh> call"), ("G43 H2",), ("G49",)):
+            self.good(TABLE.run_program("G43.4 H1", *lines, "G91", "G1 X1", inner=TABLE_TYPES))
+
     def test_what_is_not_known_is_refused(self):
         self.refused(TABLE, "inner=xyzac-trt-kins", "as in tool_types=1", "G43.4 H1")
 

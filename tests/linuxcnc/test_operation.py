@@ -146,6 +146,26 @@ class Clearing(Case):
         self.assertEqual(text.count("still is"), 1, text)
         self.at(result, "end", (0, 5, 0))
 
+    def test_only_what_is_suspended_is_brought_back(self):
+        steps: list[list] = []
+        for name, lines in {"nothing": ["o<frame_resume> call"], "active": ["o<rot> call [0] [0] [90]", "o<frame_resume> call"],
+                            "added": ["o<frame_suspend> call", "o<atrans> call [1] [0] [0]"],
+                            "scales": ["o<ascale_off> call"]}.items():
+            steps += [["forget"], *[["mdi", line] for line in lines], ["sleep", 0.05], ["recall", name]]
+        # past a frame that is suspended the machine moves, and it stays so
+        result = harness.run([*steps, ["forget"], ["mdi", "G79 X5"], ["mdi", "o<retract> call [3]"], OFF,
+                              ["mdi", "G1 X6 F3000"], ["note", "off"], ["mdi", "o<frame_resume> call"], ["mdi", "G79 X0"], ON, ["mdi", "G1 X2 Y0"],
+                              ["note", "on"], ["mdi", "o<frame_off> call"], ["mdi", "G79 X1"], ["mdi", "o<retract> call [4]"],
+                              ["note", "none"]], ini={**QUICK, **clearing(True, True, False)})
+        self.fine(result)
+        for name, words in {"nothing": "no frame is suspended", "active": "the frame is active, and not suspended",
+                            "added": "the frame is suspended, and this command would add to it",
+                            "scales": "the frame is suspended"}.items():
+            self.assertIn(words, "\n".join(result.answers[name]), name)
+        self.at(result, "off", (6, 0, 3))
+        self.at(result, "on", (0, 2, 3))
+        self.at(result, "none", (1, 2, 4))
+
     def test_an_abort_with_cutter_compensation_on(self):
         moves = [["mdi", "o<rot> call [20] [0] [0]"], ["mdi", "G41.1 D2"], ["mdi", "G1 X10 F1000"], ["mdi_start", "G1 X100"],
                  ["wait_moving"]]

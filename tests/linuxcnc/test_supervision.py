@@ -185,6 +185,17 @@ class WorkOffsets(Case):
         self.assertLess(at_switches(result), 1e-9)
 
 
+    def test_one_that_is_set_is_noticed_behind_a_refused_command_too(self):
+        # which has sent it along
+        result = harness.run([["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X10"], ["mdi", "G10 L2 P1 X50 Y0"],
+                              ["mdi", "G54"], ["forget"], ["mdi", "o<ascale> call [0] [1] [1]"], ["mdi", "G1 X20 Y0 F600"], ["sleep", 0.1],
+                              ["recall", "errors"], ["note", "end"], ["mdi", "o<frame_off> call"], ["mdi", "G10 L2 P1 X0 Y0"],
+                              OFF], programs(), ini={**QUICK, **clearing(1, 1, 0)})
+        self.fine(result)
+        self.assertIn("the work offset has changed while a frame is active", "\n".join(result.answers["errors"]))
+        self.assertLess(result.answers["end"]["joints"][1], 40)
+
+
 class Status:
     """LinuxCNC's status as far as offsets are concerned."""
 

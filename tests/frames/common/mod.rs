@@ -50,6 +50,7 @@ impl Motion {
             table: TableTiltingParameters::default(),
             inner_type: 0.0,
             fixed_axes: [false; 3],
+            tool_jumped: false,
             other_joints: false,
             in_position: true,
             teleop: false,

@@ -1,0 +1,37 @@
+"""What the operator is told of a frame that should be gone and is not."""
+
+import hal
+
+#: framekins.refusal: the kinematics of inner= would let the joints jump
+OTHER_JOINTS = 19
+
+JUMP = ("the kinematics of inner= would let the joints jump where the machine is: go where they do not, in MDI (maxkins: "
+        "G0 B0 or G0 C0), and it goes")
+
+NETS = "are framekins.in-position, framekins.teleop and motion.switchkins-type linked as in the HAL file of the sample?"
+
+
+def would_jump():
+    """Whether framekins has found that the joints would jump."""
+    return hal.get_value("framekins.refusal") == OTHER_JOINTS
+
+
+def complaint():
+    """Of a frame that framekins does not remove."""
+    return ("the frame has to go, and framekins does not remove it: neither touch off nor start a program; "
+            + (JUMP if would_jump() else NETS))
+
+
+def late_start(active, stays):
+    """Of a program that was started in a frame; stays: framekins has not been able to remove it."""
+    what = f"a frame was still {'active' if active else 'suspended'} when the program started: "
+    if stays and would_jump():
+        return f"{what}it cannot go, for {JUMP}. Then start the program again"
+    return f"{what}it is removed first, start the program again behind that"
+
+
+def work_offset_changed(due):
+    """Of a move behind a work offset that the frame does not have; due: the frame has to go."""
+    if due and would_jump():
+        return f"the work offset has changed while a frame has to go: {JUMP}. Then touch off again"
+    return "the work offset has changed while a frame is active: call o<frame_refresh> behind the change"
