@@ -294,6 +294,14 @@ fn unusable_files_are_refused_with_file_line_and_remedy() {
             .refused(&["--dialect", "none", "run.csv"])
             .contains("'none' for '--dialect <DIALECT>'")
     );
+    // Without the path of the program nothing is compared with it.
+    for more in [
+        &["--tolerance", "1", "--check"][..],
+        &["--tolerance", "1", "run.csv"],
+    ] {
+        let said = bench.refused(more);
+        assert!(said.contains("--dialect <DIALECT>"), "{said}");
+    }
     std::fs::remove_file(bench.path().join("bench.ini")).expect("removed");
     assert!(bench.refused(&[]).contains("bench.ini: cannot be read"));
 }

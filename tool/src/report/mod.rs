@@ -52,8 +52,14 @@ pub struct ReportArguments {
     /// Headline of the report [default: name of the program, or of the recording]
     #[arg(long, value_name = "TEXT")]
     pub title: Option<String>,
-    /// How far the executed path may be from the programmed path (G64 P), in machine units
-    #[arg(long, value_name = "LENGTH", value_parser = positive, allow_negative_numbers = true)]
+    /// With --dialect: how far the executed path may be from the programmed path (G64 P), in machine units
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        requires = "dialect"
+    )]
     pub tolerance: Option<f64>,
     /// End with exit status 1 where a limit or the tolerance was exceeded or the path was left, or where that cannot be
     /// told, and say which
