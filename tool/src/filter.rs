@@ -61,6 +61,9 @@ pub fn filter(
     tell: &mut dyn FnMut(Told),
 ) -> Result<Translated, Refused> {
     tell(Told::Progress(0));
+    let refused = |problem| Refused(format!("error: {problem}\n"));
+    arguments.contradiction().map_err(refused)?;
+    arguments.folders().map_err(refused)?;
     let settings = arguments
         .settings()
         .map_err(|error| Refused(format!("error: {error}\n")))?;

@@ -176,10 +176,11 @@ fn refusal_of_filter(words: &[String]) -> Result<(), String> {
     #[derive(Debug, Parser)]
     struct Alone {
         #[command(flatten)]
-        _arguments: FilterArguments,
+        arguments: FilterArguments,
     }
-    let Err(error) = Alone::try_parse_from(words) else {
-        return Ok(());
+    let error = match Alone::try_parse_from(words) {
+        Ok(alone) => return alone.arguments.contradiction(),
+        Err(error) => error,
     };
     let text = error.to_string();
     let line = text.lines().next().unwrap_or("");

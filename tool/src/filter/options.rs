@@ -173,6 +173,46 @@ impl FilterArguments {
         })
     }
 
+    /// Options that say two things of the same, of which one would be settled in silence.
+    ///
+    /// # Errors
+    ///
+    /// The first of them.
+    pub fn contradiction(&self) -> Result<(), String> {
+        let twice = |option: &str, names: Vec<String>| {
+            let repeated = names.iter().enumerate();
+            let mut repeated = repeated.filter(|(index, name)| names[..*index].contains(name));
+            match repeated.next() {
+                Some((_, name)) => Err(format!("--{option} {name}= is given twice: write it once")),
+                None => Ok(()),
+            }
+        };
+        let named = |list: &[(String, f64)]| list.iter().map(|(name, _)| name.clone()).collect();
+        twice("set", named(&self.set))?;
+        twice(
+            "tool",
+            self.tool.iter().map(|(name, _)| name.clone()).collect(),
+        )?;
+        let edges = self.edge.iter();
+        let edge = |((tool, edge), _): &((u32, u32), u32)| format!("{tool}.{edge}");
+        twice("edge", edges.map(edge).collect())
+    }
+
+    /// That the folders with subprograms are there.
+    ///
+    /// # Errors
+    ///
+    /// The first that is not.
+    pub(super) fn folders(&self) -> Result<(), String> {
+        match self.subprograms.iter().find(|folder| !folder.is_dir()) {
+            Some(folder) => Err(format!(
+                "--subprograms {}: there is no such folder",
+                folder.display()
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// What is to be said of the INI file: the lines that LinuxCNC passes over.
     pub(super) fn warnings(&self) -> Vec<String> {
         self.ini_file()

@@ -2,6 +2,7 @@
 
 mod blanks;
 mod contours;
+mod contradictions;
 mod encodings;
 mod errors;
 mod expected;
