@@ -2,6 +2,7 @@
 
 use super::ConfigureArguments;
 use super::edits::Edits;
+use crate::machine::numbers;
 use crate::machine::place::Place;
 use crate::wiring::USUAL_JERK;
 use crate::wiring::blendtp::{
@@ -122,6 +123,12 @@ fn jerk(subject: &Subject, letter: char, arguments: &ConfigureArguments, edits: 
 
 /// The limit of jerk that the configuration has already, which nothing has used so far.
 fn own_jerk(subject: &Subject, section: &str, edits: &mut Edits) {
+    let written = subject.ini.entry(section, "MAX_JERK");
+    if let Some(entry) = written.filter(|entry| numbers::number(entry).is_none()) {
+        let found = format!("[{section}]MAX_JERK = {} is no number", entry.raw);
+        let remedy = "MAX_JERK = a number alone, and a comment in a line of its own";
+        return edits.refuse(&entry.place, found, remedy);
+    }
     let [jerk, acceleration] =
         ["MAX_JERK", "MAX_ACCELERATION"].map(|key| subject.number(section, key));
     if let (Some(jerk), Some(acceleration)) = (jerk, acceleration)

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::error::IniError;
 use super::ini::Ini;
+use super::numbers;
 
 /// Letters of LinuxCNC's axes, in its order.
 pub const AXIS_LETTERS: &str = "XYZABCUVW";
@@ -225,14 +226,15 @@ impl Coordinates {
 
 /// `[KINS]JOINTS`, without it as many as have a section.
 fn joints_of(ini: &Ini) -> Result<usize, IniError> {
-    let Some(said) = ini.text("KINS", "JOINTS") else {
+    let Some(said) = ini.entry("KINS", "JOINTS") else {
         return Ok((0..AXIS_LETTERS.len())
             .take_while(|number| ini.has_section(&format!("JOINT_{number}")))
             .count());
     };
     let remedy = "write how many joints the machine has, a whole number";
-    said.parse()
-        .map_err(|_| ini.bad_value("KINS", "JOINTS", remedy))
+    let count = numbers::number(said).filter(|count| *count >= 0.0);
+    let count = count.map(|count| count as usize);
+    count.ok_or_else(|| ini.bad_value("KINS", "JOINTS", remedy))
 }
 
 /// The letters of axes in a text, spaces left out; `None` if there are other ones.
@@ -421,7 +423,10 @@ MAX_ACCELERATION = 1000
             "mill.ini: [EMCMOT]SERVO_PERIOD is missing: write the servo period in nanoseconds, \
              for example SERVO_PERIOD = 1000000"
         );
-        assert!(message("SERVO_PERIOD = 1000000", "SERVO_PERIOD = 0.001").contains("nanoseconds"));
+        for period in ["0.001", "1000"] {
+            let period = format!("SERVO_PERIOD = {period}");
+            assert!(message("SERVO_PERIOD = 1000000", &period).contains("nanoseconds"));
+        }
         assert!(message("LINEAR_UNITS = mm", "LINEAR_UNITS = furlong").contains("mm or inch"));
         assert!(message("[KINS]", "[KINEMA]").starts_with("mill.ini: [KINS]KINEMATICS"));
         assert!(message("coordinates=XYZ", "coordinates=XYQ").contains("XYZABCUVW"));

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::error::IniError;
 use super::include::{self, NotIncluded};
+use super::numbers::{self, Form};
 use super::place::Place;
 use super::text_file;
 
@@ -175,14 +176,26 @@ impl Ini {
         let Some(entry) = self.entry(section, key) else {
             return Ok(None);
         };
-        match entry.value.parse::<f64>() {
-            Ok(number) if !number.is_nan() => Ok(Some(number)),
+        match numbers::number(entry) {
+            Some(number) if !number.is_nan() => Ok(Some(number)),
             _ => Err(self.no_number(section, key)),
         }
     }
 
     fn no_number(&self, section: &str, key: &str) -> IniError {
-        self.bad_value(section, key, "a number is needed here, for example 100.0")
+        let problem = match numbers::form(section, key) {
+            Form::Other => "a number is needed here, for example 100.0",
+            Form::Number => {
+                "LinuxCNC needs a number alone here, for example 100.5, and no comment in this line"
+            }
+            Form::Whole => {
+                "LinuxCNC needs a whole number alone here, without a point, and no comment in this line"
+            }
+            Form::OfModule => {
+                "LinuxCNC needs a whole number of nanoseconds alone here, and no comment in this line"
+            }
+        };
+        self.bad_value(section, key, problem)
     }
 
     /// The number of a key, above 0; it may be infinite.
@@ -247,7 +260,12 @@ impl Ini {
     /// The error for a key whose value cannot be used.
     pub fn bad_value(&self, section: &str, key: &str, problem: &str) -> IniError {
         let entry = self.entry(section, key);
-        let value = entry.map_or("", |entry| entry.value.as_str());
+        // Of a number the comment behind it may be what is wrong.
+        let value = match (entry, numbers::form(section, key)) {
+            (None, _) => "",
+            (Some(entry), Form::Other) => entry.value.as_str(),
+            (Some(entry), _) => entry.raw.as_str(),
+        };
         IniError::Value {
             file: entry.map_or(self.file.clone(), |entry| entry.place.file.to_path_buf()),
             line: entry.map_or(0, |entry| entry.place.line),
@@ -393,10 +411,7 @@ mod tests {
         )
         .expect("a valid file");
         assert_eq!(ini.text("HAL", "HALFILE"), Some("a.hal"));
-        assert_eq!(
-            ini.number("AXIS_X", "MAX_VELOCITY").expect("a number"),
-            Some(100.5)
-        );
+        assert_eq!(ini.text("AXIS_X", "MAX_VELOCITY"), Some("100.5"));
         assert_eq!(
             ini.optional_limit("AXIS_X", "MAX_JERK").expect("a limit"),
             None

@@ -8,6 +8,7 @@ pub(crate) mod ini;
 pub(crate) mod jerk;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod limits;
+pub(crate) mod numbers;
 pub(crate) mod place;
 pub(crate) mod text_file;
 

@@ -6,6 +6,7 @@ use crate::hal::{Module, Script, State, Statement};
 use crate::machine::IniError;
 use crate::machine::configuration::AXIS_LETTERS;
 use crate::machine::ini::{Entry, Ini};
+use crate::machine::numbers;
 use crate::machine::place::Place;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -73,9 +74,10 @@ impl Subject {
         self.ini.text(section, key).filter(|text| !text.is_empty())
     }
 
-    /// The number that LinuxCNC reads: what stands behind it does not count.
+    /// The finite number that LinuxCNC reads.
     pub fn number(&self, section: &str, key: &str) -> Option<f64> {
-        leading_number(self.text(section, key)?)
+        let entry = self.ini.entry(section, key)?;
+        numbers::number(entry).filter(|number| number.is_finite())
     }
 
     /// The place of a key, else of its section, else of the file.

@@ -55,6 +55,30 @@ fn a_jerk_with_which_nothing_moves() {
 }
 
 #[test]
+fn limits_with_which_linuxcnc_does_not_start() {
+    let folder = stock("mill.ini");
+    let ini = folder.path().join("mill.ini");
+    let text = fs::read_to_string(&ini).expect("a text");
+    let (before, axis) = text.split_once("[AXIS_X]").expect("an axis");
+    let changed = format!("{before}[AXIS_X]\nMAX_ACCELERATION = 508 # mm{axis}");
+    fs::write(&ini, changed).expect("written");
+    let output = framepath(folder.path(), &["configure", "mill.ini"]);
+    let said = refused(folder.path(), &output);
+    assert!(
+        said.contains("[AXIS_X]MAX_ACCELERATION is missing or no number"),
+        "{said}"
+    );
+    let changed = format!("{before}[AXIS_X]\nMAX_JERK = 20000 # c{axis}");
+    fs::write(&ini, changed).expect("written");
+    let output = framepath(folder.path(), &["configure", "mill.ini"]);
+    let said = refused(folder.path(), &output);
+    assert!(
+        said.contains("[AXIS_X]MAX_JERK = 20000 # c is no number"),
+        "{said}"
+    );
+}
+
+#[test]
 fn a_name_with_a_blank() {
     let folder = stock("a b.ini");
     let output = framepath(folder.path(), &["configure", "a b.ini"]);

@@ -50,6 +50,51 @@ fn what_is_no_number_or_no_parameter_is_an_error() {
             "MAX_LINEAR_VELOCITY = text is no number",
         ),
         (
+            "SERVO_PERIOD = 1000000",
+            "SERVO_PERIOD = 1000000 # ns",
+            "[EMCMOT]SERVO_PERIOD = 1000000 # ns is no whole number",
+        ),
+        (
+            "JOINTS = 3",
+            "JOINTS = 3 # axes",
+            "[KINS]JOINTS = 3 # axes is no whole number",
+        ),
+        (
+            "MAX_VELOCITY = 100",
+            "MAX_VELOCITY = 50,5",
+            "[AXIS_X]MAX_VELOCITY = 50,5 is no number",
+        ),
+        (
+            "MAX_VELOCITY = 100",
+            "MAX_VELOCITY = 50 # mm/s",
+            "[AXIS_X]MAX_VELOCITY = 50 # mm/s is no number",
+        ),
+        (
+            "MAX_JERK = 20000",
+            "MAX_JERK = 20000 # much",
+            "[AXIS_X]MAX_JERK = 20000 # much is no number",
+        ),
+        (
+            "[JOINT_0]",
+            "[JOINT_0]\nFERROR = 1 # mm",
+            "[JOINT_0]FERROR = 1 # mm is no number",
+        ),
+        (
+            "[JOINT_0]",
+            "[JOINT_0]\nHOME_SEQUENCE = 1.0",
+            "[JOINT_0]HOME_SEQUENCE = 1.0 is no whole number",
+        ),
+        (
+            "TPMOD = blendtp",
+            "TPMOD = blendtp foo=1",
+            "blendtp has no parameter foo=1",
+        ),
+        (
+            "framepath filter",
+            "framepath filter --tool A=1 --tool a=2",
+            "--tool A= is given twice",
+        ),
+        (
             "ngc=frame_tool_change",
             "ngc=frame_tool_changed",
             "frame_tool_changed.ngc is in no folder",

@@ -2,7 +2,7 @@
 
 use crate::check::finding::{Findings, Remedy, add, advice, replace};
 use crate::machine::configuration::is_rotary;
-use crate::wiring::subject::{Subject, leading_float};
+use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     for letter in &subject.axes {
@@ -26,15 +26,6 @@ fn own(subject: &Subject, section: &str, findings: &mut Findings) {
                     &place,
                     found,
                     add(format!("[{section}]"), format!("{key} = ...")),
-                );
-            }
-            (Some(text), None) if leading_float(text) == Some(f64::INFINITY) => {}
-            (Some(text), None) => {
-                let found = format!("[{section}]{key} = {text} is no number");
-                findings.error(
-                    &subject.place_of(section, key),
-                    found,
-                    advice("a number above 0"),
                 );
             }
             (Some(_), Some(number)) if number <= 0.0 => {

@@ -7,6 +7,7 @@ mod folders;
 mod frame_nets;
 mod frame_settings;
 mod guard;
+mod ini_numbers;
 mod inner_kinematics;
 mod joint_limits;
 mod kinematics;
@@ -44,6 +45,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
     planner_module::look(subject, &mut findings);
     modules::look(subject, linuxcnc, &mut findings);
     motion_numbers::look(subject, &mut findings);
+    ini_numbers::look(subject, &mut findings);
     kinematics::look(subject, &mut findings);
     if subject.has_planner() {
         planner::look(subject, &mut findings);

@@ -1,6 +1,7 @@
 //! What motmod is loaded with: whole numbers, or LinuxCNC does not start.
 
 use crate::check::finding::{Findings, advice};
+use crate::machine::numbers::whole_of_module;
 use crate::wiring::subject::Subject;
 
 /// Its parameters that are numbers, with the keys of the INI file that HAL files take them from.
@@ -18,29 +19,24 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
         return;
     };
     for (name, section, key) in NUMBERS {
-        let value = module.parameter(name).unwrap_or("0");
-        let word = value.split_whitespace().next().unwrap_or("");
-        if is_whole(word) {
+        let forms = [format!("[{section}]{key}"), format!("[{section}]({key})")];
+        let is_named = forms
+            .iter()
+            .any(|form| module.statement.text.contains(form));
+        // With the comment behind it, which gets into the line.
+        let entry = subject.ini.entry(section, key).filter(|_| is_named);
+        let (place, named, value) = match entry {
+            Some(entry) => (&entry.place, forms[0].as_str(), entry.raw.as_str()),
+            None => {
+                let value = module.parameter(name).unwrap_or("0");
+                (&module.statement.place, name, value)
+            }
+        };
+        if whole_of_module(value).is_some() {
             continue;
         }
-        let entry = format!("[{section}]{key}");
-        let (place, named) = match module.statement.text.contains(&entry) {
-            true => (subject.place_of(section, key), entry),
-            false => (module.statement.place.clone(), name.to_owned()),
-        };
         let found = format!("LinuxCNC does not start: {named} = {value} is no whole number");
-        findings.error(&place, found, advice("a whole number, without a point"));
-    }
-}
-
-/// As RTAPI reads it.
-fn is_whole(word: &str) -> bool {
-    let digits = word.strip_prefix(['+', '-']).unwrap_or(word);
-    match digits
-        .strip_prefix("0x")
-        .or_else(|| digits.strip_prefix("0X"))
-    {
-        Some(digits) => i64::from_str_radix(digits, 16).is_ok(),
-        None => !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()),
+        let remedy = "a whole number alone, without a point, and a comment in a line of its own";
+        findings.error(place, found, advice(remedy));
     }
 }

@@ -6,7 +6,7 @@ use crate::wiring::USUAL_JERK;
 use crate::wiring::blendtp::{
     TOLERANCE_PIN, axis_of_pin, has_pin, inch_tolerance_line, jerk_line, jerk_pin, least_jerk,
 };
-use crate::wiring::subject::{Subject, leading_float};
+use crate::wiring::subject::Subject;
 
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
@@ -238,14 +238,6 @@ fn period(subject: &Subject, findings: &mut Findings) {
 }
 
 fn greatest_velocity(subject: &Subject, findings: &mut Findings) {
-    let text = subject.text("TRAJ", "MAX_LINEAR_VELOCITY");
-    if let Some(text) = text.filter(|text| leading_float(text).is_none()) {
-        findings.error(
-            &subject.place_of("TRAJ", "MAX_LINEAR_VELOCITY"),
-            format!("LinuxCNC does not start: [TRAJ]MAX_LINEAR_VELOCITY = {text} is no number"),
-            advice("a number above 0, or no such line where the axes alone limit the speed"),
-        );
-    }
     let velocity = subject.number("TRAJ", "MAX_LINEAR_VELOCITY");
     if velocity.is_some_and(|velocity| velocity <= 0.0) {
         let greatest = subject

@@ -4,6 +4,7 @@ use crate::check::finding::{Findings, Remedy, add, advice, replace};
 use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
+    parameters(subject, findings);
     let chosen = subject.planner() == "blendtp";
     if let Some(module) = subject.state.module("blendtp") {
         let place = &module.statement.place;
@@ -37,6 +38,18 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
             "tpmod is loaded beside blendtp and has nothing to do",
             Remedy::Remove,
         );
+    }
+}
+
+/// The script `linuxcnc` hands all words to loadrt, and neither planner has a parameter.
+fn parameters(subject: &Subject, findings: &mut Findings) {
+    let module = subject.planner();
+    let words = subject.text("TRAJ", "TPMOD").unwrap_or("");
+    let known = matches!(module, "blendtp" | "tpmod");
+    if let Some(word) = words.split_whitespace().nth(1).filter(|_| known) {
+        let found = format!("LinuxCNC does not start: {module} has no parameter {word}");
+        let line = format!("TPMOD = {module}");
+        findings.error(&subject.place_of("TRAJ", "TPMOD"), found, replace(line));
     }
 }
 
