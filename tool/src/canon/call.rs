@@ -142,6 +142,8 @@ pub enum Call {
     Dwell(f64),
     /// What comes next waits for the end of motion.
     Wait,
+    /// Waits for the end of motion, then for a program of the machine: M100 to M199.
+    UserCode(u32),
     /// Ends the merging of short lines.
     Flush,
 }
@@ -232,6 +234,7 @@ impl Call {
             "LENGTH" => Call::ToolLength(words.number()?),
             "DWELL" => Call::Dwell(words.number()?),
             "WAIT" => Call::Wait,
+            "USER" => Call::UserCode(words.number()?),
             "FLUSH" => Call::Flush,
             _ => return None,
         };

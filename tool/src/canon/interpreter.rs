@@ -1,6 +1,7 @@
 //! Runs a program through LinuxCNC's interpreter, in a process of its own.
 
 use super::call::Call;
+use super::refusal;
 use super::surroundings::Surroundings;
 use super::timed::Timed;
 use crate::memory_file::MemoryFile;
@@ -155,6 +156,8 @@ pub struct CallStream {
     complaints: Option<JoinHandle<String>>,
     line: Vec<u8>,
     ended: bool,
+    /// Whether there is an INI file.
+    has_ini: bool,
     /// The interpreter's files, there as long as it runs; after `child`, which ends first.
     _home: Home,
 }
@@ -210,6 +213,7 @@ impl CallStream {
             complaints: Some(complaints),
             line: Vec::new(),
             ended: false,
+            has_ini: surroundings.ini.is_some(),
             _home: home,
         })
     }
@@ -256,10 +260,10 @@ impl CallStream {
             return Ok(None);
         }
         let line = line.into_owned();
-        let Some(refusal) = line.strip_prefix("REFUSED ") else {
+        let Some(refused) = line.strip_prefix("REFUSED ") else {
             return Err(self.broken(&line));
         };
-        let (number, message) = refusal.split_once(' ').unwrap_or((refusal, ""));
+        let (number, message) = refused.split_once(' ').unwrap_or((refused, ""));
         let source = match self.read_line() {
             Ok(Some(source)) => source.into_owned(),
             _ => String::new(),
@@ -269,6 +273,7 @@ impl CallStream {
         if message.contains(GIVES_UP) {
             message += &self.reasons();
         }
+        message += refusal::behind(&message, self.has_ini);
         Err(CanonError::Refused {
             file: self.file.clone(),
             line: number.parse().unwrap_or(0),
@@ -288,13 +293,7 @@ impl CallStream {
             .iter()
             .map(|line| format!("\n    {}", line.trim_end()))
             .collect();
-        let help = match said.contains("ModuleNotFoundError") || said.contains("ImportError") {
-            true => {
-                "\n  help: the configuration has remaps in Python that import what only LinuxCNC's own task has: plan with a \
-                 copy of the INI file without [PYTHON] and the lines REMAP with python=, py=, prolog= or epilog="
-            }
-            false => "",
-        };
+        let help = refusal::behind_python(&said);
         match last.is_empty() {
             true => String::new(),
             false => format!(", having said:{last}{help}"),

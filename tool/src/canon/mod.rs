@@ -8,11 +8,13 @@
 //! an INI file it has an empty file of numbered parameters and a tool table in which every number is
 //! a tool without length and radius.
 //!
-//! [`call`] are the calls, [`interpreter`] runs a program, [`surroundings`] are what it finds around
-//! it: INI file, parameters, [`tool_table`]. [`seen_from`] moves the calls to another zero.
+//! [`call`] are the calls, [`interpreter`] runs a program, and [`refusal`] explains what it refuses;
+//! [`surroundings`] are what it finds around it: INI file, parameters, [`tool_table`]. [`seen_from`] moves the
+//! calls to another zero.
 
 pub mod call;
 pub mod interpreter;
+mod refusal;
 mod seen_from;
 pub mod surroundings;
 mod timed;

@@ -57,6 +57,7 @@ pub fn seen_from(call: Call, origin: &Position) -> Call {
         | Call::ToolLength(..)
         | Call::Dwell(..)
         | Call::Wait
+        | Call::UserCode(..)
         | Call::Flush => call,
     }
 }

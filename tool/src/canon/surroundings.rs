@@ -27,6 +27,8 @@ pub struct Surroundings {
     /// The analog output that switches the kinematics, and the type that moves are planned with, `None` for that of the first
     /// one: moves with another type are refused.
     pub kinematics_switch: Option<(u32, Option<i32>)>,
+    /// The codes M100 to M199 that are programs of the machine.
+    pub user_codes: Vec<u32>,
 }
 
 impl Default for Surroundings {
@@ -40,6 +42,7 @@ impl Default for Surroundings {
             tools: None,
             held: 0,
             kinematics_switch: None,
+            user_codes: Vec::new(),
         }
     }
 }
@@ -77,6 +80,9 @@ impl Surroundings {
         }
         if let Some((output, kind)) = self.kinematics_switch {
             text += &format!("SWITCH {output} {}\n", kind.unwrap_or(-1));
+        }
+        for code in &self.user_codes {
+            text += &format!("USER {code}\n");
         }
         if let Some(tools) = &self.tools {
             text += "TABLE\n";

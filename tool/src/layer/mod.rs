@@ -122,7 +122,7 @@ impl<'a> Layer<'a> {
                 self.wait();
                 self.builder.operation(Operation::Dwell(seconds));
             }
-            Call::Wait => self.wait(),
+            Call::Wait | Call::UserCode(_) => self.wait(),
             Call::Flush => self.flush(),
         }
     }

@@ -13,6 +13,7 @@ use crate::machine::limits::{Jerk, Limits, infinite_for_none, is_rotary};
 use crate::wiring::blendtp::least_jerk;
 use crate::wiring::codes::missing_files;
 use crate::wiring::joints::JointSettings;
+use crate::wiring::user_codes::user_codes;
 use framepath::axes::AXIS_COUNT;
 use std::path::{Path, PathBuf};
 
@@ -334,11 +335,11 @@ fn surroundings(
     unit: f64,
     assumed: &mut Vec<String>,
 ) -> Result<Surroundings, PlanError> {
-    let absolute =
-        std::fs::canonicalize(file).map_err(|source| crate::machine::IniError::Read {
-            file: file.to_owned(),
-            source,
-        })?;
+    // LinuxCNC looks beside a link to an INI file, not beside the file itself.
+    let absolute = std::path::absolute(file).map_err(|source| crate::machine::IniError::Read {
+        file: file.to_owned(),
+        source,
+    })?;
     let folder = absolute.parent().unwrap_or(Path::new("/")).to_owned();
     let named = |section, key| ini.text(section, key).filter(|name| !name.is_empty());
     let mut start = [0.0; AXIS_COUNT];
@@ -379,6 +380,7 @@ fn surroundings(
             .filter(|_| random)
             .map_or(0, in_the_spindle),
         kinematics_switch: None,
+        user_codes: user_codes(ini),
         tools,
         ini: Some(absolute),
     })

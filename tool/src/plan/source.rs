@@ -3,10 +3,10 @@
 
 use super::error::PlanError;
 use super::setup::Setup;
-use crate::canon::{CallStream, stream_program};
+use crate::canon::{Call, CallStream, stream_program};
 use crate::layer::program::{Operation, Piece, Shape};
 use crate::layer::stream::{Laid, LayerStream};
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -25,6 +25,8 @@ pub struct Source<'a> {
     ended: bool,
     /// Moves read so far.
     pub moves: usize,
+    /// The programs of the machine, M100 to M199, that were called so far.
+    user_codes: BTreeSet<u32>,
 }
 
 impl<'a> Source<'a> {
@@ -49,6 +51,7 @@ impl<'a> Source<'a> {
             waiting: VecDeque::new(),
             ended: false,
             moves: 0,
+            user_codes: BTreeSet::new(),
         })
     }
 
@@ -60,6 +63,9 @@ impl<'a> Source<'a> {
         while self.waiting.is_empty() && !self.ended {
             let call = self.calls.next().transpose()?;
             self.ended = call.is_none();
+            if let Some(Call::UserCode(code)) = call {
+                self.user_codes.insert(code);
+            }
             let waiting = &mut self.waiting;
             self.layer
                 .take(call.as_ref(), |laid| waiting.push_back(laid));
@@ -72,6 +78,19 @@ impl<'a> Source<'a> {
     pub(super) fn take(&mut self) -> Option<(Operation, Vec<Piece>)> {
         let laid = self.waiting.pop_front()?;
         Some((laid.operation, laid.pieces))
+    }
+
+    /// What the user is to be told of the program, when it has been read.
+    pub(super) fn warning(&self) -> Option<String> {
+        let codes = self.user_codes.iter().map(|code| format!("M{code}"));
+        let codes: Vec<String> = codes.collect();
+        (!codes.is_empty()).then(|| {
+            format!(
+                "{}: what the programs of the machine do that it calls ({}) is not known here: they count as 0 s",
+                self.file.display(),
+                codes.join(", ")
+            )
+        })
     }
 
     fn check(&mut self) -> Result<(), PlanError> {

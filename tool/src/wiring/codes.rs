@@ -131,7 +131,7 @@ pub fn missing_files(ini: &Ini) -> Vec<(&Entry, String)> {
 }
 
 /// A folder that the INI file names.
-fn folder(ini: &Ini, name: &str) -> PathBuf {
+pub(super) fn folder(ini: &Ini, name: &str) -> PathBuf {
     match (name.strip_prefix("~/"), std::env::var_os("HOME")) {
         (Some(rest), Some(home)) => Path::new(&home).join(rest),
         _ => ini.file().parent().unwrap_or(Path::new("")).join(name),

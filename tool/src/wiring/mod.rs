@@ -10,6 +10,8 @@ pub mod joints;
 pub mod previews;
 pub mod settings;
 pub mod subject;
+#[cfg(feature = "linuxcnc")]
+pub mod user_codes;
 
 /// Where `make install` puts the subroutines.
 pub const SUBROUTINES: &str = "/usr/share/framepath/subroutines";

@@ -1,6 +1,7 @@
 //! The configuration as LinuxCNC reads it: lines that it passes over, files that it does not find.
 
 use crate::support::{Bench, MILL, number};
+use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
 const PROGRAM: &str = "G21 G90 F5000\nG1 X10\nM2\n";
@@ -87,11 +88,122 @@ fn remaps_that_want_more_than_the_interpreter_are_told_with_their_reason() {
     let remap = "[RS274NGC]\nREMAP = M471 modalgroup=10 python=m471\n";
     let ini = MILL.replace("[RS274NGC]\n", remap);
     bench.write("mill.ini", &format!("{ini}{python}"));
-    bench.write("top.py", "import emccanon_that_is_not_here\n");
+    for (module, help) in [
+        (
+            "emccanon",
+            "which only LinuxCNC's own task has: plan with a copy of the INI file without [PYTHON]",
+        ),
+        (
+            "glue_that_is_nowhere",
+            "which is in no folder of [PYTHON]PATH_PREPEND and PATH_APPEND",
+        ),
+    ] {
+        bench.write("top.py", &format!("import {module}\n"));
+        let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+        let cause = format!("No module named '{module}'");
+        assert!(error.contains(&cause) && error.contains(help), "{error}");
+    }
+}
+
+/// As LinuxCNC has it: files are beside the link.
+#[test]
+fn files_are_looked_for_beside_a_link_to_the_ini_file() {
+    let bench = Bench::new();
+    let keys = "[RS274NGC]\nSUBROUTINE_PATH = subs\n";
+    let tools = "[EMCIO]\nTOOL_TABLE = tools.tbl\n";
+    let machine = bench.path().join("machine");
+    std::fs::create_dir(&machine).expect("a folder");
+    std::fs::create_dir(bench.path().join("subs")).expect("a folder");
+    bench.write(
+        "machine/mill.ini",
+        &(MILL.replace("[RS274NGC]\n", keys) + tools),
+    );
+    bench.write("machine/tools.tbl", "T1 P1\n");
+    bench.write("tools.tbl", "T5 P5\n");
+    bench.write(
+        "subs/there.ngc",
+        "o<there> sub\nG1 X3\no<there> endsub\nM2\n",
+    );
+    bench.write(
+        "part.ngc",
+        "G21 G90 F500\no<there> call\nT5 M6\nG1 X10\nM2\n",
+    );
+    std::os::unix::fs::symlink("machine/mill.ini", bench.path().join("mill.ini")).expect("a link");
+    let output = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(output.status.success(), "{output:?}");
+}
+
+#[test]
+fn numbers_that_linuxcnc_does_not_take_are_refused() {
+    let bench = Bench::new();
+    bench.write("part.ngc", PROGRAM);
+    for (from, to, line) in [
+        ("MAX_VELOCITY = 100", "MAX_VELOCITY = 50 # c", 13),
+        ("MAX_VELOCITY = 100", "MAX_VELOCITY = 50,5", 13),
+        ("MAX_JERK = 20000", "MAX_JERK = 20000 # c", 15),
+        ("SERVO_PERIOD = 1000000", "SERVO_PERIOD = 1e6", 4),
+        ("SERVO_PERIOD = 1000000", "SERVO_PERIOD = 1000000 # ns", 4),
+        ("[KINS]\n", "[KINS]\nJOINTS = 3 # axes\n", 9),
+    ] {
+        bench.write("mill.ini", &MILL.replacen(from, to, 1));
+        let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+        let value = to.trim_end().rsplit('\n').next().expect("a line");
+        assert!(
+            error.starts_with(&format!("mill.ini:{line}: ")) && error.contains(value),
+            "{error}"
+        );
+    }
+}
+
+/// How long they take nobody knows here.
+#[test]
+fn programs_of_the_machine_are_told_and_take_no_time() {
+    let bench = Bench::new();
+    let path = "[RS274NGC]\nUSER_M_PATH = nowhere:codes\n";
+    bench.write("mill.ini", &MILL.replace("[RS274NGC]\n", path));
+    std::fs::create_dir(bench.path().join("codes")).expect("a folder");
+    for (name, mode) in [("M101", 0o755), ("M102", 0o644)] {
+        let file = bench.path().join("codes").join(name);
+        std::fs::write(&file, "#!/bin/sh\n").expect("written");
+        let permissions = std::fs::Permissions::from_mode(mode);
+        std::fs::set_permissions(&file, permissions).expect("changed");
+    }
+    let program = |code: &str| format!("G21 G90 F600 G64 P1\nG1 X5\n{code}\nG1 Y5\nM2\n");
+    let time = |code: &str| {
+        let figures = bench.figures(&program(code), &["--ini", "mill.ini"]);
+        number(&figures["time"])
+    };
+    // Motion comes to its end before.
+    assert!((time("M101 P1") - time("G4 P0")).abs() < 0.002);
+    assert!(time("M101 P1") > time("") + 0.01);
+    bench.write("part.ngc", &program("M101 P1"));
+    let output = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert!(
+        told.contains("warning: part.ngc: ") && told.contains("(M101)") && told.contains("0 s"),
+        "{told}"
+    );
+    bench.write("part.ngc", &program("M102"));
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(
-        error.contains("No module named 'emccanon_that_is_not_here'")
-            && error.contains("copy of the INI file without [PYTHON]"),
+        error.starts_with("part.ngc:3: ")
+            && error.contains("no file that may be run has this name"),
+        "{error}"
+    );
+    let error = bench.refused(&["part.ngc"]);
+    assert!(error.contains("M102: it is a program of the machine") && error.contains("--ini"));
+}
+
+#[test]
+fn pins_of_hal_are_refused_by_name() {
+    let bench = Bench::new();
+    bench.write(
+        "part.ngc",
+        "G21 F600\n#1=[#<_hal[motion.in-position]>]\nG1 X5\nM2\n",
+    );
+    let error = bench.refused(&["part.ngc"]);
+    assert!(
+        error.starts_with("part.ngc:2: Named parameter #<_hal[motion.in-position]> not defined: it is a pin of HAL"),
         "{error}"
     );
 }

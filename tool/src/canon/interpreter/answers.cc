@@ -99,6 +99,20 @@ int GET_EXTERNAL_SELECTED_TOOL_SLOT() { return index_of(now.selected_tool); }
 USER_DEFINED_FUNCTION_TYPE USER_DEFINED_FUNCTION[USER_DEFINED_FUNCTION_NUM];
 int USER_DEFINED_FUNCTION_ADD(USER_DEFINED_FUNCTION_TYPE, int) { return -1; }
 
+/* What it does, and for how long, nobody knows here. */
+static void user_code(int number, double, double)
+{
+    fprintf(output, "USER %d\n", 100 + number);
+}
+
+bool know_user_code(int code)
+{
+    if (code < 100 || code >= 100 + USER_DEFINED_FUNCTION_NUM)
+        return false;
+    USER_DEFINED_FUNCTION[code - 100] = user_code;
+    return true;
+}
+
 /* The tool table stands in front of LinuxCNC's own (libtooldata), whose header is not installed. */
 enum toolidx_t { IDX_OK = 0 };
 

@@ -17,6 +17,7 @@
  *   SPINDLE speed direction      direction 0: off           SPEED speed
  *   LENGTH mm                    of the tool along Z, from here on
  *   DWELL seconds                WAIT (motion comes to its end)     FLUSH (ends the merging of short lines)
+ *   USER number                  a program of the machine, M100 to M199, when motion has come to its end
  *   END (the program came to its end)
  *
  * What the interpreter asks for is in answers.cc.

@@ -11,6 +11,9 @@ extern FILE *output;
 /* The file of numbered parameters. */
 void parameter_file(const char *name);
 
+/* A code that is a program of the machine; false if none from M100 to M199 is meant. */
+bool know_user_code(int code);
+
 /* Reads what an INI file says of the machine (settings.cc); false if it cannot be understood. */
 bool read_settings(const char *file);
 

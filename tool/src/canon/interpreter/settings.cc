@@ -8,6 +8,7 @@
  *   SWITCH output type           the analog output that switches the kinematics, and the type for which moves are supported,
  *                                -1: the one of the first move
  *   HELD number                  the tool that the spindle holds at the start
+ *   USER number                  a code from M100 to M199 that is a program of the machine
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include "calls.hh"
 #include "state.hh"
 
 Machine machine;
@@ -55,6 +57,10 @@ static bool read_setting(const std::string &line)
         now.kinematics_type = std::max(machine.kinematics_type, 0);
     } else if (name == "HELD") {
         words >> now.tool_number;
+    } else if (name == "USER") {
+        int code = 0;
+        words >> code;
+        return know_user_code(code);
     } else {
         return false;
     }

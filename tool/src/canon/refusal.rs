@@ -1,0 +1,46 @@
+//! What a refusal of the interpreter means where its own words name another cause.
+
+/// Modules that only LinuxCNC's task controller has for the Python of remaps.
+const OF_TASK: [&str; 2] = ["emccanon", "emctask"];
+
+/// What is to be said behind a message, which may be nothing.
+pub fn behind(message: &str, has_ini: bool) -> &'static str {
+    let user_code = message.strip_prefix("Unknown m code used: M");
+    let user_code = user_code.and_then(|code| code.trim().parse::<u32>().ok());
+    let is_user_code = user_code.is_some_and(|code| (100..=199).contains(&code));
+    let is_undefined = message.starts_with("Named parameter") && message.contains("not defined");
+    match (is_user_code, is_undefined && message.contains("#<_hal[")) {
+        (true, _) if has_ini => {
+            ": it is a program of the machine, and no file that may be run has this name in the folders of \
+             [DISPLAY]PROGRAM_PREFIX and [RS274NGC]USER_M_PATH"
+        }
+        (true, _) => {
+            ": it is a program of the machine, which is looked for where the INI file says: name that with --ini"
+        }
+        (_, true) => {
+            ": it is a pin of HAL, and there are none here, where no machine runs: write the number that it has in its place"
+        }
+        _ => "",
+    }
+}
+
+/// The same behind what Python has said.
+pub fn behind_python(said: &str) -> String {
+    let without = "plan with a copy of the INI file without [PYTHON] and the lines REMAP with python=, py=, prolog= or epilog=";
+    let missing = said.rsplit_once("No module named '").map(|(_, name)| name);
+    let missing = missing.and_then(|name| name.split('\'').next());
+    let help = match missing {
+        Some(name) if OF_TASK.contains(&name) => format!(
+            "the configuration has remaps in Python that import {name}, which only LinuxCNC's own task has: {without}"
+        ),
+        Some(name) => format!(
+            "the Python of the remaps imports {name}, which is in no folder of [PYTHON]PATH_PREPEND and PATH_APPEND (they \
+             count from the folder of the INI file): correct these, or {without}"
+        ),
+        None if said.contains("ImportError") => {
+            format!("the Python of the remaps cannot be imported: correct it, or {without}")
+        }
+        None => return String::new(),
+    };
+    format!("\n  help: {help}")
+}
