@@ -15,9 +15,9 @@ CORNERS = [(20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]
 
 
 class PathModes(unittest.TestCase):
-    def rows(self, program, dialect):
+    def rows(self, program, dialect, backend="program"):
         """Where X Y Z were in each servo cycle."""
-        code, output, complaints = convert(program, dialect, "program")
+        code, output, complaints = convert(program, dialect, backend)
         self.assertEqual(code, 0, complaints)
         result = harness.run([RUN], {"part.ngc": output})
         self.assertIsNone(result.failure, result.log)
@@ -34,6 +34,17 @@ class PathModes(unittest.TestCase):
                 # an arc of the tolerance is cut off, and not much less: it is rounded
                 self.assertLess(max(missed), 1.01 * tolerance + 1e-4, missed)
                 self.assertGreater(min(missed), 0.2 * tolerance, missed)
+
+    def test_corners_keep_the_tolerance_whatever_the_scale(self):
+        square = "G1 X5\nY5\nX0\nY0\nM30\n"
+        for backend in ("program", "kinematics"):
+            for begin in ("SCALE X4 Y4 Z4\nG642 CTOL=0.05\n", "G642 CTOL=0.05\nSCALE X4 Y4 Z4\n"):
+                program = begin + HEAD + square
+                with self.subTest(program, backend=backend):
+                    rows = self.rows(program, "sinumerik", backend)
+                    missed = [min(math.dist(row[:2], corner) for row in rows) for corner in CORNERS]
+                    self.assertLess(max(missed), 1.01 * 0.05 + 1e-4, missed)
+                    self.assertGreater(min(missed), 0.2 * 0.05, missed)
 
     def test_holes_are_as_deep_as_they_are_programmed(self):
         for dialect, program in (

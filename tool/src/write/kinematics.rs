@@ -13,11 +13,12 @@ use super::blocks::begin;
 use super::line::{Lines, Rank};
 use super::modes::Modes;
 use super::number::{coordinate, factor, push_coordinate};
+use super::tolerance::PathScale;
 use super::words::{
     centre_words, common_action, compensation_words, machine_move_words, path_control_words,
     push_axis_words, push_spindle_motion, scaled_thread,
 };
-use super::{WriteSettings, Writer};
+use super::{SAME_SIZE, WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::program::frame::{Frame, FrameCommand, FrameOperation, SolidAngles};
 use crate::program::moves::{Coordinate, Move, MoveKind};
@@ -28,15 +29,14 @@ use framepath::frame::singular_values::singular_values;
 use nalgebra::Vector3;
 use std::io;
 
-/// Stretches that differ from 1 by less are none.
-const SAME_SIZE: f64 = 1e-9;
-
 /// Writes a program for the frame kinematics.
 pub struct KinematicsWriter<'a> {
     diagnostics: Diagnostics,
     lines: Lines<'a>,
     frame: Frame,
     modes: Modes,
+    /// By how much the frame stretches what corners are cut by.
+    path_scale: PathScale,
     /// Whether the frame is taken off for the time being.
     suspended: bool,
     /// Which of X Y Z must be named in the next move.
@@ -57,6 +57,7 @@ impl<'a> KinematicsWriter<'a> {
             lines,
             frame: Frame::default(),
             modes: Modes::new(settings.path_mode),
+            path_scale: PathScale::new(),
             suspended: false,
             explicit: [false; 3],
             scope: FrameScope::default(),
@@ -97,7 +98,11 @@ impl KinematicsWriter<'_> {
             action,
             Action::ToolLength(_) | Action::ToolOffset(_) | Action::ToolChange
         );
-        if common_action(action, &mut self.lines) {
+        let common = match action {
+            Action::PathControl(_) => &Action::PathControl(self.written_path_control()),
+            other => other,
+        };
+        if common_action(common, &mut self.lines) {
             return;
         }
         match action {
@@ -129,9 +134,7 @@ impl KinematicsWriter<'_> {
             }
             Action::End { rewind } => {
                 self.lines.flush();
-                if !self.frame_is_off() {
-                    self.lines.line("o<frame_off> call");
-                }
+                self.suspend();
                 self.lines
                     .add(Rank::Stop, if *rewind { "M30" } else { "M2" });
             }
@@ -145,6 +148,23 @@ impl KinematicsWriter<'_> {
         if std::mem::take(&mut self.length_changed) && self.scope == FrameScope::Machine {
             self.lines.flush();
             self.lines.line("o<frame_refresh> call");
+        }
+    }
+
+    /// How corners are passed, with the tolerance in coordinates of the program, as it is now written.
+    fn written_path_control(&mut self) -> PathControl {
+        let frame_is_off = self.frame_is_off();
+        self.path_scale
+            .in_frame(self.modes.path_control, frame_is_off)
+    }
+
+    /// Writes the tolerance again where the one that is in force belongs to another scale.
+    fn renew_tolerance(&mut self) {
+        let rounds = matches!(self.modes.path_control, PathControl::Continuous { .. });
+        if rounds && self.path_scale.has_changed(self.frame_is_off()) {
+            self.lines.flush();
+            let control = self.written_path_control();
+            self.lines.raw(&path_control_words(control));
         }
     }
 
@@ -207,6 +227,8 @@ impl KinematicsWriter<'_> {
             FrameCommand::Additive(operation) => call(&operation, true, self.modes.plane),
         };
         self.lines.line(&call);
+        self.path_scale.set_frame(&self.frame);
+        self.renew_tolerance();
     }
 
     /// Takes the frame off until it is needed again.
@@ -217,6 +239,7 @@ impl KinematicsWriter<'_> {
         self.lines.flush();
         self.lines.line("o<frame_off> call");
         self.suspended = true;
+        self.renew_tolerance();
     }
 
     /// Sets the frame again as it was.
@@ -237,6 +260,7 @@ impl KinematicsWriter<'_> {
             self.lines
                 .raw(&call(&operation, index > 0, self.modes.plane));
         }
+        self.renew_tolerance();
     }
 
     fn motion(&mut self, motion: &Move, span: Span) {
@@ -249,6 +273,8 @@ impl KinematicsWriter<'_> {
         }
         self.resume();
         self.tell_length();
+        self.path_scale.follow(motion);
+        self.renew_tolerance();
         if motion.exact_stop && self.modes.path_control != PathControl::ExactStop {
             self.lines.add(Rank::PathControl, "G61.1");
         }
@@ -290,8 +316,8 @@ impl KinematicsWriter<'_> {
         });
         if motion.exact_stop && self.modes.path_control != PathControl::ExactStop {
             self.lines.flush();
-            self.lines
-                .line(&path_control_words(self.modes.path_control));
+            let control = self.written_path_control();
+            self.lines.line(&path_control_words(control));
         }
     }
 

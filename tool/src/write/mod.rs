@@ -7,6 +7,7 @@ mod line;
 mod modes;
 mod number;
 mod rewrite;
+mod tolerance;
 mod words;
 
 pub use blocks::header;
@@ -18,6 +19,9 @@ use crate::program::arc::ArcTolerance;
 use crate::program::{Block, FrameScope, PathControl, Program};
 use crate::source::Sources;
 use std::io;
+
+/// Stretches that differ by less, relative to one of them, are the same.
+const SAME_SIZE: f64 = 1e-9;
 
 /// How frames are carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -232,6 +232,107 @@ fn fagor_tolerances() {
     }
 }
 
+/// P of the frame kinematics counts in the coordinates of the program, as F does: the tolerance over the
+/// greatest stretch of the frame, again where that changes. Coordinates that are rewritten are those of
+/// the machine.
+#[test]
+fn the_tolerance_is_that_on_the_part_whatever_the_scale() {
+    let full = ["G64 P0.05"];
+    for (program, programmed, framed) in [
+        (
+            "G642 CTOL=0.05\nSCALE X10 Y10 Z10\nG0 X1 Y1 Z1\nSCALE\nG0 X1",
+            &full[..],
+            &["G64 P0.05", "G64 P0.005", "G64 P0.05"][..],
+        ),
+        (
+            "SCALE X10 Y10 Z10\nG642 CTOL=0.05\nG0 X1 Y1 Z1",
+            &full,
+            &["G64 P0.005", "G64 P0.05"],
+        ),
+        (
+            "SCALE X2 Y2 Z2\nCTOL=0.05 G64\nG0 X1 Y1 Z1\nASCALE X5 Y5 Z5\nG0 X1\nASCALE\nX2",
+            &full,
+            &["G64 P0.025", "G64 P0.005", "G64 P0.05"],
+        ),
+        // The default; the greatest of unequal factors; turns, shifts and mirrors are none.
+        (
+            "SCALE X2 Y0.5 Z4\nG64\nG0 X1 Y1 Z1\nAROT Z30\nATRANS X5\nAMIRROR X1\nX2",
+            &["G64 P0.01"],
+            &["G64 P0.0025", "G64 P0.01"],
+        ),
+        (
+            "CTOL=0.05 G64\nROT Z30\nATRANS X5\nAMIRROR X1\nG0 X1 Y1 Z1",
+            &full,
+            &full,
+        ),
+        // Where the frame is off for a while.
+        (
+            "CTOL=0.05 G64\nSCALE X10 Y10 Z10\nG0 X1 Y1 Z1\nSUPA X0\nX1 Y1 Z1",
+            &full,
+            &[
+                "G64 P0.05",
+                "G64 P0.005",
+                "G64 P0.05",
+                "G64 P0.005",
+                "G64 P0.05",
+            ],
+        ),
+        // After a block with a stop of its own, and after a cycle.
+        (
+            "CTOL=0.05 G64\nSCALE X10 Y10 Z10\nG0 X1 Y1 Z9\nG9 G1 X2 F100\nCYCLE81(5,0,1,-7)",
+            &["G64 P0.05", "G61.1", "G64 P0.05", "G61", "G64 P0.05"],
+            &[
+                "G64 P0.05",
+                "G64 P0.005",
+                "G61.1",
+                "G64 P0.005",
+                "G61",
+                "G64 P0.005",
+                "G64 P0.05",
+            ],
+        ),
+        // Other axes share P, and no frame stretches them.
+        (
+            "CTOL=0.05 G64\nSCALE X0.1 Y0.1 Z0.1\nG0 X1 Y1 Z1\nX2\nA3 X3\nX4",
+            &full,
+            &["G64 P0.05", "G64 P0.5", "G64 P0.05"],
+        ),
+        // Without a tolerance nothing is written.
+        (
+            "G60\nSCALE X10 Y10 Z10\nG0 X1 Y1 Z1",
+            &["G61.1"],
+            &["G61.1"],
+        ),
+    ] {
+        for (backend, expected) in [("program", programmed), ("kinematics", framed)] {
+            let program = format!("{program}\nM30\n");
+            let output = translate(&program, &["--backend", backend]);
+            assert_eq!(modes(&output), expected, "{backend}: {program}{output}");
+        }
+    }
+    // The mode of the header is scaled too.
+    let program = "SCALE X10 Y10 Z10\nG0 X1 Y1 Z1\nM30\n";
+    let arguments = ["--path-mode", "0.05", "--backend", "kinematics"];
+    let output = translate(program, &arguments);
+    assert_eq!(modes(&output), ["G64 P0.005", "G64 P0.05"], "{output}");
+}
+
+/// Factors for the finished path stretch what corners are cut by as any others do.
+#[test]
+fn the_tolerance_is_that_on_the_part_under_factors_of_the_machine() {
+    let shop = Shop::new(&[(
+        "part.pim",
+        b"G51 E0.05\nG72 X4\nG0 X1 Y1 Z1\nG1 X2 F100\nM30\n",
+    )]);
+    for (backend, expected) in [
+        ("program", &["G64 P0.05"][..]),
+        ("kinematics", &["G64 P0.05", "G64 P0.0125", "G64 P0.05"]),
+    ] {
+        let output = accepted(&shop.run_in("fagor", "part.pim", &["--backend", backend]));
+        assert_eq!(modes(&output), expected, "{backend}: {output}");
+    }
+}
+
 /// The modes in which LinuxCNC makes its moves, one after the other, `E` for the exact path; and where
 /// along Z the moves end.
 fn moves(dialect: &str, name: &str, program: &str) -> (String, Vec<f64>) {
