@@ -54,7 +54,7 @@ static struct {
     /* What frame_guard looks at. It has these linked to pins of its own, which are read without HAL's lock: a process that is
        killed while it holds that would stop every other one. Users link the ones of the same names above. */
     struct {
-        hal_bit_t *active, *parameters_pending;
+        hal_bit_t *active, *parameters_pending, *tool_length_matters;
         hal_s32_t *operations;
         hal_float_t *command, *acknowledged, *work_offset[3], *work_rotation, *tool_offset[3];
     } guard;
@@ -165,6 +165,7 @@ static void write_guard_pins(const struct framepath_frame_inputs *in, const stru
 {
     *pins->guard.active = out->active;
     *pins->guard.parameters_pending = out->parameters_pending;
+    *pins->guard.tool_length_matters = out->tool_length_matters;
     *pins->guard.operations = out->operations;
     *pins->guard.command = in->command;
     *pins->guard.acknowledged = out->acknowledged;
@@ -292,6 +293,7 @@ static int export_guard_pins(void)
     error |= hal_pin_bit_newf(HAL_OUT, &pins->guarded, component, "framekins.guarded");
     error |= hal_pin_bit_newf(HAL_OUT, &pins->guard.active, component, "framekins.guard.active");
     error |= hal_pin_bit_newf(HAL_OUT, &pins->guard.parameters_pending, component, "framekins.guard.parameters-pending");
+    error |= hal_pin_bit_newf(HAL_OUT, &pins->guard.tool_length_matters, component, "framekins.guard.tool-length-matters");
     error |= hal_pin_s32_newf(HAL_OUT, &pins->guard.operations, component, "framekins.guard.operations");
     error |= hal_pin_float_newf(HAL_OUT, &pins->guard.command, component, "framekins.guard.command");
     error |= hal_pin_float_newf(HAL_OUT, &pins->guard.acknowledged, component, "framekins.guard.acknowledged");

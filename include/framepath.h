@@ -385,6 +385,10 @@ struct framepath_frame_outputs {
    */
   double work_rotation;
   /*
+   A tool offset that changes under the frame leads elsewhere than the program says: 0 or 1.
+   */
+  int tool_length_matters;
+  /*
    Why the last command was refused; 0 if it was not.
    */
   int refusal;

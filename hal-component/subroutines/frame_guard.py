@@ -35,11 +35,6 @@ NAME = "frame-guard"
 #: s between two looks at LinuxCNC's status
 PERIOD = 0.005
 
-#: codes of framekins.command; what changes lengths makes the tool's length matter
-LENGTH_CODES = {7, 8, 107, 108, 12}
-FRESH_CODES = {1, 2, 3, 4, 5, 6, 9}
-NUMBER_STEP = 1000
-
 #: non-modal codes whose moves are meant in machine coordinates, ten times the G number
 MACHINE_MOVES = {530: "G53", 280: "G28", 300: "G30"}
 TOOL_CHANGE_MOTION = 4
@@ -56,6 +51,7 @@ SETTLING = 0.2
 TOLD = {"release": ("release", hal.HAL_BIT), "releases-seen": ("releases-seen", hal.HAL_S32)}
 WATCHED = {"releases": ("releases", hal.HAL_S32), "active": ("guard.active", hal.HAL_BIT),
            "parameters-pending": ("guard.parameters-pending", hal.HAL_BIT), "operations": ("guard.operations", hal.HAL_S32),
+           "tool-length-matters": ("guard.tool-length-matters", hal.HAL_BIT),
            **{name: (f"guard.{name}", hal.HAL_FLOAT) for name in (
                "command", "acknowledged", "work-offset.x", "work-offset.y", "work-offset.z", "work-offset.rotation",
                "frame-tool-offset.x", "frame-tool-offset.y", "frame-tool-offset.z")}}
@@ -144,8 +140,6 @@ class Guard:
         self.ended = None
         #: a frame command came since start-up: before that somebody set the pins by hand
         self.commanded = False
-        #: the frame changes lengths, so that the tool's length matters
-        self.changes_lengths = False
         #: an abort has left a frame suspended, and that was told
         self.told_suspended = False
         #: the run that is being stopped, so that it is told only once
@@ -219,16 +213,9 @@ class Guard:
             self.pins["programs-ended"] += 1
 
     def follow_commands(self, now, last):
-        """Keeps what the frame was made with."""
-        if now.acknowledged == last.acknowledged:
-            return
-        self.commanded = True
-        code = int(now.command) % NUMBER_STEP
-        missed = now.acknowledged not in (last.acknowledged + 1, 1)
-        if code in LENGTH_CODES or missed or self.settings.tool_length == "machine":
-            self.changes_lengths = True
-        elif code in FRESH_CODES:
-            self.changes_lengths = False
+        """Whether frames come by commands."""
+        if now.acknowledged != last.acknowledged:
+            self.commanded = True
 
     def find_due(self, now, last):
         """Whether the frame has to be removed."""
@@ -287,9 +274,9 @@ class Guard:
             return  # a frame set on the pins by hand: what it was made for is not known
         elif now.runs and differ(now.work_offset, [self.pins[f"work-offset.{k}"] for k in ("x", "y", "z", "rotation")]):
             self.stop(work_offset_changed(self.due is not None))
-        elif self.changes_lengths and differ(now.tool_offset, [self.pins[f"frame-tool-offset.{k}"] for k in "xyz"]):
-            self.stop("the tool offset has changed while a frame with a scale or a mirror is active: "
-                      "call o<frame_refresh> behind the change")
+        elif self.pins["tool-length-matters"] and differ(now.tool_offset, [self.pins[f"frame-tool-offset.{k}"] for k in "xyz"]):
+            self.stop("the tool offset has changed while a frame with a scale or a mirror is active, or one that tilts or "
+                      "turns where the tool's length stays along the machine's axes: call o<frame_refresh> behind the change")
 
     def stop(self, reason):
         self.stopped = True
@@ -431,13 +418,16 @@ def make_component(settings):
 
 
 def link_to_framekins():
-    """Links the pins that the guard and framekins have for each other: no HAL file can forget these."""
+    """Links the pins that the guard and framekins have for each other: no HAL file can forget these. None, or what is
+    wrong."""
     for pin, (theirs, kind) in {"heartbeat": ("heartbeat", hal.HAL_U32), **TOLD, **WATCHED}.items():
         signal_name = f"{NAME}-{pin}"
         if signal_name not in {found["NAME"] for found in hal.get_info_signals()}:
             hal.new_sig(signal_name, kind)
         hal.connect(f"{NAME}.{pin}", signal_name)
-        hal.connect(f"framekins.{theirs}", signal_name)
+        if hal.connect(f"framekins.{theirs}", signal_name):
+            return f"framekins.{theirs} is linked in a HAL file, and frame_guard links it itself: take that net away"
+    return None
 
 
 def set_up_framekins(settings):
@@ -446,14 +436,17 @@ def set_up_framekins(settings):
     if "framekins.active" not in pins:
         return ("framekins is not loaded: write [KINS]KINEMATICS = framekins coordinates=..., and load frame_guard "
                 "behind it")
-    if "framekins.guard.operations" not in pins:
+    if "framekins.guard.tool-length-matters" not in pins:
         return "the framekins that is installed is older than frame_guard: install both from one version of framepath"
-    hal.set_p("framekins.release-on-abort", str(int(settings.clear_on_abort)))
-    machine = settings.tool_length == "machine"
-    if "framekins.tool-length-machine" in pins:
-        hal.set_p("framekins.tool-length-machine", str(int(machine)))
-    elif machine:
-        return "[FRAMEPATH]TOOL_LENGTH = machine: the framekins that is installed cannot do that"
+    own = {"release-on-abort": ("CLEAR_ON_ABORT", settings.clear_on_abort)}
+    if settings.tool_length == "machine":
+        # otherwise the pin is the HAL file's
+        own["tool-length-machine"] = ("TOOL_LENGTH = machine", True)
+    for pin, (key, value) in own.items():
+        try:
+            hal.set_p(f"framekins.{pin}", str(int(value)))
+        except RuntimeError:
+            return f"framekins.{pin} is linked in a HAL file, and [FRAMEPATH]{key} sets it: take that net away"
     return None
 
 
@@ -470,11 +463,10 @@ def main():
     heart = Heart(NAME)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     component = make_component(settings)
-    problem = set_up_framekins(settings)
+    problem = set_up_framekins(settings) or link_to_framekins()
     if problem:
         print(f"frame_guard: {problem}", file=sys.stderr)
         return 1
-    link_to_framekins()
     component.ready()
     guard = None
     while True:

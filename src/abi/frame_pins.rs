@@ -97,6 +97,8 @@ pub struct framepath_frame_outputs {
     pub work_offset: [c_double; 3],
     /// Its rotation about Z.
     pub work_rotation: c_double,
+    /// A tool offset that changes under the frame leads elsewhere than the program says: 0 or 1.
+    pub tool_length_matters: c_int,
     /// Why the last command was refused; 0 if it was not.
     pub refusal: c_int,
     /// Why the tool cannot be put normal to the frame; 0 if it can.
@@ -220,9 +222,12 @@ pub(super) fn outputs_of(
     shown_of_tool: &ToolPins,
 ) -> framepath_frame_outputs {
     let tool = Vector3::from(pins.tool_offset);
-    let (frame, turned_tool) = control.active().map_or_else(
-        || (AffineMap::identity(), tool),
-        |frame| (*frame.tip_map(), frame.turned_tool(&tool)),
+    let (frame, turned_tool, tool_length_matters) = control.active().map_or_else(
+        || (AffineMap::identity(), tool, false),
+        |frame| {
+            let turned_tool = frame.turned_tool(&tool);
+            (*frame.tip_map(), turned_tool, frame.tool_length_matters())
+        },
     );
     let ToolPins {
         normal,
@@ -240,6 +245,7 @@ pub(super) fn outputs_of(
         tool_offset: outputs.tool_offset,
         work_offset: outputs.work_offset,
         work_rotation: outputs.work_rotation,
+        tool_length_matters: tool_length_matters.into(),
         refusal: outputs.refusal.map_or(0, |refusal| refusal as c_int),
         normal_refusal: normal.refusal,
         normal_tilt: normal.tilt,

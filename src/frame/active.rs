@@ -9,6 +9,9 @@ use super::programmable::ProgrammableFrame;
 use super::work_offset::{WorkOffset, linear_axes};
 use crate::axes::Axes;
 
+/// What rounding leaves between two maps that are the same; of a tool 1 m long that is 1 nm.
+const ROUNDING: f64 = 1e-9;
+
 /// What becomes of the tool's length offset in a turned frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToolLength {
@@ -171,6 +174,12 @@ impl ActiveFrame {
     /// of the axes.
     pub fn turned_tool(&self, tool: &Vector3<f64>) -> Vector3<f64> {
         self.length * tool
+    }
+
+    /// Whether a tool offset that changes under this frame leads the tip elsewhere than the program says: what A does to the
+    /// change is not what L does.
+    pub fn tool_length_matters(&self) -> bool {
+        (self.tip.linear() - self.length).amax() > ROUNDING
     }
 
     /// Direction of a tool that stands normal to the frame's XY plane, from its tip towards the

@@ -186,6 +186,7 @@ impl Calls {
             shown.active,
             shown.tool_centre_point,
             shown.parameters_pending,
+            shown.tool_length_matters,
         ] {
             assert!((0..=1).contains(&truth));
         }

@@ -132,6 +132,30 @@ fn both_rules_of_tool_length() {
 }
 
 #[test]
+fn whether_a_changed_length_matters_is_said_by_the_rule() {
+    let shift = Operation::translate(Vector3::new(10.0, 20.0, 30.0)).unwrap();
+    let turn = rotate(LinearAxis::Y, 30.0);
+    let offset = Axes::from([1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let work = WorkOffset::new(offset, Axes::zeros(), 20.0).unwrap();
+    let rules = [ToolLength::Frame, ToolLength::Machine];
+    for (operations, expected) in [
+        (vec![shift], [false, false]),
+        (vec![turn, shift], [false, true]),
+        (vec![turn, scale(1.0, 2.0, 1.0)], [true, true]),
+        (vec![scale(1.0, 1.0, 0.5)], [true, true]),
+        (vec![Operation::mirror(MIRROR_X)], [true, true]),
+    ] {
+        let frame = fold(&operations);
+        let matters = rules.map(|rule| {
+            let tool = Axes::zeros();
+            let active = ActiveFrame::new(&frame, [false; 6], &work, &tool, rule).unwrap();
+            active.tool_length_matters()
+        });
+        assert_eq!(matters, expected, "{operations:?}");
+    }
+}
+
+#[test]
 fn the_other_axes_are_mirrored_about_the_work_offset() {
     let g5x = Axes::from([0.0, 0.0, 0.0, 10.0, 0.0, 0.0, 100.0, 0.0, 0.0]);
     let g92 = Axes::from([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);

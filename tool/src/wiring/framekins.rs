@@ -253,7 +253,7 @@ const RANGES: [&str; 4] = ["tilt-min", "tilt-max", "rotary-min", "rotary-max"];
 const INNER_ONLY: [&str; 3] = ["inner-type", "inner-type-active", "inner-refusal"];
 
 /// All others that are not in [`NETS`].
-const OTHERS: [&str; 51] = [
+const OTHERS: [&str; 52] = [
     "map.xx",
     "map.xy",
     "map.xz",
@@ -298,6 +298,7 @@ const OTHERS: [&str; 51] = [
     "releases",
     "guard.active",
     "guard.parameters-pending",
+    "guard.tool-length-matters",
     "guard.operations",
     "guard.command",
     "guard.acknowledged",

@@ -1,0 +1,73 @@
+"""Work and tool offsets that change while a frame is active: what is stopped, and what to write instead."""
+
+import unittest
+
+import harness
+from test_operation import KNOWN, OFF, Case, programs, run
+
+MACHINE = {("FRAMEPATH", "TOOL_LENGTH"): "machine"}
+BY_PARAMETER = {("KINS", "KINEMATICS"): "framekins coordinates=XYZ tool_length=machine"}
+SET = "setp framekins.tool-length-machine 1\n"
+LINKED = "net upright => framekins.tool-length-machine\nsets upright 1\n"
+
+
+def before_guard(lines):
+    """Puts lines in front of frame_guard."""
+    return lambda text: text.replace("loadusr -Wn frame-guard", f"{lines}loadusr -Wn frame-guard")
+
+
+class ToolLengthAlongTheMachine(Case):
+    TILT, LENGTH = "o<rot> call [30] [0] [0]\n", "T2 M6 G43\n"
+    TEXTS = {
+        "tilted": TILT + LENGTH + "G1 X-60\n",
+        "refreshed": TILT + LENGTH + "o<frame_refresh> call\nG1 X-10 Y0 Z0\n",
+        "shifted": "o<trans> call [0] [0] [30]\n" + LENGTH + "G1 X-10 Y0 Z0\n",
+    }
+
+    def check(self, **change):
+        steps = []
+        for name in self.TEXTS:
+            steps += [["forget"], run(name), OFF, KNOWN, ["recall", name], ["note", f"{name} after"], ["mdi", "G49"],
+                      ["mdi", "G53 G0 X0 Y0 Z0"]]
+        texts = {name: text + "o<frame_off> call\nM2\n" for name, text in self.TEXTS.items()}
+        result = harness.run(steps, programs(**texts), **change)
+        self.fine(result)
+        said = {name: "\n".join(result.answers[name]) for name in self.TEXTS}
+        self.assertIn("tool offset has changed", said["tilted"])
+        self.assertIn("tilts", said["tilted"])
+        self.assertEqual((said["refreshed"], said["shifted"]), ("", ""))
+        # 20 mm of tool, upright
+        self.at(result, "refreshed after", (-10, 0, 20))
+        self.at(result, "shifted after", (-10, 0, 50))
+
+    def test_chosen_in_the_ini(self):
+        self.check(ini=MACHINE)
+
+    def test_chosen_where_framekins_is_loaded(self):
+        self.check(ini=BY_PARAMETER)
+
+    def test_chosen_by_the_pin(self):
+        self.check(edit_hal=before_guard(SET))
+
+    def test_chosen_by_a_net(self):
+        self.check(edit_hal=before_guard(LINKED))
+
+
+class PinsOfTheGuard(unittest.TestCase):
+    def refused(self, lines, *words, ini=None):
+        with self.assertRaises(RuntimeError) as caught:
+            harness.run([], edit_hal=before_guard(lines), ini=ini, record=False)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+        self.assertNotIn("Traceback", str(caught.exception))
+
+    def test_what_it_sets_is_not_linked(self):
+        self.refused(LINKED, "framekins.tool-length-machine is linked", "[FRAMEPATH]TOOL_LENGTH = machine", ini=MACHINE)
+        self.refused("net mine => framekins.release-on-abort\n", "framekins.release-on-abort is linked", "CLEAR_ON_ABORT")
+
+    def test_what_it_links_is_not_linked(self):
+        self.refused("net mine => framekins.release\n", "framekins.release is linked", "take that net away")
+
+
+if __name__ == "__main__":
+    unittest.main()
