@@ -34,4 +34,5 @@ def work_offset_changed(due):
     """Of a move behind a work offset that the frame does not have; due: the frame has to go."""
     if due and would_jump():
         return f"the work offset has changed while a frame has to go: {JUMP}. Then touch off again"
-    return "the work offset has changed while a frame is active: call o<frame_refresh> behind the change"
+    return ("the work offset has changed while a frame is active: call o<frame_refresh> behind G54.., G10 L2, G52; to touch off "
+            "(G10 L20, G92) call o<frame_suspend> before it and o<frame_resume> behind it")

@@ -69,5 +69,40 @@ class PinsOfTheGuard(unittest.TestCase):
         self.refused("net mine => framekins.release\n", "framekins.release is linked", "take that net away")
 
 
+class TouchingOff(Case):
+    FRAME = "o<rot> call [0] [0] [90]\no<ascale> call [2] [2] [2]\nG0 X10 Y20 Z5\n"
+    END = "M66 E0 L0\n(DEBUG, AT #<_x> #<_y> #<_z>)\nG0 X0 Y0 Z0\n"
+
+    def test_between_suspend_and_resume(self):
+        ends = {"g10": "G10 L20 P1 X0 Y0 Z0\n", "g92": "G92 X0 Y0 Z0\n"}
+        texts = {name: f"{self.FRAME}o<frame_suspend> call\n{words}o<frame_resume> call\n{self.END}"
+                       "o<frame_off> call\nG10 L2 P1 X0 Y0 Z0\nG92.1\nM2\n" for name, words in ends.items()}
+        steps = []
+        for name in texts:
+            steps += [["mdi", "G53 G0 X0 Y0 Z0"], run(name), ["note", name]]
+        result = harness.run(steps, programs(**texts))
+        self.fine(result)
+        places = [[float(word) for word in words.split()[1:]] for _, words in result.messages if words.startswith("AT")]
+        self.assertEqual(len(places), 2)
+        for place in places:
+            for coordinate in place:
+                self.assertAlmostEqual(coordinate, 0, places=5)
+        for name in texts:
+            # where it was touched off
+            self.at(result, name, (-40, 20, 10))
+
+    def test_otherwise_it_is_stopped_with_the_way(self):
+        steps = []
+        texts = {"g10": "G10 L20 P1 X0 Y0 Z0\n", "g92": "G92 X0 Y0 Z0\n"}
+        for name in texts:
+            steps += [["forget"], run(name), ["recall", name]]
+        result = harness.run(steps, programs(**{name: f"{self.FRAME}{words}G1 X-60\nM2\n" for name, words in texts.items()}))
+        self.fine(result)
+        for name in texts:
+            said = "\n".join(result.answers[name])
+            self.assertIn("work offset has changed", said, name)
+            self.assertIn("o<frame_suspend> before it and o<frame_resume> behind it", said, name)
+
+
 if __name__ == "__main__":
     unittest.main()
