@@ -26,7 +26,7 @@ import linuxcnc
 
 from frame_heart import Heart
 from frame_held import Held
-from frame_offsets import SAME, Offsets, differ
+from frame_offsets import SAME, OffsetOfFrame, Offsets, differ
 from frame_settings import Settings, SettingsError
 from frame_stays import complaint, late_start, work_offset_changed
 
@@ -134,6 +134,7 @@ class Guard:
         self.status = linuxcnc.stat()
         self.command = linuxcnc.command()
         self.last = None
+        self.offset = OffsetOfFrame()
         #: why the frame has to go, None if it may stay
         self.due = None
         #: since when the interpreter has been idle behind a program
@@ -213,9 +214,14 @@ class Guard:
             self.pins["programs-ended"] += 1
 
     def follow_commands(self, now, last):
-        """Whether frames come by commands."""
+        """Whether frames come by commands, and with which work offset."""
+        self.offset.follow(now, self.offset_made())
         if now.acknowledged != last.acknowledged:
             self.commanded = True
+
+    def offset_made(self):
+        """The work offset that the frame was made with."""
+        return tuple(self.pins[f"work-offset.{k}"] for k in ("x", "y", "z", "rotation"))
 
     def find_due(self, now, last):
         """Whether the frame has to be removed."""
@@ -272,7 +278,7 @@ class Guard:
                       "frame_tool_change, or call o<frame_suspend> before M6 and o<frame_resume> after it")
         elif not self.commanded:
             return  # a frame set on the pins by hand: what it was made for is not known
-        elif now.runs and differ(now.work_offset, [self.pins[f"work-offset.{k}"] for k in ("x", "y", "z", "rotation")]):
+        elif now.runs and self.offset.has_changed(now, self.offset_made()):
             self.stop(work_offset_changed(self.due is not None))
         elif self.pins["tool-length-matters"] and differ(now.tool_offset, [self.pins[f"frame-tool-offset.{k}"] for k in "xyz"]):
             self.stop("the tool offset has changed while a frame with a scale or a mirror is active, or one that tilts or "

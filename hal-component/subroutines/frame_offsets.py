@@ -1,4 +1,5 @@
-"""Work offsets that were set while a frame had to go: they were taken at a place that is none any more."""
+"""Work offsets that change under a frame, and those that were set while it had to go: they were taken at a place that is none
+any more."""
 
 #: offsets that differ by less are equal, machine units or degrees
 SAME = 1e-6
@@ -35,6 +36,28 @@ class Offsets:
         words = [f"{letter}{value if letter in ANGLES else value / unit:.9f}"
                  for axis, (letter, value) in enumerate(zip(AXES, self.g5x, strict=True)) if status.axis_mask >> axis & 1]
         return f"G10 L2 P{self.index} {' '.join(words)} R{self.rotation:.9f}"
+
+
+class OffsetOfFrame:
+    """Whether another work offset counts than the frame was made with.
+
+    Behind a startup code that chooses or sets one (RS274NGC_STARTUP_CODE) LinuxCNC's status does not have it before a program
+    or MDI does: what it says while the frame is made is no change for as long as it says that."""
+
+    def __init__(self):
+        self.frame = None
+        self.said = None
+
+    def follow(self, now, made):
+        """One look; made: what the frame in force was made with."""
+        said = (now.offsets.index, *now.work_offset)
+        if (now.active, made) != self.frame:
+            self.frame, self.said = (now.active, made), said
+        elif said != self.said:
+            self.said = None
+
+    def has_changed(self, now, made):
+        return self.said is None and differ(now.work_offset, made)
 
 
 def differ(one, other):

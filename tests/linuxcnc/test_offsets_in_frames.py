@@ -69,6 +69,25 @@ class PinsOfTheGuard(unittest.TestCase):
         self.refused("net mine => framekins.release\n", "framekins.release is linked", "take that net away")
 
 
+class StartupCode(Case):
+    """LinuxCNC's status does not have the work offset of its startup code."""
+
+    CODE = "G17 G21 G40 G49 G54 G61.1 G80 G90 G94 G10 L2 P1 X10"
+    FRAME = "G90 G17 G61.1\no<trans> call [1] [2] [0]\nG1 X5 Y0 F600\n"
+
+    def test_its_work_offset_is_no_change(self):
+        texts = {"stays": self.FRAME, "changes": self.FRAME + "G10 L2 P1 X20\nG1 X6\n"}
+        steps = []
+        for name in texts:
+            steps += [["forget"], run(name), ["note", name], OFF, KNOWN, ["recall", name]]
+        result = harness.run(steps, programs(**{name: text + "o<frame_off> call\nM2\n" for name, text in texts.items()}),
+                             ini={("RS274NGC", "RS274NGC_STARTUP_CODE"): self.CODE})
+        self.fine(result)
+        said = {name: "\n".join(result.answers[name]) for name in texts}
+        self.assertEqual(said["stays"], "")
+        self.assertIn("work offset has changed", said["changes"])
+
+
 class TouchingOff(Case):
     FRAME = "o<rot> call [0] [0] [90]\no<ascale> call [2] [2] [2]\nG0 X10 Y20 Z5\n"
     END = "M66 E0 L0\n(DEBUG, AT #<_x> #<_y> #<_z>)\nG0 X0 Y0 Z0\n"
