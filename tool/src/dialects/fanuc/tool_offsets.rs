@@ -80,12 +80,7 @@ impl Interpreter<'_> {
         if active == value {
             return Ok(());
         }
-        if active != Compensation::Off {
-            return Err(
-                Diagnostic::error(span, "the other side while cutter compensation is on")
-                    .help("end the compensation with G40 before"),
-            );
-        }
+        self.control.refuse_compensation(span, "the other side")?;
         let Some(row) = self.offsets.radius_row.filter(|row| *row > 0) else {
             return Err(
                 Diagnostic::error(span, "cutter compensation without an offset")
