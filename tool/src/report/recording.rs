@@ -329,6 +329,10 @@ pub mod tests {
         assert!(damaged("0.004,2,6").starts_with("run.csv:6: 3 fields, but the header has 5"));
         assert!(damaged("0.003,2,6,0,0").starts_with("run.csv:6: time 0.003 s does not come"));
         assert!(damaged("0.004,2.5,6,0,0").starts_with("run.csv:6: `2.5` is not a whole number"));
+        for end in ["\r\n", "\r"] {
+            let text = format!("{HEADER}{ROWS}0.004,2,6,nan,0\n").replace('\n', end);
+            assert_eq!(message(text), "run.csv:6: `nan` is not a finite number");
+        }
         assert!(message(HEADER.to_owned()).starts_with("run.csv:1: the recording ends here"));
         assert!(message("time,id,line\n".to_owned()).starts_with("run.csv:1: column `joint.0`"));
         assert!(message("time,id,line,joint.1\n".to_owned()).contains("`joint.1` is not expected"));

@@ -1,4 +1,5 @@
 //! Lines as long as those of a recording may be: what has no end of line is not gathered until memory is used up.
+//! Each ends with LF, whatever the file has: the CSV reader counts a line that ends with CR LF when it has begun the next.
 
 use std::error::Error;
 use std::fmt;
@@ -14,6 +15,8 @@ pub struct ShortLines<R> {
     line: u64,
     /// How long it is so far, bytes.
     length: usize,
+    /// The byte before was CR: it has ended a line.
+    after_return: bool,
 }
 
 impl<R: Read> ShortLines<R> {
@@ -23,13 +26,36 @@ impl<R: Read> ShortLines<R> {
             from,
             line: 1,
             length: 0,
+            after_return: false,
         }
+    }
+
+    /// Makes CR LF and CR to LF; returns how many bytes are left.
+    fn end_lines(&mut self, bytes: &mut [u8]) -> usize {
+        let mut kept = 0;
+        for index in 0..bytes.len() {
+            let byte = bytes[index];
+            let ended = std::mem::replace(&mut self.after_return, byte == b'\r');
+            if byte == b'\n' && ended {
+                continue;
+            }
+            bytes[kept] = if byte == b'\r' { b'\n' } else { byte };
+            kept += 1;
+        }
+        kept
     }
 }
 
 impl<R: Read> Read for ShortLines<R> {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
-        let length = self.from.read(into)?;
+        let length = loop {
+            let read = self.from.read(into)?;
+            let kept = self.end_lines(&mut into[..read]);
+            // Nothing is left of a lone LF, and nothing would be the end.
+            if kept > 0 || read == 0 {
+                break kept;
+            }
+        };
         for piece in into[..length].split_inclusive(|&byte| byte == b'\n') {
             self.length += piece.len();
             if self.length > LONGEST {
