@@ -3,10 +3,9 @@
 //! Fits into LinuxCNC's `[FILTER]`: the program goes to standard output, and only when all of it
 //! could be translated; progress and errors go to standard error.
 
-mod ini;
 mod options;
 
-pub use options::{Backend, EncodingChoice, FilterArguments, PathMode};
+pub use options::{Backend, FilterArguments, PathMode};
 
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::control::About;
@@ -63,7 +62,7 @@ pub fn filter(
     tell(Told::Progress(0));
     let refused = |problem| Refused(format!("error: {problem}\n"));
     arguments.contradiction().map_err(refused)?;
-    arguments.folders().map_err(refused)?;
+    arguments.program.folders().map_err(refused)?;
     let settings = arguments
         .settings()
         .map_err(|error| Refused(format!("error: {error}\n")))?;

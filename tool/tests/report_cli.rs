@@ -306,6 +306,47 @@ fn unusable_files_are_refused_with_file_line_and_remedy() {
     assert!(bench.refused(&[]).contains("bench.ini: cannot be read"));
 }
 
+/// As `framepath filter` takes it on the machine: in its unit, with its tools, and with the same options.
+#[test]
+fn a_program_in_its_dialect_is_read_as_it_was_filtered() {
+    let run = constant_jerk_run(20000.0);
+    let compared = |bench: &Bench, program: &str, more: &[&str]| {
+        std::fs::write(bench.path().join("part.mpf"), program).expect("written");
+        let options = ["--tolerance", "0.001", "--dialect"];
+        bench.json(&[&options[..], more, &["part.mpf"]].concat())
+    };
+    let follows = |bench: &Bench, program: &str, more: &[&str]| {
+        let figures = compared(bench, program, more);
+        assert_eq!(figures["verdict"], "pass", "{figures}");
+    };
+    let bench = Bench::new(&run, INI);
+    follows(
+        &bench,
+        "G1 F6000 X=R5\nM2\n",
+        &["sinumerik", "--set", "R5=2.56"],
+    );
+    let increments = ["fanuc", "--decimal-point", "increments"];
+    follows(&bench, "G1 F6000 X2560\nM2\n", &increments);
+    let inches = INI.replace("LINEAR_UNITS = mm", "LINEAR_UNITS = inch");
+    let inches = inches + "[EMCIO]\nTOOL_TABLE = tool.tbl\n";
+    let bench = Bench::new(&run, &inches);
+    std::fs::write(bench.path().join("tool.tbl"), "T4 P4 D1 ;MILL_6\n").expect("written");
+    follows(
+        &bench,
+        "G70\nT=\"MILL_6\"\nM6\nG1 F60 X2.56\nM2\n",
+        &["sinumerik"],
+    );
+
+    std::fs::write(bench.path().join("part.mpf"), "G1 F9\nG41 D1 X9\nG40\nM2\n").expect("written");
+    let said = bench.refused(&["--dialect", "sinumerik", "part.mpf"]);
+    assert!(
+        said.contains("part.mpf:2:") && said.contains("leave --dialect"),
+        "{said}"
+    );
+    let said = bench.refused(&["--set", "R5=1", "part.mpf"]);
+    assert!(said.contains("need --dialect"), "{said}");
+}
+
 #[test]
 fn a_report_that_cannot_be_written_leaves_nothing() {
     let bench = Bench::new(&constant_jerk_run(20000.0), INI);

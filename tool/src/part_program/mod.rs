@@ -10,6 +10,7 @@ use crate::dialects::settings::Settings;
 use crate::dialects::{Dialect, evaluate};
 use crate::program::contour::ContourMove;
 use crate::program::trace::{self, Setup, TraceError};
+use crate::program::{Action, Compensation, Program};
 use crate::source::Sources;
 use std::path::Path;
 
@@ -39,6 +40,7 @@ pub fn contour(
         &mut sources,
         &mut diagnostics,
     );
+    diagnostics.append(compensated(&program));
     if diagnostics.errors() > 0 {
         return Err(refusal(&diagnostics, &sources));
     }
@@ -50,6 +52,25 @@ pub fn contour(
         diagnostics.push(Diagnostic::error(origin.span, message));
         refusal(&diagnostics, &sources)
     })
+}
+
+/// That the radius of a tool decides where the machine goes, and the path is that without it: where it begins to.
+fn compensated(program: &Program) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    let on =
+        |action: &Action| matches!(action, Action::Compensation(on) if *on != Compensation::Off);
+    let first = program
+        .blocks
+        .iter()
+        .find(|block| block.actions.iter().any(on));
+    if let Some(block) = first {
+        let message = "the path of the tool beside the programmed one (G41, G42) is not worked out here, so that nothing can be \
+                       compared with it";
+        diagnostics.push(Diagnostic::error(block.origin.span, message).help(
+            "leave --dialect and --tolerance out: limits are judged without them; or record a program without G41 and G42",
+        ));
+    }
+    diagnostics
 }
 
 /// All errors, and how many there are.

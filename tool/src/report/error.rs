@@ -29,6 +29,9 @@ pub enum ReportError {
         .0.display()
     )]
     Overwritten(PathBuf),
+    /// An option that does not go with the others.
+    #[error("{0}")]
+    Option(String),
     /// The INI file cannot be used.
     #[error(transparent)]
     Ini(#[from] IniError),

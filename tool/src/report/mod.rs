@@ -25,7 +25,7 @@ pub use error::ReportError;
 
 use crate::arguments::{file_name, positive};
 use crate::dialects::Dialect;
-use crate::dialects::settings::Settings;
+use crate::dialects::program_options::ProgramOptions;
 use crate::encoding::decode;
 use crate::format::significant;
 use crate::json;
@@ -34,6 +34,7 @@ use crate::machine::ini::Ini;
 use crate::machine::warn_of;
 use crate::output::{OutputFile, overwrites};
 use crate::part_program::contour;
+use crate::program::contour::ContourMove;
 use crate::program::trace::Setup;
 use page::Listing;
 use recording::Recording;
@@ -75,6 +76,9 @@ pub struct ReportArguments {
     /// Without it PROGRAM is what LinuxCNC ran, and is only listed
     #[arg(long, value_enum, value_name = "DIALECT", requires = "program")]
     pub dialect: Option<Dialect>,
+    /// How the program is read.
+    #[command(flatten)]
+    pub reading: ProgramOptions,
     /// Program that was recorded
     #[arg(value_name = "PROGRAM")]
     pub program: Option<PathBuf>,
@@ -87,14 +91,9 @@ pub struct ReportArguments {
 /// # Errors
 /// Unreadable or unusable files; then there is no output at all.
 pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
-    let contour = match (arguments.dialect, &arguments.program) {
-        (Some(dialect), Some(program)) => {
-            contour(dialect, program, &Settings::default(), &Setup::default())?
-        }
-        _ => Vec::new(),
-    };
     let ini = Ini::read(&arguments.ini)?;
     let machine = Machine::from_ini(&ini)?;
+    let contour = programmed(arguments, &machine)?;
     refuse_to_overwrite(arguments, &ini)?;
     let members = machine.joints.iter().chain(&machine.axes);
     warn_of(ini.passed_over());
@@ -146,6 +145,29 @@ pub fn run(arguments: &ReportArguments) -> Result<(), ReportError> {
         }
         _ => Ok(()),
     }
+}
+
+/// The path that the program has in its dialect, as it was given to `framepath filter` on this machine; empty without a dialect.
+fn programmed(
+    arguments: &ReportArguments,
+    machine: &Machine,
+) -> Result<Vec<ContourMove>, ReportError> {
+    let options = &arguments.reading;
+    let (Some(dialect), Some(program)) = (arguments.dialect, &arguments.program) else {
+        return match options.is_default() {
+            true => Ok(Vec::new()),
+            false => Err(ReportError::Option(
+                "options that say how PROGRAM is read need --dialect, without which it is only listed: \
+                 name its dialect, or leave them out"
+                    .to_owned(),
+            )),
+        };
+    };
+    options.contradiction().map_err(ReportError::Option)?;
+    options.folders().map_err(ReportError::Option)?;
+    let in_inch = machine.length_unit == "in";
+    let settings = options.settings(program, Some(arguments.ini.clone()), in_inch)?;
+    Ok(contour(dialect, program, &settings, &Setup::default())?)
 }
 
 /// The page may not take the place of what the report is made from.
