@@ -28,6 +28,17 @@ pub enum CompareError {
         /// All names.
         known: String,
     },
+    /// The operator holds the machine, and lets it go never.
+    #[error(
+        "{option} {time}:0 holds the machine for good, so that no program comes to its end: write a further {option} \
+         above 0 at a later time, or --abort"
+    )]
+    HeldForGood {
+        /// The option.
+        option: &'static str,
+        /// Seconds.
+        time: f64,
+    },
     /// The program cannot be read.
     #[error(transparent)]
     Canon(#[from] CanonError),

@@ -100,7 +100,7 @@ pub struct CompareArguments {
         default_value = "unlimited"
     )]
     pub jerk: Vec<Jerk>,
-    /// Raise every F to at least this
+    /// Raise every F to at least this; feeds per turn (G95) stay as they are
     #[arg(long, value_name = "MM_MIN", value_parser = rate)]
     pub feed_at_least: Option<f64>,
     /// Servo period [default: 0.001]
@@ -236,6 +236,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), CompareError> {
     let limits = conditions.limits;
     let subjects = subjects(arguments, limits, &conditions.start)?;
     let events = events(arguments);
+    refuse_to_hold(&events)?;
     let runner = Runner::new(arguments, &conditions, &events)?;
     let mut output = std::io::stdout().lock();
     if !arguments.json {
@@ -339,7 +340,7 @@ fn not_done(programs: &[ProgramRuns]) -> Vec<String> {
 /// Under what conditions the modules are compared.
 fn headline(arguments: &CompareArguments, conditions: &Conditions) -> String {
     let feed = match arguments.feed_at_least {
-        Some(feed) => format!("every F raised to {feed} mm/min at least"),
+        Some(feed) => format!("every F but that of G95 raised to {feed} mm/min at least"),
         None => "F as programmed".to_owned(),
     };
     let limits = &conditions.limits_from;
@@ -373,6 +374,27 @@ fn headline(arguments: &CompareArguments, conditions: &Conditions) -> String {
         text += &format!("; feed override up to {percent} %");
     }
     text
+}
+
+/// A machine that is held for good does not come to the end of its program, whichever planner it has.
+fn refuse_to_hold(events: &[Event]) -> Result<(), CompareError> {
+    let mut held = None;
+    for event in events {
+        held = match event.action {
+            Action::Abort => return Ok(()),
+            Action::FeedOverride(0.0) => Some(("--feed-override", event.time)),
+            Action::MaxVelocity(0.0) => {
+                Some(("--max-velocity", event.time))
+            }
+            Action::FeedOverride(_) => held.filter(|(option, _)| *option != "--feed-override"),
+            Action::MaxVelocity(_) => held.filter(|(option, _)| *option != "--max-velocity"),
+            Action::Pause(_) => held,
+        };
+    }
+    match held {
+        None => Ok(()),
+        Some((option, time)) => Err(CompareError::HeldForGood { option, time }),
+    }
 }
 
 /// What the operator does, in the order of time.

@@ -84,6 +84,21 @@ impl Arrivals {
         self.now.scale
     }
 
+    /// Whether they hold the machine, which has moves to go.
+    ///
+    /// # Errors
+    /// If nothing lets it go any more.
+    pub fn hold(&self) -> Result<bool, PlanError> {
+        if self.scale() > 0.0 || self.passed < self.changes.len() {
+            return Ok(self.scale() == 0.0);
+        }
+        Err(PlanError::Option(format!(
+            "{}: holds the machine for good from cycle {} on, with moves to go: add a line whose scale is above 0",
+            self.file.display(),
+            self.now.cycle
+        )))
+    }
+
     /// What to say when the program has more moves than were recorded.
     ///
     /// # Errors

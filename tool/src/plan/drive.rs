@@ -458,7 +458,8 @@ impl<'a> Drive<'a> {
             self.last_change = self.cycle;
             self.last_position = status.position;
         }
-        if self.cycle - self.last_change > STUCK {
+        let held = || self.arrivals.as_ref().map_or(Ok(false), Arrivals::hold);
+        if self.cycle - self.last_change > STUCK && !held()? {
             let why = if status.waiting_for_index {
                 "it waits for the index of a spindle that does not turn"
             } else {

@@ -93,6 +93,27 @@ fn values_that_make_no_sense() {
     }
 }
 
+#[test]
+fn an_operator_who_holds_the_machine_for_good() {
+    let bench = Bench::new();
+    let refused =
+        |more: &[&str]| bench.refused(&[&["--generated=zigzag", "--with", STOCK], more].concat());
+    for option in ["--feed-override", "--max-velocity"] {
+        let message = refused(&["--pause", "0.1:0.1", option, "0.2:0"]);
+        let start = format!("{option} 0.2:0 holds the machine for good");
+        assert!(message.starts_with(&start), "{message}");
+    }
+    let file = bench.write("program.ngc", "G21 G64 P0.1 F6000\nG1 X20\nM2\n");
+    let file = file.display().to_string();
+    for more in [
+        &["--feed-override", "0.1:0", "--feed-override", "0.2:1"][..],
+        &["--max-velocity", "0.1:0", "--abort", "0.3"],
+    ] {
+        let output = bench.compare(&[&[file.as_str(), "--with", STOCK], more].concat());
+        assert!(output.status.success(), "{output:?}");
+    }
+}
+
 /// The first of several modules is what the others are compared with, and is not judged.
 #[test]
 fn what_a_module_does_not_keep_is_an_exit_status() {

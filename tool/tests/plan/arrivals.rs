@@ -73,6 +73,26 @@ fn a_full_queue_is_the_same_as_a_hold_until_nothing_more_comes() {
 }
 
 #[test]
+fn a_hold_for_good_is_no_fault_of_the_planner() {
+    let bench = Bench::new();
+    bench.write("mill.ini", MILL);
+    bench.write("part.ngc", PROGRAM);
+    bench.write("arrivals.txt", "0 5 1\n100 5 0\n");
+    let arguments = [
+        "part.ngc",
+        "--ini",
+        "mill.ini",
+        "--arrivals",
+        "arrivals.txt",
+    ];
+    let error = bench.refused(&arguments);
+    assert!(
+        error.starts_with("arrivals.txt: holds the machine for good from cycle 100 on"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_recording_of_another_program_is_refused() {
     let bench = Bench::new();
     bench.write("mill.ini", MILL);
