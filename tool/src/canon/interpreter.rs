@@ -7,6 +7,7 @@ use super::timed::Timed;
 use crate::memory_file::MemoryFile;
 use crate::path::Position;
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -156,6 +157,8 @@ pub struct CallStream {
     complaints: Option<JoinHandle<String>>,
     line: Vec<u8>,
     ended: bool,
+    /// The files of subroutines that were read so far.
+    read: BTreeSet<PathBuf>,
     /// Whether there is an INI file.
     has_ini: bool,
     /// The interpreter's files, there as long as it runs; after `child`, which ends first.
@@ -213,6 +216,7 @@ impl CallStream {
             complaints: Some(complaints),
             line: Vec::new(),
             ended: false,
+            read: BTreeSet::new(),
             has_ini: surroundings.ini.is_some(),
             _home: home,
         })
@@ -231,6 +235,11 @@ impl CallStream {
         self
     }
 
+    /// The files of subroutines that were read so far.
+    pub fn read(&self) -> &BTreeSet<PathBuf> {
+        &self.read
+    }
+
     /// The next line that the interpreter prints, `None` at the end of its output.
     fn read_line(&mut self) -> io::Result<Option<Cow<'_, str>>> {
         self.line.clear();
@@ -243,7 +252,7 @@ impl CallStream {
 
     fn next_call(&mut self) -> Result<Option<Call>, CanonError> {
         let line = match self.read_line() {
-            Ok(Some(line)) => line,
+            Ok(Some(line)) => line.into_owned(),
             Ok(None) => return Err(self.broken("")),
             Err(error) if error.kind() == io::ErrorKind::TimedOut => {
                 return Err(CanonError::Slow {
@@ -259,7 +268,10 @@ impl CallStream {
         if line == "END" {
             return Ok(None);
         }
-        let line = line.into_owned();
+        if let Some(file) = line.strip_prefix("READ ") {
+            self.read.insert(PathBuf::from(file));
+            return self.next_call();
+        }
         let Some(refused) = line.strip_prefix("REFUSED ") else {
             return Err(self.broken(&line));
         };

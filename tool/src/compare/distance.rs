@@ -2,10 +2,11 @@
 
 use crate::canon::call::PathMode;
 use crate::host::recording::{Sample, moves, step};
-use crate::layer::program::{Piece, Program};
+use crate::layer::program::{Operation, Piece, Program, Shape};
 use crate::path::exceeded::is_beyond;
 use crate::path::segment::{Segment, largest_difference};
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// Moves on each side of the one that runs in which the path is looked for.
 const NEIGHBOURS: usize = 2;
@@ -75,16 +76,14 @@ pub(crate) struct Path<'a> {
     /// Length before each piece, and at the end.
     before: Vec<f64>,
     all_axes: bool,
+    /// Moves that tap.
+    taps: HashSet<usize>,
 }
 
 impl<'a> Path<'a> {
     /// The path as programmed.
     pub(crate) fn programmed(program: &'a Program) -> Path<'a> {
-        Path::new(
-            &program.programmed,
-            program.ranges.clone(),
-            program.other_axes,
-        )
+        Path::new(program, &program.programmed, program.ranges.clone())
     }
 
     /// The path as it was handed to the planner: after merging.
@@ -92,10 +91,10 @@ impl<'a> Path<'a> {
         let ranges = (0..program.handed.len())
             .map(|index| (index, index))
             .collect();
-        Path::new(&program.handed, ranges, program.other_axes)
+        Path::new(program, &program.handed, ranges)
     }
 
-    fn new(pieces: &'a [Piece], ranges: Vec<(usize, usize)>, all_axes: bool) -> Path<'a> {
+    fn new(program: &Program, pieces: &'a [Piece], ranges: Vec<(usize, usize)>) -> Path<'a> {
         let mut before = vec![0.0];
         let mut length = 0.0;
         for piece in pieces {
@@ -109,8 +108,19 @@ impl<'a> Path<'a> {
             pieces,
             ranges,
             before,
-            all_axes,
+            all_axes: program.other_axes,
+            taps: taps(program),
         }
+    }
+
+    /// How far a position is from a piece. Beyond the ends of a tap the machine follows its spindle while that turns back.
+    fn distance(&self, piece: &Piece, sample: &Sample) -> f64 {
+        let runs = || usize::try_from(sample.id).ok() == Some(piece.move_index + 1);
+        let segment = match self.taps.contains(&piece.move_index) && runs() {
+            true => &piece.segment.beyond_both_ends(),
+            false => &piece.segment,
+        };
+        segment.deviation(&sample.position, self.all_axes).0
     }
 
     fn is_empty(&self) -> bool {
@@ -168,6 +178,16 @@ impl<'a> Path<'a> {
     }
 }
 
+/// The moves that tap.
+fn taps(program: &Program) -> HashSet<usize> {
+    let moves = program.operations.iter();
+    let tap = |operation: &Operation| match operation {
+        Operation::Move(a_move) if a_move.shape == Shape::Tap => Some(a_move.index),
+        _ => None,
+    };
+    moves.filter_map(tap).collect()
+}
+
 /// The executed path, matched with a path to compare with.
 pub(crate) struct Matched<'a> {
     samples: &'a [Sample],
@@ -193,7 +213,7 @@ pub(crate) fn executed_to_path<'a>(path: &Path, samples: &'a [Sample]) -> (Dista
         let mut best = (f64::INFINITY, last);
         let mut look = |from: usize, to: usize| {
             for (index, piece) in path.pieces.iter().enumerate().take(to + 1).skip(from) {
-                let found = piece.segment.deviation(&sample.position, path.all_axes).0;
+                let found = path.distance(piece, sample);
                 if found < best.0 {
                     best = (found, index);
                 }

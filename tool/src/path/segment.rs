@@ -43,6 +43,17 @@ impl Segment {
         }
     }
 
+    /// The line that goes on at either end, ten times as far: a tap follows its spindle there while that turns back.
+    pub(crate) fn beyond_both_ends(&self) -> Segment {
+        let beyond = |from: &Position, to: &Position| -> Position {
+            std::array::from_fn(|axis| to[axis] + 10.0 * (to[axis] - from[axis]))
+        };
+        Segment::line(
+            beyond(&self.end, &self.start),
+            beyond(&self.start, &self.end),
+        )
+    }
+
     /// `turns` as in the canonical call: its sign is the sense about the normal, its amount the
     /// turns begun.
     pub(crate) fn arc(

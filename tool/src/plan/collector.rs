@@ -110,6 +110,8 @@ impl Seen {
 struct Known {
     index: usize,
     line: i32,
+    /// Whether that is a line of the program, not of a file of subroutines.
+    of_program: bool,
     is_rapid: bool,
     /// What F asks for where the move cuts: a feed move of a linear axis; machine units a minute.
     cutting_feed: Option<f64>,
@@ -137,8 +139,10 @@ pub struct Collected {
     pub axes: Seen,
     /// Of joints that have limits of their own.
     pub joints: Option<Seen>,
-    /// Speed along the path.
+    /// Speed along the path, of linear axes.
     pub speed: Peak,
+    /// Where only rotary axes move, degrees per second.
+    pub turning: Peak,
     /// Travel in X Y Z, machine units.
     pub length: f64,
     /// Distance from the program.
@@ -219,6 +223,7 @@ impl<'a> Collector<'a> {
                 axes: Seen::at(start),
                 joints: of_joints.map(Seen::at),
                 speed: Peak::default(),
+                turning: Peak::default(),
                 length: 0.0,
                 deviation: Deviation::default(),
                 places: Vec::new(),
@@ -236,6 +241,7 @@ impl<'a> Collector<'a> {
         self.known.push_back(Known {
             index: handed.a_move.index,
             line: handed.a_move.line,
+            of_program: handed.a_move.is_of_program(),
             is_rapid: handed.a_move.motion_type == MotionType::Traverse,
             cutting_feed: is_cutting(handed).then(|| 60.0 * velocity / self.setup.millimetres),
             asked: Asked {
@@ -284,7 +290,7 @@ impl<'a> Collector<'a> {
             self.extend_box(&before, &position);
         }
         let line = self.running.map_or(0, |known| known.line);
-        let speed = speed(&rates);
+        let (speed, turning) = speed(&rates);
         let pace = Pace {
             time: sample.time,
             duration: self.setup.period,
@@ -295,11 +301,17 @@ impl<'a> Collector<'a> {
             },
             speed,
             line,
+            of_program: self.running.is_none_or(|known| known.of_program),
             position,
             phase,
             cause,
         };
         self.count(&pace, &rates, moves);
+        let peak = match turning {
+            true => &mut self.out.turning,
+            false => &mut self.out.speed,
+        };
+        peak.note(pace.speed, pace.time, pace.line);
         if let (Some(seen), Some((rates, _))) = (&mut self.out.joints, &joints) {
             seen.note(rates, &pace);
         }
@@ -352,7 +364,6 @@ impl<'a> Collector<'a> {
             self.enter(pace);
         }
         self.out.axes.note(rates, pace);
-        self.out.speed.note(pace.speed, pace.time, pace.line);
     }
 
     fn enter(&mut self, pace: &Pace) {
@@ -379,7 +390,8 @@ impl<'a> Collector<'a> {
             point: [x, y, z],
             time: pace.time,
             speed: pace.speed as f32,
-            line: pace.line,
+            // Those of other files are not in the listing.
+            line: if pace.of_program { pace.line } else { 0 },
             is_rapid: self.running.is_some_and(|known| known.is_rapid),
             cause: pace.cause.index() as u8,
         });
@@ -411,16 +423,16 @@ fn is_cutting(handed: &Handed) -> bool {
     fed && handed.pieces.iter().any(travels)
 }
 
-/// In X Y Z, else in U V W, else in A B C: the group that F counts.
-fn speed(rates: &Rates) -> f64 {
+/// In X Y Z, else in U V W, else in A B C: the group that F counts; and whether it is the last.
+fn speed(rates: &Rates) -> (f64, bool) {
     let velocity = &rates.orders[0];
     let size = |group: std::ops::Range<usize>| -> f64 {
         let square: f64 = velocity[group].iter().map(|v| v * v).sum();
         square.sqrt()
     };
-    [0..3, 6..9, 3..6]
+    [(0..3, false), (6..9, false), (3..6, true)]
         .into_iter()
-        .map(size)
-        .find(|speed| *speed > 1e-9)
-        .unwrap_or(0.0)
+        .map(|(group, turning)| (size(group), turning))
+        .find(|(speed, _)| *speed > 1e-9)
+        .unwrap_or((0.0, false))
 }

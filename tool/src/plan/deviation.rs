@@ -2,7 +2,7 @@
 
 use super::drive::Handed;
 use crate::canon::call::PathMode;
-use crate::layer::program::Piece;
+use crate::layer::program::{Piece, Shape};
 use crate::path::Position;
 use crate::path::exceeded::is_beyond;
 use crate::path::segment::Segment;
@@ -84,6 +84,8 @@ struct Tracked {
     piece: Piece,
     /// The same with C counting as much as it turns the tool.
     counted: Segment,
+    /// What the machine may be on while it taps here: it follows its spindle beyond either end while that turns back.
+    tapped: Option<Segment>,
     /// What a degree of C counts.
     turn_share: f64,
     /// Distance of its end from the planned path so far.
@@ -177,13 +179,16 @@ impl Follower {
                 merged = merged.max(beside.piece.merged_within);
                 beside.merged = beside.merged.max(piece.merged_within);
             }
+            let counted = Segment {
+                start: with_turn(&piece.segment.start, turn_share),
+                end: with_turn(&piece.segment.end, turn_share),
+                ..piece.segment
+            };
             self.pieces.push_back(Tracked {
                 piece: *piece,
-                counted: Segment {
-                    start: with_turn(&piece.segment.start, turn_share),
-                    end: with_turn(&piece.segment.end, turn_share),
-                    ..piece.segment
-                },
+                counted,
+                tapped: matches!(handed.a_move.shape, Shape::Tap)
+                    .then(|| counted.beyond_both_ends()),
                 turn_share,
                 end_missed: f64::INFINITY,
                 tolerance: own.zip(before).map(|(own, before)| own.max(before)),
@@ -318,7 +323,9 @@ impl Follower {
         let away = |index: usize| {
             let tracked = self.pieces.get(index)?;
             let position = with_turn(position, tracked.turn_share);
-            Some(tracked.counted.deviation(&position, self.all_axes).0)
+            let runs = tracked.piece.move_index == self.running;
+            let segment = tracked.tapped.filter(|_| runs).unwrap_or(tracked.counted);
+            Some(segment.deviation(&position, self.all_axes).0)
         };
         let first = self.near.saturating_sub(NEAR);
         let mut best = (first, away(first)?);

@@ -37,6 +37,8 @@ impl CuttingTime {
 pub struct Stretch {
     /// Where it is slowest.
     pub line: i32,
+    /// Whether that is a line of the program, not of a file of subroutines.
+    pub of_program: bool,
     /// First line.
     pub first_line: i32,
     /// Last line.
@@ -101,6 +103,7 @@ impl Evenness {
         } = self.stretch.get_or_insert(Begun {
             stretch: Stretch {
                 line: pace.line,
+                of_program: pace.of_program,
                 first_line: pace.line,
                 last_line: pace.line,
                 time: pace.time,
@@ -117,6 +120,7 @@ impl Evenness {
         if dip.note(pace.share_of_feed) {
             stretch.least_share = pace.share_of_feed;
             stretch.line = pace.line;
+            stretch.of_program = pace.of_program;
             stretch.time = pace.time;
         }
     }
@@ -186,6 +190,7 @@ mod tests {
             share_of_feed,
             speed: 10.0 * share_of_feed,
             line,
+            of_program: true,
             position: [0.0; 9],
             phase: Phase::Turning,
             cause: Cause::Between,

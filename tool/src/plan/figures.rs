@@ -8,6 +8,7 @@ use super::findings;
 use super::joints;
 use super::places::Place;
 use super::setup::Setup;
+use super::speed::{DrawnSpeed, SpeedFigure};
 use crate::path::rates::Quantity;
 use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
 use serde::Serialize;
@@ -64,17 +65,6 @@ pub struct AxisFigures {
     pub to: f64,
     /// Velocity, acceleration, jerk.
     pub peaks: Vec<PeakFigure>,
-}
-
-/// The greatest speed along the path.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct SpeedFigure {
-    /// Machine units per second.
-    pub value: f64,
-    /// s.
-    pub time: f64,
-    /// Line of the program.
-    pub line: i32,
 }
 
 /// The spindle under constant surface speed (G96), while the machine moves.
@@ -134,6 +124,8 @@ pub struct PlaceFigure {
     pub lines: [i32; 2],
     /// Text of the line, empty if it is not known.
     pub text: String,
+    /// Whether lines are those of the program, not of a file of subroutines.
+    pub of_program: bool,
     /// s.
     pub time: f64,
     /// s.
@@ -182,6 +174,8 @@ pub struct BelowFigure {
     pub lines: [i32; 2],
     /// Text of the line, empty if it is not known.
     pub text: String,
+    /// Whether lines are those of the program, not of a file of subroutines.
+    pub of_program: bool,
     /// When it is slowest, s.
     pub time: f64,
     /// s.
@@ -234,6 +228,9 @@ pub struct Figures {
     pub path_length: f64,
     /// Along the path.
     pub greatest_speed: SpeedFigure,
+    /// For drawings.
+    #[serde(skip)]
+    pub drawn_speed: DrawnSpeed,
     /// The spindle under constant surface speed; `None`: there is none. Put in by the caller.
     pub surface_speed: Option<SurfaceFigures>,
     /// Where the time goes.
@@ -302,11 +299,8 @@ impl Figures {
             moves,
             handed_over,
             path_length: collected.length,
-            greatest_speed: SpeedFigure {
-                value: collected.speed.value,
-                time: collected.speed.time,
-                line: collected.speed.line,
-            },
+            greatest_speed: SpeedFigure::new(setup, collected),
+            drawn_speed: DrawnSpeed::new(setup, collected),
             surface_speed: None,
             phases: phases.into(),
             limited_by,
@@ -332,6 +326,7 @@ fn below_figure(stretch: &Stretch) -> BelowFigure {
         line: stretch.line,
         lines: [stretch.first_line, stretch.last_line],
         text: String::new(),
+        of_program: stretch.of_program,
         time: stretch.time,
         duration: stretch.duration,
         least_share: stretch.least_share,
@@ -359,6 +354,7 @@ fn place_figure(place: &Place) -> PlaceFigure {
         line: place.line,
         lines: [place.first_line, place.last_line],
         text: String::new(),
+        of_program: place.of_program,
         time: place.time,
         duration: place.duration,
         lost: place.lost,

@@ -27,8 +27,25 @@ pub struct Listing {
 }
 
 impl Listing {
+    /// Writes the lines into the figures, where they are of the program.
+    pub fn put_into(&self, figures: &mut Figures) {
+        for place in &mut figures.slowest {
+            place.text = self.text_of(place.line, place.of_program);
+        }
+        for stretch in &mut figures.evenness.below {
+            stretch.text = self.text_of(stretch.line, stretch.of_program);
+        }
+    }
+
+    fn text_of(&self, line: i32, of_program: bool) -> String {
+        match of_program {
+            true => self.text(line),
+            false => String::new(),
+        }
+    }
+
     /// A line, empty if it is not kept.
-    pub fn text(&self, line: i32) -> String {
+    fn text(&self, line: i32) -> String {
         let found = self
             .lines
             .binary_search_by_key(&line, |(number, _)| *number);

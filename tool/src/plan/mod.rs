@@ -5,7 +5,7 @@
 //! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
 //! cycle: [`cause`] says what limits the machine, [`places`] where time is lost, [`evenness`] how much of cutting is near the feed,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
-//! drawings; [`figures`] holds all of it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
+//! drawings; [`figures`] holds all of it, the greatest [`speed`] among it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
 //! [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
 
 mod arrivals;
@@ -30,6 +30,7 @@ mod progress;
 mod setup;
 mod soft_limits;
 mod source;
+mod speed;
 mod spindle;
 mod svg;
 mod text;
@@ -96,7 +97,7 @@ pub struct PlanArguments {
     /// Servo period in place of [EMCMOT]SERVO_PERIOD
     #[arg(long, value_name = "SECONDS", value_parser = period)]
     pub period: Option<f64>,
-    /// Raise every F to at least this
+    /// Raise every F to at least this; feeds per turn (G95) stay as they are
     #[arg(long, value_name = "MM_MIN", value_parser = rate)]
     pub feed_at_least: Option<f64>,
     /// Hold the machine at the start until the queue is full or the program waits, as a feed hold
@@ -145,6 +146,13 @@ pub struct PlanArguments {
     pub times: Option<PathBuf>,
 }
 
+impl PlanArguments {
+    /// The files that are asked for.
+    fn written(&self) -> [&Option<PathBuf>; 4] {
+        [&self.html, &self.svg, &self.csv, &self.times]
+    }
+}
+
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Programs<'a> {
@@ -156,12 +164,7 @@ struct Programs<'a> {
 /// # Errors
 /// See [`PlanError`]. Then nothing is on standard output, and files are as they were before.
 pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
-    let files = [
-        &arguments.html,
-        &arguments.svg,
-        &arguments.csv,
-        &arguments.times,
-    ];
+    let files = arguments.written();
     let single = files.iter().any(|file| file.is_some()) || arguments.arrivals.is_some();
     if arguments.files.len() > 1 && single {
         let problem = "--html, --svg, --csv, --times and --arrivals are for one program: plan them one by one";
@@ -183,13 +186,7 @@ pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
         .chain(&setup.read)
         .map(PathBuf::as_path)
         .collect();
-    if let Some(file) = overwrites(files.iter().filter_map(|file| file.as_deref()), &read) {
-        return Err(PlanError::Option(format!(
-            "{}: this file is read for the plan, and --html, --svg, --csv or --times would be written there: give it a file \
-             of its own",
-            file.display()
-        )));
-    }
+    refuse_to_overwrite(arguments, &read)?;
     crate::machine::warn_of(&setup.assumed);
     let unheard = |error| PlanError::Option(format!("Ctrl-C cannot be waited for: {error}"));
     // Or what is begun would be left behind.
@@ -217,6 +214,19 @@ pub fn run(arguments: &PlanArguments) -> Result<(), PlanError> {
     match not_kept(&all) {
         Some(problem) if arguments.check => Err(PlanError::NotKept(problem)),
         _ => Ok(()),
+    }
+}
+
+/// No file that is asked for may take the place of one that is `read`.
+fn refuse_to_overwrite(arguments: &PlanArguments, read: &[&Path]) -> Result<(), PlanError> {
+    let written = arguments.written().into_iter();
+    match overwrites(written.filter_map(|file| file.as_deref()), read) {
+        Some(file) => Err(PlanError::Option(format!(
+            "{}: this file is read for the plan, and --html, --svg, --csv or --times would be written there: give it a file \
+             of its own",
+            file.display()
+        ))),
+        None => Ok(()),
     }
 }
 
@@ -311,12 +321,7 @@ fn plan(
     let mut figures = Figures::new(&name, setup, (source.moves, handed_over), &collected);
     figures.surface_speed = drive.surface_speeds().map(SurfaceFigures::from);
     let listing = listing::read(file, &figures, &collected);
-    for place in &mut figures.slowest {
-        place.text = listing.text(place.line);
-    }
-    for stretch in &mut figures.evenness.below {
-        stretch.text = listing.text(stretch.line);
-    }
+    listing.put_into(&mut figures);
     let mut files = Vec::from_iter(table.map(Table::into_file));
     if let Some(times) = times {
         files.push(times.finish(end)?);
@@ -330,6 +335,8 @@ fn plan(
         let drawing = svg::render(&figures, &collected).map_err(io::Error::other);
         files.push(filled(svg, drawing)?);
     }
+    // Which subroutines are called is known only now.
+    refuse_to_overwrite(arguments, &Vec::from_iter(source.read()))?;
     limit.go_on()?;
     for file in files {
         let name = file.name().to_owned();

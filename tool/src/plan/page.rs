@@ -19,6 +19,8 @@ struct PageData<'a> {
     /// By their number.
     causes: Vec<CauseData>,
     listing: &'a Listing,
+    /// Of the speed over time.
+    speed_unit: &'a str,
     /// What to write where the path is far from the program.
     advice: Option<String>,
 }
@@ -95,6 +97,7 @@ pub fn render(
             })
             .collect(),
         listing,
+        speed_unit: &figures.drawn_speed.unit,
         advice: figures.deviation.planned.advice(figures.length_unit),
     };
     Page {

@@ -20,6 +20,8 @@ pub struct Pace {
     pub speed: f64,
     /// Line of the program.
     pub line: i32,
+    /// Whether that is a line of the program, not of a file of subroutines.
+    pub of_program: bool,
     /// Where the machine is.
     pub position: Position,
     /// What the machine does.
@@ -33,6 +35,8 @@ pub struct Pace {
 pub struct Place {
     /// Lines of the program, the slowest and the range.
     pub line: i32,
+    /// Whether the slowest is a line of the program, not of a file of subroutines.
+    pub of_program: bool,
     /// First line.
     pub first_line: i32,
     /// Last line.
@@ -83,6 +87,7 @@ impl Places {
         let stretch = self.stretch.get_or_insert(Stretch {
             place: Place {
                 line: pace.line,
+                of_program: pace.of_program,
                 first_line: pace.line,
                 last_line: pace.line,
                 time: pace.time,
@@ -115,6 +120,7 @@ impl Places {
             place.least_share = share;
             place.least_speed = pace.speed;
             place.line = pace.line;
+            place.of_program = pace.of_program;
             place.time = pace.time;
             place.position = pace.position;
         }
@@ -168,6 +174,7 @@ mod tests {
                 share_of_feed: share,
                 speed: 100.0 * share,
                 line: 1 + k / 100,
+                of_program: true,
                 position: [0.0; 9],
                 phase: if turns { Phase::Turning } else { Phase::AtFeed },
                 cause: if turns { Cause::Between } else { Cause::Feed },

@@ -101,7 +101,7 @@ impl Setup {
             changed.push(format!("--velocity-limit {velocity}"));
         }
         if let Some(feed) = arguments.feed_at_least {
-            changed.push(format!("--feed-at-least {feed}"));
+            changed.push(format!("--feed-at-least {feed} (not of G95)"));
         }
         if let Some(tolerance) = arguments.rotary_tolerance {
             setup.rotary_tolerance = tolerance;

@@ -7,7 +7,7 @@ use crate::canon::{Call, CallStream, stream_program};
 use crate::layer::program::{Operation, Piece, Shape};
 use crate::layer::stream::{Laid, LayerStream};
 use std::collections::{BTreeSet, VecDeque};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -78,6 +78,11 @@ impl<'a> Source<'a> {
     pub(super) fn take(&mut self) -> Option<(Operation, Vec<Piece>)> {
         let laid = self.waiting.pop_front()?;
         Some((laid.operation, laid.pieces))
+    }
+
+    /// The files of subroutines that were read so far.
+    pub(super) fn read(&self) -> impl Iterator<Item = &Path> {
+        self.calls.read().iter().map(PathBuf::as_path)
     }
 
     /// What the user is to be told of the program, when it has been read.

@@ -60,10 +60,11 @@ pub fn render(figures: &Figures, collected: &Collected) -> Result<String, fmt::E
     )?;
     let u = figures.length_unit;
     let about = format!(
-        "{}, {} {u} of path, at most {} {u}/s",
+        "{}, {} {u} of path, at most {} {}/s",
         duration(figures.time),
         significant(figures.path_length, 5),
-        significant(figures.greatest_speed.value, 4)
+        significant(figures.greatest_speed.value, 4),
+        figures.greatest_speed.unit
     );
     writeln!(
         svg,
@@ -137,7 +138,7 @@ fn path(svg: &mut String, figures: &Figures, collected: &Collected) -> fmt::Resu
             (top + bottom) / 2.0 - scale * (up - (low[1] + high[1]) / 2.0),
         ]
     };
-    let greatest = figures.greatest_speed.value.max(1e-9);
+    let greatest = figures.drawn_speed.greatest.max(1e-9);
     let mut strokes = vec![String::new(); STEPS];
     let mut last = [usize::MAX; STEPS];
     for (index, pair) in points.windows(2).enumerate() {
@@ -209,14 +210,14 @@ fn legend(svg: &mut String, figures: &Figures) -> fmt::Result {
             "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"{anchor}\" class=\"quiet\">{}</text>",
             left + share * width,
             top + 22.0,
-            significant(share * figures.greatest_speed.value, 3)
+            significant(share * figures.drawn_speed.greatest, 3)
         )?;
     }
     writeln!(
         svg,
-        "<text x=\"{left}\" y=\"{}\" class=\"quiet\">speed along the path ({}/s)</text>",
+        "<text x=\"{left}\" y=\"{}\" class=\"quiet\">speed along the path ({})</text>",
         top + 42.0,
-        figures.length_unit
+        figures.drawn_speed.unit
     )
 }
 
@@ -239,7 +240,7 @@ fn speed(svg: &mut String, figures: &Figures, collected: &Collected) -> fmt::Res
     let profiles = &collected.profiles;
     let bucket = profiles.cycles as f64 * figures.servo_period;
     let end = (bucket * profiles.buckets() as f64).max(1e-9);
-    let greatest = 1.05 * figures.greatest_speed.value.max(1e-9);
+    let greatest = 1.05 * figures.drawn_speed.greatest.max(1e-9);
     let x = |time: f64| left + (right - left) * time / end;
     let y = |value: f64| bottom - (bottom - top) * value / greatest;
     for value in ticks(greatest, 4.0) {
@@ -267,10 +268,10 @@ fn speed(svg: &mut String, figures: &Figures, collected: &Collected) -> fmt::Res
         svg,
         "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" class=\"quiet\">time (s)</text>\
          <text transform=\"translate(30 {middle}) rotate(-90)\" text-anchor=\"middle\" \
-         class=\"quiet\">speed ({}/s)</text>",
+         class=\"quiet\">speed ({})</text>",
         (left + right) / 2.0,
         bottom + 42.0,
-        figures.length_unit
+        figures.drawn_speed.unit
     )?;
     // The range of each span of time as one band.
     let ranges: Vec<[f32; 2]> = profiles.channel(SPEED).collect();

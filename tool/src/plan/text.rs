@@ -107,7 +107,7 @@ fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
     let speed = figures.greatest_speed;
     entry(
         "Greatest speed",
-        greatest_speed(speed.value, u, speed.time, speed.line.into()),
+        greatest_speed(speed.value, speed.unit, speed.time, speed.line.into()),
     )?;
     if let Some(speeds) = &figures.surface_speed {
         entry("Spindle with G96", surface_speed(speeds))?;
@@ -201,7 +201,7 @@ fn places(out: &mut String, figures: &Figures) -> fmt::Result {
             100.0 * place.least_share,
             place.phase,
             place.cause,
-            place.text.chars().take(LINE_WIDTH).collect::<String>()
+            shown(&place.text, place.of_program)
         );
         writeln!(out, "{}", row.trim_end())?;
     }
@@ -210,6 +210,14 @@ fn places(out: &mut String, figures: &Figures) -> fmt::Result {
         writeln!(out, "  and {more} more with --json or --html")?;
     }
     Ok(())
+}
+
+/// The text of a line, or whose it is.
+fn shown(text: &str, of_program: bool) -> String {
+    match of_program {
+        true => text.chars().take(LINE_WIDTH).collect(),
+        false => "(in a subroutine's file)".to_owned(),
+    }
 }
 
 fn evenness(out: &mut String, figures: &Figures) -> fmt::Result {
@@ -235,7 +243,7 @@ fn evenness(out: &mut String, figures: &Figures) -> fmt::Result {
         let lines = format!("{first} to {last}");
         let duration = fixed(stretch.duration, 4);
         let least = 100.0 * stretch.least_share;
-        let text: String = stretch.text.chars().take(LINE_WIDTH).collect();
+        let text = shown(&stretch.text, stretch.of_program);
         let row = format!(
             "  {lines:>17}{duration:>11}{least:>10.0} %  {:<26}{text}",
             stretch.cause

@@ -200,7 +200,7 @@ fn a_plan_names_the_options_that_changed_it() {
         "--fill-queue",
     ];
     let changed = bench.figures(program, &options);
-    let named = "changed by --feed-at-least 3000 --rotary-tolerance 0.5 --default-tolerance 0.1 \
+    let named = "changed by --feed-at-least 3000 (not of G95) --rotary-tolerance 0.5 --default-tolerance 0.1 \
                  --corners-inside";
     assert!(limits(&changed).contains(named), "{changed}");
     let handed_over = changed["handed_over"].as_str().expect("text");
@@ -258,6 +258,41 @@ fn a_thread_and_a_tap_follow_the_spindle() {
     // 20 mm and twice 10 mm at 10 mm/s
     let time = number(&figures["time"]);
     assert!((4.0..6.0).contains(&time), "{time}");
+}
+
+/// The spindle goes on while it turns back, and the tap with it.
+#[test]
+fn a_tap_beyond_its_ends_is_on_the_path() {
+    let bench = Bench::new();
+    let program = "G21 G90 G61 F600\nG0 Z5\nM3 S600\nG33.1 Z-5 K1\nM5\nG1 X5\nM2\n";
+    let ini = format!("{MILL}[SPINDLE_0]\nMAX_FORWARD_VELOCITY = 3000\n");
+    let figures = bench.figures_on(&ini, program);
+    assert_eq!(figures["findings"], serde_json::json!([]), "{figures}");
+    let lowest = number(&figures["axes"][1]["from"]);
+    assert!(lowest < -5.1, "{figures}");
+}
+
+#[test]
+fn speeds_of_rotary_axes_are_degrees() {
+    let bench = Bench::new();
+    let speed = |program: &str| {
+        let figures = bench.figures(program, &[]);
+        let speed = &figures["greatest_speed"];
+        (speed["unit"].to_string(), number(&speed["value"]))
+    };
+    let (unit, value) = speed("G20 G61 F3000\nG1 A90\nM2\n");
+    assert_eq!(unit, "\"deg\"");
+    assert!((45.0..50.1).contains(&value), "{value}");
+    // Degrees and millimetres are not compared with each other.
+    let (unit, value) = speed("G21 G61 F3000\nG1 A90\nG1 X50 F600\nM2\n");
+    assert_eq!(unit, "\"mm\"");
+    assert!((value - 10.0).abs() < 0.1, "{value}");
+    let text = bench.plan(&["part.ngc"]);
+    let text = String::from_utf8_lossy(&text.stdout).into_owned();
+    assert!(
+        text.contains("mm/s (") && !text.contains("deg/s ("),
+        "{text}"
+    );
 }
 
 /// Facing at a constant surface speed takes the time in which the spiral of the feed is as long as the surface has run.

@@ -56,6 +56,40 @@ fn an_include_that_only_a_shell_understands_is_refused() {
     );
 }
 
+/// Moves of a file of subroutines have lines of that file, which are none of the program.
+#[test]
+fn lines_of_subroutines_are_not_those_of_the_program() {
+    let bench = Bench::new();
+    let keys = "[RS274NGC]\nSUBROUTINE_PATH = subs\n";
+    bench.write("mill.ini", &MILL.replace("[RS274NGC]\n", keys));
+    std::fs::create_dir(bench.path().join("subs")).expect("a folder");
+    let corners = "o<corners> sub\nG1 X1 F6000\nY1\nX2\nY2\no<corners> endsub\nM2\n";
+    bench.write("subs/corners.ngc", corners);
+    let program = "G21 G61.1\n(two)\n(three)\n(four)\no<corners> call\n(six)\nM2\n";
+    let figures = bench.figures(program, &["--ini", "mill.ini"]);
+    let slowest = figures["slowest"].as_array().expect("places");
+    let below = figures["evenness"]["below"].as_array().expect("stretches");
+    assert!(!slowest.is_empty() && !below.is_empty(), "{figures}");
+    for place in slowest.iter().chain(below) {
+        assert_eq!(
+            (&place["text"], &place["of_program"]),
+            (&"".into(), &false.into()),
+            "{place}"
+        );
+    }
+    // What is called is known behind the plan; nothing is written before.
+    let subs = bench.path().join("subs/corners.ngc");
+    std::os::unix::fs::symlink(&subs, bench.path().join("link")).expect("a link");
+    for file in ["subs/corners.ngc", "link"] {
+        let error = bench.refused(&["part.ngc", "--ini", "mill.ini", "--csv", file]);
+        assert!(
+            error.starts_with(&format!("{file}: this file is read")),
+            "{error}"
+        );
+        assert_eq!(bench.read("subs/corners.ngc"), corners);
+    }
+}
+
 #[test]
 fn a_file_of_a_remap_that_is_not_there_is_named() {
     let bench = Bench::new();

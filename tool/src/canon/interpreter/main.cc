@@ -6,7 +6,8 @@
  * PARAMETERS is the file of numbered parameters; it is written anew at the end, so the caller gives a copy. SETTINGS is
  * what an INI file says of the machine, see settings.cc; what the interpreter itself takes from an INI file it reads
  * there, by the variable INI_FILE_NAME of the environment.
- * The calls themselves are in calls.cc. A refusal is printed as two lines, REFUSED with line number and message, SOURCE
+ * The calls themselves are in calls.cc. READ comes once before those of a file of subroutines: it is the name of the file.
+ * A refusal is printed as two lines, REFUSED with line number and message, SOURCE
  * with the text of the line, and the exit code is 1. The number is a line of FILE, also where the text is of a subroutine in
  * another file: then it is the line that called it.
  *
@@ -15,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 #include <string>
 #include <unistd.h>
 #include "interp_base.hh"
@@ -58,6 +60,21 @@ static std::string subroutine_file(InterpBase &interpreter)
     interpreter.file_name(path, sizeof path);
     std::string name(path);
     return name == program ? "" : name.substr(name.rfind('/') + 1);
+}
+
+/* Tells which file of subroutines is read, each once. */
+static void note_file(InterpBase &interpreter)
+{
+    static std::set<std::string> told;
+    if (interpreter.call_level() == 0)
+        return;
+    char path[4096] = "";
+    interpreter.file_name(path, sizeof path);
+    if (!told.insert(path).second)
+        return;
+    char *whole = realpath(path, nullptr);
+    fprintf(output, "READ %s\n", one_line(whole ? whole : path).c_str());
+    free(whole);
 }
 
 static void note_line(InterpBase &interpreter)
@@ -169,6 +186,7 @@ static int interpret(InterpBase &interpreter, const char *file)
         if (failed(status))
             return refuse(interpreter, status);
         note_line(interpreter);
+        note_file(interpreter);
         line_carried_out = line_text(interpreter);
         if (sends_frame(interpreter))
             return unsupported(interpreter, sent_by_tool_centre ? tool_centre : "a programmed frame (framekins)");

@@ -21,7 +21,7 @@ function fillFigures() {
   const turning = phase("in corners and curves");
   addFigure("Below feed in corners", [number(100 * turning.share, 3), "%"], `costs ${duration(turning.lost).join(" ")}`);
   addFigure("Path length", [number(report.path_length, 6), unit], `${number(report.moves, 9)} moves`);
-  addFigure("Peak speed", [number(speed.value, 4), `${unit}/s`], `${number(speed.value * 60, 5)} ${unit}/min, line ${speed.line}`);
+  addFigure("Peak speed", [number(speed.value, 4), `${speed.unit}/s`], `${number(speed.value * 60, 5)} ${speed.unit}/min, line ${speed.line}`);
   const { planned, tightest } = deviation;
   const used = tightest ? `${number((100 * tightest.distance) / tightest.tolerance, 3)} % of P at most` : "";
   addFigure("Off the program", length(planned.distance), [`line ${planned.line}`, used, data.advice].filter(Boolean).join(", "));
@@ -54,13 +54,15 @@ function fillTimes() {
   byId("causes").append(table(headings("What keeps it from being faster"), rows(report.limited_by), [1, 2, 4]));
 }
 
+const text = (place) => place.of_program ? element("code", "", place.text) : "in a subroutine's file";
+
 function fillPlaces() {
   if (!report.slowest.length) return;
   byId("slow").hidden = false;
   const rows = report.slowest.map((place) => [
     String(place.line), fixed(place.time, 3), fixed(place.lost, 4), number(place.least_speed, 4),
     `${fixed(100 * place.least_share, 0)} %`, place.phase, place.cause,
-    place.position.map((v) => fixed(v, 3)).join(",  "), element("code", "", place.text),
+    place.position.map((v) => fixed(v, 3)).join(",  "), text(place),
   ]);
   const headings = ["Line", "at (s)", "Lost (s)", `Slowest (${unit}/s)`, "of the feed", "What it does", "Limited by", `X, Y, Z (${unit})`, "Program"];
   const made = table(headings, rows, [0, 1, 2, 3, 4]);
@@ -80,7 +82,7 @@ function fillEvenness() {
   byId("feeds").append(table(["Feed", "Cutting (s)", "Near it", ""], all, [1, 2]));
   const rows = below.map((stretch) => [
     `${stretch.lines[0]} to ${stretch.lines[1]}`, fixed(stretch.time, 3), fixed(stretch.duration, 4),
-    `${fixed(100 * stretch.least_share, 0)} %`, stretch.cause, element("code", "", stretch.text),
+    `${fixed(100 * stretch.least_share, 0)} %`, stretch.cause, text(stretch),
   ]);
   byId("below").append(table(["Lines", "Slowest at (s)", "Below (s)", "Least of the feed", "Limited by", "Program"], rows, [0, 1, 2, 3]));
 }
@@ -145,7 +147,7 @@ byId("method").textContent =
 const columns = memberColumns(report.axes, data.profiles.axes);
 columns.push({
   letter: "Path", name: "", curves: [
-    { ...data.profiles.speed, title: `speed (${unit}/s)`, limit: null, unit: `${unit}/s`, oneSided: true },
+    { ...data.profiles.speed, title: `speed (${data.speed_unit})`, limit: null, unit: data.speed_unit, oneSided: true },
     distanceCurve(data.profiles.distance, null),
   ],
 });
