@@ -52,6 +52,15 @@ fn the_feed_and_what_raises_it() {
     );
 }
 
+/// It follows the spindle beyond its ends, and is on the path there.
+#[test]
+fn a_tap_is_on_the_path() {
+    let program = "G21 G61 F600\nG0 Z5\nM3 S600\nG33.1 Z-5 K1\nM5\nG1 X5\nM2\n";
+    let figures = stock(program, &[]);
+    assert_eq!(figures["state"], "complete");
+    assert_eq!(figures["deviation"]["exceeds"], false, "{figures}");
+}
+
 #[test]
 fn corners_stay_within_the_tolerance() {
     let bench = Bench::new();
