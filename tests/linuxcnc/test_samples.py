@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import harness
 from contract.row import MICROMETRE, peaks
+from part_programs import convert
 
 #: The thread of the lathe's program: its pitch, and where in Z the spindle is in step and the thread not yet at its end, mm;
 #: how far a pass goes along for a millimetre in; its passes.
@@ -90,6 +91,22 @@ class Lathe(Sample):
         rests = [now for before, now in pairwise(places[n] for n in range(0, len(places), 50)) if before == now]
         stands = [place for n, place in enumerate(rests) if not n or rests[n - 1] != place]
         self.assertEqual([round(place, 6) for place in stands], [0, 10, 5, 10, 0])
+
+    def test_what_the_filter_writes_runs_in_radii_and_leaves_diameters_behind(self):
+        ini = os.path.join(harness.SAMPLES, "configs", self.sample, f"{self.sample}.ini")
+        run: list[list[object]] = [["run", "PROGRAMS/part.ngc"]]
+        # the tool change keeps the interpreter from the end of the program while Z goes
+        abort: list[list[object]] = [["start", "PROGRAMS/part.ngc"], ["sleep", 3], ["abort"]]
+        for end, steps in (("M30\n", run), ("F60\nG1 Z-100\nT1 M6\nM30\n", abort)):
+            code, output, complaints = convert("G18 G90 G71 DIAMON F3000\nG0 X40 Z0\nG1 X30\n" + end, "sinumerik", "auto",
+                                               ["--ini", ini])
+            self.assertEqual(code, 0, complaints)
+            with self.subTest(end):
+                result = harness.run([*steps, ["sleep", 0.5], ["mdi", "G90 G0 X10"]], {"part.ngc": output},
+                                     sample=self.sample, joints=self.joints, axes=self.axes)
+                self.assertIsNone(result.failure, result.log)
+                self.assertAlmostEqual(self.reach(result, 0)[1], 20, delta=1e-4)
+                self.assertAlmostEqual(result.column("joint.0")[-1], 5, delta=1e-6)
 
     def off_the_groove(self, result):
         """How far Z is from where the first pass has it at the same angle of the spindle, at most, mm. Each pass begins farther

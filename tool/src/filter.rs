@@ -152,6 +152,7 @@ impl Job<'_> {
         let write_settings = WriteSettings {
             dialect: self.opened.dialect.name(),
             machine_in_inch: self.arguments.machine_in_inch,
+            diameters_before: self.settings.diameters_before,
             path_mode: self.settings.path_mode,
             tolerance: self.settings.tolerance,
             chord_tolerance: self.arguments.chord_tolerance,

@@ -42,6 +42,23 @@ pub fn is_lathe(file: &Path) -> Result<bool, IniError> {
     Ok(!mill || !off.contains(&shown.trim().to_ascii_uppercase().as_str()))
 }
 
+/// Whether X is a diameter (G7) when LinuxCNC has started.
+///
+/// # Errors
+///
+/// When the file cannot be read.
+pub fn begins_in_diameters(file: &Path) -> Result<bool, IniError> {
+    let ini = Ini::read(file)?;
+    let code = ini.text("RS274NGC", "RS274NGC_STARTUP_CODE").unwrap_or("");
+    let code: String = code.split_whitespace().collect();
+    let mut words = code.split(['G', 'g']).skip(1);
+    Ok(words.any(|word| {
+        let number = word.trim_start_matches('0');
+        number.starts_with('7')
+            && !number[1..].starts_with(|c: char| c.is_ascii_digit() || c == '.')
+    }))
+}
+
 /// The lines that LinuxCNC passes over.
 pub fn warnings(file: &Path) -> Vec<String> {
     let passed_over = |ini: Ini| ini.passed_over().to_vec();

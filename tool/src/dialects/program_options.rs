@@ -100,12 +100,17 @@ impl ProgramOptions {
             Some(file) => ini::is_lathe(file)?,
             None => false,
         };
+        let diameters_before = match &ini_file {
+            Some(file) => lathe || ini::begins_in_diameters(file)?,
+            None => false,
+        };
         Ok(Settings {
             subprogram_folders: self.subprograms.clone(),
             reading: self.reading(),
             machine_in_inch,
             increment_after_frame: self.increment_after_frame,
             lathe,
+            diameters_before,
             skip_blocks: self.skip_blocks,
             passed_m: self.pass_m.clone(),
             variables: self.set.iter().cloned().collect(),

@@ -28,6 +28,8 @@ pub struct Settings {
     pub increment_after_frame: IncrementBase,
     /// Whether the machine that runs the program is a lathe.
     pub lathe: bool,
+    /// Whether X may be a diameter (G7) in that machine when the program begins.
+    pub diameters_before: bool,
     /// Whether blocks that begin with `/` are left out.
     pub skip_blocks: bool,
     /// M functions that are passed on to LinuxCNC unchanged.
@@ -72,6 +74,7 @@ impl Default for Settings {
             machine_in_inch: false,
             increment_after_frame: IncrementBase::Programmed,
             lathe: false,
+            diameters_before: false,
             skip_blocks: false,
             passed_m: Vec::new(),
             feed: None,

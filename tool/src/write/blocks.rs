@@ -2,12 +2,20 @@
 //! the remarks from which the line of the source is read.
 
 use super::comment::{comment, message};
-use super::line::Lines;
+use super::line::{Lines, Rank};
 use super::number::coordinate;
 use super::words::path_control_words;
 use super::{Backend, WriteSettings, file_name};
 use crate::program::{Action, Block};
 use crate::source::Sources;
+
+/// Keeps whether X was a diameter (G7): the program takes it as a radius, M2 and M30 leave it so, and what is
+/// entered or runs next counts on what the startup code of a lathe says. In a global parameter, for
+/// o<on_abort> reads it where the program does not come to its end.
+const DIAMETERS_BEFORE: &str = "#<_frame_diameters> = #<_lathe_diameter_mode>";
+
+/// G7 where [`DIAMETERS_BEFORE`] is 1, else G8.
+const DIAMETERS_AGAIN: &str = "G[8-#<_frame_diameters>] #<_frame_diameters> = 0";
 
 /// The lines before the first block: what the program is, what the operator should know, and the
 /// modes in which the dialect begins.
@@ -38,10 +46,15 @@ pub fn header(
         "corners that the program rounds without a tolerance of its own: P{}, option --tolerance",
         coordinate(settings.tolerance)
     ));
-    let modes = format!("{unit} G17 G40 G80 G90 G91.1 G94 {path_mode}");
+    let before = settings
+        .diameters_before
+        .then(|| DIAMETERS_BEFORE.to_string());
+    // Whatever X is in the source, it is written as a radius.
+    let modes = format!("{unit} G8 G17 G40 G80 G90 G91.1 G94 {path_mode}");
     let lines = [first, tolerance]
         .into_iter()
         .chain(messages)
+        .chain(before)
         .chain([modes]);
     lines.map(|line| line + "\n").collect()
 }
@@ -66,6 +79,15 @@ pub fn begin(lines: &mut Lines, block: &Block, sources: &Sources) -> bool {
     }
     lines.begin_block(origin.number, origin.line, &remark);
     true
+}
+
+/// The end of the program, in the mode of X that was there before it.
+pub fn end(lines: &mut Lines, rewind: bool, diameters_before: bool) {
+    if diameters_before {
+        lines.flush();
+        lines.line(DIAMETERS_AGAIN);
+    }
+    lines.add(Rank::Stop, if rewind { "M30" } else { "M2" });
 }
 
 /// What is said where a subprogram begins or ends.

@@ -9,7 +9,7 @@
 //! The frame is therefore taken off before either changes, and before motions in machine
 //! coordinates, and set again before the next move that needs it.
 
-use super::blocks::begin;
+use super::blocks::{begin, end};
 use super::line::{Lines, Rank};
 use super::modes::Modes;
 use super::number::{coordinate, factor, push_coordinate};
@@ -33,6 +33,8 @@ use std::io;
 pub struct KinematicsWriter<'a> {
     diagnostics: Diagnostics,
     lines: Lines<'a>,
+    /// See [`WriteSettings::diameters_before`].
+    diameters_before: bool,
     frame: Frame,
     modes: Modes,
     /// By how much the frame stretches what corners are cut by.
@@ -55,6 +57,7 @@ impl<'a> KinematicsWriter<'a> {
         KinematicsWriter {
             diagnostics: Diagnostics::default(),
             lines,
+            diameters_before: settings.diameters_before,
             frame: Frame::default(),
             modes: Modes::new(settings.path_mode),
             path_scale: PathScale::new(),
@@ -135,8 +138,7 @@ impl KinematicsWriter<'_> {
             Action::End { rewind } => {
                 self.lines.flush();
                 self.suspend();
-                self.lines
-                    .add(Rank::Stop, if *rewind { "M30" } else { "M2" });
+                end(&mut self.lines, *rewind, self.diameters_before);
             }
             _ => {}
         }

@@ -39,6 +39,8 @@ pub struct WriteSettings<'a> {
     pub dialect: &'a str,
     /// Whether LinuxCNC's unit of length is the inch.
     pub machine_in_inch: bool,
+    /// Whether X may be a diameter (G7) before the program: where it is, the program makes it one again at its end.
+    pub diameters_before: bool,
     /// How corners are passed until the program says otherwise.
     pub path_mode: PathControl,
     /// By how much corners are rounded where the program names no tolerance, machine units.

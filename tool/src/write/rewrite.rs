@@ -5,7 +5,7 @@
 //! with G42. Under unequal scales an arc becomes chords. A frame that tilts the plane would need
 //! tilted arcs and a tilted tool length: that is for the frame kinematics.
 
-use super::blocks::begin;
+use super::blocks::{begin, end};
 use super::line::{Lines, Rank};
 use super::modes::Modes;
 use super::number::{coordinate, push_coordinate};
@@ -117,9 +117,9 @@ impl RewriteWriter<'_> {
             Action::Retract(place) => self
                 .lines
                 .add(Rank::Motion, format!("G53 G0 Z{}", coordinate(*place))),
-            Action::End { rewind } => self
-                .lines
-                .add(Rank::Stop, if *rewind { "M30" } else { "M2" }),
+            Action::End { rewind } => {
+                end(&mut self.lines, *rewind, self.settings.diameters_before);
+            }
             _ => {}
         }
         Ok(())

@@ -75,6 +75,7 @@ pub fn run_with(settings: &Settings, dialect: Dialect, bytes: &[u8]) {
     let write_settings = WriteSettings {
         dialect: dialect.name(),
         machine_in_inch: false,
+        diameters_before: true,
         path_mode: settings.path_mode,
         tolerance: settings.tolerance,
         chord_tolerance: 0.01,

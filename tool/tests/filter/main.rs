@@ -3,6 +3,7 @@
 mod blanks;
 mod contours;
 mod contradictions;
+mod diameters;
 mod encodings;
 mod errors;
 mod expected;

@@ -121,6 +121,7 @@ fn outcome(dialect: Dialect, begin: &str, blocks: &str) -> Result<Vec<String>, S
     let write_settings = WriteSettings {
         dialect: dialect.name(),
         machine_in_inch: false,
+        diameters_before: false,
         path_mode: settings.path_mode,
         tolerance: settings.tolerance,
         chord_tolerance: 0.01,

@@ -188,6 +188,7 @@ impl Machine {
                 920 => preset = true,
                 921 => self.preset = [0.0; 3],
                 40
+                | 80
                 | 210
                 | 400
                 | 430

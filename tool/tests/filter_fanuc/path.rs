@@ -5,7 +5,7 @@ use crate::shop::Shop;
 use framepath_tool::dialects::Dialect;
 
 /// The modes in which the filter begins.
-const HEADER: &str = "G21 G17 G40 G80 G90 G91.1 G94 G61\n";
+const HEADER: &str = "G21 G8 G17 G40 G80 G90 G91.1 G94 G61\n";
 
 /// Tools of 10 and 20 mm, in inch.
 const TOOLS: &str = "T1 P1 D0.393700787\nT2 P2 D0.787401575\nT31 P31 D0.393700787\n";

@@ -9,7 +9,7 @@ use framepath_tool::dialects::Dialect;
 fn code(output: &str) -> String {
     let lines = output
         .lines()
-        .filter(|line| !line.starts_with("G21 G17 G40"));
+        .filter(|line| !line.starts_with("G21 G8 G17 G40"));
     lines
         .map(|line| line.split('(').next().unwrap_or(""))
         .collect::<Vec<&str>>()
