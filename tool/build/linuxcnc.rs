@@ -104,6 +104,7 @@ fn compile_interpreter(include: &[String], output: &Path) {
             folder.join("calls.cc"),
             folder.join("answers.cc"),
             folder.join("hal_pins.cc"),
+            folder.join("inputs.cc"),
             folder.join("settings.cc"),
         ])
         .args(["-rdynamic", "-lrs274", "-lpyplugin"])

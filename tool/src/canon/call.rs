@@ -2,6 +2,7 @@
 
 use crate::path::Position;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// The plane of an arc (G17, G19, G18).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +52,24 @@ pub struct Tag {
     pub flags: u64,
     /// Line number, motion mode, plane and others.
     pub fields: [i32; 8],
+}
+
+/// What M66 asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Input {
+    /// An analog input (E) or a digital one (P).
+    pub analog: bool,
+    /// Its number.
+    pub number: i32,
+    /// L: 0 looks at it, 1 waits until it goes on, 2 off, 3 until it is on, 4 off.
+    pub mode: i32,
+}
+
+impl fmt::Display for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let letter = if self.analog { 'E' } else { 'P' };
+        write!(f, "M66 {letter}{} L{}", self.number, self.mode)
+    }
 }
 
 /// One call. Lengths are millimetres, angles degrees, unless it says otherwise.
@@ -144,6 +163,8 @@ pub enum Call {
     Wait,
     /// Waits for the end of motion, then for a program of the machine: M100 to M199.
     UserCode(u32),
+    /// M66 that waits for an input, or whose answer the program looks at; motion has come to its end before.
+    Input(Input),
     /// Ends the merging of short lines.
     Flush,
 }
@@ -235,6 +256,11 @@ impl Call {
             "DWELL" => Call::Dwell(words.number()?),
             "WAIT" => Call::Wait,
             "USER" => Call::UserCode(words.number()?),
+            "INPUT" => Call::Input(Input {
+                analog: words.flag()?,
+                number: words.number()?,
+                mode: words.number()?,
+            }),
             "FLUSH" => Call::Flush,
             _ => return None,
         };

@@ -20,7 +20,7 @@ pub mod surroundings;
 mod timed;
 pub mod tool_table;
 
-pub use call::Call;
+pub use call::{Call, Input};
 pub use interpreter::{CallStream, CanonError, read_program, read_text, stream_program};
 pub use seen_from::seen_from;
 pub use surroundings::Surroundings;

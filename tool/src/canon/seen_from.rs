@@ -58,6 +58,7 @@ pub fn seen_from(call: Call, origin: &Position) -> Call {
         | Call::Dwell(..)
         | Call::Wait
         | Call::UserCode(..)
+        | Call::Input(..)
         | Call::Flush => call,
     }
 }

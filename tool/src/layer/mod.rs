@@ -123,6 +123,8 @@ impl<'a> Layer<'a> {
                 self.builder.operation(Operation::Dwell(seconds));
             }
             Call::Wait | Call::UserCode(_) => self.wait(),
+            // Motion has come to its end for it before.
+            Call::Input(_) => {}
             Call::Flush => self.flush(),
         }
     }

@@ -313,7 +313,7 @@ fn plan(
     }
     progress.finish();
     crate::machine::warn_of(drive.warnings());
-    crate::machine::warn_of(&source.warning());
+    crate::machine::warn_of(&source.warnings());
     let collected = collector.finish();
     if collected.cycles == 0 {
         return Err(PlanError::NoMoves(file.to_owned()));

@@ -3,7 +3,7 @@
 
 use super::error::PlanError;
 use super::setup::Setup;
-use crate::canon::{Call, CallStream, stream_program};
+use crate::canon::{Call, CallStream, Input, stream_program};
 use crate::layer::program::{Operation, Piece, Shape};
 use crate::layer::stream::{Laid, LayerStream};
 use std::collections::{BTreeSet, VecDeque};
@@ -27,6 +27,8 @@ pub struct Source<'a> {
     pub moves: usize,
     /// The programs of the machine, M100 to M199, that were called so far.
     user_codes: BTreeSet<u32>,
+    /// The inputs of the machine on which the program depends so far.
+    inputs: BTreeSet<Input>,
 }
 
 impl<'a> Source<'a> {
@@ -52,6 +54,7 @@ impl<'a> Source<'a> {
             ended: false,
             moves: 0,
             user_codes: BTreeSet::new(),
+            inputs: BTreeSet::new(),
         })
     }
 
@@ -63,8 +66,10 @@ impl<'a> Source<'a> {
         while self.waiting.is_empty() && !self.ended {
             let call = self.calls.next().transpose()?;
             self.ended = call.is_none();
-            if let Some(Call::UserCode(code)) = call {
-                self.user_codes.insert(code);
+            match call {
+                Some(Call::UserCode(code)) => drop(self.user_codes.insert(code)),
+                Some(Call::Input(input)) => drop(self.inputs.insert(input)),
+                _ => {}
             }
             let waiting = &mut self.waiting;
             self.layer
@@ -86,16 +91,28 @@ impl<'a> Source<'a> {
     }
 
     /// What the user is to be told of the program, when it has been read.
-    pub(super) fn warning(&self) -> Option<String> {
-        let codes = self.user_codes.iter().map(|code| format!("M{code}"));
-        let codes: Vec<String> = codes.collect();
-        (!codes.is_empty()).then(|| {
-            format!(
-                "{}: what the programs of the machine do that it calls ({}) is not known here: they count as 0 s",
-                self.file.display(),
-                codes.join(", ")
-            )
-        })
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let file = self.file.display();
+        let mut warnings = Vec::new();
+        if let Some(codes) = listed(self.user_codes.iter().map(|code| format!("M{code}"))) {
+            warnings.push(format!(
+                "{file}: what the programs of the machine do that it calls ({codes}) is not known here: they count as 0 s"
+            ));
+        }
+        let (waited, looked): (Vec<&Input>, Vec<&Input>) =
+            self.inputs.iter().partition(|input| input.mode != 0);
+        if let Some(inputs) = listed(waited) {
+            warnings.push(format!(
+                "{file}: when the inputs come that it waits for ({inputs}) is not known here: each comes at once, in 0 s, and \
+                 #5399 is never -1"
+            ));
+        }
+        if let Some(inputs) = listed(looked) {
+            warnings.push(format!(
+                "{file}: what the inputs are that it looks at ({inputs}) is not known here: #5399 is 0"
+            ));
+        }
+        warnings
     }
 
     fn check(&mut self) -> Result<(), PlanError> {
@@ -128,4 +145,10 @@ impl<'a> Source<'a> {
         }
         Ok(())
     }
+}
+
+/// The texts, parted by commas; `None` if there are none.
+fn listed(texts: impl IntoIterator<Item = impl ToString>) -> Option<String> {
+    let texts: Vec<String> = texts.into_iter().map(|text| text.to_string()).collect();
+    (!texts.is_empty()).then(|| texts.join(", "))
 }

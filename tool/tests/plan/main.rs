@@ -10,6 +10,7 @@ mod errors;
 mod fields;
 mod figures;
 mod files;
+mod inputs;
 mod joints;
 mod long_programs;
 mod machine_files;

@@ -75,8 +75,6 @@ int GET_EXTERNAL_FEED_OVERRIDE_ENABLE() { return now.feed_override; }
 int GET_EXTERNAL_SPINDLE_OVERRIDE_ENABLE(int) { return 1; }
 int GET_EXTERNAL_ADAPTIVE_FEED_ENABLE() { return 0; }
 int GET_EXTERNAL_FEED_HOLD_ENABLE() { return 1; }
-int GET_EXTERNAL_DIGITAL_INPUT(int, int otherwise) { return otherwise; }
-double GET_EXTERNAL_ANALOG_INPUT(int, double otherwise) { return otherwise; }
 int GET_EXTERNAL_TC_FAULT() { return 0; }
 int GET_EXTERNAL_TC_REASON() { return 0; }
 int GET_EXTERNAL_OFFSET_APPLIED() { return 0; }

@@ -18,9 +18,10 @@
  *   LENGTH mm                    of the tool along Z, from here on
  *   DWELL seconds                WAIT (motion comes to its end)     FLUSH (ends the merging of short lines)
  *   USER number                  a program of the machine, M100 to M199, when motion has come to its end
+ *   INPUT analog number mode     M66 with a mode (L) that waits, or whose answer the program looks at
  *   END (the program came to its end)
  *
- * What the interpreter asks for is in answers.cc.
+ * What the interpreter asks for is in answers.cc; M66 in inputs.cc.
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -409,7 +410,6 @@ static void note_output(int output, double value)
 }
 
 void SET_AUX_OUTPUT_VALUE(int output, double value) { note_output(output, value); waits(); }
-int WAIT(int, int, int, double) { waits(); return 0; }
 void ENABLE_ADAPTIVE_FEED() { waits(); }
 void DISABLE_ADAPTIVE_FEED() { waits(); }
 

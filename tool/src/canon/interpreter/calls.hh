@@ -14,6 +14,9 @@ void parameter_file(const char *name);
 /* A code that is a program of the machine; false if none from M100 to M199 is meant. */
 bool know_user_code(int code);
 
+/* A line that is carried out: whether it looks at the answer of M66 (inputs.cc). */
+void look_for_answer(const char *line);
+
 /* Reads what an INI file says of the machine (settings.cc); false if it cannot be understood. */
 bool read_settings(const char *file);
 

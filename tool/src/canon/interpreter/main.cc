@@ -188,6 +188,7 @@ static int interpret(InterpBase &interpreter, const char *file)
         note_line(interpreter);
         note_file(interpreter);
         line_carried_out = line_text(interpreter);
+        look_for_answer(line_carried_out.c_str());
         if (sends_frame(interpreter))
             return unsupported(interpreter, sent_by_tool_centre ? tool_centre : "a programmed frame (framekins)");
         if (status == INTERP_OK)
