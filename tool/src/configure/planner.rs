@@ -2,6 +2,7 @@
 
 use super::ConfigureArguments;
 use super::edits::Edits;
+use crate::machine::angles;
 use crate::machine::numbers;
 use crate::machine::place::Place;
 use crate::wiring::USUAL_JERK;
@@ -67,6 +68,14 @@ fn usable(subject: &Subject, edits: &mut Edits) {
             &place,
             "[TRAJ]COORDINATES is missing",
             "COORDINATES = XYZ under [TRAJ], the axes of the machine",
+        );
+    }
+    if !angles::are_degrees(&subject.ini) {
+        let units = subject.text("TRAJ", "ANGULAR_UNITS").unwrap_or("");
+        edits.refuse(
+            &subject.place_of("TRAJ", "ANGULAR_UNITS"),
+            format!("[TRAJ]ANGULAR_UNITS = {units}: {}", angles::PROBLEM),
+            angles::REMEDY,
         );
     }
     if let Some(module) = subject.state.module("blendtp") {

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::angles;
 use super::error::IniError;
 use super::ini::Ini;
 use super::numbers;
@@ -94,6 +95,7 @@ impl Machine {
             ));
         }
         let length_unit = length_unit(ini)?;
+        angles::need_degrees(ini)?;
         let coordinates = Coordinates::from_ini(ini)?;
         let mut joints = Vec::with_capacity(coordinates.joints.len());
         for (number, letter) in coordinates.joints.iter().copied().enumerate() {

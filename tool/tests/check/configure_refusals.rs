@@ -79,6 +79,22 @@ fn limits_with_which_linuxcnc_does_not_start() {
 }
 
 #[test]
+fn angles_of_another_unit_than_the_degree() {
+    let folder = stock("mill.ini");
+    let ini = folder.path().join("mill.ini");
+    let text = fs::read_to_string(&ini).expect("a text");
+    let changed = text.replace("ANGULAR_UNITS = degree", "ANGULAR_UNITS = radian");
+    fs::write(&ini, changed).expect("written");
+    let output = framepath(folder.path(), &["configure", "mill.ini"]);
+    let said = refused(folder.path(), &output);
+    assert!(
+        said.contains("[TRAJ]ANGULAR_UNITS = radian: angles are in degrees")
+            && said.contains("ANGULAR_UNITS = degree"),
+        "{said}"
+    );
+}
+
+#[test]
 fn a_name_with_a_blank() {
     let folder = stock("a b.ini");
     let output = framepath(folder.path(), &["configure", "a b.ini"]);

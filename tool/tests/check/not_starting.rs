@@ -107,6 +107,19 @@ fn what_is_no_number_or_no_parameter_is_an_error() {
 }
 
 #[test]
+fn angles_of_another_unit_than_the_degree_are_an_error() {
+    for (units, is_error) in [("radian", true), ("gon", true), ("deg", false)] {
+        let found = found(
+            "ANGULAR_UNITS = degree",
+            &format!("ANGULAR_UNITS = {units}"),
+        );
+        let words = format!("[TRAJ]ANGULAR_UNITS = {units}: angles are in degrees");
+        let error = |(level, said): &(String, String)| level == "error" && said.contains(&words);
+        assert_eq!(found.iter().any(error), is_error, "{found:?}");
+    }
+}
+
+#[test]
 fn infinite_limits_are_no_errors() {
     for limit in [
         "MAX_VELOCITY = 100",

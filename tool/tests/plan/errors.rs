@@ -22,6 +22,13 @@ fn ini_files_that_cannot_be_used() {
         );
         assert!(error.contains("is missing"), "{error}");
     }
+    for units in ["radian", "grad"] {
+        let line = format!("[TRAJ]\nANGULAR_UNITS = {units}\n");
+        bench.write("mill.ini", &MILL.replace("[TRAJ]\n", &line));
+        let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+        let named = format!("[TRAJ]ANGULAR_UNITS = {units}: angles are in degrees here");
+        assert!(error.contains(&named), "{error}");
+    }
     let negative = MILL.replace("MAX_JERK = 5000", "MAX_JERK = -5");
     bench.write("mill.ini", &negative);
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);

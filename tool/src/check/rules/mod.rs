@@ -1,5 +1,6 @@
 //! What a configuration has to be like, one concern to a file.
 
+mod angular_units;
 mod external_offsets;
 mod files;
 mod filters;
@@ -54,6 +55,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
     }
     if subject.has_planner() || subject.has_frames() {
         threads::look(subject, &mut findings);
+        angular_units::look(subject, &mut findings);
     }
     if subject.has_frames() {
         frame_nets::look(subject, &mut findings);
