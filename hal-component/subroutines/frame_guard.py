@@ -456,6 +456,11 @@ def set_up_framekins(settings):
     return None
 
 
+def extra_joints():
+    """How many joints motion has beside those of the kinematics: only they have this pin."""
+    return sum(pin["NAME"].startswith("joint.") and pin["NAME"].endswith(".posthome-cmd") for pin in hal.get_info_pins())
+
+
 def main():
     path = os.environ.get("INI_FILE_NAME")
     if not path:
@@ -469,7 +474,7 @@ def main():
     heart = Heart(NAME)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     component = make_component(settings)
-    problem = set_up_framekins(settings) or link_to_framekins()
+    problem = settings.joint_problem(extra_joints()) or set_up_framekins(settings) or link_to_framekins()
     if problem:
         print(f"frame_guard: {problem}", file=sys.stderr)
         return 1

@@ -136,11 +136,34 @@ class Settings:
         self.axes = _linear_axes(ini)
         self.task_cycle = _task_cycle(ini)
         self.screen_aborts_mdi = _aborts_mdi(ini)
-        _check_coordinates(ini)
+        self._ini = ini
         _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
         if self.clear_on_abort:
             _require(ini, "ON_ABORT_COMMAND", None, f"[{SECTION}]CLEAR_ON_ABORT = 1 depends on it; write "
                      "o<on_abort> call, or call o<on_abort> in a subroutine of your own")
+
+    def joint_problem(self, extra):
+        """What is wrong with the letters of framekins, None if nothing is. They stand for the joints, one each: without this
+        an axis would move nothing, in silence.
+
+        extra: how many joints of motion are beside those of the kinematics (num_extrajoints of motmod), the last ones.
+        """
+        letters, line = _joint_letters(self._ini)
+        joints, _ = self._ini.find("KINS", "JOINTS")
+        if not letters or not (joints or "").isdigit():
+            return None
+        place = f"{self._ini.path}:{line}: [KINS]KINEMATICS: coordinates={letters}"
+        if len(letters) != int(joints) - extra:
+            remedy = "write a letter for each joint"
+            if extra:
+                remedy = f"{extra} of these beside the kinematics (num_extrajoints of motmod), {remedy} of theirs"
+            return f"{place} names {len(letters)} joints, [KINS]JOINTS = {joints}: {remedy}"
+        axes, _ = self._ini.find("TRAJ", "COORDINATES")
+        missing = set("".join((axes or "").upper().split())) - set(letters)
+        if missing:
+            return (f"{place}: [TRAJ]COORDINATES has an axis {sorted(missing)[0]} that moves no joint: "
+                    "write a letter for each axis")
+        return None
 
 
 def _linear_units(ini):
@@ -169,22 +192,6 @@ def _joint_letters(ini):
     kinematics, line = ini.find("KINS", "KINEMATICS")
     letters = re.search(r"^framekins\b.*\bcoordinates=(\w+)", kinematics or "")
     return (letters.group(1).upper() if letters else ""), line
-
-
-def _check_coordinates(ini):
-    """The letters of framekins stand for the joints, one each: without this an axis would move nothing, in silence."""
-    letters, line = _joint_letters(ini)
-    joints, _ = ini.find("KINS", "JOINTS")
-    if not letters or not (joints or "").isdigit():
-        return
-    place = f"{ini.path}:{line}: [KINS]KINEMATICS: coordinates={letters}"
-    if len(letters) != int(joints):
-        raise SettingsError(f"{place} names {len(letters)} joints, [KINS]JOINTS = {joints}: write a letter for each joint")
-    axes, _ = ini.find("TRAJ", "COORDINATES")
-    missing = set("".join((axes or "").upper().split())) - set(letters)
-    if missing:
-        raise SettingsError(f"{place}: [TRAJ]COORDINATES has an axis {sorted(missing)[0]} that moves no joint: "
-                            "write a letter for each axis")
 
 
 def _task_cycle(ini):

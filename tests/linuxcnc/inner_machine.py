@@ -64,7 +64,7 @@ class Machine:
     def __init__(self, kinematics, home, letters="XYZ", hal="", switches=False, **options):
         self.kinematics, self.home, self.letters, self.hal = kinematics, home, letters, hal
         self.switches = switches
-        #: world_home, and limits by joint: joint_1=(least, greatest)
+        #: world_home, motion (parameters of motmod), and limits by joint: joint_1=(least, greatest)
         self.options = options
 
     def has_frames(self, inner):
@@ -82,7 +82,8 @@ class Machine:
 
     def hal_text(self, inner):
         """inner: what stands behind `loadrt framekins`, None without it; framekins in the INI is there anyway."""
-        text = robots.HAL.replace("num_joints=[KINS]JOINTS", "num_joints=[KINS]JOINTS num_aio=16") + self.hal
+        motion = f"num_joints=[KINS]JOINTS num_aio=16 {self.options.get('motion', '')}".rstrip()
+        text = robots.HAL.replace("num_joints=[KINS]JOINTS", motion) + self.hal
         if inner is not None:
             text = f"loadrt framekins {inner}\n" + text
         if self.has_frames(inner):

@@ -227,6 +227,21 @@ class OtherJoints(InnerMachines):
         self.assertEqual(result.answers["active"], "FALSE")
 
 
+class ExtraJoints(InnerMachines):
+    """A joint of motion that the kinematics do not move, num_extrajoints of motmod."""
+
+    def run_with_one(self, kinematics):
+        machine = Machine(kinematics, (0,) * 5, "XYZ", motion="num_extrajoints=1", joint_4=WIDE)
+        return machine.run_program("o<rot> call [0] [0] [90]", "G1 X10 Y0"), machine
+
+    def test_the_letters_are_those_of_the_other_joints(self):
+        result, machine = self.run_with_one("framekins coordinates=XYYZ")
+        self.near([machine.joints(self.good(result))], [(0, 10, 10, 0, 0)], 1e-9)
+        with self.assertRaises(RuntimeError) as caught:
+            self.run_with_one("framekins coordinates=XYYZA")
+        self.assertIn("names 5 joints, [KINS]JOINTS = 5: 1 of these beside the kinematics", str(caught.exception))
+
+
 class SoftLimits(InnerMachines):
     """On the way of moves, in a frame: as without one, from the joints of before."""
 

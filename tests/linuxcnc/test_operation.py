@@ -412,11 +412,14 @@ class SettingsOfTheIni(unittest.TestCase):
         def machine(letters, joints=3, axes="XYZ"):
             return f"[KINS]\nKINEMATICS = framekins coordinates={letters}\nJOINTS = {joints}\n[TRAJ]\nCOORDINATES = {axes}\n"
 
-        self.read(machine("xyz") + "[FRAMEPATH]\n")
-        self.read(machine("XYYZ", 4, "X Y Z"))
-        self.read(machine("XY").replace("framekins", "mykins"))
-        self.refused(machine("XY"), "[KINS]KINEMATICS: coordinates=XY names 2 joints, [KINS]JOINTS = 3")
-        self.refused(machine("XYY"), "[KINS]KINEMATICS: coordinates=XYY", "an axis Z that moves no joint")
+        for text, extra in ((machine("xyz") + "[FRAMEPATH]\n", 0), (machine("XYYZ", 4, "X Y Z"), 0),
+                            (machine("XY").replace("framekins", "mykins"), 0), (machine("XYYZ", 5), 1)):
+            self.assertIsNone(self.read(text).joint_problem(extra))
+        for text, extra, words in (
+                (machine("XY"), 0, "[KINS]KINEMATICS: coordinates=XY names 2 joints, [KINS]JOINTS = 3: write"),
+                (machine("XYZ"), 1, "names 3 joints, [KINS]JOINTS = 3: 1 of these beside the kinematics (num_extrajoints"),
+                (machine("XYY"), 0, "[KINS]KINEMATICS: coordinates=XYY: [TRAJ]COORDINATES has an axis Z that moves no joint")):
+            self.assertIn(words, self.read(text).joint_problem(extra))
 
     def test_linuxcnc_does_not_start_with_a_mistake(self):
         with self.assertRaises(RuntimeError) as caught:
