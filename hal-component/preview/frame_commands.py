@@ -14,8 +14,8 @@ from frame_map import Map, about, diagonal, identity, product, shift
 ADDITIVE = 100
 
 TRANSLATE, ROTATE, ROTATE_IN_PLANE, ROTS_XY, ROTS_ZX, ROTS_YZ, SCALE, MIRROR = range(1, 9)
-REMOVE, DROP_SCALES, REFRESH = 9, 10, 11
-SUSPEND = 13
+REMOVE, DROP_SCALES, RESUME = 9, 10, 11
+SUSPEND, ASK, REFRESH = 13, 14, 15
 
 #: subroutines of the operations
 NAMES = {TRANSLATE: "trans", ROTATE: "rot", ROTATE_IN_PLANE: "rot_rpl", ROTS_XY: "rots_xy", ROTS_ZX: "rots_zx",
@@ -110,12 +110,13 @@ class FrameList:
     def take(self, code: int, values):
         """One command. FrameRefused: the list is as it was."""
         before = self.operations
-        self.suspended = code == SUSPEND
+        if code not in (ASK, REFRESH):
+            self.suspended = code == SUSPEND
         if code == REMOVE:
             self.operations = ()
         elif code == DROP_SCALES:
             self.operations = tuple(one for one in before if not one.is_scale)
-        elif code not in (REFRESH, SUSPEND):
+        elif code not in (RESUME, SUSPEND, ASK, REFRESH):
             added = operation(code % ADDITIVE, values, self.k2)
             self.operations = (*before, added) if code > ADDITIVE else (added,)
         try:

@@ -17,11 +17,14 @@ const REMOVE: f64 = 9.0;
 /// The code of the command that drops the scales of the frame.
 const DROP_SCALES: f64 = 10.0;
 
+/// The code of the command that suspends the frame.
+const SUSPEND: f64 = 13.0;
+
 /// The code of the command that asks how the tool is turned.
 const ASK: f64 = 14.0;
 
-/// The code of the command that suspends the frame.
-const SUSPEND: f64 = 13.0;
+/// The code of the command that takes over offsets, tool and dimensions, and brings nothing back.
+const TAKE_OVER: f64 = 15.0;
 
 /// A command as it stands on `framekins.command`: its number times 1000, plus its code.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,8 +61,13 @@ impl Command {
         self.code == DROP_SCALES || self.code > f64::from(ADDITIVE)
     }
 
+    /// Whether it changes neither what the frame is made of nor whether it is suspended.
+    pub fn keeps(&self) -> bool {
+        self.code == ASK || self.code == TAKE_OVER
+    }
+
     /// Whether the machine is to run without the frame for a while: what the frame is made of stays,
-    /// and the command that takes over offsets brings it back.
+    /// and a command of its own brings it back.
     pub fn suspends(&self) -> bool {
         self.code == SUSPEND
     }
@@ -126,7 +134,7 @@ impl Source {
                     return Ok(Self::nothing());
                 }
             }
-            11 | 14 => return Ok(*self),
+            11 | 14 | 15 => return Ok(*self),
             12 => return Ok(Self::map_pins()),
             _ if code > ADDITIVE => {
                 next.list.append(&operation(code - ADDITIVE, values)?)?;

@@ -385,7 +385,7 @@ impl FrameControl {
     /// What a command makes of the frame.
     fn commanded(&self, command: &Command, inputs: &FrameInputs) -> Result<Staged, FrameRefusal> {
         self.trusted(command, inputs)?;
-        if command.suspends() {
+        if command.suspends() || (command.keeps() && self.is_suspended()) {
             standing(inputs)?;
             let behind = self.behind_on_pins(inputs)?;
             return Ok(Staged::without_frame(self.active.source, behind, inputs));

@@ -60,6 +60,28 @@ fn a_suspended_frame_comes_back() {
 }
 
 #[test]
+fn what_only_keeps_a_frame_does_not_bring_it_back() {
+    let mut motion = xyz();
+    assert_eq!(motion.send(3, [90.0, 2.0, 0.0]), None);
+    motion.inputs.work_offset = [10.0, 0.0, 0.0];
+    assert_eq!(motion.send(15, [0.0; 3]), None);
+    assert_eq!(motion.machine([11.0, 0.0, 0.0]), [10.0, 1.0, 0.0]);
+    assert_eq!(motion.send(13, [0.0; 3]), None);
+    motion.inputs.work_offset = [20.0, 0.0, 0.0];
+    for code in [14, 15, 15] {
+        assert_eq!(motion.send(code, [0.0; 3]), None);
+        assert_eq!((motion.out.active, motion.out.operations), (false, 1));
+        assert_eq!(motion.machine([1.0, 0.0, 0.0]), [1.0, 0.0, 0.0]);
+    }
+    assert_eq!(motion.send(11, [0.0; 3]), None);
+    assert_eq!(motion.machine([21.0, 0.0, 0.0]), [20.0, 1.0, 0.0]);
+    // without a frame there is nothing to keep
+    assert_eq!(motion.send(9, [0.0; 3]), None);
+    assert_eq!(motion.send(15, [0.0; 3]), None);
+    assert_eq!((motion.out.active, motion.out.operations), (false, 0));
+}
+
+#[test]
 fn a_question_changes_nothing() {
     let mut motion = xyz();
     assert_eq!(motion.send(14, [0.0; 3]), None);
@@ -95,7 +117,7 @@ fn a_refusal_keeps_the_old_frame() {
         (3, [10.0, 0.5, 0.0], FrameRefusal::UnknownCommand),
         (4, [10.0, 20.0, 2.0], FrameRefusal::UnknownCommand),
         (0, [0.0; 3], FrameRefusal::UnknownCommand),
-        (15, [0.0; 3], FrameRefusal::UnknownCommand),
+        (16, [0.0; 3], FrameRefusal::UnknownCommand),
         (109, [0.0; 3], FrameRefusal::UnknownCommand),
         (999, [0.0; 3], FrameRefusal::UnknownCommand),
         (107, [1.0, 0.0, 1.0], FrameRefusal::ZeroScale),

@@ -179,6 +179,8 @@ fn a_suspended_frame_stays_away_when_the_type_changes() {
     assert_eq!(motion.send(13, [0.0; 3]), None);
     ask(&mut motion, 2.0);
     assert_eq!((motion.type_seen, motion.out.active), (2, false));
+    assert_eq!(motion.send(15, [0.0; 3]), None);
+    assert_eq!((motion.out.inner_type, motion.out.active), (2, false));
     assert_eq!(motion.send(11, [0.0; 3]), None);
     assert_eq!(motion.machine([1.0, 0.0, 0.0]), [6.0, 0.0, 0.0]);
 }

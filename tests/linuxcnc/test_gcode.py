@@ -265,7 +265,7 @@ class WrongUse(unittest.TestCase):
         # with cutter compensation on, nothing may change
         compensated = [("o<trans> call [1] [1] [1]", "o<trans> and G77.1"), ("G78.2 X5", "o<arot> and G78.2"),
                        ("G77.4 X5 Y5", "its siblings and G77.4"), ("G77", "o<frame_off>, G77 and G69"),
-                       ("G78", "o<frame_refresh>, o<frame_resume> and G78"), ("G79 X5", "G79 and o<machine_move>")]
+                       ("G78", "o<frame_refresh> and G78"), ("G79 X5", "G79 and o<machine_move>")]
         for line, _ in compensated:
             steps += [["forget"], ["mdi", "G41 D1"], ["mdi", line], ["sleep", 0.05], ["recall", line]]
         steps += [["mdi", "G40"], ["mdi", "G17.1"], ["forget"], ["mdi", "o<rot_rpl> call [5]"], ["recall", "plane"],

@@ -107,6 +107,20 @@ class ToolCentre(InnerTool):
         for lines in (("G1 A30 C20", "G43 H2", "o<frame_refresh> call"), ("G43 H2",), ("G49",)):
             self.good(TABLE.run_program("G43.4 H1", *lines, "G91", "G1 X1", inner=TABLE_TYPES))
 
+    def test_a_suspended_frame_belongs_to_what_changes_and_stays_away(self):
+        framed = ["o<trans> call [10] [0] [5]", "o<arot> call [0] [20] [0]"]
+        zero, move = "G10 L2 P2 X1 Y2 Z3", "G1 X1 Y2 Z3"
+        lines = ["G43.4 H1", *framed, "G1 X5 Y0 Z2", "o<frame_suspend> call"]
+        refresh = f"{zero}\nG55\no<frame_refresh> call"
+        for number, line in enumerate(("G43.4 H2", "o<tool_centre_off> call", "G43.4 H2", refresh)):
+            lines += [line, f"o{number} if [#<_hal[framekins.active]> NE 0]", f"(ABORT, {number} brings it back)",
+                      f"o{number} endif"]
+        lines += ["G1 X4 Y0 Z30", *told("without", 5), "o<frame_resume> call", move]
+        result = self.good(TABLE.run_program(*lines, inner=TABLE_TYPES))
+        self.near([self.values(result, "without")[1]], [(5, 2, 73, 0, 0)], 1e-5)
+        anew = self.good(TABLE.run_program("G43.4 H2", zero, "G55", *framed, move, inner=TABLE_TYPES))
+        self.near([TABLE.joints(result)], [TABLE.joints(anew)], 1e-6)
+
     def test_what_is_not_known_is_refused(self):
         self.refused(TABLE, "inner=xyzac-trt-kins", "as in tool_types=1", "G43.4 H1")
 

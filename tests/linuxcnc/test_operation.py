@@ -106,10 +106,13 @@ class Clearing(Case):
         self.assertLess(max(y) - min(y), 1e-9)
         self.at(result, "end", (15, 7, 3))
 
+    #: as o<frame_resume>, which is refused where nothing is suspended
+    BACK = "o<frame_send> call [11] [0] [0] [0] [0]"
+
     def test_a_suspended_frame_is_forgotten_as_well(self):
         # at the end of its program, and where a program starts behind one of MDI
         suspended = [["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "o<frame_suspend> call"], ["mdi", "G0 X0 Y0"]]
-        back = ["mdi", "o<frame_refresh> call"]
+        back = ["mdi", self.BACK]
         result = harness.run([
             run("leave"), FORGOTTEN, back, ["mdi", "G0 X10"], ["note", "MDI"],
             run("leave"), FORGOTTEN, run("next"), ["note", "program"],
@@ -117,7 +120,7 @@ class Clearing(Case):
             # in MDI itself it comes back
             *suspended, ["sleep", 0.2], back, ["mdi", "G0 X10"], ["note", "kept"],
         ], programs(leave="o<rot> call [0] [0] [90]\nG1 X2\no<frame_suspend> call\nG53 G0 X0 Y0 Z0\nM2\n",
-                    next="G0 X0 Y0\nG43 H2\no<frame_refresh> call\nG1 X10\nG49\nM2\n"), ini=QUICK)
+                    next=f"G0 X0 Y0\nG43 H2\n{self.BACK}\nG1 X10\nG49\nM2\n"), ini=QUICK)
         self.fine(result)
         for name in ("MDI", "program", "start"):
             self.at(result, name, (10, 0, 0))
@@ -128,7 +131,7 @@ class Clearing(Case):
             run("leave"), ["sleep", 0.3], ["forget"], ["start", "PROGRAMS/next.ngc"], ["finish"], FORGOTTEN, ["recall", "stopped"],
             run("next"), ["note", "end"],
         ], programs(leave="o<rot> call [0] [0] [90]\no<frame_suspend> call\nM2\n",
-                    next="G4 P0.5\no<frame_refresh> call\nG1 X10\nM2\n"), ini={**QUICK, **clearing(True, False, True)})
+                    next=f"G4 P0.5\n{self.BACK}\nG1 X10\nM2\n"), ini={**QUICK, **clearing(True, False, True)})
         self.fine(result)
         self.assertIn("a frame was still suspended when the program started", "\n".join(result.answers["stopped"]))
         self.at(result, "end", (10, 0, 0))

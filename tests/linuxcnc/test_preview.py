@@ -141,7 +141,8 @@ class Commands(Compared):
     def test_moves_of_the_machine(self):
         self.check("G10 L2 P1 X12 Y-7 Z3 R20", "G10 L2 P2 X30 Y5 Z1 R-10", "G1 X5 Y5", "G53 G1 X20 Y20", "G1 X1 Y1",
                    "o<rot> call [10] [20] [30]", "G1 X5 Y5", "G79 Z40", "G1 X6 Y6 Z6", "o<machine_move> call [50] [40] [30]",
-                   "G1 X7 Y3", "o<frame_suspend> call", "G1 X1 Y2", "G55", "o<frame_resume> call", "G1 X3 Y3 Z3", "T1 M6",
+                   "G1 X7 Y3", "o<frame_suspend> call", "G1 X1 Y2", "G55", "o<frame_refresh> call", "G1 X2 Y1",
+                   "o<frame_resume> call", "G1 X3 Y3 Z3", "T1 M6",
                    "G1 X4 Y3 Z3", "o<frame_off> call", "G91 G28 Z0", "G90 G1 X5")
 
 
