@@ -75,6 +75,22 @@ unsafe extern "C" fn table(
     0
 }
 
+/// As `inverse`, of an arm with a straight wrist: beside the place where it is, the fifth joint turns over.
+unsafe extern "C" fn wrist(
+    world: *const EmcPose,
+    joints: *mut c_double,
+    read: *const c_ulong,
+    written: *mut c_ulong,
+) -> c_int {
+    // SAFETY: called with a pose, 16 numbers and flags.
+    unsafe {
+        let before = *joints;
+        let answer = inverse(world, joints, read, written);
+        *joints.add(4) += if *joints == before { 0.0 } else { 80.0 };
+        answer
+    }
+}
+
 /// Types 0 and 1.
 unsafe extern "C" fn switch(kind: c_int) -> c_int {
     if kind < 2 { 0 } else { -1 }
@@ -219,6 +235,17 @@ fn what_passes_between_motion_and_the_other_module() {
     // SAFETY: a structure of the interface.
     assert_eq!(unsafe { framepath_kinematics_switch(0, &pins) }, 0);
     pins.enabled = 1;
+
+    // A frame leads back beside the place, where a straight wrist turns over. Without one nothing jumps.
+    framepath_kinematics_inner_functions(Some(wrist), Some(forward), Some(switch));
+    let (_, at_rest, _) = joints_of(&world, near, 0);
+    joints_of(&world, at_rest, 0);
+    for (number, refused) in [(16, 19), (0, 0)] {
+        // SAFETY: a structure of the interface.
+        let answer = unsafe { framepath_kinematics_switch(number, &pins) };
+        assert_eq!(answer, refused);
+    }
+    framepath_kinematics_inner_functions(Some(table), Some(forward), Some(switch));
 
     // Without a frame blendtp is told, too: of another type when the machine stands.
     pins.in_position = 0;

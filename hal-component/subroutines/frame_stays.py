@@ -5,8 +5,8 @@ import hal
 #: framekins.refusal: the kinematics of inner= would let the joints jump
 OTHER_JOINTS = 19
 
-JUMP = ("the kinematics of inner= would let the joints jump where the machine is: go where they do not, in MDI (maxkins: "
-        "G0 B0 or G0 C0), and it goes")
+JUMP = ("the kinematics of inner= would let the joints jump where the machine is: go where they do not, in MDI (an arm: bend "
+        "its wrist; maxkins: G0 B0 or G0 C0), and it goes")
 
 NETS = "are framekins.in-position, framekins.teleop and motion.switchkins-type linked as in the HAL file of the sample?"
 

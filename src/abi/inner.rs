@@ -5,6 +5,7 @@ use libc::{c_double, c_int, c_ulong};
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::Axes;
+use crate::frame::ActiveFrame;
 use crate::kinematics::inner::{self, InnerKinematics};
 use crate::machine::JOINT_COUNT;
 
@@ -54,8 +55,14 @@ impl InnerModule {
         inner::fixed_axes(&mut calls, &Axes::from(*position), joints)
     }
 
-    /// Whether it leads back from the place of these joints to others; never where no other module is.
-    pub(super) fn other_joints(&self, position: &[f64; 9], joints: &[f64; JOINT_COUNT]) -> bool {
+    /// Whether it leads back from the place of these joints to others, by the frame that comes or without; never where no
+    /// other module is.
+    pub(super) fn other_joints(
+        &self,
+        coming: Option<&ActiveFrame>,
+        position: &[f64; 9],
+        joints: &[f64; JOINT_COUNT],
+    ) -> bool {
         if self.inverse.is_none() {
             return false;
         }
@@ -64,7 +71,7 @@ impl InnerModule {
             forward_flags: 0,
             inverse_flags: 0,
         };
-        inner::other_joints(&mut calls, &Axes::from(*position), joints)
+        inner::other_joints(&mut calls, coming, &Axes::from(*position), joints)
     }
 }
 

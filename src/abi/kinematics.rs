@@ -15,7 +15,7 @@ use super::inner_normal::AskedNormal;
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::{AXIS_COUNT, Axes};
-use crate::frame::{AffineMap, ToolLength};
+use crate::frame::{ActiveFrame, AffineMap, ToolLength};
 use crate::kinematics::control::{FrameControl, FrameInputs};
 use crate::kinematics::tool_jump::ToolJump;
 use crate::machine::{ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, TiltAxis};
@@ -66,20 +66,31 @@ impl Kinematics {
         let Some(control) = &self.control else {
             return inputs;
         };
-        if control.expects_switch(&inputs) {
-            inputs.other_joints = self.other_joints(&inputs);
-        }
         if control.expects_frame(&inputs) {
             inputs.fixed_axes = self.inner.fixed_axes(&self.position, &self.joints);
+        }
+        if control.expects_switch(&inputs) {
+            let coming = control.frame_of_command(&inputs);
+            inputs.other_joints = self.other_joints(coming.as_ref(), &inputs);
         }
         inputs
     }
 
-    /// Whether the joints would jump at a switch. With the machine off motion takes its position from them when it is
-    /// switched on again.
-    fn other_joints(&self, inputs: &FrameInputs) -> bool {
+    /// The same where motion switches to this kinematics type.
+    fn inputs_of_switch(&self, slot: c_int, pins: &framepath_frame_inputs) -> FrameInputs {
+        let mut inputs = inputs_of(pins, self.tool_length);
+        inputs.fixed_axes = self.inner.fixed_axes(&self.position, &self.joints);
+        let control = self.control.as_ref();
+        let coming = control.and_then(|control| control.frame_of_switch(slot, &inputs));
+        inputs.other_joints = self.other_joints(coming.as_ref(), &inputs);
+        inputs
+    }
+
+    /// Whether the joints would jump at a switch, with the frame that comes. With the machine off motion takes its position
+    /// from them when it is switched on again.
+    fn other_joints(&self, coming: Option<&ActiveFrame>, inputs: &FrameInputs) -> bool {
         let given = self.given.filter(|_| inputs.enabled);
-        given.is_some_and(|(position, joints)| self.inner.other_joints(&position, &joints))
+        given.is_some_and(|(position, joints)| self.inner.other_joints(coming, &position, &joints))
     }
 }
 
@@ -334,12 +345,9 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
     let Some(pins) = (unsafe { pins.as_ref() }) else {
         return -1;
     };
-    let mut inputs = inputs_of(pins, module().tool_length);
-    inputs.other_joints = module().other_joints(&inputs);
+    let inputs = module().inputs_of_switch(slot, pins);
     let Kinematics {
         control: Some(control),
-        position,
-        joints,
         inner,
         old_guesses,
         ..
@@ -347,7 +355,6 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
     else {
         return -1;
     };
-    inputs.fixed_axes = inner.fixed_axes(position, joints);
     match control.switch(slot, &inputs, |kind| inner.switch(kind)) {
         Ok(()) => {
             *old_guesses = 2;

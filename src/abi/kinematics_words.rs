@@ -40,7 +40,7 @@ pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_
         (FrameRefusal::WrongCheck, c"the values that have arrived are not those that were sent: a net from an analog output to framekins is missing or wrong, for one the new net frame-check motion.analog-out-08 => framekins.check; compare with the HAL file of a sample"),
         (FrameRefusal::Unguarded, c"frame_guard does not live, and nobody would remove the frame: load it in the HAL file, loadusr -Wn frame-guard .../frame_guard.py"),
         (FrameRefusal::UnknownInnerType, c"framekins.inner-type is no type of the kinematics of inner=; what is linked to it, M68 for one, has to say a whole number from 0 that they can be switched to"),
-        (FrameRefusal::OtherJoints, c"the kinematics of inner= lead back from where the machine is to other joints, which would jump: go where they do not, maxkins with B or C at 0, and give the command again"),
+        (FrameRefusal::OtherJoints, c"the kinematics of inner= lead back from where the machine is to other joints, which would jump: go where they do not, an arm with its wrist bent, maxkins with B or C at 0, and give the command again"),
         (FrameRefusal::Suspended, c"the frame is suspended, and this command would add to it: o<frame_resume> call brings it back first, o<frame_off> call gives it up"),
     ];
     WORDS

@@ -38,10 +38,10 @@ const PATIENCE: u32 = 100;
 /// The frame of a machine with the machine's own kinematics, and the way to change them.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameControl {
-    active: Staged,
+    pub(super) active: Staged,
     slot: i32,
-    request: Option<Request>,
-    outputs: FrameOutputs,
+    pub(super) request: Option<Request>,
+    pub(super) outputs: FrameOutputs,
     /// The kinematics type that was asked for last: asking for it again would go unnoticed.
     asked: i32,
     /// The type of the inner kinematics that cannot be had, and why: not asked for again while the pin says it.
@@ -53,7 +53,7 @@ pub struct FrameControl {
     /// The machine's dimensions have been read once.
     started: bool,
     heartbeat: Heartbeat,
-    release: FrameRelease,
+    pub(super) release: FrameRelease,
 }
 
 impl FrameControl {
@@ -276,7 +276,7 @@ impl FrameControl {
     }
 
     /// What a switch to `number` would make the active frame.
-    fn checked(
+    pub(super) fn checked(
         &self,
         number: i32,
         request: Option<Request>,
@@ -383,7 +383,11 @@ impl FrameControl {
     }
 
     /// What a command makes of the frame.
-    fn commanded(&self, command: &Command, inputs: &FrameInputs) -> Result<Staged, FrameRefusal> {
+    pub(super) fn commanded(
+        &self,
+        command: &Command,
+        inputs: &FrameInputs,
+    ) -> Result<Staged, FrameRefusal> {
         self.trusted(command, inputs)?;
         if command.suspends() || (command.keeps() && self.is_suspended()) {
             standing(inputs)?;
@@ -448,36 +452,12 @@ impl FrameControl {
     }
 
     /// What is behind the frame with the dimensions and the type that the pins say.
-    fn behind_on_pins(&self, inputs: &FrameInputs) -> Result<Behind, FrameRefusal> {
+    pub(super) fn behind_on_pins(&self, inputs: &FrameInputs) -> Result<Behind, FrameRefusal> {
         let wanted = self.active.behind.as_on_pins(inputs)?;
         match self.refused_type {
             Some((number, refusal)) if number == wanted.inner_type() => Err(refusal),
             _ => Ok(wanted),
         }
-    }
-
-    /// Whether a frame may be made in this period, for which the axes that inner kinematics cannot move have to be known.
-    pub fn expects_frame(&self, inputs: &FrameInputs) -> bool {
-        let restaged = self.active.frame.is_some()
-            && self
-                .behind_on_pins(inputs)
-                .is_ok_and(|wanted| wanted != self.active.behind);
-        self.request.is_none()
-            && standing(inputs).is_ok()
-            && (self.is_commanded(inputs) || restaged)
-    }
-
-    /// Whether there is a command that has not been answered.
-    fn is_commanded(&self, inputs: &FrameInputs) -> bool {
-        Command::on_pin(inputs.command)
-            .is_some_and(|command| command.number != self.outputs.acknowledged)
-    }
-
-    /// Whether a frame may come or go in this period, for which it has to be known that no joint jumps.
-    pub fn expects_switch(&self, inputs: &FrameInputs) -> bool {
-        let going = self.active.frame.is_some()
-            && (self.release.is_due() || inputs.release || inputs.command == 0.0);
-        self.request.is_none() && standing(inputs).is_ok() && (self.is_commanded(inputs) || going)
     }
 }
 

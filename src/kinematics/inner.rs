@@ -3,7 +3,7 @@
 //! joints = inner(frame(position)), and back. They may fail, iterate from a guess, keep a state, and be switchable
 //! themselves: nothing is known of them but what they answer.
 
-use crate::axes::Axes;
+use crate::axes::{AXIS_COUNT, Axes};
 use crate::frame::ActiveFrame;
 use crate::machine::JOINT_COUNT;
 
@@ -17,6 +17,13 @@ const NUDGE: f64 = 1e-3;
 /// How far a joint may be from where it was, machine units or degrees: nothing for a machine, much for kinematics that
 /// iterate.
 const SAME_JOINT: f64 = 1e-5;
+
+/// How far rounding may lead beside a place, machine units or degrees: more than it does.
+const ROUNDING: f64 = 1e-9;
+
+/// How far joints may be apart for two places that rounding cannot tell apart, machine units or degrees: a stretched arm
+/// bends by less, a straight wrist turns over.
+const TURNED_OVER: f64 = 1e-2;
 
 /// The kinematics of another module. What they return is 0 for success, as LinuxCNC has it.
 pub trait InnerKinematics {
@@ -146,26 +153,44 @@ pub fn forward(
 
 /// Whether they lead back from the place of these joints to others. A switch takes the place from the joints and goes on with
 /// the joints of the place, so that these would jump.
+///
+/// With a frame that comes the way goes through its coordinates, and rounding ends beside the place, where the joints have
+/// to be the same: at a straight wrist they are not.
 pub fn other_joints(
     inner: &mut impl InnerKinematics,
+    coming: Option<&ActiveFrame>,
     axes: &Axes,
     joints: &[f64; JOINT_COUNT],
 ) -> bool {
-    let (mut there, mut back) = (*axes, *joints);
-    if inner.forward(joints, &mut there) != 0 || inner.inverse(&there, &mut back) != 0 {
+    let mut here = *axes;
+    if inner.forward(joints, &mut here) != 0 {
         return true;
     }
-    !same_joints(joints, &back)
+    let mut leads_away = |place: &Axes, most: f64| {
+        let mut back = *joints;
+        inner.inverse(place, &mut back) != 0 || !are_within(most, joints, &back)
+    };
+    let jump_in_it = coming.is_some_and(|frame| {
+        let place = frame.to_machine(&frame.to_world(&here));
+        let mut beside = (0..AXIS_COUNT).map(|axis| nudged(&place, axis, ROUNDING));
+        leads_away(&place, SAME_JOINT) || beside.any(|place| leads_away(&place, TURNED_OVER))
+    });
+    // Without it last: it has to be able to go again, and some remember where they were asked.
+    leads_away(&here, SAME_JOINT) || jump_in_it
 }
 
 /// Whether no joint is elsewhere.
 pub fn same_joints(joints: &[f64; JOINT_COUNT], others: &[f64; JOINT_COUNT]) -> bool {
-    let same = |(one, other): (&f64, &f64)| (one - other).abs() <= SAME_JOINT;
-    joints.iter().zip(others).all(same)
+    are_within(SAME_JOINT, joints, others)
 }
 
-/// Which of X Y Z the machine cannot move, by trying: joints for a place beside `axes`, and back from there. An axis for
-/// which there are no joints on either side is not known, and is not taken for one that stands.
+fn are_within(most: f64, joints: &[f64; JOINT_COUNT], others: &[f64; JOINT_COUNT]) -> bool {
+    let near = |(one, other): (&f64, &f64)| (one - other).abs() <= most;
+    joints.iter().zip(others).all(near)
+}
+
+/// Which of X Y Z the machine cannot move, by trying: joints for places on both sides of `axes`, and back from there. An axis
+/// for which there are no joints on either side is not known, and is not taken for one that stands.
 pub fn fixed_axes(
     inner: &mut impl InnerKinematics,
     axes: &Axes,
@@ -187,18 +212,29 @@ fn is_fixed(
     joints: &[f64; JOINT_COUNT],
     axis: usize,
 ) -> bool {
+    let mut stands = false;
     for nudge in [NUDGE, -NUDGE] {
-        let (mut beside, mut found, mut there) = (*axes, *joints, *axes);
-        if let Some(value) = beside.get_mut(axis) {
-            *value += nudge;
-        }
+        let (beside, mut found, mut there) = (nudged(axes, axis, nudge), *joints, *axes);
         if inner.inverse(&beside, &mut found) != 0 || inner.forward(&found, &mut there) != 0 {
             continue;
         }
         let moved = value_of(&there, axis) - value_of(axes, axis);
-        return (moved / nudge).abs() < 0.5;
+        // A stretched arm cannot reach any farther, and goes back.
+        if (moved / nudge).abs() >= 0.5 {
+            return false;
+        }
+        stands = true;
     }
-    false
+    stands
+}
+
+/// A place beside another one.
+fn nudged(axes: &Axes, axis: usize, nudge: f64) -> Axes {
+    let mut beside = *axes;
+    if let Some(value) = beside.get_mut(axis) {
+        *value += nudge;
+    }
+    beside
 }
 
 fn value_of(axes: &Axes, axis: usize) -> f64 {

@@ -7,6 +7,7 @@ pub mod behind;
 pub mod check;
 pub mod command;
 pub mod control;
+pub mod expected;
 pub mod head_circles;
 pub mod heartbeat;
 pub mod inner;

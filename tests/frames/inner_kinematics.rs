@@ -2,7 +2,9 @@
 
 use crate::common::Motion;
 use framepath::axes::Axes;
-use framepath::kinematics::inner::{Guess, InnerKinematics, fixed_axes, forward, inverse};
+use framepath::kinematics::inner::{
+    Guess, InnerKinematics, fixed_axes, forward, inverse, other_joints,
+};
 
 /// Joints are the axes times two, of which Y may be none. The forward kinematics go from the guess at most one unit.
 struct Halving {
@@ -114,4 +116,85 @@ fn an_axis_that_is_not_known_is_not_taken_for_one_that_stands() {
         fixed_axes(&mut inner, &at(0.0, 0.0, 0.0), &[0.0; 16]),
         [false; 3]
     );
+}
+
+/// An arm with its wrist straight: beside the place where it is, the wrist turns over.
+struct StraightWrist;
+
+impl InnerKinematics for StraightWrist {
+    fn inverse(&mut self, axes: &Axes, joints: &mut [f64; 16]) -> i32 {
+        if joints[..3] != axes.as_slice()[..3] {
+            joints[3] += 79.0;
+            joints[5] -= 79.0;
+        }
+        joints[..3].copy_from_slice(&axes.as_slice()[..3]);
+        0
+    }
+
+    fn forward(&mut self, joints: &[f64; 16], axes: &mut Axes) -> i32 {
+        axes.as_mut_slice()[..3].copy_from_slice(&joints[..3]);
+        0
+    }
+}
+
+/// An arm of two parts, 100 together, with its elbow in degrees: what is too far is taken for stretched.
+struct Elbow;
+
+impl InnerKinematics for Elbow {
+    fn inverse(&mut self, axes: &Axes, joints: &mut [f64; 16]) -> i32 {
+        let reach = axes[0].hypot(axes[1]);
+        joints[0] = axes[1].atan2(axes[0]).to_degrees();
+        joints[1] = 2.0 * (reach / 100.0).min(1.0).acos().to_degrees();
+        joints[2] = axes[2];
+        0
+    }
+
+    fn forward(&mut self, joints: &[f64; 16], axes: &mut Axes) -> i32 {
+        let reach = 100.0 * (joints[1] / 2.0).to_radians().cos();
+        let (sine, cosine) = joints[0].to_radians().sin_cos();
+        (axes[0], axes[1], axes[2]) = (reach * cosine, reach * sine, joints[2]);
+        0
+    }
+}
+
+#[test]
+fn a_frame_does_not_come_where_rounding_turns_a_wrist_over() {
+    let joints = {
+        let mut joints = [0.0; 16];
+        joints[..3].copy_from_slice(&[517.3, 0.1, 203.7]);
+        joints
+    };
+    let here = at(517.3, 0.1, 203.7);
+    // without a frame the place is the same to the last bit
+    assert!(!other_joints(&mut StraightWrist, None, &here, &joints));
+    // by a shift it may be as well, by luck
+    for (code, value) in [(2, [0.0, 0.0, 30.0]), (1, [10.0, 0.0, 0.0]), (1, [0.0; 3])] {
+        let mut motion = Motion::new("identity", "XYZ");
+        assert_eq!(motion.send(code, value), None);
+        let coming = motion.control.active();
+        assert!(other_joints(&mut StraightWrist, coming, &here, &joints));
+        assert!(!other_joints(&mut Halving::new(true), coming, &here, &{
+            let mut twice = joints;
+            twice[..3].iter_mut().for_each(|joint| *joint *= 2.0);
+            twice
+        }));
+    }
+}
+
+#[test]
+fn a_stretched_arm_has_its_axes_and_takes_frames() {
+    let (here, joints) = (at(100.0, 0.0, 5.0), {
+        let mut joints = [0.0; 16];
+        joints[2] = 5.0;
+        joints
+    });
+    assert_eq!(fixed_axes(&mut Elbow, &here, &joints), [false; 3]);
+    let mut motion = Motion::new("identity", "XYZ");
+    assert_eq!(motion.send(2, [0.0, 0.0, 30.0]), None);
+    assert!(!other_joints(
+        &mut Elbow,
+        motion.control.active(),
+        &here,
+        &joints
+    ));
 }

@@ -234,6 +234,31 @@ fn no_frame_comes_or_goes_where_joints_would_jump() {
 }
 
 #[test]
+fn the_frame_that_comes_is_known_beforehand() {
+    let mut motion = inner();
+    for (code, comes) in [
+        (1, true),
+        (11, true),
+        (13, false),
+        (15, false),
+        (2, true),
+        (9, false),
+    ] {
+        motion.period();
+        motion.put(code, [5.0, 0.0, 0.0]);
+        let coming = motion.control.frame_of_command(&motion.inputs);
+        assert_eq!(coming.is_some(), comes, "{code}");
+        assert_eq!(motion.send(code, [5.0, 0.0, 0.0]), None);
+        // once it is answered it brings nothing
+        assert!(motion.control.frame_of_command(&motion.inputs).is_none());
+    }
+    for (number, comes) in [(16, true), (32, true), (0, false), (48, false)] {
+        let coming = motion.control.frame_of_switch(number, &motion.inputs);
+        assert_eq!(coming.is_some(), comes, "{number}");
+    }
+}
+
+#[test]
 fn a_frame_that_needs_an_axis_the_kinematics_lack_is_refused() {
     let mut motion = inner();
     motion.inputs.fixed_axes = [false, true, false];

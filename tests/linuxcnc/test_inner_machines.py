@@ -25,6 +25,13 @@ TILTING = Machine("xyzac-trt-kins", (0,) * 5, "XYZAC", TABLE_HAL)
 OWN = Machine("framekins coordinates=XYZAC machine=xyzac", (0,) * 5, "XYZAC",
               TABLE_HAL.replace("xyzac-trt-kins", "framekins") + "setp framekins.tool-centre-point 1\n")
 
+#: an arm with its wrist straight
+WRIST = Machine("genserkins", (0, -30, -30, 0, 0, 0), "XYZABC", "".join(
+    f"setp genserkins.{name} {value}\n" for name, value in {
+        "ALPHA-1": -1.570796326, "A-2": 400, "D-2": 130, "A-3": 5, "ALPHA-3": -1.570796326, "D-3": 400,
+        "ALPHA-4": 1.570796326, "ALPHA-5": -1.570796326, "D-5": 100, "A-0": 0, "ALPHA-0": 0, "D-0": 0, "A-1": 0, "D-1": 0,
+        "ALPHA-2": 0, "A-4": 0, "D-4": 0, "A-5": 0}.items()))
+
 WIDE = (-10000, 10000)
 
 #: how far joints may be from those that they are compared with
@@ -181,9 +188,31 @@ class WithAFrame(InnerMachines):
 
 
 class OtherJoints(InnerMachines):
-    """Behind maxkins, which leads from joints to a place and from there to other joints where B and C are both turned."""
+    """Behind maxkins, which leads from joints to a place and from there to other joints where B and C are both turned, and
+    behind arms that are straight."""
 
     LONG = "setp maxkins.pivot-length 150\n"
+
+    def test_a_frame_that_would_turn_a_straight_wrist_over_is_refused(self):
+        for frame in ("o<rot> call [0] [0] [30]", "o<trans> call [10] [5] [-5]"):
+            steps = [["mdi", "F1000"], ["note", "before"], ["mdi", frame], ["sleep", 0.3], ["note", "after"],
+                     ["getp", "active", "framekins.active"]]
+            result = WRIST.run(steps, inner="inner=genserkins")
+            self.assertIsNone(result.failure, result.log)
+            self.assertIn("an arm with its wrist bent", "\n".join(result.errors), result.log)
+            self.assertEqual(result.answers["active"], "FALSE", frame)
+            self.near([WRIST.joints(result, "after")], [WRIST.joints(result, "before")], 0)
+            self.near(WRIST.way(result), [], 0)
+
+    def test_a_stretched_arm_takes_frames(self):
+        stretched = Machine("scarakins", (0, 0, 150, 0, 0, 0), "XYZABC", SCARA.hal)
+        for frame in ("o<trans> call [-10] [0] [0]", "o<rot> call [0] [0] [30]"):
+            steps = [["mdi", "F3000"], ["note", "before"], ["mdi", frame], ["sleep", 0.3], ["note", "after"],
+                     ["getp", "active", "framekins.active"], ["mdi", "o<frame_off> call"], ["note", "end"]]
+            result = self.good(stretched.run(steps, inner="inner=scarakins"))
+            self.assertEqual(result.answers["active"], "TRUE", frame)
+            for name in ("after", "end"):
+                self.near([stretched.joints(result, name)], [stretched.joints(result, "before")], 1e-5)
 
     def test_a_frame_where_joints_would_jump_is_refused(self):
         machine = Machine("maxkins", (0,) * 6, "XYZABC", self.LONG)
