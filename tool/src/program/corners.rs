@@ -230,7 +230,9 @@ fn join(
     if let Some(motion) = move_at(blocks, first_place) {
         end_at(motion, joint.start, plane);
     }
-    let between = joint_move(&first, &joint, plane);
+    let mut between = joint_move(&first, &joint, plane);
+    // Where every motion ends at rest, this one does too.
+    between.exact_stop = first.exact_stop && second.exact_stop;
     let [block, index] = first_place;
     blocks[block]
         .actions

@@ -20,7 +20,7 @@ pub struct Move {
     pub target: [Coordinate; 9],
     /// Where each axis is before the move, as far as that is known ahead of time.
     pub start: [Option<f64>; 9],
-    /// Whether this block alone ends in an exact stop (G9).
+    /// Whether this motion ends in an exact stop whatever mode is in force (G9).
     pub exact_stop: bool,
     /// What is put between this motion and the next; see [`super::corners`].
     pub corner: Option<Corner>,

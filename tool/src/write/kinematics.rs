@@ -11,12 +11,12 @@
 
 use super::blocks::{begin, end};
 use super::line::{Lines, Rank};
-use super::modes::Modes;
+use super::modes::{Modes, Stop};
 use super::number::{coordinate, factor, push_coordinate};
 use super::tolerance::PathScale;
 use super::words::{
-    centre_words, common_action, compensation_words, machine_move_words, path_control_words,
-    push_axis_words, push_spindle_motion, scaled_thread,
+    STOPPING_DWELL, centre_words, common_action, compensation_words, machine_move_words,
+    path_control_words, push_axis_words, push_spindle_motion, scaled_thread,
 };
 use super::{SAME_SIZE, WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -277,7 +277,8 @@ impl KinematicsWriter<'_> {
         self.tell_length();
         self.path_scale.follow(motion);
         self.renew_tolerance();
-        if motion.exact_stop && self.modes.path_control != PathControl::ExactStop {
+        let stop = self.modes.stop(motion);
+        if stop == Some(Stop::Mode) {
             self.lines.add(Rank::PathControl, "G61.1");
         }
         let mut targets = motion.target;
@@ -316,11 +317,13 @@ impl KinematicsWriter<'_> {
                 push_coordinate(line, feed);
             }
         });
-        if motion.exact_stop && self.modes.path_control != PathControl::ExactStop {
-            self.lines.flush();
-            let control = self.written_path_control();
-            self.lines.line(&path_control_words(control));
-        }
+        let behind = match stop {
+            None => return,
+            Some(Stop::Mode) => path_control_words(self.written_path_control()),
+            Some(Stop::Dwell) => STOPPING_DWELL.to_string(),
+        };
+        self.lines.flush();
+        self.lines.line(&behind);
     }
 
     /// The target of an axis with coordinates that the program left out and that must be explicit.

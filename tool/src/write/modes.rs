@@ -1,11 +1,14 @@
 //! What holds until the program changes it, as far as the backends have to know.
 
-use crate::program::{Action, FeedMode, PathControl, Plane};
+use crate::program::moves::Move;
+use crate::program::{Action, Compensation, FeedMode, PathControl, Plane};
 
 /// The modes in force.
 pub struct Modes {
     pub plane: Plane,
     pub path_control: PathControl,
+    /// Cutter compensation, as the program has it.
+    pub compensation: Compensation,
     pub feed_mode: FeedMode,
     /// F as it was programmed in this feed mode.
     pub feed: Option<f64>,
@@ -20,12 +23,23 @@ pub struct Modes {
     pub cutter_diameter: Option<f64>,
 }
 
+/// The exact stop of one motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// G61.1 for this motion alone.
+    Mode,
+    /// A dwell of no time behind it: LinuxCNC waits until the machine rests. Under cutter compensation it
+    /// cannot change the mode.
+    Dwell,
+}
+
 impl Modes {
     /// Where a program begins. `path_control`: how corners are passed until it says otherwise.
     pub fn new(path_control: PathControl) -> Modes {
         Modes {
             plane: Plane::Xy,
             path_control,
+            compensation: Compensation::Off,
             feed_mode: FeedMode::PerMinute,
             feed: None,
             written_feed: None,
@@ -35,11 +49,21 @@ impl Modes {
         }
     }
 
+    /// How a motion comes to rest that does not by the mode in force; `None` where nothing is to be done.
+    pub fn stop(&self, motion: &Move) -> Option<Stop> {
+        match self.compensation {
+            _ if !motion.exact_stop || self.path_control == PathControl::ExactStop => None,
+            Compensation::Off => Some(Stop::Mode),
+            Compensation::Left | Compensation::Right => Some(Stop::Dwell),
+        }
+    }
+
     /// What an action changes. Feeds are left to the backend: what is written depends on the frame.
     pub fn follow(&mut self, action: &Action) {
         match action {
             Action::Plane(plane) => self.plane = *plane,
             Action::PathControl(control) => self.path_control = *control,
+            Action::Compensation(compensation) => self.compensation = *compensation,
             Action::FeedMode(mode) => {
                 self.feed_mode = *mode;
                 self.feed = None;

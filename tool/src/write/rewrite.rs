@@ -7,11 +7,11 @@
 
 use super::blocks::{begin, end};
 use super::line::{Lines, Rank};
-use super::modes::Modes;
+use super::modes::{Modes, Stop};
 use super::number::{coordinate, push_coordinate};
 use super::words::{
-    centre_words, common_action, compensation_words, machine_move_words, path_control_words,
-    push_axis_words, push_spindle_motion, scaled_thread,
+    STOPPING_DWELL, centre_words, common_action, compensation_words, machine_move_words,
+    path_control_words, push_axis_words, push_spindle_motion, scaled_thread,
 };
 use super::{WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -19,7 +19,7 @@ use crate::program::frame::Frame;
 use crate::program::moves::{Arc, Centre, Coordinate, Move, MoveKind};
 use crate::program::position::apply_partly;
 use crate::program::trace::frame_arc;
-use crate::program::{Action, Block, Compensation, FeedMode, FrameScope, PathControl, Plane};
+use crate::program::{Action, Block, Compensation, FeedMode, FrameScope, Plane};
 use crate::source::{Sources, Span};
 use framepath::frame::Handedness;
 use nalgebra::Vector3;
@@ -38,7 +38,6 @@ pub struct RewriteWriter<'a> {
     lines: Lines<'a>,
     frame: Frame,
     modes: Modes,
-    compensation: Compensation,
     scope: FrameScope,
     /// How many conditions are written; each needs a number of its own.
     conditions: u32,
@@ -53,7 +52,6 @@ impl<'a> RewriteWriter<'a> {
             lines: Lines::new(out),
             frame: Frame::default(),
             modes: Modes::new(settings.path_mode),
-            compensation: Compensation::Off,
             scope: FrameScope::default(),
             conditions: 0,
         }
@@ -215,7 +213,6 @@ impl RewriteWriter<'_> {
         compensation: Compensation,
         span: Span,
     ) -> Result<(), Diagnostic> {
-        self.compensation = compensation;
         if compensation != Compensation::Off && self.frame.has_stretch() {
             return Err(Diagnostic::error(
                 span,
@@ -252,8 +249,8 @@ impl RewriteWriter<'_> {
         if motion.kind == MoveKind::Line {
             self.stretched_feed(motion, span)?;
         }
-        let stops = motion.exact_stop && self.modes.path_control != PathControl::ExactStop;
-        if stops {
+        let stop = self.modes.stop(motion);
+        if stop == Some(Stop::Mode) {
             self.lines.add(Rank::PathControl, "G61.1");
         }
         match &motion.kind {
@@ -275,11 +272,13 @@ impl RewriteWriter<'_> {
                 self.add_motion(code, &targets, "");
             }
         }
-        if stops {
-            self.lines.flush();
-            self.lines
-                .line(&path_control_words(self.modes.path_control));
-        }
+        let behind = match stop {
+            None => return Ok(()),
+            Some(Stop::Mode) => path_control_words(self.modes.path_control),
+            Some(Stop::Dwell) => STOPPING_DWELL.to_string(),
+        };
+        self.lines.flush();
+        self.lines.line(&behind);
         Ok(())
     }
 
@@ -388,7 +387,7 @@ impl RewriteWriter<'_> {
 
     /// An arc that the frame makes an ellipse.
     fn chords(&mut self, arc: &Arc, motion: &Move, span: Span) -> Result<(), Diagnostic> {
-        if self.compensation != Compensation::Off {
+        if self.modes.compensation != Compensation::Off {
             return Err(Diagnostic::error(
                 span,
                 "an arc under unequal scales with cutter compensation",

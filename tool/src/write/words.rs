@@ -161,6 +161,9 @@ fn work_offset_word(system: u8) -> String {
     }
 }
 
+/// A dwell of no time, for which LinuxCNC waits until the machine rests.
+pub const STOPPING_DWELL: &str = "G4 P0";
+
 /// G61.1, G61 or G64 with its P.
 pub fn path_control_words(control: PathControl) -> String {
     match control {

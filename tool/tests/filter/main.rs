@@ -1,6 +1,7 @@
 //! Tests of `framepath filter` as a user runs it.
 
 mod blanks;
+mod compensation;
 mod contours;
 mod contradictions;
 mod diameters;

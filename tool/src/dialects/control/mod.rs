@@ -27,7 +27,7 @@ use super::settings::Settings;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::program::corners::Corners;
 use crate::program::frame::FrameCommand;
-use crate::program::{self, Action, Compensation, FrameScope, Origin, Sink};
+use crate::program::{self, Action, Compensation, FrameScope, Origin, PathControl, Sink};
 use crate::source::{SourceFile, Sources, Span};
 use end_of_compensation::EndOfCompensation;
 use modal::Modal;
@@ -88,6 +88,8 @@ pub struct Control<'a> {
     /// How many cycles are running inside of each other, a modal one among them.
     cycles: usize,
     has_modal_cycle: bool,
+    /// How corners are passed in the output while cutter compensation is on.
+    path_of_compensation: PathControl,
     corners: Corners,
     end_of_compensation: EndOfCompensation,
     finished: usize,
@@ -117,6 +119,7 @@ impl<'a> Control<'a> {
             scope,
             cycles: 0,
             has_modal_cycle: false,
+            path_of_compensation: settings.path_mode,
             corners: Corners::default(),
             end_of_compensation: EndOfCompensation::default(),
             finished: 0,

@@ -126,10 +126,17 @@ impl Control<'_> {
         true
     }
 
-    /// Whether the operator's overrides act from here on.
-    pub fn overrides(&mut self, on: bool) {
+    /// Whether the operator's overrides act from here on. Under cutter compensation LinuxCNC switches
+    /// nothing, not even to what is in force.
+    pub fn overrides(&mut self, on: bool, span: Span) -> Done {
+        let compensated = self.modal.compensation != Compensation::Off;
+        if compensated && on == self.modal.overrides {
+            return Ok(());
+        }
+        self.refuse_compensation(span, "the overrides are switched")?;
         self.modal.overrides = on;
         self.actions.push(Action::Overrides(on));
+        Ok(())
     }
 
     /// The overrides are off while a tap is cut with feed. Where the program has switched them off itself,
@@ -225,8 +232,14 @@ impl Control<'_> {
         if compensation != Compensation::Off {
             self.refuse_compensation_plane(span, "cutter compensation")?;
         }
-        self.modal.compensation = compensation;
+        let before = std::mem::replace(&mut self.modal.compensation, compensation);
         self.states.push(Action::Compensation(compensation));
+        match (before, compensation) {
+            (Compensation::Off, Compensation::Off) => {}
+            (Compensation::Off, _) => self.hold_path_control(),
+            (_, Compensation::Off) => self.release_path_control(),
+            _ => {}
+        }
         Ok(())
     }
 

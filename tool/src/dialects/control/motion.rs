@@ -72,7 +72,7 @@ impl Control<'_> {
     }
 
     /// A motion whose coordinates are worked out.
-    pub fn add_move(&mut self, path: Move, span: Span) -> Done {
+    pub fn add_move(&mut self, mut path: Move, span: Span) -> Done {
         if self.modal.compensation != Compensation::Off && path.depends_on_position() {
             return Err(Diagnostic::error(
                 span,
@@ -80,6 +80,7 @@ impl Control<'_> {
             )
             .help("program the axes of the plane absolute before G41 or G42"));
         }
+        path.exact_stop |= self.stops_under_compensation();
         self.modal.tangent = end_direction(&path, self.modal.plane, self.settings);
         carry_out(&path, &mut self.modal);
         self.actions.push(Action::Move(path));

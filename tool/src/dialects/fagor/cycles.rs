@@ -273,6 +273,11 @@ impl Interpreter<'_> {
         let Some(cycle) = self.cycle.clone() else {
             return Ok(());
         };
+        let what = match cycle.form {
+            Some(Form::Pocket(_)) => "a pocket",
+            _ => "a canned cycle",
+        };
+        self.control.refuse_compensation(cycle.span, what)?;
         let spindle = self.control.turn_spindle();
         self.to(cycle.reference, &MoveKind::Rapid, &cycle)?;
         match (cycle.form, cycle.code) {

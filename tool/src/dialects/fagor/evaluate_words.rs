@@ -131,7 +131,7 @@ impl Interpreter<'_> {
             None => None,
         };
         self.control.note("the look-ahead of G51", span);
-        self.control.continuous_path(tolerance);
+        self.control.continuous_path(tolerance, span)?;
         self.control.apply_states(false);
         Ok(())
     }

@@ -89,11 +89,11 @@ impl Interpreter<'_> {
                 if code == 50 {
                     self.control.note("G50", span);
                 }
-                self.control.continuous_path(None);
+                self.control.continuous_path(None, span)?;
                 3
             }
             7 => {
-                self.control.path_control(PathControl::ExactStop);
+                self.control.path_control(PathControl::ExactStop, span)?;
                 3
             }
             6 => {

@@ -155,7 +155,6 @@ impl Interpreter<'_> {
     pub(super) fn mill_pocket(&mut self, cycle: &Cycle, pocket: Pocket) -> Done {
         let span = cycle.span();
         let code = if pocket.circular { "G88" } else { "G87" };
-        self.control.refuse_compensation(span, "a pocket")?;
         let row = self.tool.row();
         let Some((tool, diameter)) = self.control.tool_diameter(code, row, span)? else {
             return Ok(());

@@ -138,6 +138,7 @@ impl Interpreter<'_> {
         if times == 0 {
             return self.refuse_increments(motion, block);
         }
+        self.control.refuse_compensation(block, "a canned cycle")?;
         self.control.begin_cycle();
         for _ in 0..times {
             if !self.control.count_block(block) {

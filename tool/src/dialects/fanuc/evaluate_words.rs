@@ -78,7 +78,7 @@ impl Interpreter<'_> {
                     );
                 }
                 29 => self.rigid = true,
-                48 | 49 => self.control.overrides(m.value == 48),
+                48 | 49 => self.control.overrides(m.value == 48, m.span)?,
                 _ => others.push(*m),
             }
         }

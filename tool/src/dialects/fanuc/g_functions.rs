@@ -133,7 +133,7 @@ impl Interpreter<'_> {
                 14
             }
             610 => {
-                self.control.path_control(PathControl::ExactStop);
+                self.control.path_control(PathControl::ExactStop, span)?;
                 15
             }
             620 => {
@@ -141,7 +141,7 @@ impl Interpreter<'_> {
                 15
             }
             640 => {
-                self.control.continuous_path(None);
+                self.control.continuous_path(None, span)?;
                 15
             }
             670 => {

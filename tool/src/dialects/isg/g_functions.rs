@@ -116,7 +116,8 @@ impl Interpreter<'_> {
             }
             260 => {
                 // As before the program asked for contouring.
-                self.control.path_control(self.control.settings.path_mode);
+                self.control
+                    .path_control(self.control.settings.path_mode, span)?;
                 9
             }
             70 | 71 => {

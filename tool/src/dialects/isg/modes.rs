@@ -213,8 +213,8 @@ impl Interpreter<'_> {
                 .motion(&words.motion, block, own_feed, exact_stop)?;
         }
         if once.contouring.is_some() {
-            self.control.modal.path_control = before;
-            self.control.actions.push(Action::PathControl(before));
+            self.control.path_control(before, block)?;
+            self.control.apply_states(false);
         }
         for (axis, unsettled) in self.unsettled.iter_mut().enumerate() {
             *unsettled &= words.motion.axes[axis].is_none();
@@ -228,8 +228,7 @@ impl Interpreter<'_> {
             Some(deviation) => Some(self.control.tolerance(deviation, span)?),
             None => None,
         };
-        self.control.continuous_path(tolerance);
-        Ok(())
+        self.control.continuous_path(tolerance, span)
     }
 
     /// Centres by G161 or G162, radii that hold on.

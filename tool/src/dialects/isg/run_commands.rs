@@ -160,10 +160,12 @@ impl Interpreter<'_> {
                 let in_program = default * millimetres / self.control.modal.length_factor;
                 let error = self.modes.contour_error.unwrap_or(in_program);
                 let tolerance = self.control.tolerance(error, span)?;
-                self.control.continuous_path(Some(tolerance));
+                self.control.continuous_path(Some(tolerance), span)?;
             }
             // As before the program asked for it.
-            Some(false) => self.control.path_control(self.control.settings.path_mode),
+            Some(false) => self
+                .control
+                .path_control(self.control.settings.path_mode, span)?,
             None => {}
         }
         self.control.apply_states(false);
@@ -188,7 +190,9 @@ impl Interpreter<'_> {
         match on {
             Some(true) => self.round_contour(span)?,
             // As before the program asked for it.
-            Some(false) => self.control.path_control(self.control.settings.path_mode),
+            Some(false) => self
+                .control
+                .path_control(self.control.settings.path_mode, span)?,
             None => {}
         }
         self.control.apply_states(false);

@@ -142,7 +142,7 @@ impl Interpreter<'_> {
                 3
             }
             600 | 640 | 6410..=6450 => {
-                self.path_mode(code);
+                self.path_mode(code, span)?;
                 10
             }
             6010 | 6020 | 6030 | 4500 | 4510 => {

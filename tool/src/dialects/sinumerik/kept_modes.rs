@@ -77,7 +77,7 @@ impl Interpreter<'_> {
         if self.control.modal.plane != kept.plane {
             self.control.plane(kept.plane, span)?;
         }
-        self.restore_path_control(&kept);
+        self.restore_path_control(&kept, span)?;
         self.restore_work_offset(kept.system, span)?;
         self.control.apply_states(compensation != Compensation::Off);
         let mut operations = self.swivelled.clone();
@@ -112,15 +112,15 @@ impl Interpreter<'_> {
         [modal.length_factor, modal.feed_factor] = kept.units;
     }
 
-    fn restore_path_control(&mut self, kept: &KeptModes) {
+    fn restore_path_control(&mut self, kept: &KeptModes, span: Span) -> Done {
         let by_distance = std::mem::replace(&mut self.smoothing.by_distance, kept.by_distance);
         let rounds = |control: PathControl| matches!(control, PathControl::Continuous { .. });
         let now = self.control.modal.path_control;
         match (rounds(now), rounds(kept.path_control)) {
-            (true, true) if by_distance == kept.by_distance => {}
-            (_, true) => self.round_corners(),
-            (_, false) if now == kept.path_control => {}
-            (_, false) => self.control.path_control(kept.path_control),
+            (true, true) if by_distance == kept.by_distance => Ok(()),
+            (_, true) => self.round_corners(span),
+            (_, false) if now == kept.path_control => Ok(()),
+            (_, false) => self.control.path_control(kept.path_control, span),
         }
     }
 

@@ -7,6 +7,7 @@ use crate::dialects::control::Done;
 use crate::dialects::control::words::At;
 use crate::dialects::expression::{Expression, ExpressionKind};
 use crate::program::PathControl;
+use crate::source::Span;
 
 /// By how much corners may be rounded, machine units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,12 +24,12 @@ pub struct Smoothing {
 
 impl Interpreter<'_> {
     /// G60, G64, G641 to G645; `code`: ten times the number.
-    pub(super) fn path_mode(&mut self, code: u32) {
+    pub(super) fn path_mode(&mut self, code: u32, span: Span) -> Done {
         self.smoothing.before = None;
         self.smoothing.by_distance = code == 6410;
         match code {
-            600 => self.control.path_control(PathControl::ExactStop),
-            _ => self.round_corners(),
+            600 => self.control.path_control(PathControl::ExactStop, span),
+            _ => self.round_corners(span),
         }
     }
 
@@ -38,16 +39,14 @@ impl Interpreter<'_> {
             true => None,
             false => Some(self.control.tolerance(word.value, word.span)?),
         };
-        self.refresh();
-        Ok(())
+        self.refresh(word.span)
     }
 
     /// ADIS: 0 leaves the rounding to the control. The mode stays.
     pub(super) fn rounding_distance(&mut self, word: At<f64>) -> Done {
         let distance = self.control.tolerance(word.value, word.span)?;
         self.smoothing.distance = Some(distance).filter(|distance| *distance > 0.0);
-        self.refresh();
-        Ok(())
+        self.refresh(word.span)
     }
 
     /// `CYCLE832(tolerance, technology, ..)`. Without a technology (units digit 0) or a value it ends.
@@ -60,8 +59,8 @@ impl Interpreter<'_> {
         if ends {
             self.smoothing.tolerance = None;
             match self.smoothing.before.take() {
-                Some(PathControl::Continuous { .. }) | None => self.refresh(),
-                Some(before) => self.control.path_control(before),
+                Some(PathControl::Continuous { .. }) | None => self.refresh(call.span)?,
+                Some(before) => self.control.path_control(before, call.span)?,
             }
         } else {
             let tolerance = match given(0) {
@@ -74,7 +73,7 @@ impl Interpreter<'_> {
             self.smoothing.by_distance = false;
             let before = self.control.modal.path_control;
             self.smoothing.before.get_or_insert(before);
-            self.round_corners();
+            self.round_corners(call.span)?;
         }
         self.control.apply_states(false);
         Ok(())
@@ -90,13 +89,14 @@ impl Interpreter<'_> {
     }
 
     /// The mode as it is, with the tolerance of now.
-    fn refresh(&mut self) {
-        if let PathControl::Continuous { .. } = self.control.modal.path_control {
-            self.round_corners();
+    fn refresh(&mut self, span: Span) -> Done {
+        match self.control.modal.path_control {
+            PathControl::Continuous { .. } => self.round_corners(span),
+            _ => Ok(()),
         }
     }
 
-    pub(super) fn round_corners(&mut self) {
+    pub(super) fn round_corners(&mut self, span: Span) -> Done {
         let Smoothing {
             tolerance,
             distance,
@@ -108,6 +108,6 @@ impl Interpreter<'_> {
             (Some(tolerance), Some(distance)) => Some(tolerance.min(distance)),
             (tolerance, distance) => tolerance.or(distance),
         };
-        self.control.continuous_path(least);
+        self.control.continuous_path(least, span)
     }
 }
