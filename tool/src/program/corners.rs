@@ -3,7 +3,7 @@
 
 use super::fillet::{Element, Joint, JointError, chamfer_from, chamfer_of, enter, leave, round};
 use super::moves::{Arc, Centre, Coordinate, Corner, Move, MoveKind};
-use super::{Action, Block, Compensation, Plane};
+use super::{Action, Block, Compensation, FeedMode, Plane};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::source::Span;
 
@@ -20,6 +20,8 @@ pub struct Corners {
     /// The motion that asks for a corner.
     open: Option<Place>,
     plane: Plane,
+    /// F is the time of a whole motion (G93), and not that of its parts.
+    inverse_time: bool,
 }
 
 impl Default for Corners {
@@ -29,6 +31,7 @@ impl Default for Corners {
             seen: 0,
             open: None,
             plane: Plane::Xy,
+            inverse_time: false,
         }
     }
 }
@@ -108,6 +111,9 @@ impl Corners {
                 Action::End { .. } => true,
                 _ => false,
             };
+            if let Action::FeedMode(mode) = action {
+                self.inverse_time = *mode == FeedMode::InverseTime;
+            }
             let is_move = matches!(action, Action::Move(_));
             let ends = self.open.is_some() && !is_move && {
                 // A tangential exit leads to the line on which the compensation ends.
@@ -137,7 +143,8 @@ impl Corners {
                 if let Some(first) = self.open.take() {
                     let second = [block, index];
                     let span = self.waiting[first[0]].origin.span;
-                    match join(&mut self.waiting, first, second, self.plane, span) {
+                    let (blocks, timed) = (&mut self.waiting, self.inverse_time);
+                    match join(blocks, first, second, self.plane, timed, span) {
                         Err(diagnostic) => diagnostics.push(diagnostic),
                         // The joint stands in the block of the first motion, which may be this one.
                         Ok(true) if first[0] == block => index += 1,
@@ -175,6 +182,7 @@ fn join(
     first_place: Place,
     second_place: Place,
     plane: Plane,
+    inverse_time: bool,
     span: Span,
 ) -> Result<bool, Diagnostic> {
     let (Some(first), Some(second)) = (
@@ -196,6 +204,9 @@ fn join(
             motion.corner = None;
         }
         return Ok(false);
+    }
+    if inverse_time {
+        return Err(timed_corner(span));
     }
     let elements = [&first, &second].map(|motion| element(motion, plane));
     let [Some(a), Some(b)] = elements else {
@@ -320,6 +331,14 @@ fn joint_move(before: &Move, joint: &Joint, plane: Plane) -> Move {
     motion.start[second] = Some(joint.start[1]);
     end_at(&mut motion, joint.end, plane);
     motion
+}
+
+fn timed_corner(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        span,
+        "a rounding or chamfer with feed in inverse time (G93)",
+    )
+    .help("F is the time of a whole block there: write G94 and a feed per minute before")
 }
 
 fn joint_error(error: JointError, span: Span) -> Diagnostic {

@@ -156,3 +156,30 @@ fn overrides_and_cycles_are_refused() {
     let lines = written("fanuc", "", "X20.\nM48\nX30.");
     assert_eq!(lines[..2], ["G1 X20", "G1 X30"]);
 }
+
+/// G93: F is the time of a block, and not that of its parts.
+#[test]
+fn corners_with_feed_in_inverse_time_are_refused() {
+    let words = "a rounding or chamfer with feed in inverse time";
+    for (dialect, text) in [
+        ("sinumerik", "G0 X0 Y0\nG93\nG1 X10 F2 RND=1\nY10 F2\nM30\n"),
+        ("sinumerik", "G0 X0 Y0\nG93\nG1 X10 F2 CHF=1\nY10 F2\nM30\n"),
+        (
+            "sinumerik",
+            "G0 X0 Y0\nG93 RNDM=1\nG1 X10 F2\nY10 F2\nM30\n",
+        ),
+        (
+            "fanuc",
+            "O1\nG0 X0 Y0\nG93 G1 X10. ,R1. F2.\nY10. F2.\nM30\n",
+        ),
+        (
+            "fanuc",
+            "O1\nG0 X0 Y0\nG93 G1 X10. ,C1. F2.\nY10. F2.\nM30\n",
+        ),
+    ] {
+        let shop = Shop::new(&[("part", text.as_bytes())]);
+        let shown = refused(&shop.run_in(dialect, "part", &[]));
+        assert!(shown.contains(words), "{text}\n{shown}");
+        assert!(shown.contains("part:3:1"), "{text}\n{shown}");
+    }
+}

@@ -36,7 +36,7 @@ fn the_tool_comes_along_a_tangent_arc_or_line() {
         ("G147 G341 G141", format!("G0 X15 Y10\n{down} G1 X20 Y10")),
         (
             "G247 G141",
-            "G0 X15 Y15\nG0 Z1\nG3 X20 Y10 Z-2 I5 J0".to_string(),
+            "G0 X15 Y15\nG0 Z1\nF100 G3 X20 Y10 Z-2 I5 J0\nF300".to_string(),
         ),
     ] {
         for (words, contour) in [
@@ -51,6 +51,11 @@ fn the_tool_comes_along_a_tangent_arc_or_line() {
             );
         }
     }
+    // Without an infeed the way is slow too.
+    same(
+        "G1 G147 G141 DISR=5 X20 Y10 FAD=100\nX40",
+        "G0 X15 Y10\nF100 G1 X20 Y10\nF300 X40",
+    );
     // An arc behind it; the plane of the tool alone.
     same(
         "G1 G247 G141 DISR=5 X20 Y10\nG3 X30 Y20 I0 J10",
@@ -108,6 +113,18 @@ fn what_is_missing_is_named() {
             "below the depth",
         ),
         ("G1 G247 G143 DISR=5 X20 Y10\nX40", "G143 is not supported"),
+        (
+            "G1 X20 Y10\nX40\nG248 G141 DISR=5 DISCL=3 FAD=100 Z20",
+            "FAD in a retraction with G340",
+        ),
+        (
+            "G93\nG0 G41 G247 DISR=10 X20 Y10\nG1 X40 F2",
+            "a smooth approach with feed in inverse time",
+        ),
+        (
+            "G93\nG1 X40 F2\nG248 G141 DISR=10 X60 Y10 F2",
+            "a smooth retraction with feed in inverse time",
+        ),
     ] {
         let program = format!("T1 M6\nG17 G90 G0 Z5\nF300\nG0 X0 Y0\n{blocks}\nM30\n");
         let shown = refused(&shop(&program).run("part.mpf", &ARGUMENTS));

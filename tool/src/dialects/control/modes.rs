@@ -272,6 +272,17 @@ impl Control<'_> {
         Ok(())
     }
 
+    /// F of G93 is the time of its whole block: it is that of no motion which is put before or behind it.
+    pub fn refuse_inverse_time(&self, span: Span, what: &str) -> Done {
+        if self.modal.feed_mode != FeedMode::InverseTime {
+            return Ok(());
+        }
+        Err(
+            Diagnostic::error(span, format!("{what} with feed in inverse time (G93)"))
+                .help("write G94 and a feed per minute before"),
+        )
+    }
+
     /// A motion with feed needs one. `has_own`: whether the block has an F.
     pub fn check_feed(&mut self, has_own: bool, span: Span) -> Done {
         self.check_kept_speed()?;

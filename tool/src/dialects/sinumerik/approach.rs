@@ -38,7 +38,8 @@ pub struct Smooth {
     reach: f64,
     /// DISCL: how far above the depth the slow infeed begins.
     above: f64,
-    /// FAD, units of the program.
+    /// FAD, units of the program: with G341 the feed of the slow infeed, with G340 that of the whole way
+    /// along the shape.
     slow: Option<At<f64>>,
     /// Whether the tool comes from the left of the contour.
     left: bool,
@@ -140,8 +141,11 @@ impl Interpreter<'_> {
         tangent: [f64; 2],
         before: [Option<f64>; 9],
     ) -> Result<Vec<Action>, Diagnostic> {
+        self.control
+            .refuse_inverse_time(smooth.span, "a smooth approach")?;
         let axes = self.control.modal.plane.axes();
         let (from, centre) = smooth.far_end(target, tangent, -1.0);
+        let exact_stop = self.control.stops_under_compensation();
         let mut at = before;
         let mut way = Vec::new();
         let mut go = |kind: MoveKind, ends: [Option<f64>; 3]| {
@@ -149,7 +153,7 @@ impl Interpreter<'_> {
                 kind,
                 target: [Coordinate::Keep; 9],
                 start: at,
-                exact_stop: false,
+                exact_stop,
                 corner: None,
             };
             for (axis, end) in axes.into_iter().zip(ends) {
@@ -178,7 +182,11 @@ impl Interpreter<'_> {
             }
         }
         let kind = smooth.element(centre, from);
-        way.push(go(kind, [Some(target[0]), Some(target[1]), last_depth]));
+        let onto = go(kind, [Some(target[0]), Some(target[1]), last_depth]);
+        match smooth.flat {
+            true => way.push(onto),
+            false => self.slowly(smooth, onto, &mut way)?,
+        }
         Ok(way)
     }
 
@@ -206,6 +214,12 @@ impl Interpreter<'_> {
         }
         let smooth = self.smooth(words, false)?;
         let span = smooth.span;
+        if let Some(slow) = smooth.slow.filter(|_| !smooth.flat) {
+            return Err(Diagnostic::error(slow.span, "FAD in a retraction with G340")
+                .help("the feed in force leads away from the contour there: leave FAD out, or write G341, where it is the feed of the way up"));
+        }
+        self.control
+            .refuse_inverse_time(span, "a smooth retraction")?;
         let [first, second, normal] = self.control.modal.plane.axes();
         let position = &self.control.modal.position;
         let here = [first, second, normal].map(|axis| position.get(axis));
