@@ -1,13 +1,14 @@
 //! Guessing which word was meant.
 
-/// The known name nearest to a misspelt one, if it is near enough to be meant.
+/// The known name nearest to a misspelt one, if it is near enough to be meant; none where the name is itself a known
+/// one, which is not misspelt but misplaced.
 pub fn nearest(name: &str, known: &[&'static str]) -> Option<&'static str> {
     let distance = |known: &&str| edit_distance(name, known);
     known
         .iter()
         .copied()
         .min_by_key(distance)
-        .filter(|known| distance(known) <= known.len() / 3)
+        .filter(|known| (1..=known.len() / 3).contains(&distance(known)))
 }
 
 /// All known names that are as near to a misspelt one as the nearest, three at most; none where that is
@@ -28,7 +29,7 @@ pub fn nearest_ones(name: &str, known: &[&'static str]) -> Vec<&'static str> {
 const FEW: usize = 3;
 
 /// The known names nearest to one that is not known, the nearest first; names of which half would have to
-/// be changed are not among them, unless that is a single character.
+/// be changed are not among them, unless that is a single character. None where the name is itself a known one.
 pub fn nearest_few<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let far = |known: &str| {
         let distance = edit_distance(name, known);
@@ -39,6 +40,9 @@ pub fn nearest_few<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<
         .filter_map(|known| far(known).map(|distance| (distance, known)))
         .collect();
     similar.sort_unstable();
+    if similar.first().is_some_and(|(distance, _)| *distance == 0) {
+        return Vec::new();
+    }
     similar.dedup();
     similar.truncate(FEW);
     similar.into_iter().map(|(_, known)| known).collect()
@@ -96,5 +100,15 @@ mod tests {
         assert_eq!(few("MILL_11"), ["MILL_10", "MILL_12"]);
         assert_eq!(few("MIL_10"), ["MILL_10", "MILL_12"]);
         assert!(few("TAP_M6").is_empty());
+    }
+
+    #[test]
+    fn nobody_is_told_what_stands_there() {
+        let known = ["CALL", "MCALL", "RCALL"];
+        for name in known {
+            assert_eq!(nearest(name, &known), None);
+            assert!(nearest_ones(name, &known).is_empty());
+            assert!(nearest_few(name, known.into_iter()).is_empty());
+        }
     }
 }

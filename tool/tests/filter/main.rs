@@ -38,6 +38,7 @@ mod sinumerik_long_cycles;
 mod sinumerik_milling;
 mod sinumerik_save;
 mod sinumerik_values;
+mod sinumerik_words;
 mod spindle;
 mod swivel;
 mod tools;

@@ -243,6 +243,10 @@ fn definition(parser: &mut BlockParser, kind: VariableKind) -> Parsed<Definition
         Some(TokenKind::Name(name)) if !words::is_reserved(name) && !name.starts_with('$') => {
             name.clone()
         }
+        Some(TokenKind::Name(name)) if words::is_reserved(name) => {
+            parser.refuse_known(name, span)?;
+            return Err(words::no_variable(name, span));
+        }
         _ => {
             return Err(parser.error_with_help(
                 "this cannot be the name of a variable",

@@ -34,6 +34,7 @@ mod pockets;
 mod polar;
 mod procedures;
 mod programmed_offset;
+mod refusals;
 mod routine;
 mod settable_offset;
 mod slots;

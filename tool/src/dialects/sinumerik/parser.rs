@@ -5,6 +5,7 @@ use super::cursor::{Cursor, Parsed};
 use super::expressions::{arguments, expression};
 use super::flow_parser;
 use super::lexer::tokens;
+use super::refusals::refused;
 use super::syntax::{Assigned, Assignment, Block, Call, Procedure, Statement, Word, WordValue};
 use super::token::{SectionName, Symbol, Token, TokenKind};
 use super::word_parser::unknown_word;
@@ -158,6 +159,7 @@ impl BlockParser<'_> {
         if name == "$P_UIFR" {
             return self.settable_offset().map(Some);
         }
+        self.refuse_known(name, keyword)?;
         if self.is_assignment() {
             return self.assignments().map(Some);
         }
@@ -199,9 +201,8 @@ impl BlockParser<'_> {
             while self.cursor.advance().is_some() {}
             return Ok(Some(Statement::Noted(name.to_string())));
         }
-        self.refuse_known(name, keyword)?;
         if words::is_reserved(name) {
-            return Err(self.cursor.error(format!("{name} is not supported")));
+            return Err(self.cursor.error(format!("{name} does not begin a block")));
         }
         self.call().map(Some)
     }
@@ -276,7 +277,7 @@ impl BlockParser<'_> {
     }
 
     pub(super) fn refuse_known(&self, name: &str, span: Span) -> Parsed<()> {
-        let reason = match words::refused(name) {
+        let reason = match refused(name) {
             Some(reason) => reason,
             None if name.starts_with('$') => "system variables cannot be evaluated ahead of time",
             None => return Ok(()),
@@ -368,14 +369,28 @@ impl BlockParser<'_> {
                 _ => false,
             };
             if !is_variable {
-                return Err(self.error_with_help(
-                    "values for variables and other words cannot stand in one block",
-                    "put the assignments in a block of their own",
-                ));
+                return Err(self.not_assigned(list.is_empty()));
             }
             list.push(self.assignment()?);
         }
         Ok(Statement::Assign(list))
+    }
+
+    /// An error for what is no variable where one is given a value.
+    fn not_assigned(&self, first: bool) -> Diagnostic {
+        if let Some(TokenKind::Name(name)) = self.cursor.peek() {
+            let known = self.refuse_known(name, self.cursor.span());
+            if let Err(refusal) = known {
+                return refusal;
+            }
+            if first {
+                return words::no_variable(name, self.cursor.span());
+            }
+        }
+        self.error_with_help(
+            "values for variables and other words cannot stand in one block",
+            "put the assignments in a block of their own",
+        )
     }
 
     /// One `name = value`.

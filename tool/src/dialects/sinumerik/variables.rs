@@ -1,6 +1,7 @@
 //! R parameters and the variables that a program declares.
 
 use super::syntax::VariableKind;
+use super::words;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::expression::{Value, Variables};
 use crate::dialects::indices::{element, parameter_number};
@@ -226,6 +227,8 @@ fn unknown(name: &str, span: Span) -> Diagnostic {
             span,
             format!("{name}: system variables cannot be evaluated ahead of time"),
         )
+    } else if words::is_reserved(name) {
+        words::no_variable(name, span)
     } else {
         error.help(format!("declare it before its first use: DEF REAL {name}"))
     }

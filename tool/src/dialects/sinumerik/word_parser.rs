@@ -77,7 +77,7 @@ impl BlockParser<'_> {
             }
             return self.word_value(name.to_string(), span);
         }
-        if words::frame_keyword(name).is_some() {
+        if words::is_statement(name) {
             return Err(self.error_with_help(
                 &format!("{name} stands alone in its block"),
                 "put it in a block of its own",

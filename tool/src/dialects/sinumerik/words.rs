@@ -1,8 +1,10 @@
-//! The words of the dialect by kind: which are commands, which only tune the control, which are
-//! refused.
+//! The words of the dialect by kind: which are commands, which only tune the control.
 
+use super::refusals::refused;
 use super::syntax::FrameKeyword;
+use crate::diagnostics::Diagnostic;
 use crate::dialects::spelling::nearest_ones;
+use crate::source::Span;
 
 /// Addresses of several letters, with their value after `=`.
 const ADDRESSES: [&str; 26] = [
@@ -97,13 +99,66 @@ const NOTED: [&str; 78] = [
     "CP",
 ];
 
-/// Statements and operators.
-const KEYWORDS: [&str; 53] = [
-    "B_AND", "B_OR", "B_XOR", "B_NOT", "SET", "REP", "TRANS", "ATRANS", "ROT", "AROT", "ROTS",
-    "AROTS", "SCALE", "ASCALE", "MIRROR", "AMIRROR", "IF", "ELSE", "ENDIF", "WHILE", "ENDWHILE",
-    "FOR", "TO", "ENDFOR", "LOOP", "ENDLOOP", "REPEAT", "REPEATB", "UNTIL", "CASE", "OF",
-    "DEFAULT", "GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS", "DEF", "PROC", "RET", "MSG", "AND",
-    "OR", "XOR", "NOT", "DIV", "MOD", "CALL", "MCALL", "PCALL", "SAVE", "STOPRE", "SETAL",
+/// Words that stand alone in their block, or begin it.
+const STATEMENTS: [&str; 38] = [
+    "TRANS", "ATRANS", "ROT", "AROT", "ROTS", "AROTS", "SCALE", "ASCALE", "MIRROR", "AMIRROR",
+    "IF", "ELSE", "ENDIF", "WHILE", "ENDWHILE", "FOR", "ENDFOR", "LOOP", "ENDLOOP", "REPEAT",
+    "REPEATB", "UNTIL", "CASE", "GOTO", "GOTOF", "GOTOB", "GOTOC", "DEF", "PROC", "RET", "MSG",
+    "CALL", "EXTCALL", "MCALL", "STOPRE", "SETAL", "EXTERN", "ENDPROC",
+];
+
+/// Words that stand within others: operators, parts of statements, types, values and functions.
+const PARTS: [&str; 50] = [
+    "B_AND",
+    "B_OR",
+    "B_XOR",
+    "B_NOT",
+    "AND",
+    "OR",
+    "XOR",
+    "NOT",
+    "DIV",
+    "MOD",
+    "SET",
+    "REP",
+    "TO",
+    "OF",
+    "DEFAULT",
+    "SAVE",
+    "ENDLABEL",
+    "PREPRO",
+    "ACTBLOCNO",
+    "VAR",
+    "INT",
+    "REAL",
+    "BOOL",
+    "CHAR",
+    "STRING",
+    "TRUE",
+    "FALSE",
+    "AC",
+    "IC",
+    "DC",
+    "ACP",
+    "ACN",
+    "SIN",
+    "COS",
+    "TAN",
+    "ASIN",
+    "ACOS",
+    "ATAN2",
+    "SQRT",
+    "ABS",
+    "POT",
+    "TRUNC",
+    "ROUND",
+    "ROUNDUP",
+    "LN",
+    "EXP",
+    "MINVAL",
+    "MAXVAL",
+    "BOUND",
+    "QU",
 ];
 
 /// The command of the programmable frame with this name.
@@ -138,64 +193,34 @@ pub fn is_noted(name: &str) -> bool {
     NOTED.contains(&name)
 }
 
-/// Why a command of the control is refused, if it is a known one.
-pub fn refused(name: &str) -> Option<&'static str> {
-    Some(match name {
-        "TRAORI" | "TRANSMIT" | "TRACYL" | "TRAANG" | "TRACON" => {
-            "transformations of the control are not translated: set the kinematics of the machine instead"
-        }
-        "ASPLINE" | "BSPLINE" | "CSPLINE" | "POLY" | "POLYPATH" | "INVCW" | "INVCCW" => {
-            "splines, polynomials and involutes are not supported: post the program with lines and arcs"
-        }
-        "CUT3DC" | "CUT3DF" | "CUT3DFS" | "CUT3DFF" | "CUT3DCC" | "CUT3DCCD" => {
-            "three-dimensional tool radius compensation is not supported"
-        }
-        "WHEN" | "WHENEVER" | "EVERY" | "FROM" | "DO" | "ID" | "IDS" | "CANCEL" => {
-            "synchronised actions cannot be evaluated ahead of time"
-        }
-        "INIT" | "START" | "WAITM" | "WAITMC" | "WAITE" | "SETM" | "CLEARM" | "GET" | "GETD"
-        | "RELEASE" => "there is only one channel",
-        "EXECSTRING" | "READ" | "WRITE" | "DELETE" | "ISFILE" => {
-            "file access and text that is run as program are not supported"
-        }
-        "POS" | "POSA" | "POSP" | "WAITP" | "FA" => {
-            "positioning axes apart from the path are not supported: name the axis in the block instead"
-        }
-        "MEAS" | "MEAW" | "MEASA" | "MEAWA" | "MEAC" => {
-            "measuring cannot be evaluated ahead of time"
-        }
-        "TOFRAME" | "TOROT" | "PAROT" | "MEAFRAME" => {
-            "frames from tool or table orientation are not supported: write the angles with ROT"
-        }
-        "CTRANS" | "CROT" | "CSCALE" | "CMIRROR" | "CFINE" | "FRAME" => {
-            "frame variables are not supported: write TRANS, ROT, SCALE and MIRROR"
-        }
-        "KONTC" | "KONTT" => "approach paths of other forms than KONT and NORM are not supported",
-        "SETINT" | "ENABLE" | "DISABLE" | "CLRINT" | "PRIO" => {
-            "interrupt routines are not supported"
-        }
-        "ORIEULER" | "ORIRPY" | "ORIVECT" | "ORIAXES" => "tool orientation is not supported",
-        "OEMIPO1" | "OEMIPO2" | "COUPON" | "COUPOF" | "LEADON" | "LEADOF" | "TRAILON"
-        | "TRAILOF" | "EGON" => "coupled axes are not supported",
-        _ => return None,
-    })
+/// Whether a word stands alone in its block, or begins it.
+pub fn is_statement(name: &str) -> bool {
+    STATEMENTS.contains(&name)
 }
 
 /// Names that cannot be those of subprograms or variables.
 pub fn is_reserved(name: &str) -> bool {
-    frame_keyword(name).is_some()
-        || is_address(name)
+    is_address(name)
         || is_flag(name)
         || is_noted(name)
+        || is_statement(name)
+        || PARTS.contains(&name)
         || refused(name).is_some()
-        || KEYWORDS.contains(&name)
-        || name == "EXTERN"
+}
+
+/// An error for a word of the control that stands where a variable should.
+pub fn no_variable(name: &str, span: Span) -> Diagnostic {
+    Diagnostic::error(
+        span,
+        format!("{name} is a word of the control and cannot be a variable"),
+    )
+    .help("give the variable a name that is no command, address or function of the control")
 }
 
 /// The known names nearest to a misspelt one, for a question: `TRANS`, `SOFT or SOFTA`. `None` where none
 /// is near enough to be meant.
 pub fn similar(name: &str) -> Option<String> {
-    let known = [&KEYWORDS[..], &ADDRESSES, &FLAGS, &NOTED].concat();
+    let known = [&STATEMENTS[..], &ADDRESSES, &FLAGS, &NOTED].concat();
     let nearest = nearest_ones(name, &known);
     (!nearest.is_empty()).then(|| nearest.join(" or "))
 }
@@ -203,6 +228,7 @@ pub fn similar(name: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dialects::sinumerik::refusals;
 
     #[test]
     fn slips_of_the_pen_are_recognised() {
@@ -213,9 +239,20 @@ mod tests {
             ("DYNNROM", Some("DYNNORM")),
             ("COMPCAF", Some("COMPCAD")),
             ("POCKET", None),
+            ("MCALL", None),
         ];
         for (slip, meant) in cases {
             assert_eq!(similar(slip).as_deref(), meant, "{slip}");
         }
+    }
+
+    #[test]
+    fn each_word_is_of_one_kind() {
+        let known = [&STATEMENTS[..], &PARTS, &ADDRESSES, &FLAGS, &NOTED].concat();
+        let mut words: Vec<&str> = known.into_iter().chain(refusals::all()).collect();
+        words.sort_unstable();
+        let twice = words.windows(2).find(|two| two[0] == two[1]);
+        assert_eq!(twice, None);
+        assert!(words.iter().all(|word| is_reserved(word)));
     }
 }
