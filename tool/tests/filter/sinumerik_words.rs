@@ -52,6 +52,15 @@ fn words_that_act_beside_the_path_are_named() {
         one_error(block, 1, &format!("{word} is not supported"));
         one_error(block, 1, text);
     }
+    for (block, text) in [
+        ("G74 X1=0 Z1=0", "homing"),
+        ("G75 X1=0", "G0 SUPA Z0 D0"),
+        ("G25 X0 Y0", "soft limits"),
+        ("G26 S2000", "LIMS=2000"),
+    ] {
+        one_error(block, 1, &format!("{} is not supported", &block[..3]));
+        one_error(block, 1, text);
+    }
 }
 
 #[test]

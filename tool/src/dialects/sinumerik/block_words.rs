@@ -1,5 +1,6 @@
 //! The words of one block, evaluated and sorted by address.
 
+use super::g_functions::unsupported_g;
 use super::spindle::Diameter;
 use super::syntax::{Way, Word, WordValue};
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -79,6 +80,10 @@ impl BlockWords {
         let before = diagnostics.errors();
         let mut block = BlockWords::default();
         let mut failed = false;
+        if let Some(refusal) = words.iter().find_map(|word| machine_point(word, variables)) {
+            diagnostics.push(refusal);
+            return None;
+        }
         for word in words {
             if let Err(diagnostic) = block.add(word, variables) {
                 diagnostics.push(diagnostic);
@@ -244,6 +249,15 @@ impl BlockWords {
             || self.polar_radius.is_some()
             || self.middle.iter().any(Option::is_some)
     }
+}
+
+/// The error for G74 and G75, which have axes of the machine beside them: X1, which is known nowhere else.
+fn machine_point(word: &Word, variables: &dyn Variables) -> Option<Diagnostic> {
+    let code = number(word, variables)
+        .ok()
+        .filter(|_| word.address == "G")?;
+    let code = ten_times_code(code, word.span).ok()?;
+    matches!(code, 740 | 750).then(|| unsupported_g(code, word.span))
 }
 
 fn error(span: Span, message: &str) -> Diagnostic {

@@ -230,10 +230,21 @@ fn shown(tenfold: u32) -> String {
     }
 }
 
-fn unsupported_g(code: u32, span: Span) -> Diagnostic {
+/// An error for a G function that is not translated, by ten times its number.
+pub(super) fn unsupported_g(code: u32, span: Span) -> Diagnostic {
     let reason = match code {
         340 | 350 => "threads whose pitch changes are not supported",
         961 | 962 | 971 | 9610 | 9620 | 9710 | 9720 | 9730 => "write G96 or G97, with F per turn",
+        250 | 260 => {
+            "working areas are the soft limits of LinuxCNC (MIN_LIMIT and MAX_LIMIT in the INI file); a limit of the spindle \
+             with G96 and G97 is LIMS=2000"
+        }
+        740 => {
+            "reference points are LinuxCNC's homing: leave it out, or write the motion there, G0 SUPA Z0 D0"
+        }
+        750 => {
+            "the places of G75 are those of the other control: write the motion there, G0 SUPA Z0 D0"
+        }
         200 | 210 => "inch and millimetre are G70 and G71 in this dialect",
         _ => {
             "look it up in the manual of the control, and write it with functions that are supported"
