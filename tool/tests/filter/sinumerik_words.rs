@@ -1,7 +1,7 @@
-//! Words that the control has for itself: none is a variable, each is told by name.
+//! Words that the control has for itself: none is a variable, each is told by name; and jumps whose target is a text.
 
 use crate::one_error::assert_one_error;
-use crate::shop::{Shop, refused};
+use crate::shop::{Shop, commands, refused, translate};
 
 /// The error text of a program that must be refused.
 fn errors(program: &str) -> String {
@@ -77,4 +77,58 @@ fn statements_stand_alone_in_their_block() {
         assert!(!errors(&format!("{block}\nM30\n")).contains("did you mean"));
     }
     one_error("SAVE", 1, "SAVE does not begin a block");
+}
+
+#[test]
+fn the_target_of_a_jump_may_be_a_text() {
+    let last = |program: &str| {
+        let lines = commands(&translate(program, &[]));
+        lines.iter().rfind(|line| line.contains('X')).cloned()
+    };
+    for (program, at) in [
+        (
+            "R10=100\nGOTOF \"N\"<<R10\nN90 G0 X5\nGOTOF OUT\nN100 G0 X10\nOUT: Y0\n",
+            10,
+        ),
+        (
+            "R6=2\nGOTO \"PART\"<<R6\nPART1: G0 X5\nGOTOF OUT\nPART2: G0 X10\nOUT: Y0\n",
+            10,
+        ),
+        (
+            "DEF STRING[20] GOAL=\"Part2\"\nIF 1==1 GOTOF GOAL\nG0 X5\nPART2: Y0\nG0 X7\n",
+            7,
+        ),
+        (
+            "DEF STRING[9] TO_[2]=SET(\"A1_\",\"B1_\")\nGOTOF TO_[1]\nA1_: G0 X5\nB1_: G0 X6\n",
+            6,
+        ),
+        ("G0 X1\nGOTOC \"NOWHERE\"<<1\nX2\n", 2),
+        (
+            "R1=0\nUP_: R1=R1+1\nIF R1<4 GOTOB (\"UP\"<<\"_\")\nG0 X=R1\n",
+            4,
+        ),
+    ] {
+        let moved = last(&format!("{program}M30\n")).unwrap_or_default();
+        let word = format!("X{at}");
+        assert!(
+            moved.split(' ').any(|part| part == word),
+            "{program}{moved}"
+        );
+    }
+    one_error("GOTOF \"N\"<<500", 7, "the text is here N500");
+    one_error("GOTOF \"GOAL\"<<5", 7, "the text is here \"GOAL5\"");
+    one_error(
+        "CASE 1 OF 1 GOTOF \"GOAL\"",
+        19,
+        "the label is missing here",
+    );
+    for (program, text) in [
+        ("DEF INT GOAL=5\nGOTOF GOAL\nM30\n", "this is a number"),
+        (
+            "DEF STRING[9] GOAL=\"AA\"\nGOTOF GOAL\nAA:\nGOAL:\nM30\n",
+            "GOAL is a label and a text",
+        ),
+    ] {
+        assert_one_error(&errors(program), program, "part.mpf:2:7", text);
+    }
 }

@@ -4,7 +4,7 @@ use super::interpreter::Interpreter;
 use super::routine::Routine;
 use super::syntax::{Assignment, Direction, Flow, Jump, RepeatPart, Statement, Target};
 use crate::diagnostics::Diagnostic;
-use crate::dialects::expression::{Expression, ExpressionKind, Value};
+use crate::dialects::expression::{Expression, ExpressionKind, Value, Variables};
 use crate::dialects::run::Next;
 use std::rc::Rc;
 
@@ -185,7 +185,8 @@ impl Interpreter<'_> {
     }
 
     fn jump(&mut self, jump: &Jump, routine: &Routine, at: usize) -> Result<Next, Diagnostic> {
-        let targets = self.targets(&jump.target, routine);
+        let named = self.named_by_text(jump, routine)?;
+        let targets = self.targets(named.as_ref().unwrap_or(&jump.target), routine);
         // Those up to this block, and those after it.
         let (before, after) = targets.split_at(targets.partition_point(|target| *target <= at));
         let forward = after.first().copied();
@@ -205,9 +206,63 @@ impl Interpreter<'_> {
                     Some(_) => {
                         error.help("GOTOF looks towards the end, GOTOB towards the beginning")
                     }
+                    None if named.is_some() => error.help(format!(
+                        "the text is here {}: labels are written NAME: at the beginning of a block, block numbers N100",
+                        shown(named.as_ref())
+                    )),
                     None => error.help("labels are written NAME: at the beginning of a block"),
                 })
             }
         }
+    }
+
+    /// The target that a text names: `GOTOF "N" << R10`, or GOTOF with a variable that is a text. `None` where the
+    /// jump names it itself.
+    fn named_by_text(&self, jump: &Jump, routine: &Routine) -> Result<Option<Target>, Diagnostic> {
+        let value = match &jump.target {
+            Target::Number(_) => return Ok(None),
+            Target::Text(text) => text.evaluate(&self.variables)?,
+            Target::Label(name) => match self.variables.value(name, &[], jump.span) {
+                Ok(Value::Text(_)) if routine.has_label(name) => {
+                    let message = format!(
+                        "{name} is a label and a text: which of them is meant is not known"
+                    );
+                    return Err(
+                        Diagnostic::error(jump.span, message).help("give one of them another name")
+                    );
+                }
+                Ok(value) if !routine.has_label(name) => value,
+                _ => return Ok(None),
+            },
+        };
+        match value {
+            Value::Text(text) => Ok(Some(target_of(&text))),
+            Value::Number(_) => Err(Diagnostic::error(
+                jump.span,
+                "the target of a jump is a label, a block number or a text, and this is a number",
+            )
+            .help(
+                "for the block whose number it is, write \"N\" and << before it: GOTOF \"N\"<<R10",
+            )),
+        }
+    }
+}
+
+/// What a text names.
+fn target_of(text: &str) -> Target {
+    let name = text.trim().to_ascii_uppercase();
+    let digits = name.strip_prefix(['N', ':']);
+    let digits = digits.filter(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()));
+    match digits.and_then(|digits| digits.parse().ok()) {
+        Some(number) => Target::Number(number),
+        None => Target::Label(name),
+    }
+}
+
+fn shown(target: Option<&Target>) -> String {
+    match target {
+        Some(Target::Number(number)) => format!("N{number}"),
+        Some(Target::Label(name)) => format!("\"{name}\""),
+        _ => String::new(),
     }
 }

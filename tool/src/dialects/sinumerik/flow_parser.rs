@@ -105,7 +105,27 @@ fn repeat_part(parser: &mut BlockParser, one_block: bool) -> Parsed<RepeatPart> 
     })
 }
 
+/// The target of a jump that is not a branch of CASE, where only labels and numbers stand.
 fn jump(parser: &mut BlockParser, direction: Direction) -> Parsed<Jump> {
+    let start = parser.cursor.span();
+    let is_text = match parser.cursor.peek() {
+        Some(TokenKind::Text(_) | TokenKind::Symbol(Symbol::Open)) => true,
+        Some(TokenKind::Name(_)) => [Symbol::OpenBracket, Symbol::Concatenate]
+            .into_iter()
+            .any(|symbol| parser.cursor.is_symbol(1, symbol)),
+        _ => false,
+    };
+    if !is_text {
+        return branch(parser, direction);
+    }
+    Ok(Jump {
+        direction,
+        target: Target::Text(expression(&mut parser.cursor)?),
+        span: start.to(parser.cursor.last_span()),
+    })
+}
+
+fn branch(parser: &mut BlockParser, direction: Direction) -> Parsed<Jump> {
     let start = parser.cursor.span();
     let target = target(parser)?;
     Ok(Jump {
@@ -158,7 +178,7 @@ fn case(parser: &mut BlockParser) -> Parsed<Flow> {
                 .cursor
                 .error("a jump (GOTOF, GOTOB, GOTO) is missing here"));
         };
-        let jump = jump(parser, direction)?;
+        let jump = branch(parser, direction)?;
         match constant {
             Some(constant) => cases.push((constant, jump)),
             None => {

@@ -42,6 +42,11 @@ pub struct Routine {
 }
 
 impl Routine {
+    /// Whether a block has this label.
+    pub fn has_label(&self, label: &str) -> bool {
+        self.labels.contains_key(label)
+    }
+
     /// The blocks that a jump can mean, in their order.
     pub fn targets(
         &self,
@@ -55,6 +60,8 @@ impl Routine {
                 let found = self.blocks.numbered(*number, sources, diagnostics);
                 found.to_vec()
             }
+            // What it names is worked out before.
+            Target::Text(_) => Vec::new(),
         }
     }
 }
@@ -104,7 +111,7 @@ impl Section {
                 .into_iter()
                 .filter_map(|target| match target {
                     Target::Number(number) => Some(*number),
-                    Target::Label(_) => None,
+                    Target::Label(_) | Target::Text(_) => None,
                 });
             self.numbers.extend(numbers);
         }

@@ -303,4 +303,6 @@ pub enum Target {
     Label(String),
     /// A block number.
     Number(u32),
+    /// A text that names a label or a block number.
+    Text(Expression),
 }
