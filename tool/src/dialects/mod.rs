@@ -8,6 +8,7 @@ pub mod expression;
 pub mod fagor;
 pub mod fanuc;
 pub mod fillers;
+pub mod foreign;
 pub mod guess;
 pub mod indices;
 pub mod ini;

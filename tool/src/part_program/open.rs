@@ -3,6 +3,7 @@
 use super::{Refused, refusal};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::Dialect;
+use crate::dialects::foreign;
 use crate::dialects::guess::{guess, undecided};
 use crate::source::open::{self, Content, OpenError, Reading};
 use crate::source::{Sources, Span};
@@ -39,11 +40,14 @@ pub(crate) fn open(dialect: Dialect, path: &Path, reading: &Reading) -> Result<O
     }
     let mut notes = diagnostics.notes().to_vec();
     let head = head(&opened.content).map_err(|error| unreadable(path, &error))?;
-    let guessed = language(dialect, path, &head);
-    let (dialect, note) = guessed.ok_or_else(|| {
+    let guessed = match foreign::refusal(&head) {
+        Some(foreign) => Err(foreign),
+        None => language(dialect, path, &head).ok_or_else(undecided),
+    };
+    let (dialect, note) = guessed.map_err(|error| {
         let mut sources = Sources::default();
         sources.add(name.clone(), head);
-        diagnostics.push(undecided());
+        diagnostics.push(error);
         refusal(&diagnostics, &sources)
     })?;
     notes.extend(note);

@@ -132,3 +132,22 @@ fn the_target_of_a_jump_may_be_a_text() {
         assert_one_error(&errors(program), program, "part.mpf:2:7", text);
     }
 }
+
+#[test]
+fn programs_of_heidenhain_are_told_by_name() {
+    let conversational = b"0 BEGIN PGM PART MM\n1 TOOL CALL 1 Z S1910\n2 END PGM PART MM\n";
+    let iso = b"%1000 G71 *\nN10 G30 G17 X+0 Y+0 Z-40*\n";
+    for (name, program) in [("part.h", &conversational[..]), ("part.nc", &iso[..])] {
+        let shop = Shop::new(&[(name, program)]);
+        for dialect in ["auto", "sinumerik", "fagor", "mefi", "fanuc", "isg"] {
+            let shown = refused(&shop.run_in(dialect, name, &[]));
+            assert!(shown.contains(&format!("{name}:1:1\n")), "{shown}");
+            assert!(
+                shown.contains("a program of a Heidenhain control"),
+                "{shown}"
+            );
+            assert!(shown.contains("post it for LinuxCNC"), "{shown}");
+            assert!(shown.contains("1 error: nothing was written"), "{shown}");
+        }
+    }
+}
