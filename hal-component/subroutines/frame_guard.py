@@ -230,7 +230,7 @@ class Guard:
             self.ended = None
             self.told_suspended = False
             return
-        # o<on_abort> sets the command to 0; a program's commands are never 0
+        # o<frame_abort> sets the command to 0; a program's commands are never 0
         aborted = now.command == 0 and self.commanded
         if setting.clear_on_abort and (aborted or not now.on):
             self.due = "abort"
@@ -242,7 +242,7 @@ class Guard:
             # the operator has chosen this mode
             self.due = "start"
         if self.ended is not None and setting.clear_at_end:
-            # an abort looks like an end until o<on_abort> has run
+            # an abort looks like an end until o<frame_abort> has run
             patience = 0.0 if setting.clear_on_abort else 10 * setting.task_cycle + 0.1
             if aborted and not setting.clear_on_abort:
                 self.ended = None

@@ -140,7 +140,7 @@ class Settings:
         _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
         if self.clear_on_abort:
             _require(ini, "ON_ABORT_COMMAND", None, f"[{SECTION}]CLEAR_ON_ABORT = 1 depends on it; write "
-                     "o<on_abort> call, or call o<on_abort> in a subroutine of your own")
+                     "o<frame_abort> call, or call o<frame_abort> in a subroutine of your own")
 
     def joint_problem(self, extra):
         """What is wrong with the letters of framekins, None if nothing is. They stand for the joints, one each: without this
@@ -212,5 +212,5 @@ def _require(ini, key, wanted, why):
     text, line = ini.find("RS274NGC", key)
     if text is None or (wanted is not None and text != wanted):
         place = f"{ini.path}:{line}" if line else ini.path
-        value = wanted or "o<on_abort> call"
+        value = wanted or "o<frame_abort> call"
         raise SettingsError(f"{place}: [RS274NGC]{key} = {value} is needed: {why}")

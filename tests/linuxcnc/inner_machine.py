@@ -22,7 +22,7 @@ TOOL_CENTRE = "REMAP = G43.4 modalgroup=1 argspec=abcdehijklpqruvwxyz ngc=code_t
 #: lengths of 15 and 40 mm
 TOOLS = "T1 P1 Z15\nT2 P2 Z40\n"
 
-ABORT = "ON_ABORT_COMMAND = o<on_abort> call\n"
+ABORT = "ON_ABORT_COMMAND = o<frame_abort> call\n"
 
 SETTINGS = f"[FRAMEPATH]\nANALOG_OUTPUT = {FIRST}\n"
 

@@ -40,9 +40,13 @@ M2
 
 
 def stock(ini, *edits):
-    """A folder with a sample of LinuxCNC and the files beside it, changed by (from, to)."""
+    """A folder with a sample of LinuxCNC and the files beside it, changed by (from, to); the subroutines are where the
+    harness has them."""
     source = os.path.join(STOCK, ini)
-    folder = tempfile.mkdtemp(prefix="framepath-configure.")
+    base = tempfile.mkdtemp(prefix="framepath-configure.")
+    os.symlink(os.path.join(harness.SAMPLES, "subroutines"), os.path.join(base, "subroutines"))
+    folder = os.path.join(base, "configs", "stock")
+    os.makedirs(folder)
     for entry in os.scandir(os.path.dirname(source)):
         if entry.is_file():
             shutil.copy(entry.path, folder)
@@ -61,7 +65,7 @@ def stock(ini, *edits):
 
 def run_configured(test, ini, folder, steps, programs, *options):
     """Runs steps on it, configured with these options, and takes the folder away."""
-    test.addCleanup(shutil.rmtree, folder)
+    test.addCleanup(shutil.rmtree, os.path.dirname(os.path.dirname(folder)))
     name = os.path.basename(ini)
     subprocess.run([harness.TOOL, "configure", name, *options], cwd=folder, check=True, capture_output=True)
     sample = name.replace(".ini", "-framepath")

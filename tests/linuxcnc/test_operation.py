@@ -191,6 +191,18 @@ class Clearing(Case):
         # the move to X31 Y30 was not its turn yet
         self.assertLess(result.answers["error"]["joints"][1], 20)
 
+    def test_an_abort_with_a_subroutine_of_the_users(self):
+        own = "o<on_abort> sub\n  o<frame_abort> call\n  M64 P1\no<on_abort> endsub\nM2\n"
+        result = harness.run([
+            ["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X10 Y0"], ON, ["mdi_start", "G1 X400 F1000"], ["wait_moving"],
+            ["abort"], OFF, KNOWN, ["expect", "motion.digital-out-01", "TRUE"], ["sleep", 0.3], ["mdi", "G0 X5"],
+            ["note", "end"],
+        ], {"on_abort.ngc": own}, ini={
+            **QUICK, ("RS274NGC", "SUBROUTINE_PATH"): "../../programs:../../subroutines",
+            ("RS274NGC", "ON_ABORT_COMMAND"): "O <on_abort> call"})
+        self.fine(result)
+        self.assertAlmostEqual(result.answers["end"]["joints"][0], 5, places=5)
+
     def test_on_reset(self):
         frame = [["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X10 Y0"]]
         result = harness.run([
@@ -360,7 +372,7 @@ net probe wall.out => motion.probe-input
 
 
 class SettingsOfTheIni(unittest.TestCase):
-    BASE = "[TRAJ]\nLINEAR_UNITS = mm\n[RS274NGC]\nOWORD_NARGS = 1\nON_ABORT_COMMAND = o<on_abort> call\n"
+    BASE = "[TRAJ]\nLINEAR_UNITS = mm\n[RS274NGC]\nOWORD_NARGS = 1\nON_ABORT_COMMAND = o<frame_abort> call\n"
 
     def read(self, text, base=BASE):
         with tempfile.NamedTemporaryFile("w", suffix=".ini") as file:

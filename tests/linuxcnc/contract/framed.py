@@ -20,7 +20,7 @@ CARRIED = ("command", "value.1", "value.2", "value.3", "work-offset.x", "work-of
 
 INI = {("KINS", "KINEMATICS"): "framekins coordinates=XYZAB", ("EMCMOT", "EMCMOT"): "motmod num_aio=16",
        ("RS274NGC", "SUBROUTINE_PATH"): "subroutines:../../subroutines", ("RS274NGC", "OWORD_NARGS"): "1",
-       ("RS274NGC", "ON_ABORT_COMMAND"): "o<on_abort> call", ("FRAMEPATH", "ANALOG_OUTPUT"): str(FIRST_OUTPUT)}
+       ("RS274NGC", "ON_ABORT_COMMAND"): "o<frame_abort> call", ("FRAMEPATH", "ANALOG_OUTPUT"): str(FIRST_OUTPUT)}
 
 #: The rows inhibit the feed too.
 HAL = "".join(f"net frame-{n} motion.analog-out-{FIRST_OUTPUT + n:02} => framekins.{pin}\n"

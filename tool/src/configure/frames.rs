@@ -3,7 +3,7 @@
 
 use super::ConfigureArguments;
 use super::edits::Edits;
-use super::{inner, unread};
+use super::{inner, subroutines, unread};
 use crate::hal::Stock;
 use crate::wiring::codes::{CODES, Remap};
 use crate::wiring::framekins::{
@@ -45,7 +45,7 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
         edits.add_hal(subject.external_offset_line(letter));
     }
     edits.add_hal(guard_line(&arguments.subroutines));
-    subroutines(subject, arguments, edits);
+    subroutines::write(subject, &arguments.subroutines, edits);
     codes(subject, edits);
     settings(subject, first, edits);
     preview(subject, arguments, edits);
@@ -209,27 +209,6 @@ fn nets(subject: &Subject, first: u32, edits: &mut Edits) {
                 Some(signal) => edits.add_hal(format!("net {signal} => {}", net.pin)),
                 None => edits.add_hal(net.line(first)),
             },
-        }
-    }
-}
-
-fn subroutines(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edits) {
-    let own = &arguments.subroutines;
-    match subject.text("RS274NGC", "SUBROUTINE_PATH") {
-        Some(path) if path.split(':').any(|folder| folder == own) => {}
-        Some(path) => edits.set("RS274NGC", "SUBROUTINE_PATH", &format!("{path}:{own}")),
-        None => edits.set("RS274NGC", "SUBROUTINE_PATH", own),
-    }
-    if subject.text("RS274NGC", "OWORD_NARGS") != Some("1") {
-        edits.set("RS274NGC", "OWORD_NARGS", "1");
-    }
-    match subject.ini.entry("RS274NGC", "ON_ABORT_COMMAND") {
-        None => edits.set("RS274NGC", "ON_ABORT_COMMAND", "o<on_abort> call"),
-        Some(entry) if entry.value.contains("on_abort") => {}
-        Some(entry) => {
-            let found = format!("on aborts `{}` is called", entry.value);
-            let help = "call o<on_abort> in a subroutine of that name: ON_ABORT_COMMAND = o<on_abort> call";
-            edits.refuse(&entry.place, found, help);
         }
     }
 }

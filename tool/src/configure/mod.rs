@@ -8,6 +8,7 @@ mod error;
 mod frames;
 mod inner;
 mod planner;
+mod subroutines;
 mod unread;
 
 pub use error::{ConfigureError, Refusal};

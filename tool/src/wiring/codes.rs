@@ -1,5 +1,6 @@
 //! The codes for the frame commands: `REMAP` lines of the INI file.
 
+use super::subroutine_files::{first, folders, has_tree};
 use crate::machine::ini::{Entry, Ini};
 use std::path::{Path, PathBuf};
 
@@ -106,25 +107,17 @@ pub fn code_of(subroutine: &str, written: &str) -> Option<Code> {
 
 /// Remaps whose subroutine is in none of the folders in which LinuxCNC looks for its file, with the name of that.
 pub fn missing_files(ini: &Ini) -> Vec<(&Entry, String)> {
-    let text = |section, key| ini.text(section, key).filter(|text| !text.is_empty());
-    // There it looks in all folders within.
-    if text("WIZARD", "WIZARD_ROOT").is_some() {
+    if has_tree(ini) {
         return Vec::new();
     }
-    let prefix = text("DISPLAY", "PROGRAM_PREFIX").into_iter();
-    let path = text("RS274NGC", "SUBROUTINE_PATH").unwrap_or("");
-    let named = prefix
-        .chain(path.split(':'))
-        .filter(|name| !name.is_empty());
-    let folders: Vec<PathBuf> = named.map(|name| folder(ini, name)).collect();
+    let folders = folders(ini);
     let mut missing = Vec::new();
     for entry in ini.all("RS274NGC", "REMAP") {
         let Some(subroutine) = Remap::parse(&entry.value).subroutine else {
             continue;
         };
-        let file = format!("{subroutine}.ngc");
-        if !folders.iter().any(|folder| folder.join(&file).is_file()) {
-            missing.push((entry, file));
+        if first(&folders, &subroutine).is_none() {
+            missing.push((entry, format!("{subroutine}.ngc")));
         }
     }
     missing

@@ -1,6 +1,7 @@
 //! What blendtp, framekins and frame_guard need in the INI and HAL files of a machine, line by line: `check` looks
 //! for it, `configure` writes it.
 
+pub mod abort;
 pub mod blendtp;
 pub mod codes;
 pub mod framekins;
@@ -10,6 +11,7 @@ pub mod joints;
 pub mod previews;
 pub mod settings;
 pub mod subject;
+pub mod subroutine_files;
 #[cfg(feature = "linuxcnc")]
 pub mod user_codes;
 

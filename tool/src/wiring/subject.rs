@@ -2,6 +2,7 @@
 
 use super::framekins::{USUAL_TYPE_OUTPUT, external_offset};
 use super::settings;
+use super::subroutine_files::{Folder, SENDER, file};
 use crate::hal::{Module, Script, State, Statement};
 use crate::machine::IniError;
 use crate::machine::configuration::AXIS_LETTERS;
@@ -271,7 +272,7 @@ impl Subject {
 
     /// The folder of framepath's subroutines, as the INI file or the HAL file names it.
     pub fn own_folder(&self) -> String {
-        let has_frames = |folder: &&str| self.path(folder).join("frame_send.ngc").is_file();
+        let has_frames = |folder: &&str| file(&self.path(folder), SENDER).is_file();
         if let Some(folder) = self.subroutine_folders().into_iter().find(has_frames) {
             return folder.trim_end_matches('/').to_owned();
         }
@@ -282,6 +283,25 @@ impl Subject {
             .find(|program| is_guard(&program.program));
         let folder = guard.and_then(|guard| guard.program.strip_suffix("/frame_guard.py"));
         folder.unwrap_or(super::SUBROUTINES).to_owned()
+    }
+
+    /// Subroutines that hide framepath's: the place of what names their folder, what was found, and what to do.
+    pub fn hidden(&self, folder: &Folder, names: &[&str]) -> (Place, String, String) {
+        let (place, named) = match folder.key {
+            Some((section, key)) => (self.place_of(section, key), format!("[{section}]{key}")),
+            None => (
+                Place::file(self.ini.file()),
+                "the folder in which LinuxCNC runs".to_owned(),
+            ),
+        };
+        let files: Vec<String> = names.iter().map(|name| format!("{name}.ngc")).collect();
+        let found = format!(
+            "LinuxCNC finds {} in {} ({named}) before those of framepath, and frame commands call what is there",
+            files.join(", "),
+            folder.path.display()
+        );
+        let help = "give these files and their subroutines other names, or move them".to_owned();
+        (place, found, help)
     }
 
     /// All keys of this name that LinuxCNC reads.

@@ -13,4 +13,5 @@ mod not_starting;
 mod panel;
 mod random;
 mod samples;
+mod subroutine_files;
 mod text;

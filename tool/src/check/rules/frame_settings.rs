@@ -2,8 +2,10 @@
 
 use crate::check::finding::{Findings, Remedy, add, advice, replace};
 use crate::machine::ini::Entry;
+use crate::wiring::abort::{Abort, COMMAND};
 use crate::wiring::settings::{KEYS, SECTION, key};
 use crate::wiring::subject::Subject;
+use crate::wiring::subroutine_files::{folders, has_tree};
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     let entries = subject.ini.entries();
@@ -143,7 +145,7 @@ fn needed(subject: &Subject, findings: &mut Findings) {
     if clears && subject.text(section, "ON_ABORT_COMMAND").is_none() {
         missing(
             "ON_ABORT_COMMAND",
-            "o<on_abort> call",
+            COMMAND,
             "[FRAMEPATH]CLEAR_ON_ABORT = 1 depends on it",
         );
     } else if let Some(entry) = subject
@@ -151,7 +153,7 @@ fn needed(subject: &Subject, findings: &mut Findings) {
         .entry(section, "ON_ABORT_COMMAND")
         .filter(|_| clears)
     {
-        own_abort(entry, findings);
+        own_abort(subject, entry, findings);
     }
     let units = subject.text("TRAJ", "LINEAR_UNITS");
     if !subject.has_linear_units() {
@@ -165,21 +167,15 @@ fn needed(subject: &Subject, findings: &mut Findings) {
     }
 }
 
-fn own_abort(entry: &Entry, findings: &mut Findings) {
-    if !entry
-        .value
-        .to_ascii_lowercase()
-        .replace(' ', "")
-        .contains("o<on_abort>call")
-    {
-        let found = format!(
-            "on aborts `{}` is called, which has to call o<on_abort> for frames to go",
-            entry.value
-        );
-        findings.note(
-            &entry.place,
-            found,
-            advice("o<on_abort> call in that subroutine"),
-        );
+fn own_abort(subject: &Subject, entry: &Entry, findings: &mut Findings) {
+    let abort = Abort::of(&entry.value, &folders(&subject.ini));
+    // What Python or a wizard brings is not known here.
+    let is_unknown = has_tree(&subject.ini) || subject.text("PYTHON", "TOPLEVEL").is_some();
+    let Some((found, help)) = abort.problem(&entry.value) else {
+        return;
+    };
+    match abort {
+        Abort::Missing(_) if is_unknown => findings.warning(&entry.place, found, advice(help)),
+        _ => findings.error(&entry.place, found, advice(help)),
     }
 }

@@ -1,10 +1,8 @@
-//! `[RS274NGC]SUBROUTINE_PATH`: the folder with the frame commands.
+//! `[RS274NGC]SUBROUTINE_PATH`: the folder with the frame commands, and that LinuxCNC finds these there.
 
 use crate::check::finding::{Findings, add, advice, replace};
 use crate::wiring::subject::Subject;
-
-/// One of the files that every frame command needs.
-const FILE: &str = "frame_send.ngc";
+use crate::wiring::subroutine_files::{self, SENDER, file};
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     let folders = subject.subroutine_folders();
@@ -16,9 +14,9 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
         let found = format!("SUBROUTINE_PATH names {folder}, which is not there");
         findings.warning(&place, found, advice("correct or remove it"));
     }
-    let is_there = |folder: &&str| subject.path(folder).join(FILE).is_file();
-    if folders.iter().any(is_there) {
-        return;
+    let is_there = |folder: &&str| file(&subject.path(folder), SENDER).is_file();
+    if let Some(folder) = folders.iter().copied().find(is_there) {
+        return hidden(subject, folder, findings);
     }
     let own = subject.own_folder();
     let found = "the frame commands are not found: no folder of [RS274NGC]SUBROUTINE_PATH has framepath's subroutines";
@@ -40,5 +38,14 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
             found,
             add("[RS274NGC]", format!("SUBROUTINE_PATH = {own}")),
         ),
+    }
+}
+
+/// Files of the same names in folders before ours.
+fn hidden(subject: &Subject, own: &str, findings: &mut Findings) {
+    let folders = subroutine_files::folders(&subject.ini);
+    for (folder, names) in subroutine_files::hiding(&folders, &subject.path(own)) {
+        let (place, found, help) = subject.hidden(folder, &names);
+        findings.error(&place, found, advice(help));
     }
 }
