@@ -9,6 +9,7 @@ use crate::wiring::USUAL_JERK;
 use crate::wiring::blendtp::{
     TOLERANCE_PIN, inch_line, inch_tolerance_line, jerk_line, jerk_pin, least_jerk,
 };
+use crate::wiring::comments;
 use crate::wiring::subject::Subject;
 
 /// Adds what is not there yet.
@@ -52,6 +53,13 @@ fn usable(subject: &Subject, edits: &mut Edits) {
             &problem.found,
             "LinuxCNC does not start with this: framepath check says what to write",
         );
+    }
+    for entry in comments::commented(subject) {
+        let help = format!(
+            "{}, and the comment in a line of its own",
+            comments::line(entry)
+        );
+        edits.refuse(&entry.place, comments::found(entry), help);
     }
     let name = subject.ini.file().file_name().unwrap_or_default();
     let name = name.to_string_lossy();

@@ -4,6 +4,7 @@
 pub mod abort;
 pub mod blendtp;
 pub mod codes;
+pub mod comments;
 pub mod framekins;
 pub mod installed;
 #[cfg(feature = "linuxcnc")]

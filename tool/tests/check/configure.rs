@@ -381,7 +381,7 @@ fn files_that_are_there_are_replaced_by_force_only() {
 
 /// A change of axis_mm, options, and the line that refuses it.
 /// From, to, options, and what is said: LINE is that of the first line of what was written, another one in each LinuxCNC.
-const REFUSED: [(&str, &str, &[&str], &str); 8] = [
+const REFUSED: [(&str, &str, &[&str], &str); 9] = [
     (
         "KINEMATICS = trivkins",
         "KINEMATICS =",
@@ -399,6 +399,12 @@ const REFUSED: [(&str, &str, &[&str], &str); 8] = [
         "REMAP = G77 modalgroup=1 ngc=own",
         &["--frames"],
         "axis_mm.ini:71:1: error: G77 is remapped already",
+    ),
+    (
+        "LINEAR_UNITS = mm",
+        "LINEAR_UNITS = mm # c",
+        &[],
+        "axis_mm.ini:LINE:1: error: LinuxCNC reads the comment as a part of the value: [TRAJ]",
     ),
     (
         "HALUI = halui",

@@ -120,6 +120,52 @@ fn angles_of_another_unit_than_the_degree_are_an_error() {
 }
 
 #[test]
+fn comments_behind_texts_are_errors() {
+    for (key, value) in [
+        ("VERSION", "1.1"),
+        ("LINEAR_UNITS", "mm"),
+        ("COORDINATES", ""),
+        ("SUBROUTINE_PATH", ""),
+        ("PARAMETER_FILE", ""),
+        ("TOOL_TABLE", ""),
+        ("ON_ABORT_COMMAND", "o<frame_abort> call"),
+    ] {
+        let found = found_at(key, " # c");
+        let words = "reads the comment as a part of the value: [";
+        let told = |(level, said): &(String, String)| {
+            level == "error"
+                && said.contains(words)
+                && said.contains(&format!("]{key} = {value}"))
+                && said.ends_with(" # c")
+        };
+        assert!(found.iter().any(told), "{key}: {found:?}");
+    }
+    // G code may have one; a title and others may have the mark
+    for (key, behind) in [
+        ("ON_ABORT_COMMAND", " ; c"),
+        ("MACHINE", " #2"),
+        ("CYCLE_TIME", " # s"),
+    ] {
+        let found = found_at(key, behind);
+        assert!(
+            !found.iter().any(|(level, _)| level == "error"),
+            "{key}: {found:?}"
+        );
+    }
+}
+
+/// What is found with this behind the value of a key.
+fn found_at(key: &str, behind: &str) -> Vec<(String, String)> {
+    let bench = Bench::new();
+    let ini = bench.read("framepath-sim", "ini");
+    let line = ini
+        .lines()
+        .find(|line| line.starts_with(&format!("{key} =")));
+    let line = line.unwrap_or_else(|| panic!("{key} is not there"));
+    found(&format!("{line}\n"), &format!("{line}{behind}\n"))
+}
+
+#[test]
 fn infinite_limits_are_no_errors() {
     for limit in [
         "MAX_VELOCITY = 100",

@@ -1,6 +1,7 @@
 //! What a configuration has to be like, one concern to a file.
 
 mod angular_units;
+mod comments;
 mod external_offsets;
 mod files;
 mod filters;
@@ -37,6 +38,7 @@ pub type FilterCheck<'a> = &'a dyn Fn(&[String]) -> Result<(), String>;
 /// Looks at everything; `linuxcnc` is the one that would run the machine, if it is here.
 pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>) -> Findings {
     let mut findings = Findings::default();
+    comments::look(subject, &mut findings);
     sections::look(subject, &mut findings);
     if !sections::is_current(subject) {
         // update_ini writes INI and HAL files anew.
