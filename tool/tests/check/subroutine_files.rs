@@ -174,3 +174,38 @@ fn a_folder_that_is_not_framepaths_is_refused() {
         );
     }
 }
+
+#[test]
+fn calls_of_framepaths_subroutines_without_framekins_are_errors() {
+    let bench = Bench::new();
+    let name = "framepath-sim";
+    let hal = bench.read(name, "hal");
+    let hal: Vec<&str> = hal
+        .lines()
+        .filter(|line| !line.contains("framekins"))
+        .collect();
+    bench.write(name, "hal", &(hal.join("\n") + "\n"));
+    let ini = bench.read(name, "ini");
+    let named = |line: &&str| !line.contains("HALFILE = ../../panel/");
+    let ini: Vec<&str> = ini.lines().filter(named).collect();
+    bench.write(name, "ini", &(ini.join("\n") + "\n"));
+    let from = "KINEMATICS = framekins";
+    let found = bench.changed(name, "ini", from, "KINEMATICS = trivkins");
+    for words in [
+        "M6 calls frame_tool_change, and no tool can be changed: framekins",
+        "G77.1 calls code_trans, and the code ends the program",
+        "`o<frame_abort> call` fails at each abort",
+        "frame_guard does not come up",
+    ] {
+        let is_told = |finding: &&serde_json::Value| {
+            finding["level"] == "error"
+                && finding["found"]
+                    .as_str()
+                    .is_some_and(|found| found.contains(words))
+        };
+        assert!(
+            found.iter().any(|finding| is_told(&finding)),
+            "{words}: {found:?}"
+        );
+    }
+}

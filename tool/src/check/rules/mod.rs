@@ -13,6 +13,7 @@ mod ini_numbers;
 mod inner_kinematics;
 mod joint_limits;
 mod kinematics;
+mod left_behind;
 mod limits;
 mod modules;
 mod motion_numbers;
@@ -67,6 +68,8 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
         subroutines::look(subject, &mut findings);
         remaps::look(subject, &mut findings);
         previews::look(subject, &mut findings);
+    } else {
+        left_behind::look(subject, &mut findings);
     }
     remap_files::look(subject, &mut findings);
     panel::look(subject, &mut findings);
