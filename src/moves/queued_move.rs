@@ -54,6 +54,12 @@ impl Move {
         self.enables & FEED_OVERRIDE_ENABLED != 0
     }
 
+    /// Whether it follows the angle of a spindle: a thread or a tap.
+    pub fn follows_angle(&self) -> bool {
+        self.synchronisation
+            .is_some_and(|with| with.follows_angle())
+    }
+
     /// How long it takes at its feed and 100 % from end to end, seconds: the least there may be.
     pub fn seconds_at_feed(&self) -> f64 {
         self.shape.length() / self.feed.min(self.max_velocity)

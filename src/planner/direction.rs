@@ -18,7 +18,7 @@ impl Planner {
     /// the moves it remembers: those since it last had nothing to do, up to some hundreds.
     ///
     /// It comes to rest where it remembers no more, or at a move that belongs to something else
-    /// than the path: one that follows a spindle, probes, or turns a locking indexer. Outputs that
+    /// than the path: one that follows the angle of a spindle, probes, or turns a locking indexer. Outputs that
     /// were written on the way are not written again.
     ///
     /// # Errors
@@ -45,7 +45,7 @@ impl Planner {
     /// Whether the machine is within a move that cannot be run backwards.
     fn is_coupled(&self) -> bool {
         let coupled = self.queue.front().is_some_and(|front| {
-            front.synchronisation.is_some()
+            front.follows_angle()
                 || front.indexer_joint.is_some()
                 || front.motion_type == MotionType::Probing
         });

@@ -35,12 +35,9 @@ impl Planner {
     /// Whether the machine is in a move that no other is planned with, and that is not to be planned anew in its middle:
     /// one that follows the angle of a spindle, or turns a locking indexer.
     fn ends_at_rest_by_itself(&self) -> bool {
-        let alone = self.queue.front().is_some_and(|front| {
-            front.indexer_joint.is_some()
-                || front
-                    .synchronisation
-                    .is_some_and(|with| with.follows_angle())
-        });
+        let front = self.queue.front();
+        let alone =
+            front.is_some_and(|front| front.indexer_joint.is_some() || front.follows_angle());
         alone || self.spindle.has_thread() || self.indexer.locking().is_some()
     }
 }

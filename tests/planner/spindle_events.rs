@@ -374,3 +374,81 @@ fn an_indexer_is_locked_again_where_the_direction_turns() {
         keeps_limits(machine);
     });
 }
+
+/// Brings the machine to rest by a pause, and turns its direction.
+fn turn(lathe: &mut Lathe, backwards: bool) {
+    lathe.machine.planner.pause();
+    for _ in 0..1000 {
+        lathe.cycle();
+    }
+    let turned = lathe.machine.planner.run_backwards(backwards);
+    turned.expect("at rest");
+    lathe.machine.planner.resume();
+}
+
+#[test]
+fn feed_per_turn_is_run_backwards_as_fast_as_the_spindle_asks_for() {
+    with_machine(|machine| {
+        let mut lathe = Lathe::new(machine, 10.0);
+        let tolerance = TerminationCondition::Continuous { tolerance: 0.05 };
+        lathe.machine.planner.set_termination(tolerance);
+        for (end, per_turn) in [(10.0, 0.0), (30.0, 0.4), (50.0, 0.4)] {
+            lathe
+                .machine
+                .planner
+                .set_spindle_synchronisation(SPINDLE as i32, per_turn, true);
+            lathe.machine.line(z(end), &fast()).expect("a line");
+        }
+        while lathe.cycle().position[2] < 49.0 {}
+        turn(&mut lathe, true);
+        for (speed, scale) in [(10.0, 1.0), (20.0, 1.0), (20.0, 0.5), (0.0, 1.0)] {
+            lathe.commanded = speed;
+            lathe.machine.inputs.feed_scale = scale;
+            for _ in 0..1500 {
+                lathe.cycle();
+            }
+            let (feed, expected) = (feed_of(&lathe), 0.4 * speed * scale);
+            assert!(
+                (feed - expected).abs() <= 1e-3 * expected,
+                "{speed} {scale}"
+            );
+        }
+        // The move before it has a feed per minute.
+        lathe.commanded = 10.0;
+        while lathe.cycle().position[2] > 6.0 {}
+        let feed = feed_of(&lathe);
+        assert!((feed - 5.0).abs() < 0.02, "{feed}");
+        for _ in 0..3000 {
+            lathe.cycle();
+        }
+        assert_eq!(lathe.machine.planner.status().position, z(0.0));
+        turn(&mut lathe, false);
+        lathe.run(20_000);
+        assert_eq!(lathe.machine.planner.status().position, z(50.0));
+        assert_eq!(lathe.errors, []);
+        keeps_limits(lathe.machine);
+    });
+}
+
+#[test]
+fn a_reverse_run_ends_at_a_thread() {
+    with_machine(|machine| {
+        let mut lathe = Lathe::new(machine, 10.0);
+        for (end, per_turn) in [(10.0, 0.0), (15.0, 0.4), (30.0, 0.0)] {
+            lathe
+                .machine
+                .planner
+                .set_spindle_synchronisation(SPINDLE as i32, per_turn, false);
+            lathe.machine.line(z(end), &fast()).expect("a line");
+        }
+        while lathe.cycle().position[2] < 20.0 {}
+        turn(&mut lathe, true);
+        for _ in 0..2000 {
+            lathe.cycle();
+        }
+        assert_eq!(lathe.machine.planner.status().position, z(15.0));
+        turn(&mut lathe, false);
+        lathe.run(20_000);
+        assert_eq!(lathe.machine.planner.status().position, z(30.0));
+    });
+}

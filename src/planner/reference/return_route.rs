@@ -10,13 +10,13 @@ use crate::speed::look_ahead::{MOST_BREAKPOINTS, Route, RouteVertex, SpeedCap};
 /// The leg that leads to `s`, if the machine may go back over it.
 ///
 /// Not over what is forgotten, nor over moves that belong to something else than the path: those
-/// that follow a spindle, that probe, and that turn an unlocked indexer.
+/// that follow the angle of a spindle, that probe, and that turn an unlocked indexer.
 pub(super) fn may_go_back(path: &BlendedPath, queue: &MoveQueue, s: f64) -> Option<LegView> {
     let leg = path.leg_before(s)?;
     queue.get(leg.first)?;
     // Merged moves are of one kind.
     let last = queue.get(leg.serial)?;
-    let coupled = last.synchronisation.is_some()
+    let coupled = last.follows_angle()
         || last.indexer_joint.is_some()
         || last.motion_type == MotionType::Probing;
     (!coupled).then_some(leg)

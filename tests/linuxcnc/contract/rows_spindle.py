@@ -2,7 +2,7 @@
 
 from itertools import pairwise
 
-from row import PERIOD, Row
+from row import PERIOD, Row, Seen
 
 SECTION = "Spindle"
 
@@ -167,6 +167,38 @@ class SpindleStandsInG95(Row):
     def check(self, seen):
         seen.require(2 < seen.kept["held"] < 9.5, f"stood at {seen.kept['held']:.2f}")
         seen.near(seen.column("x")[-1], 10, 1e-6, "end")
+
+
+class ReverseInFeedPerTurn(Row):
+    """A reverse run goes back over G95 moves with their feed for a turn, and on over the G94 move before them"""
+
+    section = SECTION
+
+    def operate(self, op):
+        op.begin("M3 S1200", "G4 P0.7", "G64 P0.1", "G94 F600", "G1 X5", "G95 F1", "G1 X25", "G1 X70")
+        op.until("the second move under G95", lambda: op.status.position[0] > 35)
+        op.pause()
+        op.stopped()
+        op.reverse()
+        op.sleep(0.05)
+        op.resume()
+        op.until("the first move", lambda: op.status.position[0] < 3)
+        op.pause()
+        op.stopped()
+        op.keep("back", op.place()[0])
+        op.forward()
+        op.sleep(0.05)
+        op.resume()
+        op.finish(40)
+
+    def check(self, seen):
+        seen.require(seen.kept["back"] < 3, f"back at X {seen.kept['back']:.1f}")
+        rows = seen.columns("x", "turns", "reverse")
+        away = [row[:2] for before, row in pairwise(rows) if row[2] and row[0] < before[0]]
+        fed = fed_per_turn(Seen(["x", "turns"], away[-2000:], {}, []), 8, 20)
+        seen.near(fed, 1, 0.01, "mm a turn backwards")
+        seen.near(seen.column("x")[-1], 70, 1e-6, "end")
+        return f"{fed:.4f} mm a turn for 1"
 
 
 class SpindleOrient(Row):
