@@ -46,7 +46,8 @@ pub(super) const LEAST_NATURAL_SWING: f64 = 6.0;
 /// long.
 const SHORTEST_RAMP: f64 = 1.0 / 300.0;
 
-/// A tolerance below this is met by following the path exactly, mm.
+/// A tolerance up to this rounds no corner: the moves are followed exactly, but for that tolerance
+/// on either side of a tangent joint; mm.
 const LEAST_TOLERANCE: f64 = 1e-5;
 
 /// What the shape of blends depends on, besides the program. The overrides of the operator are not
@@ -319,7 +320,7 @@ impl BlendSettings {
         if given > least {
             Allowance::Tolerance(given)
         } else if given > 0.0 {
-            self.exact()
+            Allowance::Exact(given)
         } else {
             let default = self.default_tolerance;
             Allowance::HalfLegs(default.max(Self::EXACT_TOLERANCE * self.millimetre))
@@ -485,6 +486,7 @@ mod tests {
         let settings = settings(1e4);
         assert_eq!(settings.allowance(0.3), Allowance::Tolerance(0.3));
         assert_eq!(settings.allowance(0.0), Allowance::HalfLegs(0.02));
-        assert_eq!(settings.allowance(1e-9), Allowance::Exact(0.001));
+        // Less than what exact moves are left by otherwise.
+        assert_eq!(settings.allowance(1e-9), Allowance::Exact(1e-9));
     }
 }

@@ -35,8 +35,8 @@ const RADII_OF_AN_EASEMENT: f64 = 3.0;
 const ISOLATED: f64 = 0.5;
 
 impl Vertex {
-    /// Where moves that are to be followed exactly meet in a tangent: within a tolerance of a
-    /// micrometre. An easement leaves the point itself alone.
+    /// Where moves that are to be followed exactly meet in a tangent: within their tolerance, a
+    /// micrometre or less. An easement leaves the point itself alone.
     pub(super) fn find_exact_widths(
         &mut self,
         before: &Leg,

@@ -93,6 +93,25 @@ fn exact_paths_go_through_tangents_without_a_stop() {
     });
 }
 
+#[test]
+fn a_tolerance_too_small_for_corners_holds_where_moves_meet_in_a_tangent() {
+    with_path(|path| {
+        for tolerance in [1e-5, 1e-6, 1e-7] {
+            let mode = TerminationCondition::Continuous { tolerance };
+            complete(path, &line_and_arc(mode));
+            assert_eq!(stops(path), [0.0]);
+            let mut greatest = 0.0f64;
+            for k in 0..8000 {
+                let s = 9.92 + 2e-5 * f64::from(k);
+                let deviation = path.point(s).position - path.programmed_point(s).position;
+                greatest = greatest.max(deviation.norm());
+            }
+            let used = greatest / tolerance;
+            assert!((0.3..=1.0).contains(&used), "{used} of {tolerance}");
+        }
+    });
+}
+
 /// G64 without P.
 fn free(moves: &[((f64, f64), f64)]) -> Vec<ProgrammedMove> {
     let mut from = (0.0, 0.0);
