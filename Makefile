@@ -1,5 +1,9 @@
 # framepath. The two commands for a newcomer: make demo, make test. All others: make help.
 
+# make takes a blank for the end of a name.
+$(foreach name,CURDIR CARGO_TARGET_DIR,$(if $(word 2,$($(name))),$(error \
+    $(name)=$($(name)) has a blank, at which make cuts it: take a path without one)))
+
 CARGO ?= cargo
 PYTHON = /usr/bin/python3
 TARGET = $(abspath $(or $(CARGO_TARGET_DIR),target))

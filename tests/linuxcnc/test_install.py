@@ -3,6 +3,7 @@
 import glob
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -64,6 +65,13 @@ class Install(unittest.TestCase):
                 self.assertTrue(os.path.exists(folder + path.rstrip(".")), path)
             make("uninstall", f"DESTDIR={folder}")
             self.assertEqual(files(folder), set())
+
+    def test_a_path_with_a_blank_is_refused(self):
+        with tempfile.TemporaryDirectory(prefix="a b.") as folder:
+            shutil.copy(os.path.join(harness.ROOT, "Makefile"), folder)
+            done = subprocess.run(["make", "-C", folder, "modules"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(f"CURDIR={folder} has a blank", done.stderr)
 
 
 if __name__ == "__main__":
