@@ -9,7 +9,7 @@ import unittest
 import harness
 
 STOCK = "/usr/share/doc/linuxcnc/examples/sample-configs/sim/axis"
-SUBROUTINES = "../../subroutines"
+SUBROUTINES = os.path.join(harness.ROOT, "hal-component/subroutines")
 
 #: a change of tools asks for a person in front of a screen, and AXIS for a screen
 NEED_A_SCREEN = ("HALFILE = axis_manualtoolchange.hal\n", "HALUI = halui\n")

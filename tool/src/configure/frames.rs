@@ -9,6 +9,7 @@ use crate::wiring::codes::{CODES, Remap};
 use crate::wiring::framekins::{
     ADD_FUNCTION, MOST_OUTPUTS, MOTION_TYPE, NETS, OUTPUTS, SAMPLE_OUTPUTS, Source,
 };
+use crate::wiring::outputs_line::OutputsLine;
 use crate::wiring::previews::screen;
 use crate::wiring::settings::{KEYS, SECTION};
 use crate::wiring::subject::{Subject, guard_line};
@@ -24,6 +25,7 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
         );
     }
     readable(subject, edits);
+    homed(subject, edits);
     if subject.kinematics() == "trivkins" && !needs_trivkins(subject) {
         trivial_kinematics(subject, edits);
     } else {
@@ -72,6 +74,20 @@ fn readable(subject: &Subject, edits: &mut Edits) {
     }
 }
 
+/// Motion moves joints that are the axes without homing, but not those behind framekins.
+fn homed(subject: &Subject, edits: &mut Edits) {
+    let kind = subject.kinematics_parameter("kinstype").unwrap_or("1");
+    let is_identity = subject.kinematics() == "trivkins" && !kind.starts_with(['b', 'B']);
+    if is_identity && subject.may_run_unhomed() {
+        edits.refuse(
+            &subject.place_of("TRAJ", "NO_FORCE_HOMING"),
+            "programs run on this machine before it is homed, and with frames nothing but its joints moves then",
+            "NO_FORCE_HOMING = 0, and home it first: a joint with HOME_SEARCH_VEL = 0 and HOME_LATCH_VEL = 0 is homed where \
+             it stands",
+        );
+    }
+}
+
 /// LinuxCNC's HAL file for a pendant has it jog joints where the kinematics are trivkins, by their name.
 fn needs_trivkins(subject: &Subject) -> bool {
     subject.script.stock.contains(&Stock::Pendant)
@@ -91,10 +107,15 @@ fn trivial_kinematics(subject: &Subject, edits: &mut Edits) {
         );
     }
     let letters: String = subject.joints.iter().collect();
+    let beside = subject.extra_joints();
     let count = subject.number("KINS", "JOINTS").unwrap_or(0.0);
-    if letters.len() as f64 != count {
+    if letters.len() as f64 != count - beside as f64 {
+        let extra = match beside {
+            0 => String::new(),
+            _ => format!(", {beside} of them by num_extrajoints"),
+        };
         let found = format!(
-            "[KINS]JOINTS is {count}, and coordinates= names {} joints",
+            "[KINS]JOINTS is {count}{extra}, and coordinates= names {} joints",
             letters.len()
         );
         return edits.refuse(
@@ -142,7 +163,7 @@ fn first_output(subject: &Subject) -> Option<u32> {
     (0..=MOST_OUTPUTS - OUTPUTS).find(|first| (0..OUTPUTS).all(|number| is_free(first + number)))
 }
 
-/// motmod with enough analog outputs: its parameters may stand behind its name in the INI file.
+/// motmod with enough analog outputs, where the INI file says how many it has.
 fn motion(subject: &Subject, first: u32, edits: &mut Edits) {
     let Some(motion) = subject.motion() else {
         let place = subject.place_of("EMCMOT", "EMCMOT");
@@ -159,18 +180,13 @@ fn motion(subject: &Subject, first: u32, edits: &mut Edits) {
     if given.is_some_and(|given| given >= first + OUTPUTS) {
         return;
     }
-    let by_ini = motion.statement.text.contains("[EMCMOT]EMCMOT")
-        || motion.statement.text.contains("[EMCMOT](EMCMOT)");
-    if given.is_some() || !by_ini {
-        let found = "motmod has too few analog outputs for a frame";
-        let help = format!("{} num_aio={needed}", motion.statement.text);
-        return edits.refuse(&motion.statement.place, found, help);
+    match OutputsLine::new(subject, motion, needed) {
+        OutputsLine::Ini { key, value, .. } => edits.set("EMCMOT", key, &value),
+        OutputsLine::Hal(line) => {
+            let found = "motmod has too few analog outputs for a frame";
+            edits.refuse(&motion.statement.place, found, line);
+        }
     }
-    let words = subject
-        .text("EMCMOT", "EMCMOT")
-        .unwrap_or("motmod")
-        .to_owned();
-    edits.set("EMCMOT", "EMCMOT", &format!("{words} num_aio={needed}"));
 }
 
 fn nets(subject: &Subject, first: u32, edits: &mut Edits) {

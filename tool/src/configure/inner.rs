@@ -3,16 +3,7 @@
 use super::edits::Edits;
 use crate::wiring::framekins::{INNER_TYPE, MOTION_TYPE};
 use crate::wiring::subject::Subject;
-
-/// Kinematics with a pin for the tool's length, and which of their types it counts for: without and with
-/// `sparm=identityfirst`.
-const WITH_TOOL: [(&str, &str, [u8; 2]); 5] = [
-    ("5axiskins", "pivot-length", [0, 1]),
-    ("maxkins", "pivot-length", [0, 0]),
-    ("xyzab_tdr_kins", "tool-offset-z", [1, 1]),
-    ("xyzac-trt-kins", "tool-offset", [0, 1]),
-    ("xyzbc-trt-kins", "tool-offset", [0, 1]),
-];
+use crate::wiring::told_the_tool::tool_type;
 
 /// Loads it before these kinematics.
 pub fn write(subject: &Subject, edits: &mut Edits) {
@@ -26,30 +17,12 @@ pub fn write(subject: &Subject, edits: &mut Edits) {
         let help = "loadrt [KINS]KINEMATICS in a HAL file, before motmod";
         return edits.refuse(&place, format!("no HAL file loads {module}"), help);
     }
-    edits.first_hal(format!(
-        "loadrt framekins inner={module}{}",
-        tool_types(subject)
-    ));
-    lead_type_to_framekins(subject, edits);
-}
-
-/// The parameter for kinematics that are told the tool's length.
-fn tool_types(subject: &Subject) -> String {
-    let module = subject.kinematics();
-    let known = WITH_TOOL.iter().find(|(name, _, _)| *name == module);
-    let Some((_, pin, [usual, identity_first])) = known else {
-        return String::new();
+    let types = match tool_type(subject, module) {
+        Some((_, number)) => format!(" tool_types={number}"),
+        None => String::new(),
     };
-    if subject
-        .state
-        .signal_of(&format!("{module}.{pin}"))
-        .is_none()
-    {
-        return String::new();
-    }
-    let is_moved = subject.kinematics_parameter("sparm") == Some("identityfirst");
-    let number = if is_moved { identity_first } else { usual };
-    format!(" tool_types={number}")
+    edits.first_hal(format!("loadrt framekins inner={module}{types}"));
+    lead_type_to_framekins(subject, edits);
 }
 
 /// A net to motion's pin becomes one to that of framekins: in the INI file where it stands, behind a HAL file anew.

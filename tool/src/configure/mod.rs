@@ -17,7 +17,7 @@ use crate::hal::read_script;
 use crate::machine::ini::Ini;
 use crate::machine::jerk::Jerk;
 use crate::output::{OutputFile, overwrites};
-use crate::wiring::SUBROUTINES;
+use crate::wiring::own_files;
 use crate::wiring::subject::Subject;
 use edits::Edits;
 use similar::TextDiff;
@@ -38,7 +38,7 @@ pub struct ConfigureArguments {
     #[arg(long, value_name = "JERK", default_value = "20A")]
     pub jerk: Jerk,
     /// Folder of the subroutines for frames
-    #[arg(long, value_name = "DIR", default_value = SUBROUTINES, requires = "frames")]
+    #[arg(long, value_name = "DIR", default_value_t = own_files::subroutines(), requires = "frames")]
     pub subroutines: String,
     /// Replace files that are there already
     #[arg(long)]

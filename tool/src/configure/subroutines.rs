@@ -2,7 +2,6 @@
 
 use super::edits::Edits;
 use crate::machine::place::Place;
-use crate::wiring::SUBROUTINES;
 use crate::wiring::abort::{Abort, COMMAND};
 use crate::wiring::settings::SECTION;
 use crate::wiring::subject::Subject;
@@ -39,7 +38,7 @@ pub fn write(subject: &Subject, own: &str, edits: &mut Edits) {
     abort(subject, &all, edits);
 }
 
-/// Whether HAL files can name the folder, and it is that of framepath. The usual one may be on another computer.
+/// Whether HAL files can name the folder, and it is that of framepath.
 fn is_usable(subject: &Subject, own: &str, edits: &mut Edits) -> bool {
     let place = Place::file(subject.ini.file());
     if let Some(mark) = own
@@ -60,13 +59,13 @@ fn is_usable(subject: &Subject, own: &str, edits: &mut Edits) -> bool {
     let folder = subject.path(own);
     let is_there = |path: std::path::PathBuf| path.is_file();
     let is_own = is_there(folder.join("frame_guard.py")) && is_there(file(&folder, SENDER));
-    if own != SUBROUTINES && !is_own {
+    if !is_own {
         let found = match folder.is_dir() {
             true => format!("--subroutines {own} has no frame_guard.py or no {SENDER}.ngc"),
             false => format!("--subroutines {own}: {} is not there", folder.display()),
         };
         let help =
-            "the folder hal-component/subroutines of framepath, as seen from that of the INI file";
+            "--subroutines with the folder share/framepath/subroutines below the PREFIX of make install, as seen from that of the INI file";
         edits.refuse(&place, found, help);
         return false;
     }

@@ -9,15 +9,15 @@ pub mod framekins;
 pub mod installed;
 #[cfg(feature = "linuxcnc")]
 pub mod joints;
+pub mod outputs_line;
+pub mod own_files;
 pub mod previews;
 pub mod settings;
 pub mod subject;
 pub mod subroutine_files;
+pub mod told_the_tool;
 #[cfg(feature = "linuxcnc")]
 pub mod user_codes;
-
-/// Where `make install` puts the subroutines.
-pub const SUBROUTINES: &str = "/usr/share/framepath/subroutines";
 
 /// A jerk limit for a start: so many accelerations in a second, as in the samples.
 pub const USUAL_JERK: f64 = 20.0;

@@ -1,6 +1,7 @@
 //! The machine that is looked at: its INI file, what its HAL files leave behind, and what follows from both.
 
 use super::framekins::{USUAL_TYPE_OUTPUT, external_offset};
+use super::own_files::{self, GUARD_FILE};
 use super::settings;
 use super::subroutine_files::{Folder, SENDER, file};
 use crate::hal::{Module, Script, State, Statement};
@@ -43,7 +44,7 @@ impl Subject {
     pub fn new(ini: Ini, ini_problems: Vec<IniError>, script: Script) -> Subject {
         let state = State::run(&script.statements);
         let axes = axes(&ini);
-        let joints = joints(&ini);
+        let joints = joints(&ini, extra_joints(&state));
         Subject {
             ini,
             ini_problems,
@@ -178,6 +179,17 @@ impl Subject {
         self.state.module("motmod")
     }
 
+    /// How many joints motmod has beside those that the kinematics move.
+    pub fn extra_joints(&self) -> usize {
+        extra_joints(&self.state)
+    }
+
+    /// Whether LinuxCNC takes programs before the machine is homed.
+    pub fn may_run_unhomed(&self) -> bool {
+        let text = self.text("TRAJ", "NO_FORCE_HOMING").unwrap_or("");
+        leading_number(text).is_some_and(|number| number != 0.0)
+    }
+
     /// To be said behind that a line was not found.
     pub fn unless_unread(&self) -> String {
         match self.script.unread.first() {
@@ -282,7 +294,9 @@ impl Subject {
             .iter()
             .find(|program| is_guard(&program.program));
         let folder = guard.and_then(|guard| guard.program.strip_suffix("/frame_guard.py"));
-        folder.unwrap_or(super::SUBROUTINES).to_owned()
+        let is_there = |folder: &&str| self.path(folder).join(GUARD_FILE).is_file();
+        let folder = folder.filter(is_there).map(str::to_owned);
+        folder.unwrap_or_else(own_files::subroutines)
     }
 
     /// Subroutines that hide framepath's: the place of what names their folder, what was found, and what to do.
@@ -312,14 +326,14 @@ impl Subject {
 
 /// The line that starts frame_guard from this folder.
 pub fn guard_line(folder: &str) -> String {
-    format!("loadusr -Wn {GUARD} {folder}/frame_guard.py")
+    format!("loadusr -Wn {GUARD} {folder}/{GUARD_FILE}")
 }
 
 /// Whether a program is frame_guard.
 pub fn is_guard(program: &str) -> bool {
     Path::new(program)
         .file_name()
-        .is_some_and(|name| name == "frame_guard.py")
+        .is_some_and(|name| name == GUARD_FILE)
 }
 
 /// A parameter of a line like `framekins coordinates=XYZ`.
@@ -360,7 +374,7 @@ fn axes(ini: &Ini) -> Vec<char> {
 
 /// As trivkins takes them, and framekins on a machine in which each joint is an axis. On a machine with a tilting
 /// table of framekins they are the same without the tool centre point.
-fn joints(ini: &Ini) -> Vec<char> {
+fn joints(ini: &Ini, beside: usize) -> Vec<char> {
     let kinematics = ini.text("KINS", "KINEMATICS").unwrap_or("");
     let module = kinematics.split_whitespace().next().unwrap_or("");
     if !matches!(module, "trivkins" | "framekins") {
@@ -368,11 +382,18 @@ fn joints(ini: &Ini) -> Vec<char> {
     }
     let count = ini
         .text("KINS", "JOINTS")
-        .and_then(|text| text.trim().parse().ok());
+        .and_then(|text| text.trim().parse::<usize>().ok());
+    let count = count.map_or(16, |count| count.saturating_sub(beside));
     let letters = parameter(kinematics, "coordinates")
         .unwrap_or(AXIS_LETTERS)
         .to_ascii_uppercase();
-    letters.chars().take(count.unwrap_or(16)).collect()
+    letters.chars().take(count).collect()
+}
+
+fn extra_joints(state: &State) -> usize {
+    let motion = state.module("motmod");
+    let text = motion.and_then(|motion| motion.parameter("num_extrajoints"));
+    text.and_then(|text| text.parse().ok()).unwrap_or(0)
 }
 
 /// The file of a place, shared.

@@ -25,6 +25,15 @@ fn subroutines() -> String {
     samples().join("subroutines").display().to_string()
 }
 
+/// Configures axis_mm with frames, over what is there.
+fn again_with_frames(folder: &Path) -> Output {
+    let options = ["--frames", "--force", "--subroutines", &subroutines()];
+    framepath(
+        folder,
+        &[&["configure", "axis_mm.ini"], &options[..]].concat(),
+    )
+}
+
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("a text")
 }
@@ -213,10 +222,7 @@ fn what_chooses_a_type_of_the_kinematics_goes_to_framekins() {
     let ini = fs::read_to_string(folder.path().join("axis_mm.ini")).expect("a text");
     let ini = ini.replacen(&format!("HALCMD = {select}"), "HALFILE = own.hal", 1);
     fs::write(folder.path().join("axis_mm.ini"), ini).expect("written");
-    let output = framepath(
-        folder.path(),
-        &["configure", "axis_mm.ini", "--frames", "--force"],
-    );
+    let output = again_with_frames(folder.path());
     let written = text(&output.stdout);
     let lines = "+unlinkp motion.switchkins-type\n+net select => framekins.inner-type\n";
     assert!(written.contains(lines), "{written}{}", text(&output.stderr));
@@ -286,10 +292,7 @@ fn a_users_own_file_in_tcl_stays_where_it_names_nothing_of_motion() {
     let own = folder.path().join("own.tcl");
     let run = |text: &str| {
         fs::write(&own, text).expect("written");
-        framepath(
-            folder.path(),
-            &["configure", "axis_mm.ini", "--frames", "--force"],
-        )
+        again_with_frames(folder.path())
     };
     let output = run("# what motion.enable waits for\nloadrt or2\naddf or2.0 servo-thread\n");
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -310,26 +313,23 @@ fn a_users_own_file_in_tcl_stays_where_it_names_nothing_of_motion() {
 
 #[test]
 fn other_screens_get_files_of_their_own_and_a_file_of_the_users_stays() {
-    for (screen, line) in [
-        (
-            "gmoccapy",
-            "+USER_COMMAND_FILE = /usr/share/framepath/preview/frame_gmoccapy.py\n",
-        ),
-        (
-            "qtvcp qtdragon",
-            "+USER_COMMAND_FILE = /usr/share/framepath/preview/frame_qtvcp.py\n",
-        ),
+    let options = ["--frames", "--subroutines", &subroutines()];
+    for (screen, file) in [
+        ("gmoccapy", "frame_gmoccapy.py"),
+        ("qtvcp qtdragon", "frame_qtvcp.py"),
     ] {
         let to = format!("DISPLAY = {screen}");
-        let (_, output) = changed("DISPLAY = axis", &to, &["--frames"]);
+        let (_, output) = changed("DISPLAY = axis", &to, &options);
         let written = text(&output.stdout);
-        assert!(written.contains(line), "{line} in {written}");
+        let file = samples().join("preview").join(file);
+        let line = format!("+USER_COMMAND_FILE = {}\n", file.display());
+        assert!(written.contains(&line), "{line} in {written}");
     }
     for to in [
         "DISPLAY = touchy",
         "DISPLAY = axis\nUSER_COMMAND_FILE = own.py",
     ] {
-        let (_, output) = changed("DISPLAY = axis", to, &["--frames"]);
+        let (_, output) = changed("DISPLAY = axis", to, &options);
         let written = text(&output.stdout);
         assert!(written.contains("framekins"), "{written}");
         assert!(!written.contains("+USER_COMMAND_FILE"), "{written}");

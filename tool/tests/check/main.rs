@@ -6,7 +6,9 @@ mod configure_refusals;
 #[path = "../common/fields.rs"]
 mod fields;
 mod findings;
+mod frames_of_machines;
 mod inner;
+mod installed_elsewhere;
 mod left_out;
 mod modules;
 mod not_starting;

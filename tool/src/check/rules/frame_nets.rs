@@ -5,6 +5,7 @@ use crate::wiring::framekins::{
     MOST_OUTPUTS, NETS, Net, OUTPUTS, SAMPLE_OUTPUTS, Source, USUAL_OUTPUTS, has_pin, needs_inner,
     needs_table, needs_turning_axes,
 };
+use crate::wiring::outputs_line::OutputsLine;
 use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
@@ -74,8 +75,6 @@ fn outputs(subject: &Subject, findings: &mut Findings) {
         return;
     }
     let enough = needed.max(SAMPLE_OUTPUTS);
-    let mut words: Vec<&str> = motion.statement.text.split_whitespace().collect();
-    words.retain(|word| !word.starts_with("num_aio="));
     let found = match given {
         None => format!(
             "motmod has {USUAL_OUTPUTS} analog outputs, and frames take motion.analog-out-{:02} to {:02}",
@@ -88,8 +87,19 @@ fn outputs(subject: &Subject, findings: &mut Findings) {
             needed - 1
         ),
     };
-    let line = format!("{} num_aio={enough}", words.join(" "));
-    findings.error(&motion.statement.place, found, replace(line));
+    match OutputsLine::new(subject, motion, enough) {
+        OutputsLine::Ini { place, key, value } => {
+            let line = format!("{key} = {value}");
+            let remedy = match subject.ini.entry("EMCMOT", key) {
+                Some(_) => replace(line),
+                None => add("[EMCMOT]", line),
+            };
+            findings.error(&place, found, remedy);
+        }
+        OutputsLine::Hal(line) => {
+            findings.error(&motion.statement.place, found, replace(line));
+        }
+    }
 }
 
 /// The remedy for a net that is missing: the line of the samples, with the signal that is there already.

@@ -2,6 +2,7 @@
 
 use crate::check::finding::{Findings, add, advice, if_missing, replace};
 use crate::hal::Program;
+use crate::wiring::own_files::{self, GUARD_FILE, INSTALL};
 use crate::wiring::subject::{GUARD, Subject, guard_line, is_guard};
 use std::path::Path;
 
@@ -75,8 +76,14 @@ fn file(subject: &Subject, guard: &Program, findings: &mut Findings) {
             "{} is not there, and LinuxCNC does not start",
             path.display()
         );
-        let line = guard_line(crate::wiring::SUBROUTINES);
-        let remedy = format!("{line}, or where the subroutines of framepath are");
+        let own = own_files::subroutines();
+        let remedy = match guard.program == format!("{own}/{GUARD_FILE}") {
+            true => INSTALL.to_owned(),
+            false => format!(
+                "{}, or where the subroutines of framepath are",
+                guard_line(&own)
+            ),
+        };
         findings.error(place, found, advice(remedy));
     } else if !is_executable(&path) {
         let found = format!(

@@ -5,11 +5,13 @@ use crate::check::finding::{Findings, add, advice, if_missing, replace};
 use crate::hal::Module;
 use crate::wiring::framekins::{INNER_TYPE as TYPE, MOTION_TYPE as MOTION, OUTPUTS};
 use crate::wiring::subject::Subject;
+use crate::wiring::told_the_tool::tool_type;
 use framepath::kinematics::ToolAxes;
 use framepath::kinematics::inner::tool_types;
 
 pub fn look(subject: &Subject, module: &Module, inner: &str, findings: &mut Findings) {
     parameters(module, inner, findings);
+    tool_of_type(subject, module, inner, findings);
     named(subject, module, inner, findings);
     order(subject, module, inner, findings);
     types(subject, findings);
@@ -44,6 +46,25 @@ fn parameters(module: &Module, inner: &str, findings: &mut Findings) {
             "framekins is not loaded: tool_axes={axes} names no axes of A B C that could turn a tool"
         );
         findings.error(place, found, advice("tool_axes=C,B"));
+    }
+}
+
+/// What turns the tool's length itself cannot be seen from outside.
+fn tool_of_type(subject: &Subject, module: &Module, inner: &str, findings: &mut Findings) {
+    let Some((pin, number)) = tool_type(subject, inner) else {
+        return;
+    };
+    let written = module.parameter("tool_types").unwrap_or("");
+    let bits = tool_types(written.as_bytes());
+    if bits.is_some_and(|bits| bits & 1 << number == 0) {
+        let found = format!(
+            "{pin} is linked, and framekins takes the tool of type {number} of {inner} for one that stays along Z: its tip \
+             is elsewhere in a tilted frame"
+        );
+        let separator = if written.is_empty() { "" } else { "," };
+        let list = format!("tool_types={number}{separator}{written}");
+        let remedy = format!("write {list}, unless {pin} has nothing of the tool");
+        findings.warning(&module.statement.place, found, advice(remedy));
     }
 }
 

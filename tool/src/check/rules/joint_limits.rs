@@ -42,12 +42,8 @@ fn is_trivial(subject: &Subject) -> bool {
 
 /// How many joints the kinematics move: not those that motmod has beside them.
 fn of_kinematics(subject: &Subject) -> usize {
-    let beside = subject
-        .motion()
-        .and_then(|motion| motion.parameter("num_extrajoints")?.parse().ok())
-        .unwrap_or(0);
     let joints = subject.number("KINS", "JOINTS").unwrap_or(0.0) as usize;
-    joints.saturating_sub(beside)
+    joints.saturating_sub(subject.extra_joints())
 }
 
 fn has(subject: &Subject, pin: &str) -> bool {

@@ -9,7 +9,7 @@ use crate::wiring::subject::Subject;
 use framepath::machine::{ConfigurationError, CoordinatesError, Machine};
 
 /// LinuxCNC's own, and ours.
-const MODULES: [&str; 24] = [
+const MODULES: [&str; 25] = [
     "5axiskins",
     "corexykins",
     "framekins",
@@ -34,6 +34,7 @@ const MODULES: [&str; 24] = [
     "xyzac-trt-kins",
     "xyzbc-trt-kins",
     "xyzacb_trsrn",
+    "xyzbca_trsrn",
 ];
 
 /// Those of framekins.
@@ -48,6 +49,7 @@ const PARAMETERS: [&str; 6] = [
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     several(subject, findings);
+    unhomed(subject, findings);
     let loaded = subject.state.module("framekins");
     if let Some(module) = loaded {
         unknown_parameters(subject, module, findings);
@@ -69,6 +71,17 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
         None if subject.kinematics() == "framekins" => not_loaded(subject, findings),
         None if subject.has_frames() => not_named(subject, findings),
         None => {}
+    }
+}
+
+/// framekins is never the kinematics that motion moves without homing.
+fn unhomed(subject: &Subject, findings: &mut Findings) {
+    if subject.has_frames() && subject.may_run_unhomed() {
+        let found = "NO_FORCE_HOMING has no effect with framekins: nothing but joints moves before all of them are homed";
+        let remedy = "NO_FORCE_HOMING = 0, and home the machine first: a joint with HOME_SEARCH_VEL = 0 and HOME_LATCH_VEL = 0 \
+                      is homed where it stands";
+        let place = subject.place_of("TRAJ", "NO_FORCE_HOMING");
+        findings.warning(&place, found, advice(remedy));
     }
 }
 
@@ -113,7 +126,8 @@ fn joint_letters(subject: &Subject) -> String {
         .unwrap_or("")
         .split_whitespace()
         .collect();
-    match subject.number("KINS", "JOINTS") {
+    let joints = subject.number("KINS", "JOINTS");
+    match joints.map(|joints| joints - subject.extra_joints() as f64) {
         Some(joints) if joints == written.chars().count() as f64 => written.to_ascii_uppercase(),
         _ => subject.axes.iter().collect(),
     }
@@ -270,9 +284,14 @@ fn joints(subject: &Subject, place: &Place, letters: &str, findings: &mut Findin
     let joints = subject
         .text("KINS", "JOINTS")
         .and_then(|text| text.parse::<usize>().ok());
-    if let Some(joints) = joints.filter(|joints| *joints != letters.chars().count()) {
+    let beside = subject.extra_joints();
+    if let Some(joints) = joints.filter(|joints| *joints != letters.chars().count() + beside) {
+        let extra = match beside {
+            0 => String::new(),
+            _ => format!(", {beside} of them by num_extrajoints"),
+        };
         let found = format!(
-            "coordinates={letters} names {} joints, and [KINS]JOINTS is {joints}: frame_guard, and with it LinuxCNC, does not \
+            "coordinates={letters} names {} joints, and [KINS]JOINTS is {joints}{extra}: frame_guard, and with it LinuxCNC, does not \
              start",
             letters.chars().count()
         );

@@ -1,6 +1,7 @@
 //! `[DISPLAY]USER_COMMAND_FILE`: previews that follow frames.
 
 use crate::check::finding::{Findings, add, advice, replace};
+use crate::wiring::own_files::INSTALL;
 use crate::wiring::previews::screen;
 use crate::wiring::subject::Subject;
 
@@ -8,10 +9,8 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
     let Some(screen) = screen(subject) else {
         return;
     };
-    let line = format!(
-        "USER_COMMAND_FILE = {}",
-        screen.value(&subject.own_folder())
-    );
+    let value = screen.value(&subject.own_folder());
+    let line = format!("USER_COMMAND_FILE = {value}");
     let Some(entry) = subject.ini.entry("DISPLAY", "USER_COMMAND_FILE") else {
         let place = subject.place_of("DISPLAY", "DISPLAY");
         let found = "the preview and the live plot show programs without their frames";
@@ -20,7 +19,11 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
     match std::fs::read_to_string(subject.path(&entry.value)) {
         Err(error) => {
             let found = format!("{} cannot be read: {error}", entry.value);
-            findings.warning(&entry.place, found, replace(line));
+            let remedy = match entry.value == value {
+                true => advice(INSTALL),
+                false => replace(line),
+            };
+            findings.warning(&entry.place, found, remedy);
         }
         Ok(text) if text.contains(screen.module) => {}
         Ok(_) => {

@@ -1,6 +1,7 @@
 //! `[RS274NGC]SUBROUTINE_PATH`: the folder with the frame commands, and that LinuxCNC finds these there.
 
 use crate::check::finding::{Findings, add, advice, replace};
+use crate::wiring::own_files::INSTALL;
 use crate::wiring::subject::Subject;
 use crate::wiring::subroutine_files::{self, SENDER, file};
 
@@ -21,23 +22,17 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
     let own = subject.own_folder();
     let found = "the frame commands are not found: no folder of [RS274NGC]SUBROUTINE_PATH has framepath's subroutines";
     match subject.ini.entry("RS274NGC", "SUBROUTINE_PATH") {
-        Some(entry) => {
-            let own = if folders.contains(&own.as_str()) {
-                crate::wiring::SUBROUTINES
-            } else {
-                &own
-            };
-            findings.error(
-                &place,
-                found,
-                replace(format!("SUBROUTINE_PATH = {}:{own}", entry.value)),
-            );
+        Some(_) if folders.contains(&own.as_str()) => {
+            findings.error(&place, found, advice(INSTALL));
         }
-        None => findings.error(
-            &place,
-            found,
-            add("[RS274NGC]", format!("SUBROUTINE_PATH = {own}")),
-        ),
+        Some(entry) => {
+            let line = format!("SUBROUTINE_PATH = {}:{own}", entry.value);
+            findings.error(&place, found, replace(line));
+        }
+        None => {
+            let line = format!("SUBROUTINE_PATH = {own}");
+            findings.error(&place, found, add("[RS274NGC]", line));
+        }
     }
 }
 
