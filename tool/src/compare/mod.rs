@@ -383,9 +383,7 @@ fn refuse_to_hold(events: &[Event]) -> Result<(), CompareError> {
         held = match event.action {
             Action::Abort => return Ok(()),
             Action::FeedOverride(0.0) => Some(("--feed-override", event.time)),
-            Action::MaxVelocity(0.0) => {
-                Some(("--max-velocity", event.time))
-            }
+            Action::MaxVelocity(0.0) => Some(("--max-velocity", event.time)),
             Action::FeedOverride(_) => held.filter(|(option, _)| *option != "--feed-override"),
             Action::MaxVelocity(_) => held.filter(|(option, _)| *option != "--max-velocity"),
             Action::Pause(_) => held,

@@ -64,8 +64,7 @@ fn is_usable(subject: &Subject, own: &str, edits: &mut Edits) -> bool {
             true => format!("--subroutines {own} has no frame_guard.py or no {SENDER}.ngc"),
             false => format!("--subroutines {own}: {} is not there", folder.display()),
         };
-        let help =
-            "--subroutines with the folder share/framepath/subroutines below the PREFIX of make install, as seen from that of the INI file";
+        let help = "--subroutines with the folder share/framepath/subroutines below the PREFIX of make install, as seen from that of the INI file";
         edits.refuse(&place, found, help);
         return false;
     }

@@ -29,7 +29,7 @@ pub fn nearest_ones(name: &str, known: &[&'static str]) -> Vec<&'static str> {
 const FEW: usize = 3;
 
 /// The known names nearest to one that is not known, the nearest first; names of which half would have to
-/// be changed are not among them, unless that is a single character. None where the name is itself a known one.
+/// be changed are not among them, unless that is a single character.
 pub fn nearest_few<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let far = |known: &str| {
         let distance = edit_distance(name, known);
@@ -40,22 +40,21 @@ pub fn nearest_few<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<
         .filter_map(|known| far(known).map(|distance| (distance, known)))
         .collect();
     similar.sort_unstable();
-    if similar.first().is_some_and(|(distance, _)| *distance == 0) {
-        return Vec::new();
-    }
     similar.dedup();
     similar.truncate(FEW);
     similar.into_iter().map(|(_, known)| known).collect()
 }
 
-/// `did you mean #MSG, #CS?`: advice for a word that is not known; `None` where nothing is similar.
+/// `did you mean #MSG, #CS?`: advice for a word that is not known; `None` where nothing is similar, or it stands there as it is
+/// shown.
 pub fn did_you_mean<'a>(
     name: &str,
     known: impl Iterator<Item = &'a str>,
     shown: impl Fn(&str) -> String,
 ) -> Option<String> {
     let similar: Vec<String> = nearest_few(name, known).into_iter().map(shown).collect();
-    (!similar.is_empty()).then(|| format!("did you mean {}?", similar.join(", ")))
+    let stands_there = similar.first().is_some_and(|nearest| nearest == name);
+    (!similar.is_empty() && !stands_there).then(|| format!("did you mean {}?", similar.join(", ")))
 }
 
 /// How many characters must be changed, added, taken out or swapped with their neighbour (optimal string
@@ -108,7 +107,9 @@ mod tests {
         for name in known {
             assert_eq!(nearest(name, &known), None);
             assert!(nearest_ones(name, &known).is_empty());
-            assert!(nearest_few(name, known.into_iter()).is_empty());
+            assert_eq!(did_you_mean(name, known.into_iter(), str::to_owned), None);
+            let shown = did_you_mean(name, known.into_iter(), |known| format!("#{known}"));
+            assert!(shown.is_some_and(|shown| shown.contains(&format!("#{name}"))));
         }
     }
 }

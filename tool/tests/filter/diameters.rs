@@ -49,10 +49,10 @@ fn what_x_was_before_it_is_again_at_the_end_on_machines_with_diameters() {
         (mill.to_string(), false),
     ] {
         let program = "DIAMON\nG0 X40 Z5\nM30\n".as_bytes();
-        let shop = Shop::new(&[("part.mpf", program), ("machine.ini", ini.as_bytes())]);
+        let shop = Shop::new(&[("part.mpf", program), ("shop.ini", ini.as_bytes())]);
         for backend in ["kinematics", "program"] {
             let output =
-                accepted(&shop.run("part.mpf", &["--backend", backend, "--ini", "machine.ini"]));
+                accepted(&shop.run("part.mpf", &["--backend", backend, "--ini", "shop.ini"]));
             // Behind the end of the program nothing is read: another move stands in its place.
             let goes_on = output.replace("M30", "G0 X10\nM2");
             assert_ne!(goes_on, output);

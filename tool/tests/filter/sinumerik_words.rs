@@ -95,11 +95,11 @@ fn the_target_of_a_jump_may_be_a_text() {
             10,
         ),
         (
-            "DEF STRING[20] GOAL=\"Part2\"\nIF 1==1 GOTOF GOAL\nG0 X5\nPART2: Y0\nG0 X7\n",
+            "DEF STRING[20] GOAL=\"Part2\"\nIF 1==1 GOTOF GOAL\nG0 X5\nPART2: G0 Y0\nG0 X7\n",
             7,
         ),
         (
-            "DEF STRING[9] TO_[2]=SET(\"A1_\",\"B1_\")\nGOTOF TO_[1]\nA1_: G0 X5\nB1_: G0 X6\n",
+            "DEF STRING[9] TO_[2]=SET(\"AA_\",\"BB_\")\nGOTOF TO_[1]\nAA_: G0 X5\nBB_: G0 X6\n",
             6,
         ),
         ("G0 X1\nGOTOC \"NOWHERE\"<<1\nX2\n", 2),
