@@ -30,7 +30,7 @@
 //! the corner itself the whole of it counts.
 
 use super::kernel;
-use super::settings::LEAST_NATURAL_SWING;
+use super::settings::swing::LEAST_NATURAL_SWING;
 use super::widths::{FurtherKernel, Widths};
 
 /// How far the wide kernel reaches, of the distance of the next corner.
@@ -105,6 +105,8 @@ pub(super) struct LoneCorner {
     pub narrow_share: f64,
     /// How far it swings out at most, machine units.
     pub greatest_width: f64,
+    /// See [`BlendSettings::swing_limits`](super::settings::BlendSettings::swing_limits).
+    pub share_limits: [f64; 2],
 }
 
 /// Share of the third kernel, of what it has together with the first one of this `mix`, in a corner that turns by an angle with this
@@ -127,6 +129,7 @@ impl LoneCorner {
         across: 1.0,
         narrow_share: 0.0,
         greatest_width: 0.0,
+        share_limits: [0.0; 2],
     };
 
     /// Its widths where it swings out and reaches no farther than `limit`; `None` where it has no room for it or gains
@@ -142,6 +145,9 @@ impl LoneCorner {
         let left = (1.0 - little_room * outside / room).max(LEAST_LEFT);
         // How wide a biweight kernel would be that leads to the inner side as far as the first and the third together do.
         let core = ((1.0 + outside) / left).min(CORE_SHARE * room);
+        let [gathered, programmed] = self.share_limits;
+        let per_share = gathered.min(programmed / outer);
+        let core = core.min(1.0 + (room - 1.0) / (per_share + 1.0));
         let narrow = self.narrow_share;
         let peak = kernel::peak(self.mix) / kernel::peak(0.0);
         let width = core / ((1.0 - narrow) * peak + narrow * NARROW_WIDTH) * self.biweight_width;
@@ -206,6 +212,7 @@ mod tests {
             across: 1.0,
             narrow_share: narrow_share(mix, 1.0, 2.0 * clear),
             greatest_width: 200.0,
+            share_limits: [0.0; 2],
         }
     }
 
@@ -259,6 +266,30 @@ mod tests {
             let [_, outside] = both_sides(&little);
             assert!(outside < 1.02, "{across}: {outside}");
         }
+    }
+
+    #[test]
+    fn where_the_wide_kernel_would_hold_up_the_machine_it_swings_out_less() {
+        let swing = |share_limits| {
+            let corner = LoneCorner {
+                share_limits,
+                ..corner(10.0, 0.0)
+            };
+            let widths = corner.swinging_out(f64::INFINITY).expect("room");
+            let [inside, outside] = both_sides(&widths);
+            assert!((inside - 1.0).abs() < 1e-9, "{share_limits:?}: {inside}");
+            (widths.further[0], outside)
+        };
+        let (free, outside) = swing([2.0, f64::INFINITY]);
+        assert!(-free.share < 0.5 && outside > 0.9, "{free:?} {outside}");
+        let (slow_axis, outside) = swing([50.0, f64::INFINITY]);
+        assert!((slow_axis.share + 0.02).abs() < 1e-9, "{slow_axis:?}");
+        assert!((0.01..0.5).contains(&outside), "{outside}");
+        // A machine that does not gather speed, since the program asks for less.
+        let (slow_feed, _) = swing([50.0, 2.0 * free.width]);
+        assert_eq!(slow_feed, free);
+        let (none, outside) = swing([f64::INFINITY, 1e9]);
+        assert!(-none.share < 1e-7 && outside < 1e-3, "{none:?} {outside}");
     }
 
     #[test]

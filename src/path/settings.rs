@@ -1,5 +1,7 @@
 //! What the shape of blends depends on, besides the program.
 
+pub(super) mod swing;
+
 use super::kernel;
 use super::orientation::Orientation;
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
@@ -20,27 +22,6 @@ const GREATEST_FREE_WIDTH: f64 = 12.0;
 /// A corner without a tolerance is this much wider than its feed needs at a constant speed, so that
 /// the speed may change in it.
 const FREE_RESERVE: f64 = 1.1;
-
-/// A corner swings out over so many lengths of the shorter leg beside it at most: what it may reach stays open until the next
-/// leg comes, or its shape would depend on when that is.
-const LEGS_OF_A_SWING: f64 = 3.0;
-
-/// And over so many widths of the widest kernel within the tolerance that limits the speed: wider ones gain little, and less of
-/// the path is final.
-const WIDTHS_OF_A_SWING: f64 = 3.0;
-
-/// And over so much, mm.
-const GREATEST_SWING: f64 = 30.0;
-
-/// A corner limits the speed if its feed needs it so many times as wide.
-const LIMITING: f64 = 1.05;
-
-/// And over so many times what is run through at the speed that acceleration reaches, over the length of the tolerance, within the
-/// time that jerk takes for that length.
-const NATURAL_SWING: f64 = 38.0;
-
-/// But so many widths of its biweight kernel at least.
-pub(super) const LEAST_NATURAL_SWING: f64 = 6.0;
 
 /// Acceleration is built up in this time at least, seconds: unlimited jerk is still a few cycles
 /// long.
@@ -256,38 +237,6 @@ impl BlendSettings {
         mix.clamp(-1.0, kernel::GREATEST_PEAKED)
     }
 
-    /// How far a corner beside a leg of this `length` swings out at most within `tolerance`, where it is run through at most at
-    /// `speed`; machine units.
-    pub(super) fn greatest_swing(&self, length: f64, tolerance: f64, speed: f64) -> f64 {
-        if self.swings {
-            let room = WIDTHS_OF_A_SWING * self.widest_limiting(tolerance, speed);
-            (LEGS_OF_A_SWING * length)
-                .min(room.max(self.greatest_design_width()))
-                .min(GREATEST_SWING * self.millimetre)
-        } else {
-            0.0
-        }
-    }
-
-    /// How far a corner swings out with gain: the farther the more `tolerance` it has. `width`: of its biweight
-    /// kernel; machine units. Fitted to measured times of two legs that turn by 15 to 165 degrees, P .005 to 1.
-    pub(super) fn natural_swing(&self, tolerance: f64, width: f64) -> f64 {
-        let acceleration = self.per_acceleration.fixed_rows::<3>(0).max().recip();
-        let speed = (acceleration * tolerance).sqrt();
-        let natural = NATURAL_SWING * speed * cube_root(tolerance / self.linear_jerk);
-        natural.max(LEAST_NATURAL_SWING * width)
-    }
-
-    /// The widest biweight kernel within `tolerance` of all corners in XYZ that limit a `speed`, whatever they turn by; machine
-    /// units.
-    fn widest_limiting(&self, tolerance: f64, speed: f64) -> f64 {
-        let width_times_turn = tolerance / kernel::peak(0.0);
-        let bend = self.per_acceleration.fixed_rows::<3>(0).max();
-        let by_acceleration = (kernel::greatest(0.0) * width_times_turn * bend).sqrt();
-        let by_jerk = cube_root(kernel::steepest(0.0) * width_times_turn / self.linear_jerk);
-        speed * by_acceleration.max(by_jerk)
-    }
-
     /// How often the time of a ramp from 0 to the greatest acceleration fits into half of a corner, with the biweight kernel of
     /// this `width`; `None` without a limit.
     fn ramps(&self, tangent_jump: &Axes, width: f64) -> Option<f64> {
@@ -296,17 +245,6 @@ impl BlendSettings {
         let twist = size.component_mul(&self.per_jerk).max();
         let ramp = (twist / bend).max(SHORTEST_RAMP);
         (bend > 0.0 && width > 0.0).then(|| (kernel::greatest(0.0) * bend * width).sqrt() / ramp)
-    }
-
-    /// Whether a corner that is run through at most at `speed` is faster where it [swings out](super::lone_corner): it limits the
-    /// speed. `width`: of its biweight kernel.
-    pub(super) fn gains_by_swinging_out(
-        &self,
-        tangent_jump: &Axes,
-        width: f64,
-        speed: f64,
-    ) -> bool {
-        self.swings && self.free_width(tangent_jump, speed, 0.0) > LIMITING * width
     }
 
     /// What G61 and G61.1 allow.
@@ -332,7 +270,7 @@ impl BlendSettings {
 mod tests {
     use super::*;
 
-    fn limits(jerk: f64) -> AxisLimits {
+    pub(super) fn limits(jerk: f64) -> AxisLimits {
         AxisLimits {
             velocity: Axes::repeat(100.0),
             acceleration: Axes::repeat(1000.0),
@@ -340,7 +278,7 @@ mod tests {
         }
     }
 
-    fn settings(jerk: f64) -> BlendSettings {
+    pub(super) fn settings(jerk: f64) -> BlendSettings {
         BlendSettings::new(1.0, 0.1, 0.02, &limits(jerk)).expect("sound")
     }
 
@@ -430,42 +368,6 @@ mod tests {
         let by_jerk = settings(10_000.0).curve_speed(&turn, 0.1, 0.1 * radius);
         assert!((by_jerk.powi(3) - 10_000.0 * radius * radius).abs() < 1e-6);
         let unlimited = BlendSettings::DEFAULT.curve_speed(&turn, 0.1, 0.1 * radius);
-        assert_eq!(unlimited, f64::INFINITY);
-    }
-
-    #[test]
-    fn a_corner_swings_out_as_far_as_its_kernel_can_be_wide() {
-        for jerk in [20_000.0, f64::INFINITY] {
-            let settings = settings(jerk);
-            let swing = |tolerance| settings.greatest_swing(100.0, tolerance, 100.0);
-            assert_eq!(swing(0.005), GREATEST_DESIGN_WIDTH);
-            assert_eq!(swing(100.0), GREATEST_SWING);
-            let width = swing(1.0) / WIDTHS_OF_A_SWING;
-            // A corner with a kernel of this width just limits the speed.
-            let mut turn = Axes::zeros();
-            turn[0] = 1.0 / (kernel::peak(0.0) * width);
-            let wanted = settings.free_width(&turn, 100.0, 0.0) / FREE_RESERVE;
-            assert!((wanted / width - 1.0).abs() < 1e-9, "{wanted} {width}");
-            assert_eq!(settings.greatest_swing(1.0, 1.0, 100.0), LEGS_OF_A_SWING);
-            let still = settings.without_swings();
-            assert_eq!(still.greatest_swing(100.0, 1.0, 100.0), 0.0);
-        }
-    }
-
-    #[test]
-    fn the_more_tolerance_the_farther_a_corner_swings_out() {
-        let settings = settings(20_000.0);
-        let swing = |tolerance| settings.natural_swing(tolerance, 0.0);
-        // The way in which acceleration is built up at full jerk and taken back: A^3 / J^2.
-        let way: f64 = 2.5;
-        assert!((swing(way) / (NATURAL_SWING * way) - 1.0).abs() < 1e-12);
-        for share in [1e-3, 0.1, 4.0f64] {
-            let expected = share.powf(5.0 / 6.0) * swing(way);
-            assert!((swing(share * way) / expected - 1.0).abs() < 1e-12);
-        }
-        let least = settings.natural_swing(0.01, 3.0);
-        assert_eq!(least, 3.0 * LEAST_NATURAL_SWING);
-        let unlimited = BlendSettings::DEFAULT.natural_swing(0.05, 1.0);
         assert_eq!(unlimited, f64::INFINITY);
     }
 

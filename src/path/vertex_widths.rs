@@ -86,9 +86,16 @@ impl Vertex {
                     && self.free_limit <= 0.0
                     && settings.gains_by_swinging_out(&tangent_jump, biweight_width, slower),
                 clear: 2.0 * self.half_leg,
+                share_limits: settings.swing_limits(
+                    &tangent_jump,
+                    [
+                        (&before.direction_at_start(), before.speed),
+                        (&after.direction_at_start(), after.speed),
+                    ],
+                ),
                 greatest_width: settings
                     .greatest_swing(2.0 * self.half_leg, self.tolerance, slower)
-                    .min(settings.natural_swing(self.tolerance, biweight_width)),
+                    .min(settings.natural_swing(&tangent_jump, self.tolerance, biweight_width)),
                 ..self.corner_beside(before, after, mix, biweight_width)
             };
             self.free_kernel = free.min(self.free_limit);

@@ -38,6 +38,7 @@ mod retract;
 mod reverse;
 mod short_program;
 mod short_programs;
+mod slow_axis;
 mod soft_limits;
 mod spindle;
 mod spindle_events;
