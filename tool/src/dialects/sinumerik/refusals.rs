@@ -1,6 +1,6 @@
-//! Words of the control that are not translated, by kind, each with what to write instead. They are those of
-//! the list of statements (Siemens, Programming Manual Fundamentals, "Tables"). None of them is ever the name of
-//! a variable or of a subprogram, also where the program declares one: on the control they act.
+//! Words of the control that are not translated, by kind, each with what to write instead: what public grammars of
+//! its language know as reserved. None of them is ever the name of a variable or of a subprogram, also where the
+//! program declares one: on the control they act.
 
 /// A kind of words: what to write instead, and the words.
 type Kind = (&'static str, &'static [&'static str]);
