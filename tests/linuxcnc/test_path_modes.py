@@ -46,6 +46,17 @@ class PathModes(unittest.TestCase):
                     self.assertLess(max(missed), 1.01 * 0.05 + 1e-4, missed)
                     self.assertGreater(min(missed), 0.2 * 0.05, missed)
 
+    def test_an_exact_stop_under_cutter_compensation_is_a_rest_at_the_corner_of_the_tool(self):
+        for dialect, rounds, stop, go_on in (("sinumerik", "G64\n", "G9 ", ""), ("fagor", "G05\n", "G07 ", "G05 ")):
+            for exact in (True, False):
+                lines = f"G41 D1 G1 X10 Y0\n{stop if exact else ''}X20\n{go_on}Y20\nG40 X0\nM30\n"
+                with self.subTest(dialect=dialect, exact=exact):
+                    rows = self.rows("T1 M6\n" + rounds + HEAD + lines, dialect)
+                    rests = [row for row, following in zip(rows, rows[1:]) if math.dist(row, following) < 1e-9]
+                    # beside both sides of the corner by the radius of the tool
+                    inside = [row for row in rests if 1 < row[1] < 19 and abs(row[0] + row[1] - 20) < 1e-6]
+                    self.assertEqual(bool(inside), exact, rests[::100])
+
     def test_holes_are_as_deep_as_they_are_programmed(self):
         for dialect, program in (
                 ("sinumerik", f"G64\n{HEAD}MCALL CYCLE81(5,-1,5,-17.262)\nX10\nX20\nMCALL\nG0 X30\nM30\n"),
