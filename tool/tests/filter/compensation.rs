@@ -120,9 +120,9 @@ fn another_path_mode_is_refused() {
         ("fagor", "", "G50 X30", "8:1"),
         ("fagor", "", "G51 A50 E0.02", "8:1"),
         ("fanuc", "", "X20.\nG64\nX30.", "8:1"),
-        ("isg", "", "#HSC ON [CONTERROR 0.05]", ""),
+        ("isg", "", "#HSC ON [CONTERROR 0.05]", "6:1"),
         ("isg", "", "G261 X30", "6:1"),
-        ("isg", "", "G61 X30", ""),
+        ("isg", "", "G61 X30", "6:1"),
     ] {
         let text = program(dialect, before, contour);
         let shop = Shop::new(&[("part", text.as_bytes())]);
