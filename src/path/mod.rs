@@ -32,7 +32,7 @@
 //! them; `fairing` moves runs of lines a little off the program, a `shift`; legs meet in a `vertex` and lie in a `chain`, with
 //! the `contribution` of each vertex to the path; the `optimizer` gives the vertices of a
 //! `window` their `widths`, beginning with the `base_width` (at `equal_widths` of all that overlap), on a `curve` for what it allows, and a
-//! `lone_corner` swings out; the
+//! `lone_corner` swings out, and one of `unlike_axes` stands alone; the
 //! `deviation` is checked, what is to `blame` is narrowed, and `hardening` stands behind it all.
 //! [`BlendedPath`] is what the rest of the planner sees.
 
@@ -69,6 +69,7 @@ mod shift;
 mod shrinkage;
 mod tapering;
 mod trial_kernel;
+mod unlike_axes;
 mod vertex;
 mod vertex_widths;
 mod views;

@@ -6,7 +6,7 @@ use super::leg::Leg;
 use super::lone_corner::{LoneCorner, narrow_share};
 use super::settings::BlendSettings;
 use super::vertex::Vertex;
-use super::{easement, kernel};
+use super::{easement, kernel, unlike_axes};
 use crate::axes::Axes;
 
 /// Of the tolerance, what the middle of a corner uses.
@@ -74,7 +74,9 @@ impl Vertex {
             // In the slower leg's half the other's feed does not matter.
             let slower = before.speed.min(after.speed);
             let tangent_jump = self.tangent_jump.axes();
-            let (mix, free) = self.mix_alone(&tangent_jump, biweight_width, slower, settings);
+            let legs = [before, after].map(Leg::direction_at_start);
+            let (mix, free) =
+                self.mix_alone(&tangent_jump, &legs, biweight_width, slower, settings);
             self.corner = LoneCorner {
                 mix,
                 width: within / kernel::peak(mix),
@@ -88,10 +90,7 @@ impl Vertex {
                 clear: 2.0 * self.half_leg,
                 share_limits: settings.swing_limits(
                     &tangent_jump,
-                    [
-                        (&before.direction_at_start(), before.speed),
-                        (&after.direction_at_start(), after.speed),
-                    ],
+                    [(&legs[0], before.speed), (&legs[1], after.speed)],
                 ),
                 greatest_width: settings
                     .greatest_swing(2.0 * self.half_leg, self.tolerance, slower)
@@ -105,6 +104,7 @@ impl Vertex {
                 free <= self.free_limit
             } else {
                 biweight_width <= ISOLATED * self.half_leg
+                    || unlike_axes::stands_alone(before, after, settings)
             };
             self.scan_done = self.isolated;
             self.searched = self.isolated;
@@ -162,21 +162,28 @@ impl Vertex {
     }
 
     /// The mix of its kernel where it keeps clear of its neighbours', and the width that its feed wants where half legs may be
-    /// cut.
+    /// cut. `legs`: directions of both, shape (9).
     fn mix_alone(
         &self,
         tangent_jump: &Axes,
+        legs: &[Axes; 2],
         biweight_width: f64,
         speed: f64,
         settings: &BlendSettings,
     ) -> (f64, f64) {
         // What leads an arc back to the inner side is meant for the biweight kernel.
         let biweight = self.at_limit && self.curvature_jump_size > 0.0;
+        let times_as_slow = legs
+            .iter()
+            .map(|direction| settings.times_as_slow(tangent_jump, direction))
+            .fold(1.0, f64::max);
         let mix_of = |width: f64, by_tolerance: bool| {
             if biweight {
                 0.0
             } else {
-                settings.corner_mix(tangent_jump, width, by_tolerance)
+                let mix = settings.corner_mix(tangent_jump, width, by_tolerance);
+                // At the end of a flat one a faster leg could not yet be run faster.
+                mix.max(mix / times_as_slow)
             }
         };
         if self.free_limit > 0.0 {

@@ -6,6 +6,7 @@
 use crate::path::kernel;
 use crate::path::leg::Leg;
 use crate::path::settings::BlendSettings;
+use crate::path::unlike_axes;
 
 /// The most pieces of a line.
 pub(in crate::path) const MOST_PIECES: usize = 16;
@@ -93,10 +94,12 @@ pub(super) struct Corner {
     widest: f64,
     /// The shorter leg.
     shorter: f64,
+    /// Whether its legs move [axes that are unlike](unlike_axes).
+    of_unlike_axes: bool,
 }
 
 impl Corner {
-    pub fn between(before: &Leg, after: &Leg) -> Self {
+    pub fn between(before: &Leg, after: &Leg, settings: &BlendSettings) -> Self {
         let from = before.programmed_point(before.end()).first;
         let to = after.programmed_point(after.start).first;
         let turn = (to - from).norm();
@@ -104,6 +107,7 @@ impl Corner {
             turn,
             widest: before.tolerance().min(after.tolerance()) / (kernel::peak(0.0) * turn),
             shorter: before.whole.min(after.whole),
+            of_unlike_axes: unlike_axes::stands_alone(before, after, settings),
         }
     }
 
@@ -113,7 +117,7 @@ impl Corner {
 
     /// Whether it stands alone: it has its own way to use the tolerance.
     pub fn is_lone(&self, in_run: bool) -> bool {
-        self.widest < if in_run { LONE_IN_RUN } else { LONE } * self.shorter
+        self.of_unlike_axes || self.widest < if in_run { LONE_IN_RUN } else { LONE } * self.shorter
     }
 
     /// The length of the piece of a leg beside it; infinite where it does not limit the speed.

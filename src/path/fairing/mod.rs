@@ -165,7 +165,7 @@ impl Fairing {
         if !moved || before.stop_after || after.stop_before {
             return None;
         }
-        let corner = Corner::between(before, after);
+        let corner = Corner::between(before, after, settings);
         (!corner.is_lone(self.in_run)).then_some(corner)
     }
 

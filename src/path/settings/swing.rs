@@ -69,18 +69,23 @@ impl BlendSettings {
         tangent_jump: &Axes,
         legs: [(&Axes, f64); 2],
     ) -> [f64; 2] {
-        let [per_acceleration, per_jerk] = self.slowness(tangent_jump);
+        let [per_acceleration, _] = self.slowness(tangent_jump);
         let bend = HALFWAY_OUT * tangent_jump.norm();
         let mut gathered: f64 = 0.0;
         let mut programmed: f64 = 0.0;
         for (direction, speed) in legs {
-            let [along, jerk_along] = self.slowness(direction);
-            gathered = gathered
-                .max(per_acceleration / along)
-                .max(per_jerk / jerk_along);
+            gathered = gathered.max(self.times_as_slow(tangent_jump, direction));
             programmed = programmed.max(per_acceleration * speed * speed);
         }
         [bend * gathered, bend * programmed]
+    }
+
+    /// How many times as slow the axes of a corner with this jump of dp/ds are as those of a leg in this `direction`, by acceleration or
+    /// by jerk; shape (9).
+    pub(in crate::path) fn times_as_slow(&self, tangent_jump: &Axes, direction: &Axes) -> f64 {
+        let [per_acceleration, per_jerk] = self.slowness(tangent_jump);
+        let [along, jerk_along] = self.slowness(direction);
+        (per_acceleration / along).max(per_jerk / jerk_along)
     }
 
     /// 1 over the acceleration, and over the jerk up to [`GREATEST_JERK`], with which a place moves in a `direction`, shape (9): of
