@@ -94,6 +94,40 @@ fn a_spindle_that_stalls_reverses_or_outruns_the_axes_stops_the_motion() {
     }
 }
 
+/// An angle that is no number is one that does not change. Where it comes back, or is set anew, the tool was a whole pitch
+/// and more off the groove, as fast as the axis was able to; what an encoder may be off is followed.
+#[test]
+fn an_angle_that_is_lost_or_jumps_stops_the_thread() {
+    let (stalled, jumped) = (SpindleError::Stalled, SpindleError::Jumped);
+    for (change, periods, expected) in [
+        (f64::NAN, 1000, Some(stalled)),
+        (f64::INFINITY, 1000, Some(stalled)),
+        (f64::NAN, 200, Some(jumped)),
+        (f64::NAN, 3, None),
+        (10.0, 1000, Some(jumped)),
+        (0.4, 1000, Some(jumped)),
+        (-0.4, 1000, Some(jumped)),
+        (0.1, 1000, None),
+    ] {
+        with_machine(|machine| {
+            let mut lathe = in_a_thread(machine, 10.0);
+            let zero = lathe.zero;
+            lathe.zero -= change;
+            for n in 0..1000 {
+                if n == periods {
+                    lathe.zero = zero;
+                }
+                lathe.cycle();
+            }
+            let expected: Vec<_> = expected.into_iter().collect();
+            assert_eq!(lathe.errors, expected, "{change} {periods}");
+            lathe.machine.planner.abort();
+            lathe.run(1000);
+            keeps_limits(lathe.machine);
+        });
+    }
+}
+
 #[test]
 fn a_thread_that_the_axes_cannot_follow_does_not_begin() {
     with_machine(|machine| {

@@ -177,6 +177,9 @@ pub unsafe extern "C" fn framepath_planner_spindle_error_text(
         None => ptr::null(),
         Some(SpindleError::Stalled) => c"the spindle came to a stop in a thread or tap".as_ptr(),
         Some(SpindleError::Reversed) => c"the spindle turned back in a thread".as_ptr(),
+        Some(SpindleError::Jumped) => {
+            c"the angle of the spindle jumped in a thread or tap: look at spindle.N.revs, the encoder and its cable".as_ptr()
+        }
         Some(SpindleError::NotReversed) => {
             c"the spindle did not turn back within ten turns of the end of a tap".as_ptr()
         }

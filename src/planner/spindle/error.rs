@@ -7,6 +7,8 @@ pub enum SpindleError {
     Stalled,
     /// The spindle turned back.
     Reversed,
+    /// The angle of the spindle became one that it cannot have turned to.
+    Jumped,
     /// The thread asks for more than the axes are able to do.
     Outrun {
         /// Units per second.

@@ -78,6 +78,7 @@ impl SpindleFollower {
         let turning = thread.tap.is_some_and(|tap| tap.is_turning());
         let forth = thread.forth();
         let speed = forth * thread.sign * tracker.speed();
+        let jumped = tracker.has_jumped();
         let turns = self.turns_of(&thread);
         let greatest = running.limits().velocity;
         let asked = speed * with.per_turn;
@@ -95,7 +96,9 @@ impl SpindleFollower {
         } else if speed > UNDER_WAY * thread.start_speed {
             thread.under_way = true;
         }
-        let result = if thread.outrun > LONGEST_OUTRUN {
+        let result = if jumped {
+            Err(SpindleError::Jumped)
+        } else if thread.outrun > LONGEST_OUTRUN {
             Err(SpindleError::Outrun { asked, greatest })
         } else if thread.idle > thread.longest_stall() {
             Err(SpindleError::Stalled)

@@ -17,6 +17,10 @@ const DELAY: f64 = 1.0;
 /// An angle further than this from where it is expected, turns, was set anew.
 const JUMP: f64 = 0.2;
 
+/// No spindle changes its speed faster than this, turns a second squared: in long servo periods it may be far from
+/// where it is expected all the same.
+const FASTEST_CHANGE: f64 = 1000.0;
+
 /// Angle, speed and acceleration of a spindle by a fading-memory filter of third order (Zarchan and
 /// Musoff, Fundamentals of Kalman Filtering, chapter 7).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +34,10 @@ pub struct Tracker {
     past: [f64; 4],
     /// Seconds that what is commanded is late.
     delay: f64,
+    /// The last angle that was a number.
+    measured: f64,
     awaited_index: bool,
+    jumped: bool,
     begun: bool,
 }
 
@@ -41,23 +48,36 @@ impl Tracker {
         acceleration: 0.0,
         past: [0.0; 4],
         delay: 0.0,
+        measured: 0.0,
         awaited_index: false,
+        jumped: false,
         begun: false,
     };
 
     /// Takes what was measured in a servo period of `period` seconds.
     pub fn update(&mut self, measured: &SpindleInputs, period: f64) {
         let index_came = self.awaited_index && !measured.awaits_index;
+        let by_index = index_came || measured.awaits_index;
         self.awaited_index = measured.awaits_index;
-        let expected = self.turns + period * (self.speed + 0.5 * period * self.acceleration);
-        let missing = measured.turns - expected;
-        if !(measured.turns.is_finite() && period > 0.0) {
+        self.jumped = false;
+        let is_number = measured.turns.is_finite();
+        if !(period > 0.0 && (is_number || self.begun)) {
             return;
         }
+        // What is no number is as good as an encoder that does not count.
+        let turns = if is_number {
+            measured.turns
+        } else {
+            self.measured
+        };
+        let expected = self.turns + period * (self.speed + 0.5 * period * self.acceleration);
+        let missing = turns - expected;
+        self.measured = turns;
         self.delay = DELAY * period;
         if !self.begun || !missing.is_finite() {
             *self = Self {
-                turns: measured.turns,
+                turns,
+                measured: turns,
                 speed: if measured.speed.is_finite() {
                     measured.speed
                 } else {
@@ -71,9 +91,10 @@ impl Tracker {
             return;
         }
         if index_came || missing.abs() > JUMP.max(0.5 * self.speed.abs() * period) {
+            self.jumped = !by_index && missing.abs() > FASTEST_CHANGE * period * period;
             // The encoder set its count anew at the index, one or two periods ago.
             let [.., before] = self.past;
-            self.turns = measured.turns;
+            self.turns = turns;
             self.speed = before;
             self.acceleration = 0.0;
         } else {
@@ -101,6 +122,12 @@ impl Tracker {
     /// Turns a second squared.
     pub fn acceleration(&self) -> f64 {
         self.acceleration
+    }
+
+    /// Whether the angle has just become one that no spindle can have turned to, and no index was awaited that may have
+    /// set it anew.
+    pub fn has_jumped(&self) -> bool {
+        self.jumped
     }
 }
 

@@ -335,13 +335,13 @@ impl<'a> Drive<'a> {
         };
         let speed = command.at(self.position[0]);
         let before = self.revolutions;
-        self.revolutions += speed.abs() / 60.0 * self.job.period;
-        if spindle.spindle_index_enable != 0 && before.floor() != self.revolutions.floor() {
-            self.revolutions -= self.revolutions.floor();
+        self.revolutions += speed / 60.0 * self.job.period;
+        let [before, now] = [before, self.revolutions].map(f64::floor);
+        if spindle.spindle_index_enable != 0 && before != now {
+            self.revolutions -= before.max(now);
             spindle.spindle_index_enable = 0;
         }
-        let sign = if speed < 0.0 { -1.0 } else { 1.0 };
-        spindle.spindleRevs = sign * self.revolutions;
+        spindle.spindleRevs = self.revolutions;
         spindle.spindleSpeedIn = speed / 60.0;
         spindle.at_speed = 1;
     }

@@ -168,6 +168,7 @@ pub(super) fn spindle_error(error: &SpindleError) -> String {
     match error {
         SpindleError::Stalled => "the spindle has come to a stop".to_owned(),
         SpindleError::Reversed => "the spindle has turned back".to_owned(),
+        SpindleError::Jumped => "the angle of the spindle has jumped".to_owned(),
         SpindleError::Outrun { asked, greatest } => format!(
             "to follow the spindle takes {asked:.3} units/s, the axes allow {greatest:.3} units/s"
         ),
