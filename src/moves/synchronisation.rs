@@ -33,6 +33,9 @@ pub enum SynchronisationMode {
 }
 
 impl Synchronisation {
+    /// What feed per turn is planned for, over what the spindle is expected to do.
+    pub const RESERVE: f64 = 2.2;
+
     /// Whether the move follows the angle of the spindle.
     pub fn follows_angle(&self) -> bool {
         !matches!(self.mode, SynchronisationMode::Speed)

@@ -31,8 +31,8 @@ pub struct ProgrammedMove {
     pub feed: f64,
     /// The F of the program, if it is one for a minute: `feed` is less where LinuxCNC has slowed the move down.
     pub feed_word: Option<FeedWord>,
-    /// What no override may exceed, in the same units; at least `feed`, equal to it where none
-    /// applies.
+    /// What no override may exceed, and no spindle that feed per turn follows, in the same units; at least `feed`, equal to
+    /// it where neither applies.
     pub greatest_feed: f64,
     /// How it meets the next move.
     pub termination: TerminationCondition,

@@ -167,6 +167,7 @@ impl Planner {
             period: self.period,
             feed_scale: inputs.feed_scale,
             rapid_scale: inputs.rapid_scale,
+            spindle_speeds: self.spindle.speeds(),
             velocity_limit: self.slider.limit(),
             velocity_share: self.slider.share(self.axes.reach()),
             greatest_tolerance: self.blending.greatest_tolerance(),

@@ -36,6 +36,7 @@ mod reading;
 mod regressions;
 mod retract;
 mod reverse;
+mod rising_spindle;
 mod short_program;
 mod short_programs;
 mod slow_axis;

@@ -66,6 +66,8 @@ pub(super) struct Ground<'a> {
     pub path: &'a BlendedPath,
     pub queue: &'a MoveQueue,
     pub map: &'a MachineMap,
+    /// What the run multiplies the speeds of the program by, 1 and above.
+    pub raise: f64,
 }
 
 impl CellBuilder {
@@ -274,19 +276,24 @@ impl MotionDerivatives {
                     .synchronisation
                     .map_or(queued.feed, |with| with.per_turn)
             }),
-            feed_per_turn: queued.and_then(feed_per_turn),
+            feed_per_turn: queued.and_then(|queued| feed_per_turn(queued, segment, ground.raise)),
             rapid: queued.is_some_and(|queued| queued.motion_type.is_rapid()),
             override_enabled: queued.is_some_and(|queued| queued.override_enabled()),
         }
     }
 }
 
-/// What a move with feed per turn, or a thread, counts with.
-fn feed_per_turn(queued: &Move) -> Option<FeedPerTurn> {
+/// What a move with feed per turn, or a thread, counts with, in a segment of a run that multiplies the speeds of the program
+/// by `raise`.
+fn feed_per_turn(queued: &Move, segment: &ReferenceSegment, raise: f64) -> Option<FeedPerTurn> {
     let with = queued.synchronisation?;
+    let planned = match &segment.motion {
+        SegmentMotion::Move(motion) => queued.feed.max(motion.cap),
+        _ => queued.feed * raise,
+    };
     Some(FeedPerTurn {
         spindle: with.spindle,
-        planned_turns: queued.feed.min(queued.max_velocity) / with.per_turn,
+        planned_turns: planned.min(queued.max_velocity) / with.per_turn,
     })
 }
 
@@ -360,7 +367,7 @@ mod tests {
                 let finish = (begin + 1e-3 * share.max(0.01)).min(duration);
                 let mut builder = CellBuilder::new();
                 let queue = MoveQueue::new();
-                builder.add(&segment, &Ground { path, queue: &queue, map: &MachineMap::IDENTITY }, begin, finish);
+                builder.add(&segment, &Ground { path, queue: &queue, map: &MachineMap::IDENTITY, raise: 1.0 }, begin, finish);
                 prop_assert!((builder.filled() - (finish - begin)).abs() < 1e-15);
                 let cell = builder.take().expect("a cell");
                 let t = begin + inside * (finish - begin);

@@ -28,6 +28,7 @@ impl Reference {
                         path: &self.path,
                         queue: outlook.queue,
                         map: outlook.map,
+                        raise: self.current().raised(),
                     };
                     self.cell.add(segment, &ground, self.frontier, to);
                     self.frontier = to;

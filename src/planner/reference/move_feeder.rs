@@ -283,7 +283,9 @@ impl MoveFeeder {
     fn programmed(&self, queued: &Move, follows: bool, outlook: &Outlook) -> ProgrammedMove {
         let feed = queued.feed.min(queued.max_velocity);
         let new = kind(queued);
-        let greatest_feed = if new.overridden && !new.rapid && queued.synchronisation.is_none() {
+        // Feed per turn may be raised by the spindle as well.
+        let raisable = new.overridden || queued.synchronisation.is_some();
+        let greatest_feed = if raisable && !new.rapid {
             queued.max_velocity
         } else {
             feed

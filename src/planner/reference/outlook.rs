@@ -2,7 +2,7 @@
 
 use crate::axes::AxisLimits;
 use crate::machine_map::MachineMap;
-use crate::moves::{Move, MoveQueue};
+use crate::moves::{Move, MoveQueue, SPINDLE_COUNT, Synchronisation};
 
 /// Where the operator's slider stands near 0 moves are planned for this share of their feed; the
 /// executor holds what is slower.
@@ -30,6 +30,8 @@ pub struct Conditions {
     pub feed_scale: f64,
     /// The rapid override in effect, 0 and above.
     pub rapid_scale: f64,
+    /// How fast each spindle turns, turns a second.
+    pub spindle_speeds: [f64; SPINDLE_COUNT],
     /// What no move may exceed along its path, machine units per second: the operator's slider.
     pub velocity_limit: f64,
     /// The same as a share of the slider's whole range, for moves measured in degrees.
@@ -61,14 +63,19 @@ impl Outlook<'_> {
     /// Overrides below 100 % are not planned for: the executor slows the reference down.
     pub(super) fn velocity_cap(&self, queued: &Move) -> f64 {
         if let Some(with) = queued.synchronisation {
-            // What the spindle asks for is a matter of the executor; no override, and in a thread
-            // no slider, changes what it may need.
+            // In a thread no override and no slider changes what may be needed.
             let planned = queued.feed.min(queued.max_velocity);
-            return if with.follows_angle() {
-                planned
-            } else {
-                planned.min(self.now.velocity_limit.max(planned * LEAST_PLANNED_SHARE))
+            if with.follows_angle() {
+                return planned;
+            }
+            // What the spindle asks for is a matter of the executor, as long as that is planned for.
+            let wanted = match self.asked_by_spindle(queued) {
+                Some(asked) if asked > planned => {
+                    (Synchronisation::RESERVE * asked).min(queued.max_velocity)
+                }
+                _ => planned,
             };
+            return wanted.min(self.now.velocity_limit.max(wanted * LEAST_PLANNED_SHARE));
         }
         let scale = if !queued.override_enabled() {
             1.0
@@ -84,5 +91,30 @@ impl Outlook<'_> {
             self.now.velocity_limit
         };
         wanted.min(slider.max(wanted * LEAST_PLANNED_SHARE))
+    }
+
+    /// How many times as fast as planned the spindle asks the running move to be: above 1 where it has become faster than
+    /// was expected when the move was queued. 0 where none asks.
+    pub(super) fn asked_over_planned(&self) -> f64 {
+        self.queue.front().map_or(0.0, |running| {
+            let asked = self.asked_by_spindle(running).unwrap_or(0.0);
+            asked / running.feed.min(running.max_velocity)
+        })
+    }
+
+    /// What the spindle asks of a move with feed per turn at this moment, machine units per second, no more than its greatest
+    /// velocity.
+    fn asked_by_spindle(&self, queued: &Move) -> Option<f64> {
+        let with = queued
+            .synchronisation
+            .filter(|with| !with.follows_angle())?;
+        let scale = if queued.override_enabled() {
+            self.now.feed_scale
+        } else {
+            1.0
+        };
+        let asked = with.per_turn * scale * self.now.spindle_speeds.get(with.spindle)?;
+        // `min` answers with the other one if one is not a number.
+        (!asked.is_nan()).then(|| asked.min(queued.max_velocity))
     }
 }

@@ -6,7 +6,7 @@ use super::path_route::PathRoute;
 use super::reference_segment::ProfiledMotion;
 use super::return_route::{ReturnRoute, may_go_back};
 use super::running_move::end_of_merged_line;
-use crate::moves::MoveQueue;
+use crate::moves::{MoveQueue, Synchronisation};
 use crate::path::BlendedPath;
 use crate::speed::look_ahead::{LookAhead, PlanEnd, PlanProgress, PlanRefusal, PlannedSegment};
 
@@ -269,12 +269,22 @@ impl RestToRest {
         }
     }
 
+    /// What the program's speeds are multiplied by in the plan, 1 and above.
+    pub fn raised(&self) -> f64 {
+        self.speed.raised()
+    }
+
     /// Works on the plan for `budget` units.
     pub fn work(&mut self, path: &BlendedPath, outlook: &Outlook, budget: u32) {
         if !self.is_begun() {
             return;
         }
         self.speed.raise(outlook.now.feed_scale);
+        let asked = outlook.asked_over_planned();
+        if asked > self.speed.raised() {
+            // A spindle that goes on to become faster does not ask anew in each period.
+            self.speed.raise(Synchronisation::RESERVE * asked);
+        }
         if self.backwards {
             let route = self.way_back(path);
             self.speed.slice(&route, budget);

@@ -8,9 +8,6 @@ use super::thread::{Stage, Thread};
 use super::tracker::Tracker;
 use crate::moves::{Move, SPINDLE_COUNT, Synchronisation, SynchronisationMode};
 
-/// What feed per turn is planned for, over what the spindle is expected to do.
-const RESERVE: f64 = 2.2;
-
 /// Where the last queued move belongs to threads that follow one another without a break.
 #[derive(Clone, Copy, Debug)]
 struct Sequence {
@@ -110,7 +107,9 @@ impl SpindleFollower {
     pub fn planned_feed(&self, with: &Synchronisation, max_velocity: f64) -> f64 {
         let expected = match self.measured.get(with.spindle) {
             Some(spindle) if !with.follows_angle() => {
-                RESERVE * with.per_turn * spindle.speed.abs().max(spindle.commanded)
+                Synchronisation::RESERVE
+                    * with.per_turn
+                    * spindle.speed.abs().max(spindle.commanded)
             }
             _ => 0.0,
         };
@@ -170,6 +169,11 @@ impl SpindleFollower {
     pub fn feed_ahead(&self, first: u64) -> Option<usize> {
         let (_, spindle) = self.last_feed.filter(|(serial, _)| *serial >= first)?;
         Some(spindle)
+    }
+
+    /// How fast each spindle turns, turns a second.
+    pub fn speeds(&self) -> [f64; SPINDLE_COUNT] {
+        self.measured.map(|spindle| spindle.speed.abs())
     }
 
     /// Turns a second that feed per turn counts with where it follows this spindle; infinite where it follows none.

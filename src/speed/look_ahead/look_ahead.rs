@@ -166,6 +166,11 @@ impl LookAhead {
         }
     }
 
+    /// What the programmed speeds are multiplied by, 1 and above.
+    pub fn raised(&self) -> f64 {
+        self.raise
+    }
+
     /// Works on the plan for at most `budget` units of 20 to 40 ns, give or take one step of a few
     /// microseconds.
     pub fn slice<R: Route>(&mut self, route: &R, budget: u32) -> PlanProgress {
