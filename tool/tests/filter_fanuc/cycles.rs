@@ -75,6 +75,24 @@ fn drilling_is_that_of_linuxcnc() {
     }
 }
 
+/// P of one cycle is that of those behind it only where they have a dwell.
+#[test]
+fn a_dwell_is_left_behind_by_cycles_that_have_none() {
+    for (program, dwells) in [
+        (
+            "G99 G82 X1. Z-5. R2. P500\nG85 X5.\nG86 X6.\nG83 X7. Q4.\nG73 X8.",
+            1,
+        ),
+        ("G99 G82 X1. Z-5. R2. P500\nX2.\nG89 X5.", 3),
+        ("G99 G82 X1. Z-5. R2. P500\nG85 X5.\nG82 X6.", 2),
+        ("G99 G86 X1. Z-5. R2. P500\nX2.\nG86 X3.\nG85 X4.", 3),
+    ] {
+        let program = format!("{BEFORE}{program}\nG80\nM30\n");
+        let output = Shop::with(Dialect::Fanuc, &program).accepted(&[]);
+        assert_eq!(output.matches("G4 P0.5").count(), dwells, "{output}");
+    }
+}
+
 /// LinuxCNC's own cycles run with exact path whatever the mode: a hole reaches its bottom.
 #[test]
 fn holes_reach_their_bottom_in_cutting_mode() {

@@ -391,6 +391,16 @@ fn offsets_frames_and_cycles() {
             "another unit of length in a canned cycle",
         ),
         (
+            "G0 X25.4\nG20 X#5001\nM30\n",
+            "2:1",
+            "another unit in the block of a value that depends on it",
+        ),
+        (
+            "G0 X1. G20 Y[ROUND[1.23456]]\nM30\n",
+            "1:8",
+            "another unit in the block of a value that depends on it",
+        ),
+        (
             "G0 Z5.\nG91 G81 X1. Z-5. R-2. K0 F1.\nM30\n",
             "2:1",
             "K0 beside a place",

@@ -36,6 +36,18 @@ fn words_that_a_lathe_gives_a_meaning_are_refused() {
 }
 
 #[test]
+fn cycles_of_lathes_are_called_so() {
+    for code in ["G32", "G70", "G71", "G72", "G75"] {
+        let shown = Shop::with(Dialect::Fanuc, &format!("{code} P10 Q20\nM30\n")).refused(&[]);
+        assert!(
+            shown.contains(&format!("{code} is not supported")),
+            "{shown}"
+        );
+        assert!(shown.contains(NOT_TRANSLATED), "{shown}");
+    }
+}
+
+#[test]
 fn programs_of_mills_are_not() {
     for program in [
         "T0101 M6\nG0 X1.\nM30\n",

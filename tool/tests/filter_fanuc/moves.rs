@@ -119,6 +119,25 @@ fn roundings_without_a_point_are_whole_units_or_increments() {
     );
 }
 
+/// G20 and G21 are the unit of all of their block.
+#[test]
+fn increments_beside_a_unit_are_counted_in_it() {
+    for (program, pointed) in [
+        ("G20 G0 X10000 Y5000\nM30\n", "G20\nG0 X1. Y.5\nM30\n"),
+        (
+            "G20\nG0 Z0\nG21 X10000\nM30\n",
+            "G20\nG0 Z0\nG21\nX10.\nM30\n",
+        ),
+        (
+            "G0 X0 Y0\nG20 G52 X10000\nG0 X0\nM30\n",
+            "G0 X0 Y0\nG20\nG52 X1.\nG0 X0\nM30\n",
+        ),
+    ] {
+        let increments = translated(Dialect::Fanuc, program, &["--decimal-point", "increments"]);
+        assert_eq!(increments, translated(Dialect::Fanuc, pointed, &[]));
+    }
+}
+
 #[test]
 fn work_offsets_have_their_systems() {
     let shop = Shop::with(

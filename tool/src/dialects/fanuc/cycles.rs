@@ -43,6 +43,8 @@ pub struct Cycle {
     pub step: Option<At<f64>>,
     /// P, seconds.
     pub dwell: f64,
+    /// Whether P was given for this cycle, and not for one before it.
+    pub own_dwell: bool,
     /// I and J of G76, units of the program.
     pub shift: [f64; 2],
     /// The G function.
@@ -65,7 +67,12 @@ impl Interpreter<'_> {
         let [_, _, normal] = self.control.modal.plane.axes();
         let At { value: code, span } = g;
         self.cycle = Some(match self.cycle.take() {
-            Some(old) => Cycle { code, span, ..old },
+            Some(old) => Cycle {
+                code,
+                span,
+                own_dwell: old.own_dwell && old.code == code,
+                ..old
+            },
             None => Cycle {
                 code,
                 initial: self.control.present(normal).ok_or_else(|| {
@@ -79,6 +86,7 @@ impl Interpreter<'_> {
                 bottom: None,
                 step: None,
                 dwell: 0.0,
+                own_dwell: false,
                 shift: [0.0; 2],
                 span,
             },
@@ -101,7 +109,10 @@ impl Interpreter<'_> {
         cycle.bottom = words.axes[normal].take().map(level).or(cycle.bottom);
         cycle.return_level = words.radius.take().map(level).or(cycle.return_level);
         cycle.step = words.q.take().or(cycle.step);
-        cycle.dwell = words.take_dwell()?.unwrap_or(cycle.dwell);
+        if let Some(dwell) = words.take_dwell()? {
+            cycle.dwell = dwell;
+            cycle.own_dwell = true;
+        }
         self.read_shift(words, &mut cycle)?;
         let times = repeats(words)?;
         self.cycle = Some(cycle);

@@ -203,10 +203,15 @@ impl Interpreter<'_> {
                     .help("end the cycle with G80 before"),
             );
         }
+        self.use_unit(inch);
+        Ok(())
+    }
+
+    /// The unit of what follows.
+    pub(super) fn use_unit(&mut self, inch: bool) {
         self.inch = inch;
         let settings = self.control.settings;
         self.control.modal.use_inch(inch, true, settings);
-        Ok(())
     }
 
     /// `G54` to `G59`, `G54.1 P1` and `G54 P1`.
@@ -314,6 +319,10 @@ fn unsupported(code: u32, span: Span) -> Diagnostic {
             "turning a tool to the path is not supported: post the moves of the rotary axis"
         }
         683 | 684 => "write G68.2 with the angles of the plane",
+        320 | 700 | 710 | 720 | 750 => {
+            "to lathes it is a cycle or a thread, and programs of lathes of this control are not translated; \
+             where it calls a macro, write G65 P and its number"
+        }
         721 | 722 => {
             "copies are not supported: call the subprogram with M98 at each place, under G68 or G52"
         }

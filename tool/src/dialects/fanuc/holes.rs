@@ -230,8 +230,10 @@ impl Interpreter<'_> {
         self.control.move_axis(normal, level, rapid, cycle.span)
     }
 
+    /// P at the bottom. G73, G83, G85 and G86 have none on the control: that of a cycle before them is not theirs.
     fn wait(&mut self, cycle: &Cycle) {
-        if cycle.dwell > 0.0 {
+        let has_dwell = !matches!(cycle.code, 730 | 830 | 850 | 860);
+        if cycle.dwell > 0.0 && (has_dwell || cycle.own_dwell) {
             self.control.actions.push(Action::Dwell(cycle.dwell));
         }
     }

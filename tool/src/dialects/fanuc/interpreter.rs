@@ -10,6 +10,7 @@ use super::tool_offsets::ToolOffsets;
 use super::transforms::Transforms;
 use super::values::{number, value};
 use super::variables::Variables;
+use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::control::plain::PlainBlock;
 use crate::dialects::control::{About, Control, Done};
 use crate::dialects::library::Library;
@@ -190,11 +191,19 @@ impl<'a> Interpreter<'a> {
     }
 
     fn collect(&mut self, list: &[Word]) -> Option<BlockWords> {
-        let mut found = crate::diagnostics::Diagnostics::default();
-        let length = if self.inch { 0.0001 } else { 0.001 };
+        let mut found = Diagnostics::default();
+        let mut length = length_step(self.inch);
         let words = BlockWords::collect(list, self, length, &mut found);
         self.control.diagnostics.append(found);
         let mut words = words?;
+        if let Some((inch, span)) = self.other_unit(&words) {
+            // It is that of the words beside it.
+            length = length_step(inch);
+            if self.depends_on_unit(list, &words, inch) {
+                self.control.diagnostics.push(beside_unit(span));
+                return None;
+            }
+        }
         if words.pointless.is_empty() {
             return Some(words);
         }
@@ -211,6 +220,37 @@ impl<'a> Interpreter<'a> {
         }
         Some(words)
     }
+
+    /// The unit that a block changes to, whether it is the inch, and its G20 or G21.
+    fn other_unit(&self, words: &BlockWords) -> Option<(bool, Span)> {
+        let mut units = words.g.iter().filter(|g| matches!(g.value, 200 | 210));
+        let unit = units.find(|g| (g.value == 200) != self.inch)?;
+        Some((unit.value == 200, unit.span))
+    }
+
+    /// Whether the words of a block have other values in the unit that it changes to.
+    fn depends_on_unit(&mut self, list: &[Word], words: &BlockWords, inch: bool) -> bool {
+        let before = self.inch;
+        self.use_unit(inch);
+        let mut ignored = Diagnostics::default();
+        let others = BlockWords::collect(list, self, length_step(inch), &mut ignored);
+        self.use_unit(before);
+        others.as_ref() != Some(words)
+    }
+}
+
+/// The least increment of lengths, units of the program.
+fn length_step(inch: bool) -> f64 {
+    if inch { 0.0001 } else { 0.001 }
+}
+
+/// A block changes the unit, and its words have other values in the new one.
+fn beside_unit(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        span,
+        "another unit in the block of a value that depends on it: of a place that is read, or of ROUND",
+    )
+    .help("write G20 or G21 in a block of its own before")
 }
 
 /// Whether an assignment is that of an alarm: nothing follows it.
