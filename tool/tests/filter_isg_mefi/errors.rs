@@ -195,12 +195,12 @@ fn isg() {
         ("G92\nM30\n", "1:1", "G92 needs axes"),
         ("G92 X1 I5\nM30\n", "1:1", "G92 takes axes only"),
         (
-            "G00 X0 Y0\nG41 G01 X1 F100\nG21\nG40\nM30\n",
+            "D1 G00 X0 Y0\nG41 G01 X1 F100\nG21\nG40\nM30\n",
             "3:1",
             "while cutter compensation is on",
         ),
         (
-            "G00 X0 Y0\nG19 G41 G01 Y1 F100\nM30\n",
+            "D1 G00 X0 Y0\nG19 G41 G01 Y1 F100\nM30\n",
             "2:5",
             "cutter compensation in the plane of G19",
         ),
@@ -320,6 +320,37 @@ fn isg() {
         ),
         ("G04\nM30\n", "1:1", "G04 needs a time"),
         ("G04 Y2\nM30\n", "1:5", "G04 stands alone"),
+        ("G04 10 X2\nM30\n", "1:8", "G04 has its time twice"),
+        (
+            "T5 M6\nG00 X0 Y0\nG41 G01 X5 F100\nM30\n",
+            "3:1",
+            "G41, and no D before it",
+        ),
+        (
+            "#VAR\nV.P.A : UNS08 = -1\n#ENDVAR\nM30\n",
+            "2:1",
+            "whole numbers from 0 to 255",
+        ),
+        (
+            "#VAR\nV.P.A : BOOLEAN = 5\n#ENDVAR\nM30\n",
+            "2:1",
+            "5 does not fit into a variable for whole numbers from 0 to 1",
+        ),
+        (
+            "#VAR\nV.P.A : SGN08 = -128\n#ENDVAR\nV.P.A = 128\nM30\n",
+            "4:1",
+            "whole numbers from -128 to 127",
+        ),
+        (
+            "#VAR\nV.P.A : UNS32 = 4294967296\n#ENDVAR\nM30\n",
+            "2:1",
+            "does not fit into a variable",
+        ),
+        (
+            "#VAR\nV.P.A : SGN = 1\n#ENDVAR\nM30\n",
+            "2:9",
+            "of the type SGN",
+        ),
         ("G04 S10\nM30\n", "1:5", "a spindle without speed"),
         ("G60\nM30\n", "1:1", "this acts in its block only"),
         ("G93 F0\nM30\n", "1:5", "must be above 0"),

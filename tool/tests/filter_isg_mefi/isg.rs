@@ -358,6 +358,71 @@ fn corners_are_rounded_as_the_program_says() {
     assert!(default.contains("G64 P0.1 "), "{default}");
 }
 
+/// G70 and G71 are the unit of what is written behind them: what is in force keeps its size.
+#[test]
+fn what_holds_on_keeps_its_size_in_another_unit() {
+    for (program, wanted) in [
+        (
+            "G94 F254 G01 X10\nG95 F0.1 S100 M3 X20\nG70\nG94 X1\nG95 X2",
+            vec!["F254", "F0.1", "G94 G1 X25.4 F254", "G95 G1 X50.8 F0.1"],
+        ),
+        (
+            "G95 F0.01 S100 M3 G01 X1\nG70 G94 F10 X1\nG71\nG95 X2\nG94 X3",
+            vec!["F0.01", "F254", "G95 G1 X2 F0.01", "G94 G1 X3 F254"],
+        ),
+        (
+            "#CONTOUR MODE [DEV PATH_DEV 0.1]\nG70\nG261\nG01 X1 F10",
+            vec!["G64 P0.1"],
+        ),
+        (
+            "G70\n#HSC ON [CONTERROR 0.005]\nG01 X1 F10\n#HSC OFF\nG71\n#HSC ON\nX2",
+            vec!["G64 P0.127", "G64 P0.127"],
+        ),
+        ("G70\n#HSC ON\nG01 X1 F10", vec!["G64 P0.1 "]),
+        ("G33 K2\nG70\nS100 M3\nG33 Z-1", vec!["G33 Z-25.4 K2 "]),
+    ] {
+        let output = shop(&format!("G90 G71 G00 X0 Y0 Z0\n{program}\nM30\n")).accepted(&[]);
+        let mut rest = output.as_str();
+        for wanted in wanted {
+            let at = rest.find(wanted);
+            assert!(at.is_some(), "{program}: {wanted}\n{output}");
+            rest = &rest[at.unwrap_or(0) + wanted.len()..];
+        }
+        assert!(!output.contains("PATH_DEV is taken"), "{output}");
+    }
+    let radius = "G00 X0 Y0\nG02 X101.6 R50.8 F100\nG70\nX8\nM30\n";
+    assert_same(
+        &path(radius),
+        &[
+            clockwise(101.6, 0.0, [50.8, 0.0]),
+            clockwise(203.2, 0.0, [152.4, 0.0]),
+        ],
+        "a radius",
+    );
+    let alone = "G00 X0 Y0\nG02 R50.8 F100\nG70\nX4\nM30\n";
+    assert_same(&path(alone), &path(radius)[..1], "a radius alone");
+}
+
+/// PATH_DEV counts millimetres under G70 too.
+#[test]
+fn a_path_deviation_is_in_millimetres() {
+    for (command, wanted) in [
+        ("#CONTOUR MODE [DEV PATH_DEV 0.1]\nG261", "G64 P0.1 "),
+        ("#CONTOUR MODE ON [DEV PATH_DEV 0.1]", "G64 P0.1 "),
+        ("#HSC ON [BSPLINE PATH_DEV 0.05]", "G64 P0.05 "),
+        ("#HSC ON [BSPLINE]", "G64 P0.2 "),
+    ] {
+        let output = shop(&format!("G70\n{command}\nG01 X1 F10\nM30\n")).accepted(&[]);
+        assert!(output.contains(wanted), "{command}\n{output}");
+        let said = output.contains("PATH_DEV is taken in millimetres under G70 too");
+        assert_eq!(said, command.contains("PATH_DEV"), "{output}");
+    }
+    for below in ["#HSC [CONTERROR=-1]", "#CONTOUR MODE [PATH_DEV=-1]"] {
+        let shown = shop(&format!("{below}\nM30\n")).refused(&[]);
+        assert!(shown.contains("cannot be negative"), "{shown}");
+    }
+}
+
 #[test]
 fn words_of_all_kinds() {
     let program = "N10 G17 G71 G90 G54 G94\nT3 D3 M06\nS=200 M3 M8\nG04 X4.5\nG04 3.0\nP1=2\nG04 P1\nG04 S10\n\

@@ -85,6 +85,12 @@ fn compensation_uses_the_row_that_d_selects() {
         output.contains("(MSG, line 2: D4 runs as G43 H4"),
         "{output}"
     );
+    assert!(!output.contains("without a D"), "{output}");
+    let without = shop(&program.replace(" D4", "")).accepted(&[]);
+    assert!(
+        without.contains("this takes the radius of the tool in the spindle, and not its length"),
+        "{without}"
+    );
     let mirrored = program.replace("G71 L1 D4", "G35 Y0\nG71 L1 D4");
     let output = shop(&mirrored).accepted(&["--backend", "program"]);
     assert!(output.contains("G42 D4 G1 X10"), "{output}");

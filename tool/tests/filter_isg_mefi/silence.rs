@@ -115,7 +115,7 @@ fn what_g53_cannot_carry_is_refused() {
         ),
         ("G53\nG91 G00 X1\nM30\n", "where X is there is not known"),
         (
-            "G53\nG41 G01 X1 F100\nM30\n",
+            "D1\nG53\nG41 G01 X1 F100\nM30\n",
             "while cutter compensation is on",
         ),
         (

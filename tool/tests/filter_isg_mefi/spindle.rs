@@ -98,6 +98,10 @@ fn what_is_no_thread_and_no_tap() {
             "G00 Z2\nG63 Z-5 F200 S200\nG00 Z2\nM30\n",
             "does not come out next",
         ),
+        (
+            "G00 Z2\nG63 Z-5 F200 S200\nG70 Z2 F200 S-200\nM30\n",
+            "does not come out next",
+        ),
         ("G00 Z2\nG63 Z-5 F200 S200\nM30\n", "does not come out next"),
         ("G00 Z2\nG63 Z-5 F200 S200\n", "does not come out next"),
     ] {

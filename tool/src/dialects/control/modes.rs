@@ -43,10 +43,15 @@ impl Control<'_> {
             FeedMode::InverseTime => 1.0,
             FeedMode::PerMinute | FeedMode::PerRevolution => self.modal.feed_factor,
         };
-        self.modal.has_feed = true;
-        self.modal.feed = Some(feed.value * factor);
-        self.actions.push(Action::Feed(feed.value * factor));
+        self.feed_again(feed.value * factor);
         Ok(())
+    }
+
+    /// A feed that has been in force before, in machine units: the program may have changed its unit since.
+    pub fn feed_again(&mut self, feed: f64) {
+        self.modal.has_feed = true;
+        self.modal.feed = Some(feed);
+        self.actions.push(Action::Feed(feed));
     }
 
     /// S, revolutions per minute.

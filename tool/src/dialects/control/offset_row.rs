@@ -12,6 +12,13 @@ pub struct OffsetRow {
     explained: bool,
 }
 
+impl OffsetRow {
+    /// Whether the program has named a row; D0 names that there is none.
+    pub fn is_named(self) -> bool {
+        self.selected.is_some()
+    }
+}
+
 impl Control<'_> {
     /// D: length and radius come from this row from here on; 0 for none. Says once that the rows are
     /// those of LinuxCNC's tool table. `true` when another row than before is selected.

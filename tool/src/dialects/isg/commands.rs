@@ -255,6 +255,25 @@ fn components(reader: &mut Reader) -> Parsed<Vec<Option<Expression>>> {
     Ok(list)
 }
 
+/// The least and the greatest value of a type for whole numbers, such as SGN16.
+fn whole_range(kind: &str) -> Option<[f64; 2]> {
+    if kind == "BOOLEAN" {
+        return Some([0.0, 1.0]);
+    }
+    let signed = kind.starts_with("SGN");
+    let bits = kind
+        .strip_prefix("SGN")
+        .or_else(|| kind.strip_prefix("UNS"))?;
+    let bits: i32 = bits
+        .parse()
+        .ok()
+        .filter(|bits| [8, 16, 32].contains(bits))?;
+    Some(match signed {
+        true => [-(2_f64.powi(bits - 1)), 2_f64.powi(bits - 1) - 1.0],
+        false => [0.0, 2_f64.powi(bits) - 1.0],
+    })
+}
+
 /// `V.L.NAME[3] : REAL64 = [1,2,3]`.
 pub fn declaration(reader: &mut Reader) -> Parsed<Declaration> {
     reader.blanks();
@@ -267,12 +286,12 @@ pub fn declaration(reader: &mut Reader) -> Parsed<Declaration> {
     }
     let (name, size) = v_variable(reader)?;
     let span = reader.span_from(start);
-    let mut whole = false;
+    let mut whole = None;
     if reader.take(":") {
         reader.blanks();
         let kind = reader.name_ahead();
-        whole = ["SGN", "UNS"].iter().any(|begin| kind.starts_with(begin));
-        if !whole && !matches!(kind.as_str(), "REAL64" | "BOOLEAN") {
+        whole = whole_range(&kind);
+        if whole.is_none() && kind != "REAL64" {
             return Err(reader.error_with_help(
                 format!("variables of the type {kind} are not supported"),
                 "declare numbers: REAL64, SGN32, UNS32, BOOLEAN",

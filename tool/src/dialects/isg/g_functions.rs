@@ -74,6 +74,9 @@ impl Interpreter<'_> {
             40..=42 => {
                 let compensation = [Compensation::Off, Compensation::Left, Compensation::Right];
                 let value = compensation[code as usize - 40];
+                if value != Compensation::Off && !self.offset_row.is_named() {
+                    return Err(no_row(code, span));
+                }
                 self.control
                     .compensation_by_row(At { value, span }, self.offset_row)?;
                 4
@@ -140,7 +143,7 @@ impl Interpreter<'_> {
                     FeedMode::PerMinute,
                     FeedMode::PerRevolution,
                 ][code as usize - 93];
-                self.feed_mode(mode, own_feed, span)?;
+                self.feed_mode(mode, own_feed);
                 13
             }
             161 | 162 => {
@@ -195,6 +198,13 @@ impl Interpreter<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether T selects length and radius too is a setting of the control; LinuxCNC would take the radius of the tool,
+/// and not its length.
+fn no_row(code: u32, span: Span) -> Diagnostic {
+    Diagnostic::error(span, format!("G{code}, and no D before it"))
+        .help("write D and the row of the tool table before it: D5 for length and radius of tool 5, D0 for none")
 }
 
 fn unsupported(code: u32, span: Span) -> Diagnostic {

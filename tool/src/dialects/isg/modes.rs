@@ -12,24 +12,25 @@ use crate::dialects::settings::MirroredCircle;
 use crate::program::{Action, Compensation, FeedMode};
 use crate::source::Span;
 
-/// Modes of this dialect that the shared control does not have.
+/// Modes of this dialect that the shared control does not have. Lengths are kept in machine units: what G70 or
+/// G71 changes later is the unit of what is written then.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Modes {
     /// G161: centres of arcs are absolute.
     pub absolute_centre: bool,
-    /// The radius of arcs that name none.
+    /// The radius of arcs that name none, machine units.
     pub radius: Option<f64>,
     /// F of G93: the time of a block in seconds.
     pub block_time: Option<f64>,
-    /// F of G94.
+    /// F of G94, machine units.
     pub feed_per_minute: Option<f64>,
-    /// F of G95.
+    /// F of G95, machine units.
     pub feed_per_revolution: Option<f64>,
     /// G360: exact stop until G359.
     pub exact_stop: bool,
-    /// `#HSC [CONTERROR ..]`.
+    /// `#HSC [CONTERROR ..]`, machine units.
     pub contour_error: Option<f64>,
-    /// `#CONTOUR MODE [PATH_DEV ..]`.
+    /// `#CONTOUR MODE [PATH_DEV ..]`, machine units.
     pub contour_deviation: Option<f64>,
 }
 
@@ -135,23 +136,22 @@ impl Interpreter<'_> {
         }
         self.control.feed(feed)?;
         match self.control.modal.feed_mode {
-            FeedMode::PerRevolution => self.modes.feed_per_revolution = Some(feed.value),
-            _ => self.modes.feed_per_minute = Some(feed.value),
+            FeedMode::PerRevolution => self.modes.feed_per_revolution = self.control.modal.feed,
+            _ => self.modes.feed_per_minute = self.control.modal.feed,
         }
         Ok(())
     }
 
     /// G93 to G95. Each has the F that was programmed last with it.
-    pub(super) fn feed_mode(&mut self, mode: FeedMode, own_feed: bool, span: Span) -> Done {
+    pub(super) fn feed_mode(&mut self, mode: FeedMode, own_feed: bool) {
         self.control.feed_mode(mode);
         let before = match mode {
             FeedMode::InverseTime => None,
             FeedMode::PerMinute => self.modes.feed_per_minute,
             FeedMode::PerRevolution => self.modes.feed_per_revolution,
         };
-        match before {
-            Some(value) if !own_feed => self.control.feed(At { value, span }),
-            _ => Ok(()),
+        if let Some(feed) = before.filter(|_| !own_feed) {
+            self.control.feed_again(feed);
         }
     }
 
@@ -167,7 +167,7 @@ impl Interpreter<'_> {
         if !words.motion.names_an_axis() {
             // A radius alone is for the arcs that follow; a centre alone is a full circle.
             if let Some(radius) = words.motion.radius.take() {
-                self.modes.radius = Some(radius.value);
+                self.modes.radius = Some(radius.value * self.control.modal.length_factor);
             }
             if !words.motion.is_motion() {
                 return match once.exact_stop.or(once.contouring) {
@@ -224,23 +224,24 @@ impl Interpreter<'_> {
 
     /// Corners are rounded by as much as `#CONTOUR MODE` has said.
     pub(super) fn round_contour(&mut self, span: Span) -> Done {
-        let tolerance = match self.modes.contour_deviation {
-            Some(deviation) => Some(self.control.tolerance(deviation, span)?),
-            None => None,
-        };
-        self.control.continuous_path(tolerance, span)
+        self.control
+            .continuous_path(self.modes.contour_deviation, span)
     }
 
     /// Centres by G161 or G162, radii that hold on.
     fn prepare_arc(&mut self, words: &mut BlockWords, block: Span) -> Done {
         let [first, second, _] = self.control.modal.plane.axes();
+        let factor = self.control.modal.length_factor;
         let motion = &mut words.motion;
         if let Some(radius) = motion.radius {
-            self.modes.radius = Some(radius.value);
+            self.modes.radius = Some(radius.value * factor);
         }
         let centred = motion.centre.iter().any(Option::is_some);
         if !centred && motion.radius.is_none() {
-            motion.radius = self.modes.radius.map(|value| At { value, span: block });
+            motion.radius = self.modes.radius.map(|radius| At {
+                value: radius / factor,
+                span: block,
+            });
         }
         if !centred || !self.modes.absolute_centre {
             return Ok(());
@@ -296,6 +297,10 @@ impl Interpreter<'_> {
         if let Some(other) = other.or(rest.motion.first_axis()) {
             return Err(Diagnostic::error(other, "G04 stands alone in its block")
                 .help("put everything but the time in another block"));
+        }
+        if let (Some(axis), Some(_)) = (axis, direct) {
+            return Err(Diagnostic::error(axis.span, "G04 has its time twice")
+                .help("leave one of them out"));
         }
         match (axis.or(direct), turns) {
             (Some(seconds), None) => self.control.dwell(seconds.value, seconds.span),

@@ -122,9 +122,12 @@ impl Interpreter<'_> {
         let spline = parameters.iter().any(|given| given.name == "BSPLINE");
         for given in parameters {
             match given.name.as_str() {
-                "CONTERROR" | "PATH_DEV" => {
-                    self.modes.contour_error = Some(self.parameter(given)?);
+                "CONTERROR" => {
+                    let error = self.parameter(given)?;
+                    let error = self.control.tolerance(error, given.span)?;
+                    self.modes.contour_error = Some(error);
                 }
+                "PATH_DEV" => self.modes.contour_error = Some(self.path_deviation(given)?),
                 "OPMODE" if self.parameter(given)? != 1.0 => {
                     return Err(Diagnostic::error(
                         given.span,
@@ -153,13 +156,8 @@ impl Interpreter<'_> {
                     true => DEFAULT_SPLINE_ERROR,
                     false => DEFAULT_CONTOUR_ERROR,
                 };
-                let millimetres = match self.control.settings.machine_in_inch {
-                    true => 1.0 / 25.4,
-                    false => 1.0,
-                };
-                let in_program = default * millimetres / self.control.modal.length_factor;
-                let error = self.modes.contour_error.unwrap_or(in_program);
-                let tolerance = self.control.tolerance(error, span)?;
+                let default = default * self.millimetre();
+                let tolerance = self.modes.contour_error.unwrap_or(default);
                 self.control.continuous_path(Some(tolerance), span)?;
             }
             // As before the program asked for it.
@@ -185,7 +183,7 @@ impl Interpreter<'_> {
         }
         let parameters = parameters.unwrap_or_default();
         if let Some(given) = parameters.iter().find(|given| given.name == "PATH_DEV") {
-            self.modes.contour_deviation = Some(self.parameter(given)?);
+            self.modes.contour_deviation = Some(self.path_deviation(given)?);
         }
         match on {
             Some(true) => self.round_contour(span)?,
@@ -197,6 +195,31 @@ impl Interpreter<'_> {
         }
         self.control.apply_states(false);
         Ok(())
+    }
+
+    /// PATH_DEV as machine units. It counts millimetres under G70 too, unless the control is set up otherwise.
+    /// (Beckhoff TF5200, Channel parameters, "Contouring method in inch units (P-CHAN-00439)".)
+    fn path_deviation(&mut self, given: &Parameter) -> Result<f64, Diagnostic> {
+        let value = self.parameter(given)?;
+        let (millimetre, unit) = (self.millimetre(), self.control.modal.length_factor);
+        // Refuses what is below 0.
+        self.control.tolerance(value, given.span)?;
+        if unit != millimetre {
+            self.control.note_once(
+                "PATH_DEV",
+                "PATH_DEV is taken in millimetres under G70 too, as by controls whose P-CHAN-00439 is 0",
+                given.span,
+            );
+        }
+        Ok(value * millimetre)
+    }
+
+    /// A millimetre in machine units.
+    fn millimetre(&self) -> f64 {
+        match self.control.settings.machine_in_inch {
+            true => 1.0 / 25.4,
+            false => 1.0,
+        }
     }
 
     /// `#ROTATION ON [ANGLE=30]`.

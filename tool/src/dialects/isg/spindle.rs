@@ -34,7 +34,7 @@ pub enum SpindleMotion {
 pub struct SpindleModes {
     /// The modal motion, where it is one of these.
     pub active: Option<SpindleMotion>,
-    /// The pitch of threads, along one of X Y Z.
+    /// The pitch of threads, along one of X Y Z, machine units.
     pitch: Option<(usize, f64)>,
     /// Whether S was below 0.
     left: bool,
@@ -42,13 +42,15 @@ pub struct SpindleModes {
     tapping: Option<Tapping>,
 }
 
-/// The way in of a tap; units of the program, revolutions per minute.
+/// The way in of a tap; units of the program, which stays the same until the tap is out, revolutions per minute.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Tapping {
     start: f64,
     bottom: f64,
     /// Below 0 for a thread that turns left.
     pitch: f64,
+    /// The unit: lengths times this are machine units.
+    length_factor: f64,
     speed: f64,
     span: Span,
 }
@@ -77,7 +79,8 @@ impl Interpreter<'_> {
         };
         for (axis, word) in words.motion.centre.iter().enumerate() {
             if let (Some(pitch), SpindleMotion::Thread) = (word, active) {
-                self.spindle.pitch = Some((axis, pitch.value.0));
+                let pitch = pitch.value.0 * self.control.modal.length_factor;
+                self.spindle.pitch = Some((axis, pitch));
             }
         }
         if !words.motion.names_an_axis() {
@@ -105,6 +108,7 @@ impl Interpreter<'_> {
         };
         let mut motion = words.motion;
         motion.centre = [None; 3];
+        let pitch = pitch / self.control.modal.length_factor;
         self.control.thread(&motion, pitch, axis, block)
     }
 
@@ -122,7 +126,8 @@ impl Interpreter<'_> {
             )
             .help("write G63 Z-20 F300 S200 for a pitch of 1.5"));
         };
-        let pitch = feed / modal.length_factor / speed;
+        let length_factor = modal.length_factor;
+        let pitch = feed / length_factor / speed;
         let pitch = if self.spindle.left { -pitch } else { pitch };
         let [_, _, normal] = modal.plane.axes();
         let incremental = modal.incremental;
@@ -141,6 +146,7 @@ impl Interpreter<'_> {
                 start: place,
                 bottom,
                 pitch,
+                length_factor,
                 speed,
                 span: block,
             });
@@ -184,7 +190,9 @@ impl Interpreter<'_> {
         let Some(tapping) = self.spindle.tapping else {
             return Ok(());
         };
-        let goes_on = self.spindle.active == Some(SpindleMotion::Tap) && words.m.is_empty();
+        let goes_on = self.spindle.active == Some(SpindleMotion::Tap)
+            && words.m.is_empty()
+            && tapping.length_factor == self.control.modal.length_factor;
         match goes_on {
             true => Ok(()),
             false => self.tap_stays(tapping.span),

@@ -178,8 +178,8 @@ pub struct Declaration {
     pub name: String,
     /// Sizes, for an array.
     pub size: Vec<Expression>,
-    /// Whether the values are whole numbers.
-    pub whole: bool,
+    /// The least and the greatest value, where the values are whole numbers.
+    pub whole: Option<[f64; 2]>,
     /// First values, one or as many as elements.
     pub values: Vec<Expression>,
     /// The name.

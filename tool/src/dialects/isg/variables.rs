@@ -13,7 +13,8 @@ const ELEMENT_LIMIT: usize = 1_000_000;
 #[derive(Clone, Debug)]
 struct Variable {
     size: Vec<usize>,
-    whole: bool,
+    /// The least and the greatest value of whole numbers.
+    whole: Option<[f64; 2]>,
     values: Vec<f64>,
 }
 
@@ -150,7 +151,7 @@ impl Variable {
     fn single(value: f64) -> Variable {
         Variable {
             size: Vec::new(),
-            whole: false,
+            whole: None,
             values: vec![value],
         }
     }
@@ -184,9 +185,21 @@ fn unknown(name: &str, span: Span) -> Diagnostic {
 }
 
 /// The control would round by rules of its own.
-fn check_whole(whole: bool, value: f64, span: Span) -> Result<(), Diagnostic> {
-    if !whole || value.fract() == 0.0 {
+fn check_whole(whole: Option<[f64; 2]>, value: f64, span: Span) -> Result<(), Diagnostic> {
+    let Some([least, most]) = whole else {
         return Ok(());
+    };
+    if value.fract() == 0.0 {
+        return match (least..=most).contains(&value) {
+            true => Ok(()),
+            false => Err(Diagnostic::error(
+                span,
+                format!(
+                    "{value} does not fit into a variable for whole numbers from {least} to {most}"
+                ),
+            )
+            .help("declare a type that has room for it, such as SGN32 or REAL64")),
+        };
     }
     Err(Diagnostic::error(
         span,

@@ -61,6 +61,13 @@ impl Interpreter<'_> {
             40..=42 => {
                 let compensation = [Compensation::Off, Compensation::Left, Compensation::Right];
                 let value = compensation[code as usize - 40];
+                if value != Compensation::Off && !self.offset_row.is_named() {
+                    control.note_once(
+                        "no D",
+                        "without a D before it this takes the radius of the tool in the spindle, and not its length",
+                        span,
+                    );
+                }
                 control.compensation_by_row(At { value, span }, self.offset_row)?;
                 4
             }
