@@ -9,7 +9,8 @@ use crate::dialects::control::words::{At, Dimension, MotionWords};
 use crate::source::Span;
 use framepath::frame::angle::sin_cos_degrees;
 
-/// The origin of polar coordinates along the axes of the plane, machine units.
+/// The origin of polar coordinates along the axes of the plane, machine units. Arcs leave it where it is, as on
+/// controls whose machine parameter PORGMOVE is NO.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PolarOrigin(pub [f64; 2]);
 
