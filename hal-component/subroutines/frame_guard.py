@@ -26,6 +26,7 @@ import linuxcnc
 
 from frame_heart import Heart
 from frame_held import Held
+from frame_nets import missing_nets
 from frame_offsets import SAME, OffsetOfFrame, Offsets, differ
 from frame_settings import Settings, SettingsError
 from frame_stays import complaint, late_start, work_offset_changed
@@ -55,20 +56,6 @@ WATCHED = {"releases": ("releases", hal.HAL_S32), "active": ("guard.active", hal
            **{name: (f"guard.{name}", hal.HAL_FLOAT) for name in (
                "command", "acknowledged", "work-offset.x", "work-offset.y", "work-offset.z", "work-offset.rotation",
                "frame-tool-offset.x", "frame-tool-offset.y", "frame-tool-offset.z")}}
-
-#: framekins' inputs that motion has to be linked to, and motion's that framekins has to be: (pin, net, what is lost)
-NETS = (
-    ("framekins.in-position", "net motion-in-position motion.in-position => framekins.in-position",
-     "no frame is taken"),
-    ("framekins.teleop", "net motion-teleop motion.teleop-mode => framekins.teleop",
-     "a frame that changes in teleop mode moves the joints"),
-    ("framekins.enabled", "net motion-on motion.motion-enabled => framekins.enabled",
-     "a frame does not go when the machine is switched off"),
-    ("motion.feed-inhibit", "net frame-hold framekins.hold => motion.feed-inhibit",
-     "a program may start before a frame is gone, and nothing holds the machine if frame_guard ends"),
-    ("motion.enable", "net frame-guarded framekins.guarded => motion.enable",
-     "nothing stops the machine if frame_guard ends"),
-)
 
 
 class Look:
@@ -165,9 +152,8 @@ class Guard:
 
     def check_nets(self):
         """Tells of what the HAL file has forgotten."""
-        for pin, net, loss in NETS:
-            if not hal.pin_has_writer(pin):
-                self.tell(f"{pin} is not linked, and so {loss}: write into the HAL file: {net}")
+        for text in missing_nets():
+            self.tell(text)
 
     def step(self):
         """One look."""

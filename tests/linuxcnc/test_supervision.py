@@ -323,6 +323,9 @@ class Living(Case):
 
 
 class Nets(Case):
+    ENABLED = "setp axis.y.eoffset-enable 1\n"
+    NET = "net external-offset-y axis.y.eoffset => framekins.external-offset.y"
+
     def test_each_that_is_missing_is_named(self):
         missing = {"framekins.value.1": "frame-value-1", "framekins.value.2": "frame-value-2",
                    "framekins.value.3": "frame-value-3", "framekins.work-offset.x": "frame-work-x",
@@ -356,6 +359,17 @@ class Nets(Case):
         self.assertIn("net frame-guarded framekins.guarded => motion.enable", text)
         self.assertIn("net motion-on motion.motion-enabled => framekins.enabled", text)
         self.assertNotIn("motion.feed-inhibit", text)
+
+    def test_one_that_is_missing_for_an_external_offset_is_told(self):
+        # later ones need none
+        old = not harness.HANDS_OVER_JERK
+        for hal, is_told in (("", False), (self.ENABLED, old), (f"{self.ENABLED}{self.NET}\n", False),
+                             ("net frame-hold => axis.y.eoffset-enable\n", old)):
+            result = harness.run([["sleep", 0.3], ["recall", "errors"]], hal=hal, record=False)
+            self.fine(result)
+            said = "\n".join(result.answers["errors"])
+            self.assertEqual(self.NET in said, is_told, (hal, said))
+            self.assertEqual(said == "", not is_told, said)
 
 
 if __name__ == "__main__":
