@@ -76,7 +76,7 @@ class StartupCode(Case):
     FRAME = "G90 G17 G61.1\no<trans> call [1] [2] [0]\nG1 X5 Y0 F600\n"
 
     def test_its_work_offset_is_no_change(self):
-        texts = {"stays": self.FRAME, "changes": self.FRAME + "G10 L2 P1 X20\nG1 X6\n"}
+        texts = {"stays": self.FRAME, "changes": self.FRAME + "G10 L2 P1 X20\nG1 X6\nM66 E0 L0\n"}
         steps = []
         for name in texts:
             steps += [["forget"], run(name), ["note", name], OFF, KNOWN, ["recall", name]]
@@ -114,13 +114,36 @@ class TouchingOff(Case):
         steps = []
         texts = {"g10": "G10 L20 P1 X0 Y0 Z0\n", "g92": "G92 X0 Y0 Z0\n"}
         for name in texts:
-            steps += [["forget"], run(name), ["recall", name]]
+            steps += [["forget"], run(name), OFF, KNOWN, ["recall", name]]
         result = harness.run(steps, programs(**{name: f"{self.FRAME}{words}G1 X-60\nM2\n" for name, words in texts.items()}))
         self.fine(result)
         for name in texts:
             said = "\n".join(result.answers[name])
             self.assertIn("work offset has changed", said, name)
             self.assertIn("o<frame_suspend> before it and o<frame_resume> behind it", said, name)
+
+    def steps(self, touched, follower, *between):
+        """A name, and steps in MDI: a frame, what is set in it, a command for frames."""
+        name = f"{touched}, {follower}"
+        before = ("G54", "G92.1", "G10 L2 P1 X0 Y0 Z0 R0", "G10 L2 P2 X0 Y0 Z0", "o<rot> call [0] [0] [90]")
+        return name, [*(["mdi", line] for line in before), ["forget"],
+                      *(["mdi", line] for line in (touched, *between, follower)), ["sleep", 0.2], KNOWN,
+                      ["mdi", "o<frame_off> call"], OFF, ["recall", name]]
+
+    def test_no_command_for_frames_takes_it_over(self):
+        wrong = dict([self.steps("G10 L20 P1 X5", follower) for follower in (
+            "o<frame_off> call", "o<arot> call [0] [0] [1]", "T1 M6", "G79 Z1", "o<tool_centre_off> call")] + [
+                self.steps("G92 X5", "o<rot> call [0] [0] [45]"), self.steps("G10 L20 P2 X5", "o<frame_off> call"),
+                self.steps("G10 L2 P1 R10", "o<frame_off> call")])
+        right = dict([self.steps("G10 L2 P1 X5", "o<frame_off> call", "o<frame_refresh> call"),
+                      self.steps("G55", "o<frame_off> call"), self.steps("G55", "o<rot> call [0] [0] [45]"),
+                      self.steps("o<frame_suspend> call", "o<arot> call [0] [0] [1]", "G10 L20 P1 X5", "o<frame_resume> call")])
+        result = harness.run([step for steps in (wrong | right).values() for step in steps])
+        self.fine(result)
+        for name in wrong:
+            self.assertIn("a work offset or G92 was set while a frame was active", "\n".join(result.answers[name]), name)
+        for name in right:
+            self.assertEqual(result.answers[name], [], name)
 
 
 if __name__ == "__main__":

@@ -187,10 +187,10 @@ class WorkOffsets(Case):
 
     def test_one_that_is_set_is_noticed_behind_a_refused_command_too(self):
         # which has sent it along
-        result = harness.run([["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X10"], ["mdi", "G10 L2 P1 X50 Y0"],
-                              ["mdi", "G54"], ["forget"], ["mdi", "o<ascale> call [0] [1] [1]"], ["mdi", "G1 X20 Y0 F600"], ["sleep", 0.1],
-                              ["recall", "errors"], ["note", "end"], ["mdi", "o<frame_off> call"], ["mdi", "G10 L2 P1 X0 Y0"],
-                              OFF], programs(), ini={**QUICK, **clearing(1, 1, 0)})
+        result = harness.run([["mdi", "G10 L2 P2 X50 Y0"], ["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G0 X10"],
+                              ["mdi", "G55"], ["forget"], ["mdi", "o<ascale> call [0] [1] [1]"], ["mdi", "G1 X20 Y0 F600"], ["sleep", 0.1],
+                              ["recall", "errors"], ["note", "end"], ["mdi", "o<frame_off> call"], ["mdi", "G10 L2 P2 X0 Y0"],
+                              ["mdi", "G54"], OFF], programs(), ini={**QUICK, **clearing(1, 1, 0)})
         self.fine(result)
         self.assertIn("the work offset has changed while a frame is active", "\n".join(result.answers["errors"]))
         self.assertLess(result.answers["end"]["joints"][1], 40)

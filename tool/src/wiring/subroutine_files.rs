@@ -14,7 +14,7 @@ pub const SENDER: &str = "frame_send";
 pub const SHARED: &str = "on_abort";
 
 /// All of framepath, which codes, programs and one another call by these names.
-pub const OWN: [&str; 65] = [
+pub const OWN: [&str; 66] = [
     "amirror",
     "arot",
     "arot_rpl",
@@ -48,6 +48,7 @@ pub const OWN: [&str; 65] = [
     "frame_abort",
     "frame_compensation",
     "frame_off",
+    "frame_offsets",
     "frame_order",
     "frame_plane",
     "frame_plane_angles",
