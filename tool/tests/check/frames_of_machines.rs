@@ -1,6 +1,7 @@
 //! Frames on machines that LinuxCNC has samples of: what `configure` writes for each, and what `check` says of it.
 
 use crate::bench::{Bench, framepath, samples};
+use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -167,4 +168,34 @@ fn a_machine_that_is_never_homed_has_no_frames() {
         };
         assert_eq!(findings.iter().any(said), warned, "{findings:#?}");
     }
+}
+
+#[test]
+fn frames_with_another_planner_are_warned_of() {
+    let bench = Bench::new();
+    let (name, warning) = ("framepath-sim", "tpmod does not see frames");
+    let warned = |findings: &[Value]| -> Vec<Value> {
+        let is_it = |finding: &&Value| finding["found"].to_string().contains(warning);
+        findings.iter().filter(is_it).cloned().collect()
+    };
+    assert!(warned(&bench.findings(name)).is_empty());
+    let hal: Vec<String> = bench
+        .read(name, "hal")
+        .lines()
+        .filter(|line| !line.contains("blendtp") && !line.contains("operator.hal"))
+        .map(str::to_owned)
+        .collect();
+    bench.write(name, "hal", &(hal.join("\n") + "\n"));
+    let ini: Vec<String> = bench
+        .read(name, "ini")
+        .replace("TPMOD = blendtp", "TPMOD = tpmod")
+        .lines()
+        .filter(|line| !line.contains("operator.hal") && !line.contains("panel.hal"))
+        .map(str::to_owned)
+        .collect();
+    bench.write(name, "ini", &(ini.join("\n") + "\n"));
+    let found = warned(&bench.findings(name));
+    assert_eq!(found.len(), 1, "{:#?}", bench.findings(name));
+    assert_eq!(found[0]["level"], "warning");
+    assert_eq!(found[0]["remedy"]["line"], "TPMOD = blendtp");
 }

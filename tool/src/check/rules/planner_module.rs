@@ -71,6 +71,14 @@ fn not_loaded(subject: &Subject, findings: &mut Findings) {
         );
         return findings.error(&place, found, remedy);
     }
+    if subject.has_frames() {
+        let found = format!(
+            "{} does not see frames: it keeps the limits of the axes as the program names them, and a frame that scales or turns asks for more of the joints (under a scale of 3 a rapid moves them at three times their velocity)",
+            subject.planner()
+        );
+        let place = subject.place_of("TRAJ", "TPMOD");
+        findings.warning(&place, found, remedy.clone());
+    }
     for letter in &subject.axes {
         let section = format!("AXIS_{letter}");
         if subject.planner() == "tpmod" && subject.ini.entry(&section, "MAX_JERK").is_some() {
