@@ -48,7 +48,7 @@ static struct {
     hal_s32_t *releases, *releases_seen;
     hal_u32_t *heartbeat, *version;
     hal_float_t *frame[12], *position[9], *turned_tool[3];
-    hal_float_t *external_offset[9];
+    hal_float_t *external_offset[OFFSETS];
     hal_float_t *inner_type;
     hal_s32_t *inner_type_active, *inner_refusal, *tool_centre_type, *axes_type;
     /* What frame_guard looks at. It has these linked to pins of its own, which are read without HAL's lock: a process that is
@@ -111,6 +111,7 @@ static struct framepath_frame_inputs read_pins(void)
     in.period = 0.0;
     in.clock = 0;
     in.inner_type = *inner ? *pins->inner_type : 0.0;
+    in.unknown_offset = has_unknown_offset(pins->external_offset);
     return in;
 }
 
@@ -152,9 +153,11 @@ static void write_inner_pins(const struct framepath_frame_outputs *out)
 {
     if (!*inner)
         return;
-    if (out->inner_refusal && out->inner_refusal != *pins->inner_refusal)
+    if (out->inner_refusal && out->inner_refusal != *pins->inner_refusal) {
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: framekins.inner-type = %g is not taken by %s, and the machine is held: %s\n",
                         *pins->inner_type, inner, framepath_kinematics_refusal_text(out->inner_refusal));
+        tell_unknown_offset(pins->external_offset);
+    }
     *pins->inner_refusal = out->inner_refusal;
     *pins->inner_type_active = out->inner_type;
     *pins->tool_centre_type = out->tool_centre_type;
@@ -184,13 +187,16 @@ static void update(void *argument, long period)
     in.period = period * 1e-9;
     in.clock = rtapi_get_time();
     struct framepath_frame_outputs out;
+    forget_place_behind_switch();
     if (is_misplaced())
         return;
     framepath_kinematics_update(&in, &out);
     /* Of each command, also where the one before was refused for the same reason. */
     int is_refused = out.refusal && (out.refusal != *pins->refusal || out.acknowledged != *pins->acknowledged);
-    if (is_refused)
+    if (is_refused) {
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: frame refused: %s\n", framepath_kinematics_refusal_text(out.refusal));
+        tell_unknown_offset(pins->external_offset);
+    }
     if (is_refused || (out.parameters_pending && !*pins->parameters_pending))
         tell_impossible_pin(&in);
     tell_alarm(out.alarm);
@@ -215,6 +221,8 @@ int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMAT
 int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMATICS_INVERSE_FLAGS *iflags,
                       KINEMATICS_FORWARD_FLAGS *fflags)
 {
+    if (is_another_place(world))
+        return -1;
     if (*inner)
         return framepath_kinematics_inner_inverse(world, joints, iflags, fflags);
     return framepath_kinematics_inverse(world, joints);
@@ -317,8 +325,7 @@ static int export_position_pins(void)
         error |= hal_pin_float_newf(HAL_OUT, &pins->frame[i], component, "framekins.frame.%s", row_names[i]);
     for (int i = 0; i < 9; i++)
         error |= hal_pin_float_newf(HAL_OUT, &pins->position[i], component, "framekins.position.%c", "xyzabcuvw"[i]);
-    for (int i = 0; i < 9; i++)
-        error |= hal_pin_float_newf(HAL_IN, &pins->external_offset[i], component, "framekins.external-offset.%c", "xyzabcuvw"[i]);
+    error |= export_offset_pins(pins->external_offset, component);
     for (int i = 0; i < 3; i++)
         error |= hal_pin_float_newf(HAL_OUT, &pins->turned_tool[i], component, "framekins.turned-tool.%c", "xyz"[i]);
     error |= hal_pin_s32_newf(HAL_OUT, &pins->retract_kind, component, "framekins.retract-kind");

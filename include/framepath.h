@@ -338,6 +338,10 @@ struct framepath_frame_inputs {
    The type that inner kinematics are to have.
    */
   double inner_type;
+  /*
+   A pin cannot be the external offset of its axis: 0 or 1.
+   */
+  int unknown_offset;
 };
 
 /*

@@ -8,6 +8,16 @@ OTHER_JOINTS = 19
 JUMP = ("the kinematics of inner= would let the joints jump where the machine is: go where they do not, in MDI (an arm: bend "
         "its wrist; maxkins: G0 B0 or G0 C0), and it goes")
 
+#: and external offsets move the axes, or a pin for them says what they are not
+OFFSETS_MOVE, UNKNOWN_OFFSET = 21, 22
+
+MOVES = "an external offset (axis.L.eoffset) moves the axes, and it goes when that stands: hold it, or take it away"
+
+UNKNOWN = ("a pin framekins.external-offset.L is not the external offset of its axis, see the message of framekins: set it "
+           "right, or switch the machine off")
+
+REASONS = {OTHER_JOINTS: JUMP, OFFSETS_MOVE: MOVES, UNKNOWN_OFFSET: UNKNOWN}
+
 NETS = "are framekins.in-position, framekins.teleop and motion.switchkins-type linked as in the HAL file of the sample?"
 
 
@@ -19,7 +29,7 @@ def would_jump():
 def complaint():
     """Of a frame that framekins does not remove."""
     return ("the frame has to go, and framekins does not remove it: neither touch off nor start a program; "
-            + (JUMP if would_jump() else NETS))
+            + REASONS.get(hal.get_value("framekins.refusal"), NETS))
 
 
 def late_start(active, stays):

@@ -72,6 +72,8 @@ pub struct framepath_frame_inputs {
     pub clock: c_longlong,
     /// The type that inner kinematics are to have.
     pub inner_type: c_double,
+    /// A pin cannot be the external offset of its axis: 0 or 1.
+    pub unknown_offset: c_int,
 }
 
 /// What is written to the pins after each servo period.
@@ -173,6 +175,8 @@ pub(super) fn inputs_of(pins: &framepath_frame_inputs, tool_length: ToolLength) 
         fixed_axes: [false; 3],
         tool_jumped: false,
         other_joints: false,
+        offsets_move: false,
+        unknown_offset: pins.unknown_offset != 0,
         in_position: pins.in_position != 0,
         teleop: pins.teleop != 0,
         check: pins.check,

@@ -43,6 +43,7 @@ pub unsafe extern "C" fn framepath_kinematics_configure_inner(
     module.inner = InnerModule::NONE;
     module.given = None;
     module.tool_jump = ToolJump::new();
+    module.forget_asked();
     module.normal = AskedNormal::with(said);
     module.control = Some(FrameControl::new(Behind::Inner(InnerType::first(types))));
     0
@@ -200,6 +201,7 @@ pub unsafe extern "C" fn framepath_kinematics_inner_inverse(
         return -1;
     };
     *written = calls.forward_flags;
+    module().asked = Some(axes_of(world).into());
     module().given = Some((module().position, module().joints));
     result
 }

@@ -17,6 +17,7 @@ use super::pose::{axes_of, pose_of};
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::frame::{ActiveFrame, AffineMap, ToolLength};
 use crate::kinematics::control::{FrameControl, FrameInputs};
+use crate::kinematics::offset_motion::OffsetMotion;
 use crate::kinematics::tool_jump::ToolJump;
 use crate::machine::{ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, TiltAxis};
 
@@ -57,12 +58,38 @@ pub(super) struct Kinematics {
     pub(super) normal: AskedNormal,
     /// Whether its joints jump with the tool offset.
     pub(super) tool_jump: ToolJump,
+    /// The position that the inverse kinematics were asked for last.
+    pub(super) asked: Option<[f64; AXIS_COUNT]>,
+    /// Whether external offsets move it.
+    offset_motion: OffsetMotion,
+    /// The answer of that in this period.
+    offsets_move: bool,
 }
 
 impl Kinematics {
+    /// What the pins say, and whether external offsets move.
+    fn inputs_on_pins(&self, pins: &framepath_frame_inputs) -> FrameInputs {
+        FrameInputs {
+            offsets_move: self.offsets_move,
+            ..inputs_of(pins, self.tool_length)
+        }
+    }
+
+    /// One servo period: whether external offsets move.
+    fn watch_offsets(&mut self, pins: &framepath_frame_inputs) {
+        let stands = pins.in_position != 0;
+        self.offsets_move = self.offset_motion.watch(self.asked.as_ref(), stands);
+    }
+
+    /// Forgets where an earlier machine was asked for.
+    pub(super) fn forget_asked(&mut self) {
+        (self.asked, self.offsets_move) = (None, false);
+        self.offset_motion = OffsetMotion::new();
+    }
+
     /// What the pins say, and what has to be known for a frame that they ask for.
     pub(super) fn inputs(&self, pins: &framepath_frame_inputs) -> FrameInputs {
-        let mut inputs = inputs_of(pins, self.tool_length);
+        let mut inputs = self.inputs_on_pins(pins);
         let Some(control) = &self.control else {
             return inputs;
         };
@@ -78,7 +105,7 @@ impl Kinematics {
 
     /// The same where motion switches to this kinematics type.
     fn inputs_of_switch(&self, slot: c_int, pins: &framepath_frame_inputs) -> FrameInputs {
-        let mut inputs = inputs_of(pins, self.tool_length);
+        let mut inputs = self.inputs_on_pins(pins);
         inputs.fixed_axes = self.inner.fixed_axes(&self.position, &self.joints);
         let control = self.control.as_ref();
         let coming = control.and_then(|control| control.frame_of_switch(slot, &inputs));
@@ -110,6 +137,9 @@ static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
     old_guesses: 0,
     normal: AskedNormal::NONE,
     tool_jump: ToolJump::new(),
+    asked: None,
+    offset_motion: OffsetMotion::new(),
+    offsets_move: false,
 }));
 
 /// The machine of the module.
@@ -220,6 +250,7 @@ pub unsafe extern "C" fn framepath_kinematics_configure(
         b"machine" => ToolLength::Machine,
         _ => return FRAMEPATH_UNKNOWN_TOOL_LENGTH,
     };
+    module.forget_asked();
     module.control = Some(FrameControl::new(machine));
     0
 }
@@ -309,6 +340,7 @@ pub unsafe extern "C" fn framepath_kinematics_inverse(
             .and_then(|joint| joints.get(joint));
         value.is_finite() && joint.is_none_or(|joint| joint.is_finite())
     });
+    module().asked = Some(axes_of(world).into());
     if finite { 0 } else { -1 }
 }
 
@@ -350,6 +382,7 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
         control: Some(control),
         inner,
         old_guesses,
+        offset_motion,
         ..
     } = module()
     else {
@@ -358,6 +391,7 @@ pub unsafe extern "C" fn framepath_kinematics_switch(
     match control.switch(slot, &inputs, |kind| inner.switch(kind)) {
         Ok(()) => {
             *old_guesses = 2;
+            offset_motion.switched();
             0
         }
         Err(refusal) => refusal as c_int,
@@ -377,6 +411,7 @@ pub unsafe extern "C" fn framepath_kinematics_update(
     let (Some(pins), Some(out)) = (unsafe { (pins.as_ref(), out.as_mut()) }) else {
         return;
     };
+    module().watch_offsets(pins);
     let mut inputs = module().inputs(pins);
     let Kinematics {
         control: Some(control),

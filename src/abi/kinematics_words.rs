@@ -21,7 +21,7 @@ pub extern "C" fn framepath_kinematics_alarm_text(alarm: c_int) -> *const c_char
 /// The words for a refusal, with the remedy.
 #[unsafe(no_mangle)]
 pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_char {
-    const WORDS: [(FrameRefusal, &CStr); 20] = [
+    const WORDS: [(FrameRefusal, &CStr); 22] = [
         (FrameRefusal::UnknownCommand, c"there is no such command; use the subroutines of framepath"),
         (FrameRefusal::NotFinite, c"a value is infinite or not a number"),
         (FrameRefusal::ZeroScale, c"a scale factor is 0; use 1 for an axis that keeps its size"),
@@ -42,6 +42,8 @@ pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_
         (FrameRefusal::UnknownInnerType, c"framekins.inner-type is no type of the kinematics of inner=; what is linked to it, M68 for one, has to say a whole number from 0 that they can be switched to"),
         (FrameRefusal::OtherJoints, c"the kinematics of inner= lead back from where the machine is to other joints, which would jump: go where they do not, an arm with its wrist bent, maxkins with B or C at 0, and give the command again"),
         (FrameRefusal::Suspended, c"the frame is suspended, and this command would add to it: o<frame_resume> call brings it back first, o<frame_off> call gives it up"),
+        (FrameRefusal::OffsetsMove, c"an external offset (axis.L.eoffset) moves the axes, which would turn under it: wait until it stands, with G4; one that never stands (height control) has to be held, or taken away first"),
+        (FrameRefusal::UnknownOffset, c"a pin framekins.external-offset.L is not the external offset of its axis, and the joints would jump by the difference"),
     ];
     WORDS
         .iter()

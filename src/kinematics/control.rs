@@ -29,7 +29,7 @@ use super::refusal::FrameRefusal;
 use super::release::FrameRelease;
 use super::request::{Purpose, Request};
 use super::staged::Staged;
-use super::switching::{may_remove, same_joints, standing};
+use super::switching::{may_remove, offsets_stand, same_joints, standing};
 use crate::frame::ActiveFrame;
 
 /// Motion switches in the period after the request. If it has not done so by now, nobody listens.
@@ -183,8 +183,11 @@ impl FrameControl {
             self.active.source = Source::nothing();
         }
         if self.release.is_ripe() && framed && self.request.is_none() {
-            if inputs.other_joints {
-                self.outputs.refusal = Some(FrameRefusal::OtherJoints);
+            if let Err(refusal) = same_joints(inputs) {
+                // An offset that is on its way is waited for; one that does not come to rest is told of.
+                if refusal != FrameRefusal::OffsetsMove || self.release.stands_for(PATIENCE) {
+                    self.outputs.refusal = Some(refusal);
+                }
                 return;
             }
             let behind = self.behind_on_pins(inputs).unwrap_or(self.active.behind);
@@ -213,7 +216,10 @@ impl FrameControl {
         self.outputs.inner_refusal = match self.behind_on_pins(inputs) {
             Err(refusal) => Some(refusal),
             Ok(wanted) if wanted == self.active.behind || self.request.is_some() => None,
-            Ok(wanted) => match standing(inputs).and_then(|()| self.again(wanted, inputs)) {
+            Ok(wanted) => match standing(inputs)
+                .and_then(|()| offsets_stand(inputs))
+                .and_then(|()| self.again(wanted, inputs))
+            {
                 Err(refusal) => Some(refusal),
                 Ok(staged) => {
                     self.ask(staged, Purpose::InnerType);
@@ -289,8 +295,9 @@ impl FrameControl {
             standing(inputs)?;
         }
         // Another type of the inner kinematics is theirs to answer for.
-        if request.is_none_or(|it| it.purpose != Purpose::InnerType) {
-            same_joints(inputs)?;
+        match request {
+            Some(request) if request.purpose == Purpose::InnerType => offsets_stand(inputs)?,
+            _ => same_joints(inputs)?,
         }
         if let Some(request) = request {
             return Ok(request.staged);

@@ -13,6 +13,7 @@ pub mod heartbeat;
 pub mod inner;
 pub mod inner_normal;
 pub mod inner_tool;
+pub mod offset_motion;
 pub mod pins;
 pub mod refusal;
 pub mod release;

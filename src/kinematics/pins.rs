@@ -36,6 +36,10 @@ pub struct FrameInputs {
     pub tool_jumped: bool,
     /// The inner kinematics lead to other joints than those that they were given, where that has been looked at.
     pub other_joints: bool,
+    /// External offsets move the axes while motion stands, or have just done so.
+    pub offsets_move: bool,
+    /// A pin cannot be the external offset of its axis.
+    pub unknown_offset: bool,
     /// Motion stands still.
     pub in_position: bool,
     /// Motion is in teleop (world jogging) mode.

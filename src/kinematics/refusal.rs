@@ -46,6 +46,10 @@ pub enum FrameRefusal {
     OtherJoints = 19,
     /// The command adds to a frame that is suspended.
     Suspended = 20,
+    /// External offsets move the axes.
+    OffsetsMove = 21,
+    /// A pin is not the external offset of its axis.
+    UnknownOffset = 22,
 }
 
 impl From<FrameError> for FrameRefusal {

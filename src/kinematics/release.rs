@@ -43,6 +43,11 @@ impl FrameRelease {
         self.standing >= SETTLED
     }
 
+    /// Whether motion has stood for more than so many periods.
+    pub fn stands_for(&self, periods: u32) -> bool {
+        self.standing > periods
+    }
+
     /// Whether the frame has to go and can.
     pub fn is_ripe(&self) -> bool {
         self.due && self.is_settled()

@@ -14,12 +14,24 @@ pub fn standing(inputs: &FrameInputs) -> Result<(), FrameRefusal> {
     }
 }
 
+/// Whether external offsets stand, and are known: motion goes on from a place without them, and their velocity would turn
+/// with the axes. With the machine off there are none: motion forgets them when it is switched on again.
+pub fn offsets_stand(inputs: &FrameInputs) -> Result<(), FrameRefusal> {
+    if inputs.enabled && inputs.offsets_move {
+        Err(FrameRefusal::OffsetsMove)
+    } else if inputs.enabled && inputs.unknown_offset {
+        Err(FrameRefusal::UnknownOffset)
+    } else {
+        Ok(())
+    }
+}
+
 /// Whether no joint jumps when the kinematics change.
 pub fn same_joints(inputs: &FrameInputs) -> Result<(), FrameRefusal> {
     if inputs.other_joints {
         Err(FrameRefusal::OtherJoints)
     } else {
-        Ok(())
+        offsets_stand(inputs)
     }
 }
 

@@ -210,11 +210,19 @@ fn numbers_may_start_again() {
 }
 
 #[test]
-fn moving_and_teleop_refuse_at_both_ends() {
+fn moving_teleop_and_external_offsets_refuse_at_both_ends() {
     type Change = fn(&mut FrameInputs, bool);
-    let changes: [(Change, FrameRefusal); 2] = [
+    let changes: [(Change, FrameRefusal); 4] = [
         (|inputs, on| inputs.in_position = !on, FrameRefusal::Moving),
         (|inputs, on| inputs.teleop = on, FrameRefusal::Teleop),
+        (
+            |inputs, on| inputs.offsets_move = on,
+            FrameRefusal::OffsetsMove,
+        ),
+        (
+            |inputs, on| inputs.unknown_offset = on,
+            FrameRefusal::UnknownOffset,
+        ),
     ];
     for (change, refusal) in changes {
         let mut motion = xyz();

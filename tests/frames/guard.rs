@@ -54,6 +54,28 @@ fn a_frame_goes_as_soon_as_motion_stands() {
 }
 
 #[test]
+fn a_frame_that_has_to_go_waits_for_external_offsets() {
+    let mut motion = framed();
+    motion.inputs.offsets_move = true;
+    motion.inputs.command = 0.0;
+    assert_eq!(periods_until_gone(&mut motion), None);
+    assert!(motion.out.releasing);
+    assert_eq!(motion.out.refusal, None);
+    // those that do not come to rest are told of
+    for _ in 0..100 {
+        motion.period();
+    }
+    assert_eq!(motion.out.refusal, Some(FrameRefusal::OffsetsMove));
+    motion.inputs.offsets_move = false;
+    assert_eq!(periods_until_gone(&mut motion), Some(1));
+    // with the machine off there are none
+    let mut motion = framed();
+    (motion.inputs.offsets_move, motion.inputs.unknown_offset) = (true, true);
+    motion.inputs.enabled = false;
+    assert!(periods_until_gone(&mut motion).is_some());
+}
+
+#[test]
 fn settings_may_keep_it_past_an_abort() {
     for (name, end) in &ENDS[..2] {
         let mut motion = framed();

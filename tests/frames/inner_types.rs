@@ -145,6 +145,24 @@ fn in_motion_and_in_teleop_the_type_waits_and_the_machine_is_held() {
 }
 
 #[test]
+fn the_type_waits_for_external_offsets_and_the_machine_is_held() {
+    let mut motion = inner();
+    motion.inputs.offsets_move = true;
+    ask(&mut motion, 1.0);
+    assert_eq!(motion.out.inner_refusal, Some(FrameRefusal::OffsetsMove));
+    assert!(motion.out.hold && motion.switched.is_empty());
+    // from the request on, too
+    motion.inputs.offsets_move = false;
+    motion.out = motion.control.update(&motion.inputs);
+    motion.inputs.offsets_move = true;
+    motion.period();
+    assert_eq!((motion.out.inner_type, motion.out.hold), (0, true));
+    motion.inputs.offsets_move = false;
+    ask(&mut motion, 1.0);
+    assert_eq!((motion.out.inner_type, motion.out.hold), (1, false));
+}
+
+#[test]
 fn a_motion_that_is_not_linked_is_told_once() {
     let mut motion = inner();
     motion.linked = false;

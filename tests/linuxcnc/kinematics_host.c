@@ -11,7 +11,8 @@
 
 enum { MOST = 256 };
 
-static struct { char name[64]; void *place; } entries[MOST];
+/* pin: where the module has the address of the place, NULL where that is no pin. */
+static struct { char name[64]; void *place, **pin; } entries[MOST];
 static int count;
 static char messages[65536];
 
@@ -21,6 +22,7 @@ static int keep(const char *name, void *place)
     if (count == MOST)
         return -12;
     snprintf(entries[count].name, sizeof entries[count].name, "%s", name);
+    entries[count].pin = 0;
     entries[count++].place = place;
     return 0;
 }
@@ -30,7 +32,10 @@ static int new_pin(void **pin, const char *format, va_list arguments)
     char name[64];
     vsnprintf(name, sizeof name, format, arguments);
     *pin = calloc(1, 8);
-    return keep(name, *pin);
+    int result = keep(name, *pin);
+    if (!result)
+        entries[count - 1].pin = pin;
+    return result;
 }
 
 /* For the test: the pin or function of a name, and everything forgotten. */
@@ -40,6 +45,14 @@ void *host_find(const char *name)
         if (!strcmp(entries[i].name, name))
             return entries[i].place;
     return 0;
+}
+
+/* Links a pin: its value is elsewhere then. */
+void host_link(const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (!strcmp(entries[i].name, name) && entries[i].pin)
+            entries[i].place = *entries[i].pin = calloc(1, 8);
 }
 
 const char *host_messages(void)

@@ -22,6 +22,7 @@ def host():
     found = ctypes.CDLL(library, mode=ctypes.RTLD_GLOBAL)
     found.host_find.restype = ctypes.c_void_p
     found.host_find.argtypes = [ctypes.c_char_p]
+    found.host_link.argtypes = [ctypes.c_char_p]
     found.host_messages.restype = ctypes.c_char_p
     return found, folder
 
@@ -70,6 +71,10 @@ class Module:
         if address is None:
             raise KeyError(pin)
         self.pins[pin] = kind.from_address(address)
+
+    def link(self, pin):
+        """As a net does it; before the pin is found."""
+        self.host.host_link(f"{self.prefix}.{pin}".encode())
 
     def set(self, **values):
         for name, value in values.items():

@@ -51,7 +51,12 @@ class AgainstStock(unittest.TestCase):
             ours.set(tool_centre_point=int(tool_centre_point))
             # stock: type 0 is the table, 1 the identity; ours takes both from the pin, at any switch
             self.assertEqual(stock.switch(0 if tool_centre_point else 1), 0)
+            # motion has stood, asks for its place behind the switch, and moves from the next period on
+            for _ in range(4):
+                ours.update()
             self.assertEqual(ours.switch(0), 0)
+            ours.forward([0.0] * 16)
+            ours.update()
             for _ in range(20):
                 values = [number.uniform(-400, 400) for _ in range(3)] + [number.uniform(-120, 120),
                                                                          number.uniform(-720, 720)]

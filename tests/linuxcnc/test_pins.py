@@ -13,6 +13,9 @@ FLOAT, BIT = ctypes.c_double, ctypes.c_bool
 #: servo periods that motion has to have stood, see src/kinematics/release.rs
 SETTLED = 4
 
+#: of framekins.refusal
+OFFSETS_MOVE, UNKNOWN_OFFSET = 21, 22
+
 
 class Framekins(unittest.TestCase):
     def setUp(self):
@@ -71,13 +74,20 @@ class ExternalOffsets(unittest.TestCase):
 
     def setUp(self):
         self.module = kinematics_host.Module(os.path.join(harness.MODULES, "framekins.so"), "framekins", coordinates="XYZ")
-        self.module.find("in-position", BIT)
+        for pin in ("in-position", "enabled"):
+            self.module.find(pin, BIT)
+        for letter in "yz":
+            self.module.link(f"external-offset.{letter}")
         for letter in "xyz":
             self.module.find(f"external-offset.{letter}", FLOAT)
+        self.module.find("command", FLOAT)
         self.module.set(**{"in-position": True, "external-offset.y": 2.0, "external-offset.z": -3.0})
 
     def forward(self):
         return self.module.forward(self.JOINTS)[:3]
+
+    def messages(self):
+        return self.module.host.host_messages().decode().splitlines()
 
     def test_are_off_the_place_that_follows_a_switch_and_off_no_other(self):
         self.assertEqual(self.forward(), [10, 20, 30])
@@ -89,10 +99,43 @@ class ExternalOffsets(unittest.TestCase):
         self.assertNotEqual(self.module.switch(99), 0)
         self.assertEqual(self.forward(), [10, 20, 30])
 
-    def test_are_none_where_they_are_no_number(self):
-        self.module.set(**{"external-offset.x": math.nan, "external-offset.z": math.inf})
+    def test_what_cannot_be_one_is_refused_and_named(self):
+        for pin, value in (("x", 100.0), ("y", math.nan), ("y", math.inf), ("z", 1e7)):
+            with self.subTest(pin=pin, value=value):
+                self.setUp()
+                self.module.set(**{f"external-offset.{pin}": value})
+                self.assertEqual(self.module.switch(1), UNKNOWN_OFFSET)
+                self.module.set(**{f"external-offset.{pin}": 0.0})
+                self.assertEqual(self.module.switch(2), 0)
+
+    def test_are_none_with_the_machine_off(self):
+        self.module.set(**{"enabled": False, "external-offset.x": 100.0, "external-offset.z": math.nan})
         self.assertEqual(self.module.switch(0), 0)
         self.assertEqual(self.forward(), [10, 18, 30])
+
+    def test_have_to_stand(self):
+        for place in (0.0, 0.0, 0.1):
+            self.module.inverse([place] + 8 * [0.0])
+            self.module.update()
+        for _ in range(SETTLED - 1):
+            self.assertEqual(self.module.switch(1), OFFSETS_MOVE)
+            self.module.update()
+        self.assertEqual(self.module.switch(2), 0)
+
+    def test_joints_that_would_jump_have_no_answer(self):
+        for told, goes_on in ((2.0, True), (2.5, False)):
+            with self.subTest(told=told):
+                self.setUp()
+                self.module.set(**{"external-offset.y": told})
+                self.assertEqual(self.module.switch(0), 0)
+                # in motion's own place, to which it adds the offsets
+                place, joints = kinematics_host.Pose(), kinematics_host.Joints(*self.JOINTS)
+                flags = ctypes.byref(self.module.flags)
+                self.assertEqual(self.module.library.kinematicsForward(joints, place, flags, flags), 0)
+                place[1] += 2.0
+                place[2] += -3.0
+                answer = self.module.library.kinematicsInverse(place, joints, flags, flags)
+                self.assertEqual((answer, len(self.messages())), (0, 0) if goes_on else (-1, 2))
 
 
 if __name__ == "__main__":

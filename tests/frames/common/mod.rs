@@ -52,6 +52,8 @@ impl Motion {
             fixed_axes: [false; 3],
             tool_jumped: false,
             other_joints: false,
+            offsets_move: false,
+            unknown_offset: false,
             in_position: true,
             teleop: false,
             check: 0.0,

@@ -19,7 +19,7 @@ pub fn look(subject: &Subject, linuxcnc: Option<&LinuxCnc>, findings: &mut Findi
             continue;
         }
         let found = format!(
-            "{source} is an external offset that framekins is not told of: in LinuxCNC 2.9 the joints jump by it where a frame comes or goes{}",
+            "{source} is an external offset that framekins is not told of: in LinuxCNC 2.9 the joints would jump by it where a frame comes or goes, and the machine is switched off there{}",
             subject.unless_unread()
         );
         let remedy = add(subject.hal_file(), subject.external_offset_line(letter));
