@@ -299,7 +299,16 @@ screens: modules
 header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
 
-install: modules tool
+# What a package's user builds, root copies without running it.
+COMPLETED = $(TARGET)/completions
+
+completions: tool
+	mkdir -p $(COMPLETED)
+	for shell in bash zsh fish; do \
+	    $(TOOL) completions $$shell > $(COMPLETED)/$$shell.$$$$ && mv $(COMPLETED)/$$shell.$$$$ $(COMPLETED)/$$shell || exit 1; \
+	done
+
+install: modules completions
 	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(SHARE)/panel $(MAN)/man1 $(MAN)/man9
 	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
 	install -m 755 $(TOOL) $(BIN)
@@ -317,10 +326,9 @@ install: modules tool
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
 	install -m 644 tool/framepath.1 $(MAN)/man1
 	install -d $(dir $(COMPLETIONS))
-	$(TOOL) completions bash > $(word 1,$(COMPLETIONS))
-	$(TOOL) completions zsh > $(word 2,$(COMPLETIONS))
-	$(TOOL) completions fish > $(word 3,$(COMPLETIONS))
-	chmod 644 $(COMPLETIONS)
+	install -m 644 $(COMPLETED)/bash $(word 1,$(COMPLETIONS))
+	install -m 644 $(COMPLETED)/zsh $(word 2,$(COMPLETIONS))
+	install -m 644 $(COMPLETED)/fish $(word 3,$(COMPLETIONS))
 
 uninstall:
 	rm -f $(MODULE_FOLDER)/framekins.so $(MODULE_FOLDER)/blendtp.so $(BIN)/framepath
@@ -355,5 +363,5 @@ clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
-    fuzz fuzz-filter mutants compare figures five-axes tuning book screens header install uninstall deb deb-source \
+    fuzz fuzz-filter mutants compare figures five-axes tuning book screens header completions install uninstall deb deb-source \
     debian-12 debian-13 clean

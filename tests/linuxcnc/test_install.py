@@ -66,6 +66,12 @@ class Install(unittest.TestCase):
             make("uninstall", f"DESTDIR={folder}")
             self.assertEqual(files(folder), set())
 
+    def test_what_was_built_is_only_copied(self):
+        # root installs what a user without rights has built
+        command = ["make", "-n", "-C", harness.ROOT, "-o", "modules", "-o", "completions", f"TOOL={harness.TOOL}", "install"]
+        lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+        self.assertEqual({line.split()[0] for line in lines if harness.TOOL in line}, {"install"})
+
     def test_a_path_with_a_blank_is_refused(self):
         with tempfile.TemporaryDirectory(prefix="a b.") as folder:
             shutil.copy(os.path.join(harness.ROOT, "Makefile"), folder)

@@ -76,34 +76,56 @@ class Packages(unittest.TestCase):
         self.assertIn("interest-noawait /usr/bin/linuxcnc", output("dpkg-deb", "--info", package, "triggers"))
 
 
+BUILT = ("modules/blendtp.so", "modules/framekins.so", "release/framepath",
+         *(f"completions/{shell}" for shell in ("bash", "zsh", "fish")))
+
+
 class BuiltWhereInstalled(unittest.TestCase):
     """debian/build-where-installed, with its folders moved and with a make that does what is asked of it."""
 
     def run_with(self, make_says):
+        """Its code, what it says, its log, and what it ran as the user who builds."""
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(DEBIAN, "build-where-installed"), encoding="utf-8") as file:
                 text = file.read()
-            script = os.path.join(folder, "script")
-            for name, content in (("script", text.replace("/var/lib/framepath", folder)),
-                                  ("make", f"#!/bin/sh\necho make \"$@\"\n{make_says}\n"),
-                                  ("setpriv", '#!/bin/sh\nshift 3\nexec "$@"\n')):
+            work = os.path.join(folder, "work")
+            for name in BUILT:
+                os.makedirs(os.path.dirname(os.path.join(work, "target", name)), exist_ok=True)
+                with open(os.path.join(work, "target", name), "w", encoding="utf-8") as file:
+                    file.write(f"{name}\n")
+            # a log of the user who builds leads elsewhere
+            victim = os.path.join(folder, "victim")
+            os.symlink(victim, os.path.join(work, "build.log"))
+            moved = text.replace("/var/lib/framepath", work).replace("/var/log", folder)
+            for name, content in (("script", moved),
+                                  ("make", f"#!/bin/sh\necho make $CARGO_TARGET_DIR \"$@\"\n{make_says}\n"),
+                                  ("setpriv", f'#!/bin/sh\nshift 3\necho "$@" >> {folder}/as-builder\nexec "$@"\n')):
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     file.write(content)
                 os.chmod(os.path.join(folder, name), 0o755)
             path = f"{folder}:{os.environ['PATH']}"
-            done = subprocess.run([script], env=dict(os.environ, PATH=path), stdout=subprocess.PIPE,
+            done = subprocess.run([os.path.join(folder, "script")], env=dict(os.environ, PATH=path), stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, text=True, check=False)
-            with open(os.path.join(folder, "build.log"), encoding="utf-8") as file:
-                return done.returncode, done.stdout, file.read()
+            self.assertFalse(os.path.exists(victim))
+            texts = []
+            for name in ("framepath-build.log", "as-builder"):
+                with open(os.path.join(folder, name), encoding="utf-8") as file:
+                    texts.append(file.read().replace(work, "WORK"))
+            return done.returncode, done.stdout, *texts
 
     def test_what_is_built_is_installed(self):
-        code, said, log = self.run_with("exit 0")
+        code, said, log, as_builder = self.run_with('[ -e "$CARGO_TARGET_DIR/release/framepath" ]')
         self.assertEqual(code, 0, said)
         self.assertIn("are installed", said)
-        self.assertEqual([line.split()[-1] for line in log.splitlines()], ["tool", "install"])
+        built, installed = log.splitlines()
+        self.assertRegex(built, r"^make WORK/target .* modules completions$")
+        self.assertRegex(installed, r"^make /\S+ .* -o modules -o completions install$")
+        # root neither runs nor opens what lies where others may write
+        self.assertNotIn("WORK", installed)
+        self.assertEqual(as_builder.splitlines()[1:], [f"cat WORK/target/{name}" for name in BUILT])
 
     def test_a_failure_is_said_with_the_way_back_and_fails_nothing(self):
-        code, said, log = self.run_with("echo cargo 1.90 is needed; exit 1")
+        code, said, log, _ = self.run_with("echo cargo 1.90 is needed; exit 1")
         self.assertEqual(code, 0, said)
         self.assertNotIn("install\n", log)
         for words in ("NOT BUILT", "    cargo 1.90 is needed", "dpkg-reconfigure framepath-source", "TPMOD = blendtp",
