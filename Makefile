@@ -7,6 +7,8 @@ $(foreach name,CURDIR CARGO_TARGET_DIR,$(if $(word 2,$($(name))),$(error \
 CARGO ?= cargo
 PYTHON = /usr/bin/python3
 TARGET = $(abspath $(or $(CARGO_TARGET_DIR),target))
+$(if $(filter $(CURDIR),$(realpath $(TARGET))),$(error \
+    CARGO_TARGET_DIR=$(CARGO_TARGET_DIR) is the folder of the source: take one in it or beside it))
 MODULES = $(TARGET)/modules
 FAULT_MODULES = $(TARGET)/fault-modules
 # dev builds faster: the tests use it
@@ -337,10 +339,13 @@ uninstall:
 	rm -rf $(SHARE)
 	rm -f $(EXAMPLES)/framepath
 
-# Packages are made from a copy of the source beside what is built: target/package.
+# Packages are made from a copy of the source beside what is built: target/package. What is built may lie in the source under
+# any name, which tar would copy into itself.
 PACKAGE = $(TARGET)/package
+LEFT_OUT = target __pycache__ ./.git $(addprefix ./,$(filter-out ../%,$(shell realpath -m --relative-to=. $(TARGET) $(PACKAGE))))
 COPY_SOURCE = rm -rf $(PACKAGE)/framepath $(PACKAGE)/$(1)_* && mkdir -p $(PACKAGE)/framepath && \
-    tar -c --exclude=target --exclude=__pycache__ --exclude=./.git . | tar -x -C $(PACKAGE)/framepath
+    tar -c --exclude-caches-all $(addprefix --exclude=,$(LEFT_OUT)) . | tar -x -C $(PACKAGE)/framepath && \
+    sed -i "1s/(.*)/($$(debian/package-version))/" $(PACKAGE)/framepath/debian/changelog
 BUILD_PACKAGE = cd $(PACKAGE)/framepath && CARGO_TARGET_DIR=$(TARGET) FRAMEPATH_BUILT=1 dpkg-buildpackage -d -nc -us -uc
 
 # With the modules for the LinuxCNC that is installed: sudo apt install ./target/package/framepath_*.deb

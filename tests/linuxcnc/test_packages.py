@@ -3,6 +3,7 @@
 import glob
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -31,15 +32,15 @@ class Packages(unittest.TestCase):
     def field(self, package, name):
         return output("dpkg-deb", "--field", package, name).strip()
 
-    def version(self):
+    def assert_version(self, package):
         with open(os.path.join(harness.ROOT, "Cargo.toml"), encoding="utf-8") as file:
             found = re.search(r'^version = "(.*)"', file.read(), re.MULTILINE)
         assert found
-        return found.group(1)
+        self.assertEqual(self.field(package, "Version").split("+")[0], found.group(1))
 
     def test_for_this_machine(self):
         package, files = self.package("deb", "framepath")
-        self.assertEqual(self.field(package, "Version"), self.version())
+        self.assert_version(package)
         depends = self.field(package, "Depends")
         running = output("linuxcnc_var", "LINUXCNCVERSION").strip()
         major, minor = map(int, running.split(".")[:2])
@@ -65,7 +66,7 @@ class Packages(unittest.TestCase):
 
     def test_with_the_source(self):
         package, files = self.package("deb-source", "framepath-source")
-        self.assertEqual(self.field(package, "Version"), self.version())
+        self.assert_version(package)
         self.assertEqual(self.field(package, "Architecture"), "all")
         for name in ("Cargo.lock", "Makefile", "hal-component/blendtp.c", "hal-component/linuxcnc-has", "tool/Cargo.toml",
                      "prerequisites"):
@@ -74,6 +75,81 @@ class Packages(unittest.TestCase):
         for part in ("/target/", "/.git/", ".so", "/usr/bin/"):
             self.assertFalse([name for name in files if part in name], part)
         self.assertIn("interest-noawait /usr/bin/linuxcnc", output("dpkg-deb", "--info", package, "triggers"))
+
+
+class OfALittleSource(unittest.TestCase):
+    """make deb-source of what it needs, which takes no time."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.source = os.path.join(folder.name, "source")
+        os.mkdir(self.source)
+        for name in ("Makefile", "prerequisites"):
+            shutil.copy(os.path.join(harness.ROOT, name), self.source)
+        shutil.copytree(DEBIAN, os.path.join(self.source, "debian"))
+
+    def package(self, **environment):
+        """What dpkg-deb lists of the package, after a make whose files are for nobody else."""
+        done = subprocess.run(["make", "-C", self.source, "-o", "prerequisites", "deb-source"], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False, umask=0o077,
+                              env=dict(os.environ, **environment))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        target = environment.get("CARGO_TARGET_DIR", "target")
+        found = glob.glob(os.path.join(self.source, target, "package", "*.deb"))
+        self.assertEqual(len(found), 1)
+        return output("dpkg-deb", "--contents", found[0])
+
+    def test_what_is_built_in_the_source_is_not_copied_into_itself(self):
+        os.makedirs(os.path.join(self.source, "build/out/release"))
+        # another folder of cargo
+        os.mkdir(os.path.join(self.source, "older"))
+        with open(os.path.join(self.source, "older", "CACHEDIR.TAG"), "w", encoding="utf-8") as file:
+            file.write("Signature: 8a477f597d28d172789f06886806bc55\n")
+        listed = self.package(CARGO_TARGET_DIR="build/out")
+        for name in ("/out/", "/older/"):
+            self.assertNotIn(name, listed)
+        done = subprocess.run(["make", "-C", self.source, "deb-source", "CARGO_TARGET_DIR=."], capture_output=True, text=True,
+                              check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("CARGO_TARGET_DIR=. is the folder of the source", done.stderr)
+
+    def test_a_source_that_nobody_else_may_read_can_be_read_where_it_is_installed(self):
+        os.chmod(os.path.join(self.source, "Makefile"), 0o600)
+        os.chmod(os.path.join(self.source, "prerequisites"), 0o700)
+        modes = {line.split()[5].removeprefix("."): line.split()[0] for line in self.package().splitlines()}
+        self.assertEqual(modes["/usr/src/framepath/Makefile"], "-rw-r--r--")
+        self.assertEqual(modes["/usr/src/framepath/prerequisites"], "-rwxr-xr-x")
+        self.assertEqual({mode for name, mode in modes.items() if name.endswith("/")}, {"drwxr-xr-x"})
+
+    def version(self):
+        return output(os.path.join(self.source, "debian", "package-version")).strip()
+
+    def git(self, *arguments, date):
+        settings = ("-c", "user.name=tester", "-c", "user.email=tester@localhost")
+        subprocess.run(["git", "-C", self.source, *settings, *arguments], check=True, capture_output=True,
+                       env=dict(os.environ, GIT_AUTHOR_DATE=date, GIT_COMMITTER_DATE=date))
+
+    def test_each_commit_makes_a_newer_version(self):
+        versions = [self.version()]
+        self.assertRegex(versions[0], r"^[\d.]+$")
+        date = "2026-01-02T03:04:05+0100"
+        self.git("init", date=date)
+        self.git("add", ".", date=date)
+        self.git("commit", "-m", "first", date=date)
+        versions.append(self.version())
+        self.assertRegex(versions[1], "^" + re.escape(versions[0]) + r"\+git20260102020405\.[0-9a-f]{7,}$")
+        self.git("commit", "--allow-empty", "-m", "second", date="2026-01-02T03:04:06+0100")
+        versions.append(self.version())
+        with open(os.path.join(self.source, "Makefile"), "a", encoding="utf-8") as file:
+            file.write("# changed since\n")
+        versions.append(self.version())
+        for older, newer in zip(versions, versions[1:]):
+            subprocess.run(["dpkg", "--compare-versions", older, "lt", newer], check=True)
+        # and it is that of the package
+        self.package()
+        package = glob.glob(os.path.join(self.source, "target", "package", "*.deb"))[0]
+        self.assertRegex(output("dpkg-deb", "--field", package, "Version"), r"\+git\d{14}\.[0-9a-f]{7,}$")
 
 
 BUILT = ("modules/blendtp.so", "modules/framekins.so", "release/framepath",
