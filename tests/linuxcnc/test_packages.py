@@ -68,6 +68,8 @@ class Packages(unittest.TestCase):
         package, files = self.package("deb-source", "framepath-source")
         self.assert_version(package)
         self.assertEqual(self.field(package, "Architecture"), "all")
+        # whose toolchains are those of one user, and not of the one who builds
+        self.assertNotIn("rustup", self.field(package, "Depends"))
         for name in ("Cargo.lock", "Makefile", "hal-component/blendtp.c", "hal-component/linuxcnc-has", "tool/Cargo.toml",
                      "prerequisites"):
             self.assertIn(f"/usr/src/framepath/{name}", files)
