@@ -1,7 +1,7 @@
 # framepath. The two commands for a newcomer: make demo, make test. All others: make help.
 
-# make takes a blank for the end of a name.
-$(foreach name,CURDIR CARGO_TARGET_DIR,$(if $(word 2,$($(name))),$(error \
+# make takes a blank for the end of a name, also one in front of it or behind it: rm would have two.
+$(foreach name,CURDIR CARGO_TARGET_DIR DESTDIR PREFIX LINUXCNC_SOURCE,$(if $(word 2,x$($(name))x),$(error \
     $(name)=$($(name)) has a blank, at which make cuts it: take a path without one)))
 
 CARGO ?= cargo
@@ -21,9 +21,10 @@ MODULE_FOLDER = $(DESTDIR)/usr/lib/linuxcnc/modules
 SHARE = $(DESTDIR)$(PREFIX)/share/framepath
 MAN = $(DESTDIR)$(PREFIX)/share/man
 BIN = $(DESTDIR)$(PREFIX)/bin
-# Where Debian's bash, zsh and fish look.
+# Where Debian's bash, zsh and fish look. zsh knows another folder of /usr/local than of /usr.
+ZSH_FUNCTIONS = zsh/$(if $(filter /usr,$(PREFIX:%/=%)),vendor-completions,site-functions)
 COMPLETIONS = $(addprefix $(DESTDIR)$(PREFIX)/share/,bash-completion/completions/framepath \
-    zsh/vendor-completions/_framepath fish/vendor_completions.d/framepath.fish)
+    $(ZSH_FUNCTIONS)/_framepath fish/vendor_completions.d/framepath.fish)
 # Where LinuxCNC's selector of configurations looks for those of other packages.
 EXAMPLES = $(DESTDIR)/usr/share/linuxcnc/aux_examples
 
@@ -310,7 +311,21 @@ completions: tool
 	    $(TOOL) completions $$shell > $(COMPLETED)/$$shell.$$$$ && mv $(COMPLETED)/$$shell.$$$$ $(COMPLETED)/$$shell || exit 1; \
 	done
 
-install: modules completions
+# Said before the minutes of a build. A folder that is not there yet is made in the next one above it.
+installable:
+	@for folder in $(MODULE_FOLDER) $(EXAMPLES) $(BIN) $(SHARE) $(MAN); do \
+	    there=$$folder; until [ -e $$there ]; do there=$$(dirname $$there); done; \
+	    [ -w $$there ] || { echo "make install: $$(id -un) may not write $$folder: sudo make install," \
+	        "or make install DESTDIR=... with a folder of yours" >&2; exit 1; }; \
+	done
+
+# Not what a run of a sample in the source has left there.
+SAMPLES = $(patsubst hal-component/%,%,$(wildcard $(addprefix hal-component/configs/*/*.,hal ini ngc tbl)))
+
+install: installable modules completions
+# What an older one had and this one has not stays nowhere where LinuxCNC finds it. Programs beside samples, and what they keep, stay.
+	rm -rf $(addprefix $(SHARE)/,subroutines preview panel)
+	rm -f $(SHARE)/configs/framepath-*/*.ini $(SHARE)/configs/framepath-*/*.hal
 	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(SHARE)/panel $(MAN)/man1 $(MAN)/man9
 	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
 	install -m 755 $(TOOL) $(BIN)
@@ -320,7 +335,7 @@ install: modules completions
 	install -m 644 hal-component/preview/*.py $(SHARE)/preview
 	install -m 644 $(addprefix hal-component/panel/,*.xml *.ui *.hal time_table.py) $(SHARE)/panel
 	install -m 755 hal-component/panel/program_time.py $(SHARE)/panel
-	cp -R hal-component/configs $(SHARE)
+	for file in $(SAMPLES); do install -D -m 644 hal-component/$$file $(SHARE)/$$file || exit 1; done
 # A copy in the user's folder has to find them, too.
 	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|g' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal $(SHARE)/panel/*.xml $(SHARE)/panel/*.hal
 	install -d $(EXAMPLES)
@@ -340,9 +355,9 @@ uninstall:
 	rm -f $(EXAMPLES)/framepath
 
 # Packages are made from a copy of the source beside what is built: target/package. What is built may lie in the source under
-# any name, which tar would copy into itself.
+# any name, which tar would copy into itself; and runs of the samples leave files in their folders.
 PACKAGE = $(TARGET)/package
-LEFT_OUT = target __pycache__ ./.git $(addprefix ./,$(filter-out ../%,$(shell realpath -m --relative-to=. $(TARGET) $(PACKAGE))))
+LEFT_OUT = target __pycache__ ./.git *.var *.var.bak position.txt $(addprefix ./,$(filter-out ../%,$(shell realpath -m --relative-to=. $(TARGET) $(PACKAGE))))
 COPY_SOURCE = rm -rf $(PACKAGE)/framepath $(PACKAGE)/$(1)_* && mkdir -p $(PACKAGE)/framepath && \
     tar -c --exclude-caches-all $(addprefix --exclude=,$(LEFT_OUT)) . | tar -x -C $(PACKAGE)/framepath && \
     sed -i "1s/(.*)/($$(debian/package-version))/" $(PACKAGE)/framepath/debian/changelog
@@ -368,5 +383,5 @@ clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
-    fuzz fuzz-filter mutants compare figures five-axes tuning book screens header completions install uninstall deb deb-source \
+    fuzz fuzz-filter mutants compare figures five-axes tuning book screens header completions installable install uninstall deb deb-source \
     debian-12 debian-13 clean

@@ -11,11 +11,11 @@ import unittest
 import harness
 
 
-def make(target, *settings):
+def make(target, *settings, umask=-1):
     # What was built for the tests is installed; nothing is built anew.
     built = ["-o", "modules", "-o", "tool", f"MODULES={harness.MODULES}", f"TOOL={harness.TOOL}"]
     done = subprocess.run(["make", "-C", harness.ROOT, *built, target, *settings], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, check=False)
+                          stderr=subprocess.STDOUT, text=True, check=False, umask=umask)
     if done.returncode:
         raise AssertionError(done.stdout)
 
@@ -72,12 +72,77 @@ class Install(unittest.TestCase):
         lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
         self.assertEqual({line.split()[0] for line in lines if harness.TOOL in line}, {"install"})
 
+    def test_with_another_prefix_zsh_finds_its_completions(self):
+        with tempfile.TemporaryDirectory() as folder:
+            make("install", f"DESTDIR={folder}", "PREFIX=/usr/local")
+            there = files(folder)
+            self.assertIn("usr/local/share/zsh/site-functions/_framepath", there)
+            self.assertFalse([name for name in there if "vendor-completions" in name])
+            make("uninstall", f"DESTDIR={folder}", "PREFIX=/usr/local")
+            self.assertEqual(files(folder), set())
+
+    def test_everybody_may_read_what_a_careful_root_installs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            make("install", f"DESTDIR={folder}", umask=0o077)
+            for where, _, names in os.walk(folder):
+                if where != folder:
+                    self.assertEqual(os.stat(where).st_mode & 0o777, 0o755, where)
+                for name in names:
+                    path = os.path.join(where, name)
+                    if not os.path.islink(path):
+                        self.assertIn(os.stat(path).st_mode & 0o777, (0o644, 0o755), name)
+
+    def test_what_an_older_one_had_goes_and_what_runs_left_behind_is_not_installed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            share = os.path.join(folder, "usr/share/framepath")
+            older = ("subroutines/gone.ngc", "panel/gone.hal", "preview/gone.py", "configs/framepath-gone/gone.ini")
+            kept = ("configs/framepath-sim/framepath-sim.var", "configs/framepath-sim/mine.ngc", "configs/mine/mine.ini")
+            for name in (*older, *kept):
+                os.makedirs(os.path.dirname(os.path.join(share, name)), exist_ok=True)
+                with open(os.path.join(share, name), "w", encoding="utf-8"):
+                    pass
+            left = os.path.join(harness.SAMPLES, "configs/framepath-lathe/position.txt")
+            with open(left, "w", encoding="utf-8"):
+                pass
+            try:
+                make("install", f"DESTDIR={folder}")
+                ignored = subprocess.run(["git", "-C", harness.ROOT, "check-ignore", left], capture_output=True, check=False)
+            finally:
+                os.remove(left)
+            there = files(share)
+            self.assertEqual(there & {*older, "configs/framepath-lathe/position.txt"}, set())
+            self.assertLessEqual(set(kept), there)
+            # 128: this source is not a clone of git
+            self.assertIn(ignored.returncode, (0, 128))
+
+    def run_copy(self, folder, *arguments, **options):
+        """make with nothing but the Makefile, in a folder; its code and what it says of errors."""
+        shutil.copy(os.path.join(harness.ROOT, "Makefile"), folder)
+        done = subprocess.run(["make", "-C", folder, *arguments], capture_output=True, text=True, check=False, **options)
+        return done.returncode, done.stderr
+
     def test_a_path_with_a_blank_is_refused(self):
         with tempfile.TemporaryDirectory(prefix="a b.") as folder:
-            shutil.copy(os.path.join(harness.ROOT, "Makefile"), folder)
-            done = subprocess.run(["make", "-C", folder, "modules"], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn(f"CURDIR={folder} has a blank", done.stderr)
+            code, said = self.run_copy(folder, "modules")
+        self.assertEqual(code, 2)
+        self.assertIn(f"CURDIR={folder} has a blank", said)
+        with tempfile.TemporaryDirectory() as folder:
+            for setting in ("DESTDIR=/nonexistent/my tools", "PREFIX=/nonexistent ", "LINUXCNC_SOURCE=/nonexistent/linux cnc"):
+                with self.subTest(setting=setting):
+                    code, said = self.run_copy(folder, "-n", "uninstall", setting)
+                    self.assertEqual(code, 2)
+                    self.assertIn(f"{setting} has a blank", said)
+
+    def test_who_may_not_write_there_is_told_before_the_build(self):
+        with tempfile.TemporaryDirectory() as folder:
+            there = os.path.join(folder, "usr")
+            os.mkdir(there)
+            os.chmod(folder, 0o755)
+            os.chmod(there, 0o555)
+            nobody = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+            code, said = self.run_copy(folder, "install", f"DESTDIR={folder}", **nobody)
+        self.assertEqual(code, 2)
+        self.assertIn(f"may not write {there}/lib/linuxcnc/modules: sudo make install, or make install DESTDIR=", said)
 
 
 if __name__ == "__main__":
