@@ -308,7 +308,8 @@ COMPLETED = $(TARGET)/completions
 completions: tool
 	mkdir -p $(COMPLETED)
 	for shell in bash zsh fish; do \
-	    $(TOOL) completions $$shell > $(COMPLETED)/$$shell.$$$$ && mv $(COMPLETED)/$$shell.$$$$ $(COMPLETED)/$$shell || exit 1; \
+	    new=$(COMPLETED)/$$shell.$$$$; \
+	    $(TOOL) completions $$shell > $$new && mv $$new $(COMPLETED)/$$shell || { rm -f $$new; exit 1; }; \
 	done
 
 # Said before the minutes of a build. A folder that is not there yet is made in the next one above it.
