@@ -302,7 +302,7 @@ screens: modules
 header:
 	FRAMEPATH_WRITE_HEADER=1 $(CARGO) test --locked --test header
 
-# What a package's user builds, root copies without running it.
+# Made with the build, so that root only copies what another user has built, and runs nothing of it.
 COMPLETED = $(TARGET)/completions
 
 completions: tool
@@ -324,7 +324,7 @@ installable:
 SAMPLES = $(patsubst hal-component/%,%,$(wildcard $(addprefix hal-component/configs/*/*.,hal ini ngc tbl)))
 
 install: installable modules completions
-# What an older one had and this one has not stays nowhere where LinuxCNC finds it. Programs beside samples, and what they keep, stay.
+# What an older one had and this one has not goes, since LinuxCNC would find it. What users have put beside samples stays.
 	rm -rf $(addprefix $(SHARE)/,subroutines preview panel)
 	rm -f $(SHARE)/configs/framepath-*/*.ini $(SHARE)/configs/framepath-*/*.hal
 	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(SHARE)/panel $(MAN)/man1 $(MAN)/man9
@@ -358,7 +358,8 @@ uninstall:
 # Packages are made from a copy of the source beside what is built: target/package. What is built may lie in the source under
 # any name, which tar would copy into itself; and runs of the samples leave files in their folders.
 PACKAGE = $(TARGET)/package
-LEFT_OUT = target __pycache__ ./.git *.var *.var.bak position.txt $(addprefix ./,$(filter-out ../%,$(shell realpath -m --relative-to=. $(TARGET) $(PACKAGE))))
+BUILT_INSIDE = $(addprefix ./,$(filter-out ../%,$(shell realpath -m --relative-to=. $(TARGET) $(PACKAGE))))
+LEFT_OUT = target __pycache__ ./.git *.var *.var.bak position.txt $(BUILT_INSIDE)
 COPY_SOURCE = rm -rf $(PACKAGE)/framepath $(PACKAGE)/$(1)_* && mkdir -p $(PACKAGE)/framepath && \
     tar -c --exclude-caches-all $(addprefix --exclude=,$(LEFT_OUT)) . | tar -x -C $(PACKAGE)/framepath && \
     sed -i "1s/(.*)/($$(debian/package-version))/" $(PACKAGE)/framepath/debian/changelog
