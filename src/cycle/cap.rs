@@ -187,7 +187,13 @@ impl Caps {
         let half = 0.5 * jerk;
         let distance = 2.0 * jerk * missing.abs();
         // sqrt(half^2 + distance) - half, without the cancellation.
-        let wanted = (distance / (half + (half * half + distance).sqrt())).copysign(missing);
+        let mut wanted = distance / (half + (half * half + distance).sqrt());
+        if here.override_kind.follows_spindle() {
+            // What a period's jerk ends takes the whole next period to end: up to twice as much as is missing would lead beyond
+            // the cap and back, again and again where that moves in every period, until only hard braking is left.
+            wanted = wanted.min(missing.abs());
+        }
+        let wanted = wanted.copysign(missing);
         Some((wanted - acceleration - jerk_without_rate_jerk) / path_velocity)
     }
 

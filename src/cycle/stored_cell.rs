@@ -38,6 +38,13 @@ pub enum OverrideKind {
     TurnsOnly,
 }
 
+impl OverrideKind {
+    /// Whether the feed is one per turn.
+    pub fn follows_spindle(self) -> bool {
+        matches!(self, Self::Turns | Self::TurnsOnly)
+    }
+}
+
 impl StoredCell {
     pub const STANDSTILL: Self = Self {
         velocity: ZEROS,

@@ -40,6 +40,7 @@ mod rising_spindle;
 mod short_program;
 mod short_programs;
 mod slow_axis;
+mod slow_spindle;
 mod soft_limits;
 mod spindle;
 mod spindle_events;
