@@ -53,3 +53,9 @@ pub fn is_known(word: &str) -> bool {
 pub fn is_arrow(word: &str) -> bool {
     matches!(word, "=>" | "<=" | "<=>")
 }
+
+/// Whether a signal may have this type, in LinuxCNC 2.9 or in 2.10, which has those of 64 bits.
+pub fn is_signal_type(word: &str) -> bool {
+    let types = ["bit", "float", "s32", "u32", "s64", "u64", "port"];
+    types.iter().any(|known| word.eq_ignore_ascii_case(known))
+}

@@ -1,6 +1,6 @@
 //! What is there when the HAL files have run: modules, functions of threads, values and links of pins.
 
-use super::commands::is_arrow;
+use super::commands::{is_arrow, is_signal_type};
 use super::{Fix, Problem, Statement};
 use crate::machine::place::Place;
 use std::collections::BTreeMap;
@@ -121,6 +121,10 @@ impl State {
             "net" | "linksp" => {
                 let pins = statement.words.iter().skip(2).map(|word| &word.text);
                 let pins: Vec<&String> = pins.filter(|pin| !is_arrow(pin)).collect();
+                if pins.is_empty() {
+                    let found = format!("`{}` links no pin", statement.text);
+                    self.refuse(statement, found, "name a pin, or remove this line");
+                }
                 for pin in pins {
                     self.link(statement, word(1), pin);
                 }
@@ -150,6 +154,10 @@ impl State {
                     pins.retain(|(other, _)| *other != pin);
                 }
             }
+            "newsig" if !is_signal_type(word(2)) => {
+                let found = format!("`{}`: a signal has no type {}", statement.text, word(2));
+                self.refuse(statement, found, "write bit, float, s32 or u32");
+            }
             "delsig" => {
                 self.signals.remove(word(1));
             }
@@ -168,7 +176,19 @@ impl State {
             .unwrap_or_else(|| pin.to_owned())
     }
 
+    fn refuse(&mut self, statement: &Statement, found: String, remedy: &str) {
+        self.problems.push(Problem {
+            place: statement.place.clone(),
+            found,
+            remedy: Fix::Advice(remedy.to_owned()),
+        });
+    }
+
     fn load(&mut self, statement: &Statement) {
+        if self.module(statement.word(1)).is_some() {
+            let found = format!("{} is loaded already, and loadrt fails", statement.word(1));
+            self.refuse(statement, found, "remove one of the two lines");
+        }
         let parameters = statement.words.iter().skip(2).map(|word| {
             let (name, value) = word.text.split_once('=').unwrap_or((&word.text, ""));
             (name.to_owned(), value.to_owned())
@@ -227,18 +247,13 @@ impl State {
 
     fn set(&mut self, statement: &Statement, pin: &str, value: usize) {
         if statement.words.len() != value + 1 {
-            self.problems.push(Problem {
-                place: statement.place.clone(),
-                found: format!(
-                    "`{}` takes a pin and a value, {} words are there",
-                    statement.text,
-                    statement.words.len() - 1
-                ),
-                remedy: Fix::Advice(
-                    "one value, and in the INI file no comment behind it".to_owned(),
-                ),
-            });
-            return;
+            let found = format!(
+                "`{}` takes a pin and a value, {} words are there",
+                statement.text,
+                statement.words.len() - 1
+            );
+            let remedy = "one value, and in the INI file no comment behind it";
+            return self.refuse(statement, found, remedy);
         }
         let setting = Setting {
             value: statement.word(value).to_owned(),
@@ -252,13 +267,8 @@ impl State {
         match self.signal_of(&pin) {
             Some(other) if other != signal => {
                 let found = format!("{pin} is linked to the signal {other} already");
-                self.problems.push(Problem {
-                    place: statement.place.clone(),
-                    found,
-                    remedy: Fix::Advice(format!(
-                        "use the signal {other}, or remove one of the two lines"
-                    )),
-                });
+                let remedy = format!("use the signal {other}, or remove one of the two lines");
+                self.refuse(statement, found, &remedy);
             }
             Some(_) => {}
             None => {
@@ -314,5 +324,24 @@ mod tests {
         assert_eq!(state.programs[0].program, "./g.py");
         assert_eq!(state.programs[0].options, ["-Wn", "guard"]);
         assert_eq!(state.problems.len(), 1);
+    }
+
+    #[test]
+    fn what_halcmd_refuses_is_said() {
+        for (text, words) in [
+            ("net s =>\n", "links no pin"),
+            ("newsig s bitt\n", "no type bitt"),
+            ("newsig s\n", "no type"),
+            (
+                "loadrt and2\nloadrt and2 count=2\n",
+                "and2 is loaded already",
+            ),
+        ] {
+            let problems = run(text).problems;
+            assert_eq!(problems.len(), 1, "{text}: {problems:?}");
+            assert!(problems[0].found.contains(words), "{problems:?}");
+        }
+        let taken = run("newsig s BIT\nnewsig t s64\nloadrt and2\nunloadrt and2\nloadrt and2\n");
+        assert_eq!(taken.problems, []);
     }
 }

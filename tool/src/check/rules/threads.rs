@@ -27,6 +27,11 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
         "every command waits for a period",
         findings,
     );
+    for added in all(subject, "blendtp") {
+        let found =
+            "blendtp has no function of its own, motion calls it, and halcmd refuses this line";
+        findings.error(&added.place, found, Remedy::Remove);
+    }
     if subject.has_frames() {
         added_once(
             subject,
