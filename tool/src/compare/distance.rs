@@ -14,6 +14,9 @@ const NEIGHBOURS: usize = 2;
 /// Pieces on each side whose merging counts.
 const BESIDE: usize = 3;
 
+/// Tolerances that a corner reaches along the path, at most.
+const REACH: f64 = 4.0;
+
 /// Pieces on each side, at most.
 const MOST_PIECES: usize = 20_000;
 
@@ -66,6 +69,16 @@ enum Tolerance {
     Given(f64),
     Exact,
     None,
+}
+
+impl Tolerance {
+    fn admits(&self, distance: f64) -> bool {
+        match self {
+            Tolerance::Given(tolerance) => !is_beyond(distance, *tolerance),
+            Tolerance::Exact => !is_beyond(distance, 0.0),
+            Tolerance::None => true,
+        }
+    }
 }
 
 /// A path to compare with.
@@ -151,6 +164,46 @@ impl<'a> Path<'a> {
         Tolerance::Given(own.tolerance.max(before.tolerance) + merged.fold(0.0, f64::max))
     }
 
+    /// The nearest piece, or where that does not admit the position one of the move that runs or beside it that does, and how far it
+    /// is from that: a path may pass nearer by a piece with another tolerance.
+    fn judged(&self, sample: &Sample, nearest: (f64, usize)) -> (f64, usize) {
+        let running = self.pieces_of(sample);
+        let Some((first, last)) = running.filter(|_| !self.tolerance(nearest.1).admits(nearest.0))
+        else {
+            return nearest;
+        };
+        let most = self.pieces.len() - 1;
+        let beside = first.saturating_sub(BESIDE)..=(last + BESIDE).min(most);
+        let admitting = beside.filter_map(|index| {
+            let tolerance = match (first..=last).contains(&index) {
+                true => self.tolerance(index),
+                false => self.between((first, last), index)?,
+            };
+            let distance = self.distance(&self.pieces[index], sample);
+            tolerance.admits(distance).then_some((distance, index))
+        });
+        let nearer = admitting.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearer.unwrap_or(nearest)
+    }
+
+    /// What is allowed beside a piece on the way to the move that runs, which is made of those from `first` to `last`, or from it:
+    /// the least P of what lies between, as far as a corner of it reaches.
+    fn between(&self, (first, last): (usize, usize), index: usize) -> Option<Tolerance> {
+        let (from, to) = match index < first {
+            true => (index, first),
+            false => (last, index),
+        };
+        let mut way = self.pieces[from..to].iter();
+        if !way.all(|piece| piece.mode == PathMode::Continuous && piece.tolerance > 0.0) {
+            return None;
+        }
+        let tolerances = self.pieces[from..to].iter().map(|piece| piece.tolerance);
+        let least = tolerances.fold(f64::INFINITY, f64::min);
+        let passed = self.before[to] - self.before[from + 1];
+        (passed <= REACH * least)
+            .then(|| Tolerance::Given(least + self.pieces[index].merged_within))
+    }
+
     /// Pieces near a move: its neighbours, and as far as `reach` goes.
     fn window(&self, move_index: usize, reach: f64) -> (usize, usize) {
         let last = self.ranges.len() - 1;
@@ -174,7 +227,7 @@ impl<'a> Path<'a> {
             Tolerance::Given(tolerance) => tolerance,
             Tolerance::Exact | Tolerance::None => 0.0,
         };
-        4.0 * tolerance + 3.0 * travel
+        REACH * tolerance + 3.0 * travel
     }
 }
 
@@ -238,10 +291,11 @@ pub(crate) fn executed_to_path<'a>(path: &Path, samples: &'a [Sample]) -> (Dista
                 look(low.max(near_high + 1), high);
             }
         }
-        let found = if best.0.is_finite() { best.0 } else { f64::NAN };
         last = best.1;
         pieces.push(last);
-        distance.note(path, last, found);
+        let (found, piece) = path.judged(sample, best);
+        let found = if found.is_finite() { found } else { f64::NAN };
+        distance.note(path, piece, found);
     }
     (distance, Matched { samples, pieces })
 }
@@ -326,4 +380,44 @@ fn extents(path: &Path, matched: &Matched) -> (Vec<usize>, Vec<usize>, Vec<f64>,
         last[index] = last[index].max(last[index - 1]);
     }
     (first, last, travelled, longest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canon::call::Call;
+    use crate::layer::{LayerSettings, lay};
+
+    fn program() -> Program {
+        // G61, then G64 P0.5 with a short step and the way back.
+        let text = "RATE 600\nTERM 1 0\nFEED 1 20 0 0 0 0 0 0 0 0\nTERM 3 0.5\n\
+                    FEED 2 20 0 0.02 0 0 0 0 0 0\nFEED 3 5 0 0.02 0 0 0 0 0 0";
+        let calls = text.lines().map(|line| Call::parse(line).expect("a call"));
+        lay(&calls.collect::<Vec<_>>(), &LayerSettings::default())
+    }
+
+    /// The distance from the program of a machine that is beside the middle of a move, while this one runs.
+    fn beside(program: &Program, running: usize, off: f64) -> Distance {
+        let mut position = program.handed[running].segment.point(0.5);
+        position[2] += off;
+        let sample = Sample {
+            position,
+            scale: 1.0,
+            id: running as i32 + 1,
+            queued: 1,
+            run: 0,
+            flags: 0,
+        };
+        executed_to_path(&Path::programmed(program), &[sample]).0
+    }
+
+    #[test]
+    fn a_place_is_judged_by_the_move_that_runs() {
+        let program = program();
+        let found = beside(&program, 2, -0.25);
+        assert!(!found.exceeds && found.line == 3, "{found:?}");
+        // The line to come has nothing to do with it.
+        assert!(beside(&program, 0, -0.25).exceeds);
+        assert!(beside(&program, 2, -0.6).exceeds);
+    }
 }

@@ -12,6 +12,7 @@ use crate::host::job::Job;
 use crate::host::recording::{ABORTED, Ending, Recording};
 use crate::host::supervise::Outcome;
 use crate::layer::program::Program;
+use crate::layer::turns::TurnsLeftAway;
 use crate::machine::limits::Jerk;
 use crate::path::exceeded::exceeds;
 use crate::path::rates::Quantity;
@@ -106,6 +107,9 @@ pub(crate) struct Figures {
     pub missed: Distance,
     /// Points of the moves as they were handed over from the executed path.
     pub missed_of_moves: Distance,
+    /// Arcs of the program whose whole turns LinuxCNC leaves away, whatever planner it has.
+    #[serde(skip)]
+    pub turns: TurnsLeftAway,
     /// Distance of the last position from the programmed end, mm or degrees.
     pub final_error: f64,
     pub rests: Rests,
@@ -170,6 +174,7 @@ impl Figures {
         }
         broken.extend(broken_limits(&motion.axes));
         broken.extend(motion.joints.iter().flat_map(broken_limits));
+        broken.extend(self.turns.told());
         for (what, distance) in [
             ("the executed path is off the program", &self.deviation),
             (
@@ -227,6 +232,11 @@ impl Figures {
         };
         let (deviation_from_moves, missed_of_moves) = along(&Path::handed(program));
         let (deviation, missed) = along(&Path::programmed(program));
+        let mut turns = TurnsLeftAway::default();
+        program
+            .programmed
+            .iter()
+            .for_each(|piece| turns.note(piece));
         let final_error = match samples.last() {
             Some(sample) if aborted.is_none() => {
                 largest_difference(&sample.position, &program.end())
@@ -257,6 +267,7 @@ impl Figures {
             deviation_from_moves,
             missed,
             missed_of_moves,
+            turns,
             final_error,
             most_queued: samples
                 .iter()
@@ -331,6 +342,7 @@ pub(crate) mod tests {
             deviation_from_moves: Distance::default(),
             missed: Distance::default(),
             missed_of_moves: Distance::default(),
+            turns: TurnsLeftAway::default(),
             final_error: 0.0,
             rests: Rests::default(),
             holds: Holds::default(),
@@ -353,6 +365,15 @@ pub(crate) mod tests {
         let mut fast = finished("a", 1.0);
         fast.motion.axes.velocity.ratio = 1.02;
         assert!(fast.exceeds());
+        let mut lost = finished("a", 1.0);
+        lost.turns = TurnsLeftAway {
+            arcs: 2,
+            line: 7,
+            turns: 1,
+        };
+        let told =
+            "LinuxCNC leaves a whole turn of the arc at line 7 away, the first of 2 such arcs: ";
+        assert!(lost.broken()[0].starts_with(told));
         let mut off = finished("a", 1.0);
         off.missed.exceeds = true;
         assert!(off.exceeds() && off.came_through());

@@ -1,4 +1,4 @@
-//! Arcs: velocity and acceleration in the plane and along the normal; flat ones become lines.
+//! Arcs: velocity and acceleration in the plane and along the normal; flat ones become lines, whatever turns they have.
 
 use super::Layer;
 use crate::canon::call::{Call, Plane};
@@ -86,6 +86,11 @@ impl Layer<'_> {
         if arc.start_radius * (1.0 - (within / 2.0).cos()) >= self.chain.tolerance {
             return false;
         }
+        let turns = match 2.0 * arc.start_radius < self.chain.tolerance {
+            // Where a whole turn is as flat, they are within the tolerance.
+            true => 0,
+            false => ((arc.sweep - within) / TAU).round() as u32,
+        };
         let mut once = programmed;
         if let Some(arc) = &mut once.arc {
             arc.sweep = within;
@@ -100,7 +105,7 @@ impl Layer<'_> {
         middle[0] = half[0];
         middle[1] = half[1];
         middle[2] = (self.last_height() + end[2]) / 2.0;
-        self.feed_flat_arc(line, programmed, middle);
+        self.feed_flat_arc(line, (programmed, turns), middle);
         true
     }
 

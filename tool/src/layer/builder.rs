@@ -72,9 +72,17 @@ impl Builder {
             mode: self.mode,
             tolerance: self.tolerance,
             merged_within: 0.0,
+            turns_left_away: 0,
             stops: false,
         };
         self.program.programmed.push(piece);
+    }
+
+    /// So many whole turns of the last piece are left away.
+    pub(super) fn leave_turns_away(&mut self, turns: u32) {
+        if let Some(piece) = self.program.programmed.last_mut() {
+            piece.turns_left_away = turns;
+        }
     }
 
     /// The last piece belongs to the next move, too.
@@ -102,6 +110,7 @@ impl Builder {
             mode: self.mode,
             tolerance: self.tolerance,
             merged_within: 0.0,
+            turns_left_away: 0,
             stops: matches!(handed.shape, Shape::Tap),
         });
         let last = program.programmed.len().saturating_sub(1);
@@ -128,7 +137,7 @@ impl Builder {
             let handed = &program.handed[index].segment;
             let far = pieces
                 .iter()
-                .map(|piece| farthest(&piece.segment, handed))
+                .map(|piece| merged(piece, handed))
                 .fold(0.0, f64::max);
             for piece in pieces {
                 piece.merged_within = piece.merged_within.max(far);
@@ -138,11 +147,13 @@ impl Builder {
     }
 }
 
-/// How far a programmed piece is from the move that stands for it.
-pub(super) fn farthest(piece: &Segment, handed: &Segment) -> f64 {
-    if piece == handed {
+/// How far merging has taken the move that stands for a programmed piece from it. What is lost with whole turns is a fault, and
+/// widens no tolerance.
+pub(super) fn merged(piece: &Piece, handed: &Segment) -> f64 {
+    if piece.segment == *handed {
         return 0.0;
     }
+    let piece = piece.segment.without_turns(piece.turns_left_away);
     [0.0, 0.25, 0.5, 0.75, 1.0]
         .iter()
         .map(|&u| handed.nearest(&piece.point(u)).0)

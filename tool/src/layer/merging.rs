@@ -37,10 +37,16 @@ impl Layer<'_> {
         self.programmed_end = end;
     }
 
-    /// A flat arc that is passed on as two lines over `middle`.
-    pub(super) fn feed_flat_arc(&mut self, line: i32, arc: Segment, middle: Position) {
+    /// A flat arc that is passed on as two lines over `middle`, without so many whole turns of it.
+    pub(super) fn feed_flat_arc(
+        &mut self,
+        line: i32,
+        (arc, turns): (Segment, u32),
+        middle: Position,
+    ) {
         self.break_before(&middle);
         self.builder.piece(line, arc);
+        self.builder.leave_turns_away(turns);
         self.hold(line, middle);
         if !self.chain.held.is_empty() && !self.linkable(&arc.end) {
             self.flush();

@@ -4,7 +4,8 @@
 //!
 //! Behaviour read in LinuxCNC 2.9 (`emccanon.cc`, `emctaskmain.cc`). [`straight`] is the arithmetic
 //! of a straight move, [`arc`] that of an arc, [`merging`] joins short lines, [`spindle`] is what the spindle is told, [`builder`] keeps
-//! the list of operations and pieces, which make a [`program`], [`stream`] hands them out while the program is read.
+//! the list of operations and pieces, which make a [`program`], [`turns`] says which arcs lose theirs, [`stream`] hands them out while the
+//! program is read.
 
 mod arc;
 mod builder;
@@ -15,6 +16,7 @@ mod straight;
 pub(crate) mod stream;
 #[cfg(test)]
 mod tests;
+pub(crate) mod turns;
 
 use crate::canon::call::{Call, PathMode, Tag};
 use crate::machine::limits::Limits;

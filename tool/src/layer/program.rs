@@ -127,6 +127,8 @@ pub(crate) struct Piece {
     pub tolerance: f64,
     /// How far merging may have taken the move from it, mm (Q; 0 where nothing was merged).
     pub merged_within: f64,
+    /// Whole turns of an arc that LinuxCNC leaves away, since what is left of it without them is flat.
+    pub turns_left_away: u32,
     /// Whether motion comes to its end here whatever the planner does.
     pub stops: bool,
 }

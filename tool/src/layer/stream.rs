@@ -1,6 +1,6 @@
 //! The operations of a program while it is read: long programs need not fit into memory.
 
-use super::builder::farthest;
+use super::builder::merged;
 use super::{Layer, LayerSettings};
 use crate::canon::call::Call;
 use crate::layer::program::{Operation, Piece};
@@ -66,7 +66,7 @@ impl<'a> LayerStream<'a> {
 fn note_merging(pieces: &mut [Piece], handed: &Piece, move_index: usize) {
     let far = pieces
         .iter()
-        .map(|piece| farthest(&piece.segment, &handed.segment))
+        .map(|piece| merged(piece, &handed.segment))
         .fold(0.0, f64::max);
     for piece in pieces {
         piece.merged_within = far;

@@ -98,6 +98,36 @@ fn a_flat_arc_goes_over_its_middle_as_two_lines() {
 }
 
 #[test]
+fn turns_that_a_flat_arc_loses_are_noted_and_widen_no_tolerance() {
+    // Two whole turns and 5 degrees of radius 3; then radius 0.01, where a whole turn is as flat.
+    let arc = "ARC 1 2.9886 0.2615 -4 0 0 0 0 0 0 0 0 0 0 0 1 3 0 0";
+    let start = "FEED 1 3 0 0 0 0 0 0 0 0\n";
+    let small = "ARC 1 0.009962 0.000872 -4 0 0 0 0 0 0 0 0 0 0 0 1 3 0 0";
+    let left_away = |calls: &str| {
+        let program = plain(calls);
+        let last = *program.programmed.last().expect("an arc");
+        let lines = moves(&program)
+            .iter()
+            .all(|a_move| a_move.shape == Shape::Line);
+        (lines, last.turns_left_away, last.merged_within < 0.05)
+    };
+    assert_eq!(
+        left_away(&format!("{BLENDED}{start}{arc}")),
+        (true, 2, true)
+    );
+    assert_eq!(
+        left_away(&format!("{BLENDED}FEED 1 0.01 0 0 0 0 0 0 0 0\n{small}")).1,
+        0
+    );
+    for kept in [
+        "TERM 3 0.1\nNAIVECAM 0\nRATE 600\n",
+        "TERM 1 0\nNAIVECAM 0.05\nRATE 600\n",
+    ] {
+        assert_eq!(left_away(&format!("{kept}{start}{arc}")), (false, 0, true));
+    }
+}
+
+#[test]
 fn an_arc_is_limited_by_its_radius() {
     // A full circle of radius 1 in G18, F 6000.
     let program = plain("TERM 2 0\nRATE 6000\nARC 1 0 0 0 0 0 0 0 0 0 1 0 0 0 1 0 1 2 0");

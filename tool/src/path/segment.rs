@@ -114,6 +114,14 @@ impl Segment {
         }
     }
 
+    /// The same with so many whole turns less, from start to end.
+    pub(crate) fn without_turns(mut self, turns: u32) -> Segment {
+        if let Some(arc) = &mut self.arc {
+            arc.sweep -= TAU * f64::from(turns);
+        }
+        self
+    }
+
     pub(crate) fn point(&self, u: f64) -> Position {
         let mut point = [0.0; 9];
         for (i, coordinate) in point.iter_mut().enumerate() {

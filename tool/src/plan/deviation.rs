@@ -3,6 +3,7 @@
 use super::drive::Handed;
 use crate::canon::call::PathMode;
 use crate::layer::program::{Piece, Shape};
+use crate::layer::turns::TurnsLeftAway;
 use crate::path::Position;
 use crate::path::exceeded::is_beyond;
 use crate::path::segment::Segment;
@@ -18,6 +19,9 @@ const FAR: usize = 400;
 
 /// Pieces behind the nearest one that are kept: the path may still come near their ends.
 const KEPT: usize = 32;
+
+/// Tolerances that a corner reaches along the path, at most: what lies farther on is not a part of it.
+const REACH: f64 = 4.0;
 
 /// Pieces whose distances differ by less are as near as each other, mm or degrees.
 const SAME: f64 = 1e-6;
@@ -74,6 +78,8 @@ pub struct Deviation {
     pub exact: Farthest,
     /// Where the tolerance, or an exact mode, is not kept, of either: what is farthest beyond.
     pub beyond: Option<Farthest>,
+    /// Arcs whose whole turns LinuxCNC leaves away.
+    pub(crate) turns: TurnsLeftAway,
     /// In a cycle, for the drawing: mm.
     pub now: f64,
 }
@@ -167,6 +173,7 @@ impl Follower {
                 continue;
             }
             self.all_axes |= piece.segment.start[3..] != piece.segment.end[3..];
+            self.found.turns.note(piece);
             // Near its start the tolerance of the one before holds.
             let own = tolerance(piece);
             let before = last.as_ref().map_or(own, tolerance);
@@ -221,7 +228,8 @@ impl Follower {
         self.last = Some(*position);
         self.near = near;
         self.found.now = distance;
-        if let Some(tracked) = self.pieces.get(near) {
+        let (judged, distance) = self.judged(position, (near, distance));
+        if let Some(tracked) = self.pieces.get(judged) {
             self.found.planned.note(distance, tracked);
             self.found.tightest.note_share(distance, tracked);
             if tracked.tolerance == Some(0.0) {
@@ -258,13 +266,17 @@ impl Follower {
         self.near = self.near.clamp(first.saturating_sub(NEAR), last + NEAR);
     }
 
-    /// Keeps the place that is farthest beyond its tolerance.
-    fn note_beyond(&mut self, distance: f64, tolerance: Option<f64>, line: i32) {
-        let widened = |tolerance: f64| match self.all_axes && tolerance > 0.0 {
+    /// A tolerance that may be one of rotary axes, too.
+    fn widened(&self, tolerance: f64) -> f64 {
+        match self.all_axes && tolerance > 0.0 {
             true => tolerance.max(self.rotary_tolerance),
             false => tolerance,
-        };
-        let allowed = tolerance.map(widened);
+        }
+    }
+
+    /// Keeps the place that is farthest beyond its tolerance.
+    fn note_beyond(&mut self, distance: f64, tolerance: Option<f64>, line: i32) {
+        let allowed = tolerance.map(|tolerance| self.widened(tolerance));
         let Some(allowed) = allowed.filter(|allowed| is_beyond(distance, *allowed)) else {
             return;
         };
@@ -318,15 +330,64 @@ impl Follower {
         away(index) <= away(best.0)
     }
 
+    /// How far a position is from a piece.
+    fn away(&self, position: &Position, index: usize) -> Option<f64> {
+        let tracked = self.pieces.get(index)?;
+        let position = with_turn(position, tracked.turn_share);
+        let runs = tracked.piece.move_index == self.running;
+        let segment = tracked.tapped.filter(|_| runs).unwrap_or(tracked.counted);
+        Some(segment.deviation(&position, self.all_axes).0)
+    }
+
+    /// The piece by which a position is judged, and how far it is from that: the nearest one, or where that does not admit it one of
+    /// the move that runs or beside it that does. A path may pass nearer by a piece with another tolerance.
+    fn judged(&self, position: &Position, nearest: (usize, f64)) -> (usize, f64) {
+        let admits = |distance: f64, tolerance: Option<f64>| {
+            tolerance.is_none_or(|tolerance| !is_beyond(distance, self.widened(tolerance)))
+        };
+        let [first, last] = self.own;
+        let by_nearest = |tracked: &Tracked| admits(nearest.1, tracked.allowed());
+        if self.pieces.get(nearest.0).is_none_or(by_nearest) {
+            return nearest;
+        }
+        let from = first.saturating_sub(NEAR);
+        let beside = self
+            .pieces
+            .range(from..self.pieces.len().min(last + NEAR + 1));
+        let admitting = beside.enumerate().filter_map(|(index, tracked)| {
+            let index = from + index;
+            let tolerance = match (first..=last).contains(&index) {
+                true => tracked.allowed(),
+                false => Some(self.between(index)?),
+            };
+            let distance = self.away(position, index)?;
+            admits(distance, tolerance).then_some((index, distance))
+        });
+        let nearer = admitting.min_by(|a, b| a.1.total_cmp(&b.1));
+        nearer.unwrap_or(nearest)
+    }
+
+    /// How far the path may be from a piece beside the move that runs, on its way to it or from it: by the least P of what lies
+    /// between, as far as a corner of it reaches; `None` without P.
+    fn between(&self, index: usize) -> Option<f64> {
+        let [first, last] = self.own;
+        let (from, to) = match index < first {
+            true => (index, first),
+            false => (last, index),
+        };
+        let way = self.pieces.range(from..to.min(self.pieces.len()));
+        let tolerances = way.clone().map(|tracked| tolerance(&tracked.piece));
+        let least = tolerances.reduce(|a, b| Some(a?.min(b?)))??;
+        let passed = way.skip(1).map(|tracked| tracked.piece.segment.length);
+        (passed.sum::<f64>() <= REACH * least).then(|| match least > 0.0 {
+            true => least + self.pieces.get(index).map_or(0.0, |tracked| tracked.merged),
+            false => 0.0,
+        })
+    }
+
     /// The nearest piece, and its distance.
     fn nearest(&self, position: &Position) -> Option<(usize, f64)> {
-        let away = |index: usize| {
-            let tracked = self.pieces.get(index)?;
-            let position = with_turn(position, tracked.turn_share);
-            let runs = tracked.piece.move_index == self.running;
-            let segment = tracked.tapped.filter(|_| runs).unwrap_or(tracked.counted);
-            Some(segment.deviation(&position, self.all_axes).0)
-        };
+        let away = |index: usize| self.away(position, index);
         let first = self.near.saturating_sub(NEAR);
         let mut best = (first, away(first)?);
         let mut index = first;

@@ -284,8 +284,9 @@ impl Figures {
         let deviation = deviation_figures(setup, collected);
         let beyond = collected.deviation.beyond.as_ref();
         let beyond = beyond.map(|farthest| distance_figure(setup, farthest));
+        let movers = axes.iter().chain(&joints);
         Figures {
-            findings: findings::conclude(axes.iter().chain(&joints), beyond, setup.unit),
+            findings: findings::conclude(movers, beyond, collected.deviation.turns, setup.unit),
             program: program.to_owned(),
             machine: setup.machine.clone(),
             limits_from: setup.origin.clone(),

@@ -2,13 +2,15 @@
 
 use super::figures::{AxisFigures, DistanceFigure, PeakFigure};
 use crate::format::{Over, length};
+use crate::layer::turns::TurnsLeftAway;
 use crate::path::exceeded::exceeds;
 
-/// A sentence for each. `movers` are axes and joints, `beyond` is the place farthest beyond its tolerance, `unit` that of
-/// lengths.
+/// A sentence for each. `movers` are axes and joints, `beyond` is the place farthest beyond its tolerance, `turns` are
+/// those that LinuxCNC leaves away, `unit` is that of lengths.
 pub fn conclude<'a>(
     movers: impl IntoIterator<Item = &'a AxisFigures>,
     beyond: Option<DistanceFigure>,
+    turns: TurnsLeftAway,
     unit: &str,
 ) -> Vec<String> {
     let mut findings = Vec::new();
@@ -31,6 +33,7 @@ pub fn conclude<'a>(
             findings.push(over.to_string());
         }
     }
+    findings.extend(turns.told());
     findings.extend(beyond.map(|beyond| {
         format!(
             "The planned path is off the programmed path by {}, the tolerance is {}: at line {}",
@@ -68,13 +71,14 @@ mod tests {
 
     #[test]
     fn what_exceeds_what_is_promised_is_told() {
-        assert!(conclude(&[axis(20_900.0)], None, "mm").is_empty());
+        let none = TurnsLeftAway::default();
+        assert!(conclude(&[axis(20_900.0)], None, none, "mm").is_empty());
         let joint = AxisFigures {
             name: "joint.0".to_owned(),
             ..axis(30_000.0)
         };
         assert_eq!(
-            conclude([axis(0.0)].iter().chain(&[joint]), None, "mm"),
+            conclude([axis(0.0)].iter().chain(&[joint]), None, none, "mm"),
             ["joint.0: jerk is 1.5 times its limit (30000 of 20000 mm/s3) at 0.500 s, line 7"]
         );
         let beyond = DistanceFigure {
@@ -83,7 +87,7 @@ mod tests {
             line: 9,
         };
         assert_eq!(
-            conclude(&[axis(21_200.0)], Some(beyond), "mm"),
+            conclude(&[axis(21_200.0)], Some(beyond), none, "mm"),
             [
                 "axis.x: jerk is 1.06 times its limit (21200 of 20000 mm/s3) at 0.500 s, line 7",
                 "The planned path is off the programmed path by 0.150 mm, the tolerance is 0.100 mm: at line 9",

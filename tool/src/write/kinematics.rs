@@ -14,6 +14,7 @@ use super::line::{Lines, Rank};
 use super::modes::{Modes, Stop};
 use super::number::{coordinate, factor, push_coordinate};
 use super::tolerance::PathScale;
+use super::turns::whole_turns;
 use super::words::{
     STOPPING_DWELL, centre_words, common_action, compensation_words, machine_move_words,
     path_control_words, push_axis_words, push_spindle_motion, scaled_thread,
@@ -28,6 +29,7 @@ use framepath::frame::AffineMap;
 use framepath::frame::singular_values::singular_values;
 use nalgebra::Vector3;
 use std::io;
+use std::slice::from_ref;
 
 /// Writes a program for the frame kinematics.
 pub struct KinematicsWriter<'a> {
@@ -281,6 +283,29 @@ impl KinematicsWriter<'_> {
         if stop == Some(Stop::Mode) {
             self.lines.add(Rank::PathControl, "G61.1");
         }
+        let control = match stop {
+            Some(Stop::Mode) => PathControl::ExactStop,
+            _ => self.written_path_control(),
+        };
+        match whole_turns(motion, &self.modes, (control, 1.0), span) {
+            Ok(parts) => {
+                for part in parts.as_ref().map_or(from_ref(motion), |parts| parts) {
+                    self.add_motion(part, span);
+                }
+            }
+            Err(diagnostic) => self.diagnostics.push(diagnostic),
+        }
+        let behind = match stop {
+            None => return,
+            Some(Stop::Mode) => path_control_words(self.written_path_control()),
+            Some(Stop::Dwell) => STOPPING_DWELL.to_string(),
+        };
+        self.lines.flush();
+        self.lines.line(&behind);
+    }
+
+    /// The words of a motion, with its feed.
+    fn add_motion(&mut self, motion: &Move, span: Span) {
         let mut targets = motion.target;
         for (axis, target) in targets.iter_mut().enumerate() {
             *target = self.written_target(motion, axis);
@@ -317,13 +342,6 @@ impl KinematicsWriter<'_> {
                 push_coordinate(line, feed);
             }
         });
-        let behind = match stop {
-            None => return,
-            Some(Stop::Mode) => path_control_words(self.written_path_control()),
-            Some(Stop::Dwell) => STOPPING_DWELL.to_string(),
-        };
-        self.lines.flush();
-        self.lines.line(&behind);
     }
 
     /// The target of an axis with coordinates that the program left out and that must be explicit.

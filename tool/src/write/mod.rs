@@ -8,6 +8,7 @@ mod modes;
 mod number;
 mod rewrite;
 mod tolerance;
+mod turns;
 mod words;
 
 pub use blocks::header;

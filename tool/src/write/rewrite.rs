@@ -9,6 +9,7 @@ use super::blocks::{begin, end};
 use super::line::{Lines, Rank};
 use super::modes::{Modes, Stop};
 use super::number::{coordinate, push_coordinate};
+use super::turns::{Apart, whole_turns};
 use super::words::{
     STOPPING_DWELL, centre_words, common_action, compensation_words, machine_move_words,
     path_control_words, push_axis_words, push_spindle_motion, scaled_thread,
@@ -24,6 +25,7 @@ use crate::source::{Sources, Span};
 use framepath::frame::Handedness;
 use nalgebra::Vector3;
 use std::io;
+use std::slice::from_ref;
 
 /// How many chords one arc may become.
 const CHORD_LIMIT: f64 = 10_000.0;
@@ -253,6 +255,21 @@ impl RewriteWriter<'_> {
         if stop == Some(Stop::Mode) {
             self.lines.add(Rank::PathControl, "G61.1");
         }
+        let apart = self.apart(motion, stop, span)?;
+        for part in apart.as_ref().map_or(from_ref(motion), |parts| parts) {
+            self.shape(part, span)?;
+        }
+        let behind = match stop {
+            None => return Ok(()),
+            Some(Stop::Mode) => path_control_words(self.modes.path_control),
+            Some(Stop::Dwell) => STOPPING_DWELL.to_string(),
+        };
+        self.lines.flush();
+        self.lines.line(&behind);
+        Ok(())
+    }
+
+    fn shape(&mut self, motion: &Move, span: Span) -> Result<(), Diagnostic> {
         match &motion.kind {
             MoveKind::Arc(arc) => self.arc(arc, motion, span)?,
             kind if motion.follows_spindle() => {
@@ -272,14 +289,18 @@ impl RewriteWriter<'_> {
                 self.add_motion(code, &targets, "");
             }
         }
-        let behind = match stop {
-            None => return Ok(()),
-            Some(Stop::Mode) => path_control_words(self.modes.path_control),
-            Some(Stop::Dwell) => STOPPING_DWELL.to_string(),
-        };
-        self.lines.flush();
-        self.lines.line(&behind);
         Ok(())
+    }
+
+    /// See [`whole_turns`]; an arc that becomes chords has all its turns.
+    fn apart(&self, motion: &Move, stop: Option<Stop>, span: Span) -> Result<Apart, Diagnostic> {
+        let map = self.frame.map();
+        match map.is_similarity_of_plane(self.modes.plane.into()) {
+            Some(scale) if stop != Some(Stop::Mode) => {
+                whole_turns(motion, &self.modes, (self.modes.path_control, scale), span)
+            }
+            _ => Ok(None),
+        }
     }
 
     /// Where each axis goes in coordinates of the work offset.

@@ -42,3 +42,4 @@ mod sinumerik_words;
 mod spindle;
 mod swivel;
 mod tools;
+mod turns;

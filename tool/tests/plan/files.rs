@@ -258,3 +258,23 @@ fn what_is_not_kept_is_an_exit_status() {
     let text = String::from_utf8(without.stdout).expect("text");
     assert!(text.contains("\nNot kept\n  "), "{text}");
 }
+
+/// What is left of the helix without its turns is flat: LinuxCNC runs it as lines.
+#[test]
+fn turns_that_linuxcnc_leaves_away_are_not_kept() {
+    let bench = Bench::new();
+    let program = |words: &str| {
+        format!("G21 G17 G90 F1000\nG1 X3 Y0 Z0\n{words}\nG3 X2.9886 Y0.2615 Z-5 I-3 J0 P3\nM2\n")
+    };
+    for (words, line) in [("G64 P0.01", true), ("G64 P0.01 Q0", false), ("G61", false)] {
+        bench.write("part.ngc", &program(words));
+        let plan = bench.plan(&["part.ngc", "--check"]);
+        let said = String::from_utf8(plan.stderr).expect("text");
+        let told = said.contains("LinuxCNC leaves 2 whole turns of the arc at line 4 away");
+        assert_eq!(
+            (told, plan.status.success()),
+            (line, !line),
+            "{words}: {said}"
+        );
+    }
+}

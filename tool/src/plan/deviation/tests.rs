@@ -15,6 +15,7 @@ fn moves(places: &[[f64; 2]]) -> Vec<Handed> {
             mode: PathMode::Continuous,
             tolerance: 0.01,
             merged_within: 0.0,
+            turns_left_away: 0,
             stops: false,
         };
         let a_move = Move {
@@ -144,4 +145,49 @@ fn a_pass_beside_its_place_is_found_with_its_line() {
     let beyond = found.beyond.expect("a deviation");
     assert!((beyond.distance - 0.1).abs() < 1e-9, "{beyond:?}");
     assert_eq!(beyond.line, 7);
+}
+
+/// A line along X in G61, and in G64 P0.5 a short step and the way back beside it.
+fn there_and_back() -> Vec<Handed> {
+    let mut handed = moves(&[[0.0, 0.0], [20.0, 0.0], [20.0, 0.02], [5.0, 0.02]]);
+    for (index, one) in handed.iter_mut().enumerate() {
+        let piece = &mut one.pieces[0];
+        (piece.mode, piece.tolerance) = match index {
+            0 => (PathMode::ExactPath, 0.0),
+            _ => (PathMode::Continuous, 0.5),
+        };
+    }
+    handed
+}
+
+/// Follows a machine that is off by `off` in Z in the middle of the move with this number.
+fn followed_beside(moves: &[Handed], (wrong, off): (usize, f64)) -> Deviation {
+    let mut follower = Follower::new(0.0, None);
+    moves.iter().for_each(|handed| follower.add(handed));
+    for handed in moves {
+        for n in 0..=50 {
+            let mut place = handed.pieces[0].segment.point(f64::from(n) / 50.0);
+            let index = handed.a_move.index;
+            place[2] += if index == wrong && n == 25 { off } else { 0.0 };
+            follower.step(&place, Some(index));
+        }
+    }
+    follower.finish()
+}
+
+#[test]
+fn a_place_is_judged_by_the_move_that_runs() {
+    let program = there_and_back();
+    // Nearer to the line in G61, which has been left.
+    let found = followed_beside(&program, (2, -0.25));
+    assert!(found.beyond.is_none(), "{found:?}");
+    assert!(found.exact.distance < 1e-9, "{found:?}");
+    assert!((found.tightest.distance - 0.25).abs() < 1e-9, "{found:?}");
+    // Near a line to come, which has nothing to do with it.
+    let found = followed_beside(&program, (0, -0.25));
+    let beyond = found.beyond.expect("a deviation");
+    assert_eq!((beyond.line, beyond.tolerance), (1, Some(0.0)));
+    // Farther than the tolerance of either.
+    let found = followed_beside(&program, (2, -0.6));
+    assert!(found.beyond.is_some(), "{found:?}");
 }
