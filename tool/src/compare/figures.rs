@@ -108,8 +108,8 @@ pub(crate) struct Figures {
     /// Points of the moves as they were handed over from the executed path.
     pub missed_of_moves: Distance,
     /// Arcs of the program whose whole turns LinuxCNC leaves away, whatever planner it has.
-    #[serde(skip)]
-    pub turns: TurnsLeftAway,
+    #[serde(skip_serializing_if = "TurnsLeftAway::is_none")]
+    pub turns_left_away: TurnsLeftAway,
     /// Distance of the last position from the programmed end, mm or degrees.
     pub final_error: f64,
     pub rests: Rests,
@@ -174,7 +174,7 @@ impl Figures {
         }
         broken.extend(broken_limits(&motion.axes));
         broken.extend(motion.joints.iter().flat_map(broken_limits));
-        broken.extend(self.turns.told());
+        broken.extend(self.turns_left_away.told());
         for (what, distance) in [
             ("the executed path is off the program", &self.deviation),
             (
@@ -232,11 +232,11 @@ impl Figures {
         };
         let (deviation_from_moves, missed_of_moves) = along(&Path::handed(program));
         let (deviation, missed) = along(&Path::programmed(program));
-        let mut turns = TurnsLeftAway::default();
+        let mut turns_left_away = TurnsLeftAway::default();
         program
             .programmed
             .iter()
-            .for_each(|piece| turns.note(piece));
+            .for_each(|piece| turns_left_away.note(piece));
         let final_error = match samples.last() {
             Some(sample) if aborted.is_none() => {
                 largest_difference(&sample.position, &program.end())
@@ -267,7 +267,7 @@ impl Figures {
             deviation_from_moves,
             missed,
             missed_of_moves,
-            turns,
+            turns_left_away,
             final_error,
             most_queued: samples
                 .iter()
@@ -342,7 +342,7 @@ pub(crate) mod tests {
             deviation_from_moves: Distance::default(),
             missed: Distance::default(),
             missed_of_moves: Distance::default(),
-            turns: TurnsLeftAway::default(),
+            turns_left_away: TurnsLeftAway::default(),
             final_error: 0.0,
             rests: Rests::default(),
             holds: Holds::default(),
@@ -366,7 +366,7 @@ pub(crate) mod tests {
         fast.motion.axes.velocity.ratio = 1.02;
         assert!(fast.exceeds());
         let mut lost = finished("a", 1.0);
-        lost.turns = TurnsLeftAway {
+        lost.turns_left_away = TurnsLeftAway {
             arcs: 2,
             line: 7,
             turns: 1,

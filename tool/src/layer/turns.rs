@@ -1,9 +1,10 @@
 //! Arcs of several turns that LinuxCNC runs without them, in words.
 
 use crate::layer::program::Piece;
+use serde::Serialize;
 
 /// Arcs whose whole turns LinuxCNC leaves away.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct TurnsLeftAway {
     /// How many arcs.
     pub arcs: usize,
@@ -23,6 +24,11 @@ impl TurnsLeftAway {
             (self.line, self.turns) = (piece.line, piece.turns_left_away);
         }
         self.arcs += 1;
+    }
+
+    /// No arc loses any.
+    pub(crate) fn is_none(&self) -> bool {
+        self.arcs == 0
     }
 
     /// What is wrong, if anything is.
