@@ -187,7 +187,7 @@ static void update(void *argument, long period)
     in.period = period * 1e-9;
     in.clock = rtapi_get_time();
     struct framepath_frame_outputs out;
-    forget_place_behind_switch();
+    framepath_kinematics_forget_switch();
     if (is_misplaced())
         return;
     framepath_kinematics_update(&in, &out);

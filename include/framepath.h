@@ -559,6 +559,24 @@ struct framepath_survey {
   double seconds_queued;
 };
 
+/*
+ Where joints would jump behind a switch.
+ */
+struct framepath_place_jump {
+  /*
+   The first axis that does, in the order X Y Z A B C U V W, from 0.
+   */
+  int axis;
+  /*
+   Where that is, machine units or degrees.
+   */
+  double place;
+  /*
+   Where motion goes on from.
+   */
+  double goes_on;
+};
+
 
 
 /*
@@ -1065,5 +1083,28 @@ int framepath_planner_range_finding(const struct framepath_planner *handle,
  `handle` from `framepath_planner_create`; `survey` points to one.
  */
 int framepath_planner_survey(const struct framepath_planner *handle, struct framepath_survey *survey);
+
+/*
+ Motion has switched and asked for the place of its joints: the external offsets are taken off what it is to give its
+ planner.
+
+ # Safety
+ `place` is the pose that motion asked with, `offsets` has nine numbers; or they are null.
+ */
+void framepath_kinematics_take_offsets_off(EmcPose *place, const double *offsets);
+
+/*
+ Whether motion, which asks with this pose, goes on from another place than that of its joints behind a switch, and from
+ which one. An answer that fails has motion switch the machine off where it stands.
+
+ # Safety
+ `asked` is a pose, `jump` points to a structure of this header; or they are null.
+ */
+int framepath_kinematics_jumps_behind_switch(const EmcPose *asked, struct framepath_place_jump *jump);
+
+/*
+ The period of a switch is over: from the next one on motion moves.
+ */
+void framepath_kinematics_forget_switch(void);
 
 #endif  /* FRAMEPATH_H */

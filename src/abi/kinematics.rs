@@ -18,6 +18,7 @@ use crate::axes::{AXIS_COUNT, Axes};
 use crate::frame::{ActiveFrame, AffineMap, ToolLength};
 use crate::kinematics::control::{FrameControl, FrameInputs};
 use crate::kinematics::offset_motion::OffsetMotion;
+use crate::kinematics::switch_place::SwitchPlace;
 use crate::kinematics::tool_jump::ToolJump;
 use crate::machine::{ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, TiltAxis};
 
@@ -60,6 +61,8 @@ pub(super) struct Kinematics {
     pub(super) tool_jump: ToolJump,
     /// The position that the inverse kinematics were asked for last.
     pub(super) asked: Option<[f64; AXIS_COUNT]>,
+    /// The place that motion goes on from behind a switch.
+    pub(super) switch_place: SwitchPlace,
     /// Whether external offsets move it.
     offset_motion: OffsetMotion,
     /// The answer of that in this period.
@@ -138,6 +141,7 @@ static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
     normal: AskedNormal::NONE,
     tool_jump: ToolJump::new(),
     asked: None,
+    switch_place: SwitchPlace::new(),
     offset_motion: OffsetMotion::new(),
     offsets_move: false,
 }));

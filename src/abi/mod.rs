@@ -13,6 +13,7 @@ mod normal_pins;
 pub mod planner;
 pub mod pose;
 mod retract_pins;
+pub mod switch_place;
 mod tool_pins;
 
 use libc::c_uint;

@@ -21,6 +21,7 @@ pub mod request;
 pub mod retraction;
 pub mod rotary_chain;
 pub mod staged;
+pub mod switch_place;
 pub mod switching;
 pub mod tool_angles;
 pub mod tool_axes;

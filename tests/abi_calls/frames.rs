@@ -12,6 +12,9 @@ use framepath::abi::kinematics::{
 use framepath::abi::kinematics_jet::framepath_kinematics_tool_tilt_axis;
 use framepath::abi::kinematics_words::framepath_kinematics_refusal_text;
 use framepath::abi::linuxcnc::EmcPose;
+use framepath::abi::switch_place::{
+    framepath_kinematics_jumps_behind_switch, framepath_kinematics_take_offsets_off,
+};
 
 use super::choices::Choices;
 use super::judge::coordinates;
@@ -401,6 +404,11 @@ impl Calls {
             assert_eq!(framepath_kinematics_inverse(null(), null_mut()), -1);
             assert_eq!(framepath_kinematics_switch(0, null()), -1);
             assert_eq!(framepath_kinematics_linear_map(null_mut()), 0);
+            framepath_kinematics_take_offsets_off(null_mut(), null());
+            assert_eq!(
+                framepath_kinematics_jumps_behind_switch(null(), null_mut()),
+                0
+            );
             framepath_kinematics_update(&self.pins, null_mut());
             framepath_kinematics_update(null(), &mut self.shown);
             let texts = [
