@@ -20,6 +20,7 @@
 #include "linuxcnc_version.h"
 #include "loaded_beside.h"
 #include "motion_threads.h"
+#include "run_direction.h"
 #include "shared_structures.h"
 
 MODULE_AUTHOR("the framepath authors");
@@ -42,9 +43,6 @@ static int component;
 static struct framepath_planner *planner;
 /* [AXIS_L]MAX_JERK of the INI, 0 where it has none, or where it has been looked at. */
 static double ini_jerk[AXES];
-/* Servo periods for which the machine still counts as asked to run in reverse, and whether it was said that it does not. */
-static int reverse_asked;
-static int reverse_refusal_said;
 
 /* What motmod handed over; the library gets it when it is known to fit. */
 static struct {
@@ -232,11 +230,7 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     const char *fault, *spindle;
     double asked, greatest;
     controller_plans(period);
-    /* Nobody asks while it runs in reverse. */
-    if (reverse_asked && tp->reverse_run != TC_DIR_REVERSE)
-        reverse_asked--;
-    if (!reverse_asked)
-        reverse_refusal_said = 0;
+    period_of_direction(tp);
 #ifdef FRAMEPATH_FAULT_INJECTION
     inject_fault(tp);
 #endif
@@ -337,16 +331,7 @@ int tpSetDout(TP_STRUCT * const tp, int index, unsigned char start, unsigned cha
 int tpSetRunDir(TP_STRUCT * const tp, tc_direction_t direction)
 {
     int result = framepath_planner_set_run_direction(planner, tp, direction);
-    /* Negative adaptive feed asks in every servo period, also of a machine that has nothing to do; the operator asks once. */
-    int commanded = motion.status && motion.status->commandEcho == EMCMOT_REVERSE;
-    int idle = tp->done || tp->aborting;
-    if (result == FRAMEPATH_NOTHING_TO_REVERSE && !reverse_refusal_said && (commanded || !idle)) {
-        reverse_refusal_said = 1;
-        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: there is no way back from here: a reverse run goes over the moves since "
-                        "the machine last had nothing to do, but not over threads, taps, probing moves and locking "
-                        "indexers. To go on set motion.adaptive-feed to 0 or above, or run forward\n");
-    }
-    reverse_asked = direction == TC_DIR_REVERSE ? 2 : 0;
+    direction_asked(tp, motion.status, direction, result);
     return result == TP_ERR_OK ? TP_ERR_OK : TP_ERR_FAIL;
 }
 

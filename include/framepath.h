@@ -151,6 +151,11 @@
 #define FRAMEPATH_NOTHING_TO_REVERSE -2
 
 /*
+ The run is turned at rest only, and the machine moves.
+ */
+#define FRAMEPATH_TURNED_AT_REST_ONLY -3
+
+/*
  The tolerance of runs of short moves under G64 without P where the configuration says nothing, machine units.
  */
 #define FRAMEPATH_DEFAULT_TOLERANCE 0.02
@@ -1048,7 +1053,7 @@ int framepath_planner_set_digital_output(struct framepath_planner *handle, int i
 
 /*
  Chooses the direction of the run, see [`Planner::run_backwards`](crate::planner::Planner::run_backwards).
- -1 in motion, [`FRAMEPATH_NOTHING_TO_REVERSE`] where there is no way back.
+ [`FRAMEPATH_TURNED_AT_REST_ONLY`] in motion, [`FRAMEPATH_NOTHING_TO_REVERSE`] where there is no way back.
 
  # Safety
  `handle` from `framepath_planner_create`; `tp` motmod's planner structure.

@@ -284,7 +284,7 @@ impl Calls {
             framepath_planner_set_run_direction(self.shared.handle, self.shared.tp, direction)
         };
         self.tell(format_args!("direction {direction}: {answer}"));
-        assert!((-2..=0).contains(&answer));
+        assert!((-3..=0).contains(&answer));
         let turned = self.shared.tp().reverse_run == direction;
         assert!(answer != 0 || turned, "the direction was not taken");
         self.check(Kind::Command);

@@ -126,6 +126,22 @@ class Events(Case):
             stood += before["paused"]
         self.assertGreaterEqual(stood, 4)
 
+    def test_a_run_that_does_not_turn_is_said(self):
+        # it takes a second to come to rest
+        slow = {(section, "MAX_ACCELERATION"): "100" for section in ("AXIS_X", "JOINT_0")}
+        lines = {"part.ngc": "G21 G90 G17 G94 G64 F6000\nM0\nG1 X200\nX400\nX0\nM2\n"}
+        steps = [["reverse"], ["sleep", 0.1], ["recall", "no way"], ["resume"], ["wait_place", 0, 120], ["pause"], ["reverse"],
+                 ["sleep", 2], ["recall", "forward"], ["reverse"], ["sleep", 0.2], ["resume"], ["sleep", 1], ["pause"],
+                 ["forward"], ["sleep", 2], ["recall", "reverse"], ["forward"], ["sleep", 0.2], ["resume"]]
+        result = harness.run([["start", "PROGRAMS/part.ngc"], ["sleep", 0.5], *steps, ["finish"], ["note", "end"]], lines, slow)
+        self.assertIsNone(result.failure, result.log)
+        self.at_end(result)
+        for name, words in (("no way", "indexers. A resume runs forward"),
+                            ("forward", "reverse it once it stands. A resume goes on forward"),
+                            ("reverse", "run it forward once it stands. A resume goes on in reverse")):
+            self.assertEqual(len(result.answers[name]), 1, result.answers[name])
+            self.assertIn(words, result.answers[name][0])
+
     def test_feed_and_rapid_override(self):
         steps = []
         for scale in (0.5, 2.0, 0.0, 0.1, 1.3, 0.7, 1.0):

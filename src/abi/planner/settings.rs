@@ -67,6 +67,9 @@ pub const FRAMEPATH_BAD_DEFAULT_TOLERANCE: c_int = 3;
 /// The run cannot be reversed here: no moves are remembered, or one that does not run backwards.
 pub const FRAMEPATH_NOTHING_TO_REVERSE: c_int = -2;
 
+/// The run is turned at rest only, and the machine moves.
+pub const FRAMEPATH_TURNED_AT_REST_ONLY: c_int = -3;
+
 /// The tolerance of runs of short moves under G64 without P where the configuration says nothing, machine units.
 pub const FRAMEPATH_DEFAULT_TOLERANCE: c_double = 0.02;
 const _: () = assert!(FRAMEPATH_DEFAULT_TOLERANCE == Blending::DEFAULT_TOLERANCE);
@@ -300,7 +303,7 @@ pub unsafe extern "C" fn framepath_planner_set_digital_output(
 }
 
 /// Chooses the direction of the run, see [`Planner::run_backwards`](crate::planner::Planner::run_backwards).
-/// -1 in motion, [`FRAMEPATH_NOTHING_TO_REVERSE`] where there is no way back.
+/// [`FRAMEPATH_TURNED_AT_REST_ONLY`] in motion, [`FRAMEPATH_NOTHING_TO_REVERSE`] where there is no way back.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; `tp` motmod's planner structure.
@@ -321,7 +324,7 @@ pub unsafe extern "C" fn framepath_planner_set_run_direction(
     });
     match turned {
         Ok(()) => reported,
-        Err(DirectionError::Moving) => tp_err_t::TP_ERR_FAIL,
+        Err(DirectionError::Moving) => FRAMEPATH_TURNED_AT_REST_ONLY,
         Err(DirectionError::NoWayBack) => FRAMEPATH_NOTHING_TO_REVERSE,
     }
 }
