@@ -2,7 +2,7 @@
 //!
 //! In the order of the work: [`script`] finds the files that an INI file names, [`line`] cuts their lines into
 //! words, with what [`variables`] puts in for `[SECTION]KEY` and `$NAME`; [`tcl`] tells what files of LinuxCNC's in
-//! Tcl do; [`model`] has what is loaded, added, set and linked when all of them have run.
+//! Tcl do; [`values`] says what may be set; [`model`] has what is loaded, added, set and linked when all of them have run.
 
 mod basic_sim;
 mod commands;
@@ -10,11 +10,13 @@ mod line;
 mod model;
 mod script;
 mod tcl;
+mod values;
 mod variables;
 
 pub use model::{Added, Module, Program, Setting, State};
 pub use script::{Script, read_script};
 pub use tcl::Stock;
+pub use values::{is_bit, is_value};
 pub use variables::HALLIB;
 
 use crate::machine::place::Place;

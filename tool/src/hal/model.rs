@@ -1,6 +1,7 @@
 //! What is there when the HAL files have run: modules, functions of threads, values and links of pins.
 
 use super::commands::{is_arrow, is_signal_type};
+use super::values::is_value;
 use super::{Fix, Problem, Statement};
 use crate::machine::place::Place;
 use std::collections::BTreeMap;
@@ -117,6 +118,7 @@ impl State {
                 self.functions.retain(|added| !named(added));
             }
             "setp" => self.set(statement, word(1), 2),
+            "sets" if statement.words.len() == 3 => self.judge_value(statement),
             _ if word(1) == "=" => self.set(statement, word(0), 2),
             "net" | "linksp" => {
                 let pins = statement.words.iter().skip(2).map(|word| &word.text);
@@ -255,11 +257,28 @@ impl State {
             let remedy = "one value, and in the INI file no comment behind it";
             return self.refuse(statement, found, remedy);
         }
+        self.judge_value(statement);
         let setting = Setting {
             value: statement.word(value).to_owned(),
             statement: statement.clone(),
         };
         self.settings.insert(self.named(pin), setting);
+    }
+
+    /// The third word of a statement that sets something.
+    fn judge_value(&mut self, statement: &Statement) {
+        let value = statement.word(2);
+        if !is_value(value) {
+            let found = format!(
+                "`{}`: halcmd takes {value} for no value of any type",
+                statement.text
+            );
+            self.refuse(
+                statement,
+                found,
+                "write a number with a decimal point, or 1, 0, TRUE or FALSE for a bit",
+            );
+        }
     }
 
     fn link(&mut self, statement: &Statement, signal: &str, pin: &str) {
@@ -332,6 +351,9 @@ mod tests {
             ("net s =>\n", "links no pin"),
             ("newsig s bitt\n", "no type bitt"),
             ("newsig s\n", "no type"),
+            ("setp and2.0.in0 yes\n", "takes yes for no value"),
+            ("scale.0.gain = 5,5\n", "takes 5,5 for no value"),
+            ("sets s on\n", "takes on for no value"),
             (
                 "loadrt and2\nloadrt and2 count=2\n",
                 "and2 is loaded already",
@@ -341,7 +363,9 @@ mod tests {
             assert_eq!(problems.len(), 1, "{text}: {problems:?}");
             assert!(problems[0].found.contains(words), "{problems:?}");
         }
-        let taken = run("newsig s BIT\nnewsig t s64\nloadrt and2\nunloadrt and2\nloadrt and2\n");
+        let taken = run(
+            "setp p True\nsetp q 0x1F\nnewsig s BIT\nsets s 1\nnewsig t s64\nloadrt and2\nunloadrt and2\nloadrt and2\n",
+        );
         assert_eq!(taken.problems, []);
     }
 }

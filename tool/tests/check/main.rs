@@ -7,6 +7,7 @@ mod configure_refusals;
 mod fields;
 mod findings;
 mod frames_of_machines;
+mod hal_values;
 mod inner;
 mod installed_elsewhere;
 mod left_out;

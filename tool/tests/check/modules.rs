@@ -85,6 +85,32 @@ fn each_is_found_where_it_is_loaded() {
 }
 
 #[test]
+fn one_of_others_that_is_missing_is_an_error_where_modules_are_known() {
+    let bench = Bench::new();
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    linuxcnc(folder);
+    let file = bench.sample("framepath-sim").join("framepath-sim.hal");
+    let hal = fs::read_to_string(&file).expect("a text");
+    fs::write(&file, format!("{hal}\nloadrt and2\nloadrt andd2\n")).expect("written");
+    assert_eq!(check(&bench, folder), (Vec::new(), false));
+    for module in ["motmod", "and2"] {
+        fs::write(folder.join(format!("{module}.so")), "").expect("written");
+    }
+    let (findings, is_error) = check(&bench, folder);
+    let [finding] = findings.as_slice() else {
+        panic!("{findings:#?}");
+    };
+    assert!(is_error);
+    assert_eq!(finding["level"], "error");
+    assert_eq!(finding["line"], line(&bench, "hal", "loadrt andd2"));
+    let found = finding["found"].as_str().expect("a text");
+    assert!(found.contains("LinuxCNC has no module andd2"), "{found}");
+    let path = folder.join("andd2.so");
+    assert!(found.contains(&path.display().to_string()), "{found}");
+}
+
+#[test]
 fn without_a_linuxcnc_nothing_is_said() {
     let bench = Bench::new();
     let folder = tempfile::tempdir().expect("a folder");

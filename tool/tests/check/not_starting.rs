@@ -90,6 +90,11 @@ fn what_is_no_number_or_no_parameter_is_an_error() {
             "blendtp has no parameter foo=1",
         ),
         (
+            "TASK = milltask",
+            "",
+            "LinuxCNC does not start without [TASK]TASK",
+        ),
+        (
             "framepath filter",
             "framepath filter --tool A=1 --tool a=2",
             "--tool A= is given twice",

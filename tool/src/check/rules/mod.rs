@@ -1,6 +1,7 @@
 //! What a configuration has to be like, one concern to a file.
 
 mod angular_units;
+mod bits;
 mod comments;
 mod external_offsets;
 mod files;
@@ -15,6 +16,7 @@ mod joint_limits;
 mod kinematics;
 mod left_behind;
 mod limits;
+mod loaded_modules;
 mod modules;
 mod motion_numbers;
 mod panel;
@@ -48,6 +50,8 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
     files::look(subject, &mut findings);
     planner_module::look(subject, &mut findings);
     modules::look(subject, linuxcnc, &mut findings);
+    loaded_modules::look(subject, linuxcnc, &mut findings);
+    bits::look(subject, &mut findings);
     motion_numbers::look(subject, &mut findings);
     ini_numbers::look(subject, &mut findings);
     kinematics::look(subject, &mut findings);

@@ -105,6 +105,13 @@ fn needed(subject: &Subject, findings: &mut Findings) {
             add("[KINS]", format!("JOINTS = {count}")),
         );
     }
+    if subject.text("TASK", "TASK").is_none() {
+        findings.error(
+            &subject.place_of("TASK", "TASK"),
+            "LinuxCNC does not start without [TASK]TASK, the program that reads part programs",
+            add("[TASK]", "TASK = milltask"),
+        );
+    }
     if subject.text("KINS", "KINEMATICS").is_none() && !subject.has_frames() {
         let letters: String = subject.axes.iter().collect();
         findings.error(
