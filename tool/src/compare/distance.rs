@@ -1,21 +1,16 @@
 //! Distance between the executed and the programmed path, both ways, and against the tolerance.
 
-use crate::canon::call::PathMode;
 use crate::host::recording::{Sample, moves, step};
+use crate::layer::judged::{Around, BESIDE, REACH, judged, tolerance, wider, with_merging};
 use crate::layer::program::{Operation, Piece, Program, Shape};
 use crate::path::exceeded::is_beyond;
 use crate::path::segment::{Segment, largest_difference};
 use serde::Serialize;
 use std::collections::HashSet;
+use std::ops::Range;
 
 /// Moves on each side of the one that runs in which the path is looked for.
 const NEIGHBOURS: usize = 2;
-
-/// Pieces on each side whose merging counts.
-const BESIDE: usize = 3;
-
-/// Tolerances that a corner reaches along the path, at most.
-const REACH: f64 = 4.0;
 
 /// Pieces on each side, at most.
 const MOST_PIECES: usize = 20_000;
@@ -47,8 +42,8 @@ impl Distance {
             self.largest = distance;
             self.line = line;
         }
-        match path.tolerance(piece) {
-            Tolerance::Given(tolerance) => {
+        match path.allowed(piece) {
+            Some(tolerance) if tolerance > 0.0 => {
                 let ratio = distance / tolerance;
                 self.exceeds |= is_beyond(distance, tolerance);
                 if self.ratio.is_none_or(|worst| ratio > worst) {
@@ -56,27 +51,11 @@ impl Distance {
                     self.ratio_line = line;
                 }
             }
-            Tolerance::Exact => {
+            Some(_) => {
                 self.exact = Some(self.exact.unwrap_or(0.0).max(distance));
                 self.exceeds |= is_beyond(distance, 0.0);
             }
-            Tolerance::None => {}
-        }
-    }
-}
-
-enum Tolerance {
-    Given(f64),
-    Exact,
-    None,
-}
-
-impl Tolerance {
-    fn admits(&self, distance: f64) -> bool {
-        match self {
-            Tolerance::Given(tolerance) => !is_beyond(distance, *tolerance),
-            Tolerance::Exact => !is_beyond(distance, 0.0),
-            Tolerance::None => true,
+            None => {}
         }
     }
 }
@@ -146,62 +125,24 @@ impl<'a> Path<'a> {
         self.ranges.get(index).copied()
     }
 
-    /// Near a piece its own tolerance holds, at its start that of the one before.
-    fn tolerance(&self, index: usize) -> Tolerance {
-        let own = &self.pieces[index];
-        let before = &self.pieces[index.saturating_sub(1)];
-        let continuous = |piece: &Piece| piece.mode == PathMode::Continuous;
-        if !continuous(own) && !continuous(before) {
-            return Tolerance::Exact;
-        }
-        let unbounded = |piece: &Piece| continuous(piece) && piece.tolerance <= 0.0;
-        if unbounded(own) || unbounded(before) {
-            return Tolerance::None;
-        }
+    /// Near a piece its own tolerance holds, at its start that of the one before: `Some(0)` in exact modes, `None` without P.
+    fn allowed(&self, index: usize) -> Option<f64> {
+        let pieces = [index, index.saturating_sub(1)];
+        let [own, before] = pieces.map(|index| tolerance(&self.pieces[index]));
         // A corner reaches over several moves, and the piece that is nearest need not be one that was merged.
         let beside = index.saturating_sub(BESIDE)..(index + BESIDE + 1).min(self.pieces.len());
         let merged = self.pieces[beside].iter().map(|piece| piece.merged_within);
-        Tolerance::Given(own.tolerance.max(before.tolerance) + merged.fold(0.0, f64::max))
+        let merged = merged.fold(0.0, f64::max);
+        wider(own, before).map(|tolerance| with_merging(tolerance, merged))
     }
 
-    /// The nearest piece, or where that does not admit the position one of the move that runs or beside it that does, and how far it
-    /// is from that: a path may pass nearer by a piece with another tolerance.
-    fn judged(&self, sample: &Sample, nearest: (f64, usize)) -> (f64, usize) {
-        let running = self.pieces_of(sample);
-        let Some((first, last)) = running.filter(|_| !self.tolerance(nearest.1).admits(nearest.0))
-        else {
-            return nearest;
-        };
-        let most = self.pieces.len() - 1;
-        let beside = first.saturating_sub(BESIDE)..=(last + BESIDE).min(most);
-        let admitting = beside.filter_map(|index| {
-            let tolerance = match (first..=last).contains(&index) {
-                true => self.tolerance(index),
-                false => self.between((first, last), index)?,
-            };
-            let distance = self.distance(&self.pieces[index], sample);
-            tolerance.admits(distance).then_some((distance, index))
-        });
-        let nearer = admitting.min_by(|a, b| a.0.total_cmp(&b.0));
-        nearer.unwrap_or(nearest)
-    }
-
-    /// What is allowed beside a piece on the way to the move that runs, which is made of those from `first` to `last`, or from it:
-    /// the least P of what lies between, as far as a corner of it reaches.
-    fn between(&self, (first, last): (usize, usize), index: usize) -> Option<Tolerance> {
-        let (from, to) = match index < first {
-            true => (index, first),
-            false => (last, index),
-        };
-        let mut way = self.pieces[from..to].iter();
-        if !way.all(|piece| piece.mode == PathMode::Continuous && piece.tolerance > 0.0) {
-            return None;
+    /// The piece by which a position is judged, and how far it is from that.
+    fn judged(&self, sample: &Sample, (distance, piece): (f64, usize)) -> (usize, f64) {
+        let nearest = (piece, distance);
+        match self.pieces_of(sample) {
+            Some((first, last)) => judged(&Place { path: self, sample }, [first, last], nearest),
+            None => nearest,
         }
-        let tolerances = self.pieces[from..to].iter().map(|piece| piece.tolerance);
-        let least = tolerances.fold(f64::INFINITY, f64::min);
-        let passed = self.before[to] - self.before[from + 1];
-        (passed <= REACH * least)
-            .then(|| Tolerance::Given(least + self.pieces[index].merged_within))
     }
 
     /// Pieces near a move: its neighbours, and as far as `reach` goes.
@@ -223,11 +164,44 @@ impl<'a> Path<'a> {
     }
 
     fn reach(&self, piece: usize, travel: f64) -> f64 {
-        let tolerance = match self.tolerance(piece) {
-            Tolerance::Given(tolerance) => tolerance,
-            Tolerance::Exact | Tolerance::None => 0.0,
-        };
-        REACH * tolerance + 3.0 * travel
+        REACH * self.allowed(piece).unwrap_or(0.0) + 3.0 * travel
+    }
+}
+
+/// Where the machine is, on the path that it is compared with.
+struct Place<'a> {
+    path: &'a Path<'a>,
+    sample: &'a Sample,
+}
+
+impl Around for Place<'_> {
+    fn count(&self) -> usize {
+        self.path.pieces.len()
+    }
+
+    fn piece(&self, index: usize) -> Option<&Piece> {
+        self.path.pieces.get(index)
+    }
+
+    fn distance(&self, index: usize) -> Option<f64> {
+        let piece = self.piece(index)?;
+        Some(self.path.distance(piece, self.sample))
+    }
+
+    fn allowed(&self, index: usize) -> Option<f64> {
+        self.path.allowed(index)
+    }
+
+    fn merged(&self, index: usize) -> f64 {
+        self.piece(index).map_or(0.0, |piece| piece.merged_within)
+    }
+
+    fn length(&self, pieces: Range<usize>) -> f64 {
+        self.path.before[pieces.end] - self.path.before[pieces.start]
+    }
+
+    fn admits(&self, distance: f64, tolerance: Option<f64>) -> bool {
+        tolerance.is_none_or(|tolerance| !is_beyond(distance, tolerance))
     }
 }
 
@@ -293,7 +267,7 @@ pub(crate) fn executed_to_path<'a>(path: &Path, samples: &'a [Sample]) -> (Dista
         }
         last = best.1;
         pieces.push(last);
-        let (found, piece) = path.judged(sample, best);
+        let (piece, found) = path.judged(sample, best);
         let found = if found.is_finite() { found } else { f64::NAN };
         distance.note(path, piece, found);
     }

@@ -4,11 +4,12 @@
 //!
 //! Behaviour read in LinuxCNC 2.9 (`emccanon.cc`, `emctaskmain.cc`). [`straight`] is the arithmetic
 //! of a straight move, [`arc`] that of an arc, [`merging`] joins short lines, [`spindle`] is what the spindle is told, [`builder`] keeps
-//! the list of operations and pieces, which make a [`program`], [`turns`] says which arcs lose theirs, [`stream`] hands them out while the
+//! the list of operations and pieces, which make a [`program`], [`turns`] says which arcs lose theirs, [`judged`] by which piece a place of the machine is judged, [`stream`] hands them out while the
 //! program is read.
 
 mod arc;
 mod builder;
+pub(crate) mod judged;
 mod merging;
 pub(crate) mod program;
 pub(crate) mod spindle;

@@ -1,7 +1,7 @@
 //! Distance between the planned and the programmed path, both ways, while both go by.
 
 use super::drive::Handed;
-use crate::canon::call::PathMode;
+use crate::layer::judged::{Around, judged, tolerance, wider, with_merging};
 use crate::layer::program::{Piece, Shape};
 use crate::layer::turns::TurnsLeftAway;
 use crate::path::Position;
@@ -10,6 +10,7 @@ use crate::path::segment::Segment;
 use framepath::axes::Axes;
 use framepath::path::Orientation;
 use std::collections::VecDeque;
+use std::ops::Range;
 
 /// Pieces behind and ahead of the nearest one that are looked at in each cycle.
 const NEAR: usize = 3;
@@ -19,9 +20,6 @@ const FAR: usize = 400;
 
 /// Pieces behind the nearest one that are kept: the path may still come near their ends.
 const KEPT: usize = 32;
-
-/// Tolerances that a corner reaches along the path, at most: what lies farther on is not a part of it.
-const REACH: f64 = 4.0;
 
 /// Pieces whose distances differ by less are as near as each other, mm or degrees.
 const SAME: f64 = 1e-6;
@@ -106,11 +104,8 @@ struct Tracked {
 impl Tracked {
     /// How far the planned path may be off here: `Some(0)` in exact modes.
     fn allowed(&self) -> Option<f64> {
-        let with_merging = |tolerance: f64| match tolerance > 0.0 {
-            true => tolerance + self.merged,
-            false => 0.0,
-        };
-        self.tolerance.map(with_merging)
+        self.tolerance
+            .map(|tolerance| with_merging(tolerance, self.merged))
     }
 }
 
@@ -131,15 +126,6 @@ pub struct Follower {
     orientation: Option<Orientation>,
     found: Deviation,
     last: Option<Position>,
-}
-
-/// P of a piece: `Some(0)` in exact modes.
-fn tolerance(piece: &Piece) -> Option<f64> {
-    match piece.mode {
-        PathMode::Continuous if piece.tolerance <= 0.0 => None,
-        PathMode::Continuous => Some(piece.tolerance),
-        _ => Some(0.0),
-    }
 }
 
 /// A position with C counting a share.
@@ -198,7 +184,7 @@ impl Follower {
                     .then(|| counted.beyond_both_ends()),
                 turn_share,
                 end_missed: f64::INFINITY,
-                tolerance: own.zip(before).map(|(own, before)| own.max(before)),
+                tolerance: wider(own, before),
                 merged,
             });
         }
@@ -228,8 +214,12 @@ impl Follower {
         self.last = Some(*position);
         self.near = near;
         self.found.now = distance;
-        let (judged, distance) = self.judged(position, (near, distance));
-        if let Some(tracked) = self.pieces.get(judged) {
+        let place = Place {
+            follower: self,
+            position,
+        };
+        let (judging, distance) = judged(&place, self.own, (near, distance));
+        if let Some(tracked) = self.pieces.get(judging) {
             self.found.planned.note(distance, tracked);
             self.found.tightest.note_share(distance, tracked);
             if tracked.tolerance == Some(0.0) {
@@ -300,7 +290,7 @@ impl Follower {
         let next = self.pieces.front().map(|next| next.tolerance);
         let judged = Tracked {
             tolerance: match next {
-                Some(next) => left.tolerance.zip(next).map(|(own, next)| own.max(next)),
+                Some(next) => wider(left.tolerance, next),
                 None => left.tolerance,
             },
             ..left
@@ -339,52 +329,6 @@ impl Follower {
         Some(segment.deviation(&position, self.all_axes).0)
     }
 
-    /// The piece by which a position is judged, and how far it is from that: the nearest one, or where that does not admit it one of
-    /// the move that runs or beside it that does. A path may pass nearer by a piece with another tolerance.
-    fn judged(&self, position: &Position, nearest: (usize, f64)) -> (usize, f64) {
-        let admits = |distance: f64, tolerance: Option<f64>| {
-            tolerance.is_none_or(|tolerance| !is_beyond(distance, self.widened(tolerance)))
-        };
-        let [first, last] = self.own;
-        let by_nearest = |tracked: &Tracked| admits(nearest.1, tracked.allowed());
-        if self.pieces.get(nearest.0).is_none_or(by_nearest) {
-            return nearest;
-        }
-        let from = first.saturating_sub(NEAR);
-        let beside = self
-            .pieces
-            .range(from..self.pieces.len().min(last + NEAR + 1));
-        let admitting = beside.enumerate().filter_map(|(index, tracked)| {
-            let index = from + index;
-            let tolerance = match (first..=last).contains(&index) {
-                true => tracked.allowed(),
-                false => Some(self.between(index)?),
-            };
-            let distance = self.away(position, index)?;
-            admits(distance, tolerance).then_some((index, distance))
-        });
-        let nearer = admitting.min_by(|a, b| a.1.total_cmp(&b.1));
-        nearer.unwrap_or(nearest)
-    }
-
-    /// How far the path may be from a piece beside the move that runs, on its way to it or from it: by the least P of what lies
-    /// between, as far as a corner of it reaches; `None` without P.
-    fn between(&self, index: usize) -> Option<f64> {
-        let [first, last] = self.own;
-        let (from, to) = match index < first {
-            true => (index, first),
-            false => (last, index),
-        };
-        let way = self.pieces.range(from..to.min(self.pieces.len()));
-        let tolerances = way.clone().map(|tracked| tolerance(&tracked.piece));
-        let least = tolerances.reduce(|a, b| Some(a?.min(b?)))??;
-        let passed = way.skip(1).map(|tracked| tracked.piece.segment.length);
-        (passed.sum::<f64>() <= REACH * least).then(|| match least > 0.0 {
-            true => least + self.pieces.get(index).map_or(0.0, |tracked| tracked.merged),
-            false => 0.0,
-        })
-    }
-
     /// The nearest piece, and its distance.
     fn nearest(&self, position: &Position) -> Option<(usize, f64)> {
         let away = |index: usize| self.away(position, index);
@@ -418,6 +362,47 @@ impl Follower {
             self.leave();
         }
         self.found
+    }
+}
+
+/// Where the machine is, on the program that it follows.
+struct Place<'a> {
+    follower: &'a Follower,
+    position: &'a Position,
+}
+
+impl Around for Place<'_> {
+    fn count(&self) -> usize {
+        self.follower.pieces.len()
+    }
+
+    fn piece(&self, index: usize) -> Option<&Piece> {
+        self.follower
+            .pieces
+            .get(index)
+            .map(|tracked| &tracked.piece)
+    }
+
+    fn distance(&self, index: usize) -> Option<f64> {
+        self.follower.away(self.position, index)
+    }
+
+    fn allowed(&self, index: usize) -> Option<f64> {
+        self.follower.pieces.get(index)?.allowed()
+    }
+
+    fn merged(&self, index: usize) -> f64 {
+        let tracked = self.follower.pieces.get(index);
+        tracked.map_or(0.0, |tracked| tracked.merged)
+    }
+
+    fn length(&self, pieces: Range<usize>) -> f64 {
+        let pieces = self.follower.pieces.range(pieces);
+        pieces.map(|tracked| tracked.piece.segment.length).sum()
+    }
+
+    fn admits(&self, distance: f64, tolerance: Option<f64>) -> bool {
+        tolerance.is_none_or(|tolerance| !is_beyond(distance, self.follower.widened(tolerance)))
     }
 }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::canon::call::Tag;
+use crate::canon::call::{PathMode, Tag};
 use crate::layer::program::{MotionType, Move, Shape};
 
 /// In X and Z, mm, through these places, each move with a line of its own.
