@@ -64,6 +64,83 @@ fn words_that_act_beside_the_path_are_named() {
 }
 
 #[test]
+fn spindles_are_those_of_the_first() {
+    let text = translate(
+        "S1=500 M1=3\nSPOS[1]=90\nSPOSA[1]=DC(45)\nLIMS[1]=3000\nM30\n",
+        &[],
+    );
+    for line in ["S500 M3", "M19 R90", "M19 R45"] {
+        assert!(
+            commands(&text).contains(&line.to_string()),
+            "{line}\n{text}"
+        );
+    }
+    for (block, column, name) in [
+        ("S2=100", 1, "S2"),
+        ("M2=3", 1, "M2"),
+        ("T2=3", 1, "T2"),
+        ("SPOS[2]=90", 6, "SPOS[2]"),
+        ("G0 X1 SPOSA[R1]=90", 13, "SPOSA[..]"),
+        ("LIMS[2]=90", 6, "LIMS[2]"),
+    ] {
+        one_error(
+            block,
+            column,
+            &format!("{name}: only the first spindle is supported"),
+        );
+        one_error(block, column, "LinuxCNC's spindle 0 is that of");
+    }
+    one_error("WAITS(1)", 1, "write SPOS, and leave WAITS out");
+}
+
+#[test]
+fn addresses_that_are_not_taken_say_what_to_write() {
+    for (block, text) in [
+        ("FRC=20", "F beside it"),
+        ("FRCM=77", "F beside it"),
+        ("OFFN=2", "add twice the allowance"),
+        ("H2=5", "use an M function"),
+        ("X1=5", "axes are X Y Z"),
+    ] {
+        one_error(block, 1, text);
+    }
+    for block in ["OFFN=0", "FRC=0", "FRCM=0"] {
+        assert_eq!(
+            commands(&translate(&format!("{block}\nM30\n"), &[])),
+            ["M30"]
+        );
+    }
+}
+
+#[test]
+fn a_subprogram_that_resembles_a_word_is_looked_for_all_the_same() {
+    for (block, similar) in [("TURN1", "TURN"), ("ROTO(1)", "ROT"), ("FOO", "FOR")] {
+        one_error(block, 1, &format!("did you mean {similar}"));
+        one_error(block, 1, "in the folders of --subprograms");
+    }
+}
+
+/// G500 is what the program wrote, not the G53 of other controls.
+#[test]
+fn without_a_work_offset_texts_name_what_switched_it_off() {
+    for (blocks, place) in [
+        ("ROT RPL=30\nG500\nX5", "4:1"),
+        ("G500\nG2 X5 I5", "3:4"),
+        ("G500\nG91 X5", "3:5"),
+    ] {
+        let program = format!("G54 G90 G1 F500\n{blocks}\nM30\n");
+        let shown = errors(&program);
+        assert_one_error(
+            &shown,
+            &program,
+            &format!("part.mpf:{place}"),
+            "is off (G500)",
+        );
+        assert!(!shown.contains("G53") && !shown.contains("G59"), "{shown}");
+    }
+}
+
+#[test]
 fn statements_stand_alone_in_their_block() {
     for (block, column, word) in [
         ("G0 X10 MCALL CYCLE81(10,0,2,-5)", 8, "MCALL"),

@@ -276,6 +276,8 @@ fn cutting_speeds_end_with_the_other_feeds() {
         let shown = errors(&format!("{begin}{program}\nM30\n"));
         assert!(shown.contains("part.mpf:5:1"), "{program}\n{shown}");
         assert!(shown.contains("the end of G96 keeps a speed"), "{shown}");
+        let advice = format!("the speed beside it: {} S1000", &program[..3]);
+        assert!(shown.contains(&advice), "{shown}");
     }
 }
 

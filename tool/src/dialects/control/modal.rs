@@ -43,8 +43,8 @@ pub struct Modal {
     /// Whether S of LinuxCNC is a cutting speed (G96).
     pub surface_speed: bool,
     /// Where a constant cutting speed ended without S, until one follows: the control goes on with the speed
-    /// that it had there.
-    pub kept_speed: Option<Span>,
+    /// that it had there. The feed mode is the one that the end left in force.
+    pub kept_speed: Option<(Span, FeedMode)>,
     /// M3 to M5.
     pub spindle: Option<Spindle>,
     /// How it turned when a tool change stopped it, until the program switches it.

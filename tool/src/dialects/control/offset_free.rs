@@ -16,15 +16,18 @@ use crate::source::Span;
 pub struct OffsetFree {
     /// Whether it is.
     pub active: bool,
+    /// The G function that switched it off.
+    name: &'static str,
     programmed: [Option<f64>; 9],
 }
 
 impl OffsetFree {
-    /// The work offset is switched off.
-    pub fn begin(&mut self) {
+    /// The work offset is switched off by this G function.
+    pub fn begin(&mut self, name: &'static str) {
         if !self.active {
             *self = OffsetFree {
                 active: true,
+                name,
                 ..OffsetFree::default()
             };
         }
@@ -59,18 +62,23 @@ impl Control<'_> {
             Some(Motion::Clockwise | Motion::Counterclockwise)
         );
         if arc || words.names_a_centre() {
-            return Err(Diagnostic::error(span, "an arc while the work offset is off (G53)").help(
-                    "LinuxCNC moves in straight lines only there: set a work offset of the machine to \
-                     0 and select it (G59) instead of G53",
-                ));
+            let name = state.name;
+            let reason = format!("an arc while the work offset is off ({name})");
+            return Err(Diagnostic::error(span, reason).help(format!(
+                "LinuxCNC moves in straight lines only there: set a work offset of the machine to 0 and \
+                 select it instead of {name}"
+            )));
         }
         let mut machine = *words;
         let mut programmed = state.programmed;
         for (axis, word) in machine.axes.iter_mut().enumerate() {
             if let Some(word) = word {
-                let value = self.offset_free_coordinate(axis, word, &programmed)?;
+                let value = self.offset_free_coordinate(axis, word, state)?;
                 programmed[axis] = Some(value);
-                word.value = (self.framed(axis, value, word.span)?, Dimension::Absolute);
+                word.value = (
+                    self.framed(axis, value, state.name, word.span)?,
+                    Dimension::Absolute,
+                );
             }
         }
         let restored = self.modal.path_control;
@@ -91,7 +99,7 @@ impl Control<'_> {
         &self,
         axis: usize,
         word: &At<(f64, Dimension)>,
-        programmed: &[Option<f64>; 9],
+        state: &OffsetFree,
     ) -> Result<f64, Diagnostic> {
         let (value, dimension) = word.value;
         let incremental = match dimension {
@@ -103,20 +111,21 @@ impl Control<'_> {
             return Ok(value);
         }
         let letter = AXES[axis];
-        programmed[axis].map(|base| base + value).ok_or_else(|| {
+        let name = state.name;
+        state.programmed[axis].map(|base| base + value).ok_or_else(|| {
             Diagnostic::error(
                 word.span,
                 format!(
-                    "an increment while the work offset is off (G53), and where {letter} is there \
+                    "an increment while the work offset is off ({name}), and where {letter} is there \
                          is not known ahead of time"
                 ),
             )
-            .help(format!("program {letter} with G90 once after G53"))
+            .help(format!("program {letter} with G90 once after {name}"))
         })
     }
 
     /// A coordinate after the frame, in units of the program. A frame that turns would need all axes.
-    fn framed(&self, axis: usize, value: f64, span: Span) -> Result<f64, Diagnostic> {
+    fn framed(&self, axis: usize, value: f64, name: &str, span: Span) -> Result<f64, Diagnostic> {
         if axis >= 3 {
             return Ok(value);
         }
@@ -125,9 +134,11 @@ impl Control<'_> {
         if turns {
             return Err(Diagnostic::error(
                 span,
-                "a rotation is active while the work offset is off (G53)",
+                format!("a rotation is active while the work offset is off ({name})"),
             )
-            .help("end the rotation before G53, or select a work offset"));
+            .help(format!(
+                "end the rotation before {name}, or select a work offset"
+            )));
         }
         let factor = length_factor(axis, &self.modal);
         let shift = map.translation()[axis] / factor;

@@ -5,7 +5,7 @@ use super::words::{AXES, MotionWords};
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
 use crate::program::moves::{Coordinate, Move, MoveKind};
-use crate::program::{Action, Spindle, SurfaceSpeed};
+use crate::program::{Action, FeedMode, Spindle, SurfaceSpeed};
 use crate::source::Span;
 
 /// A rigid tap along the normal of the plane.
@@ -205,11 +205,18 @@ impl Control<'_> {
         // Said once; the blocks after it have the same fault.
         match self.modal.kept_speed.take_if(|_| turns) {
             None => Ok(()),
-            Some(end) => Err(Diagnostic::error(
-                end,
-                "the end of G96 keeps a speed that is not known ahead of time",
-            )
-            .help("program the speed beside it: G94 S1000")),
+            Some((end, feed_mode)) => {
+                let name = match feed_mode {
+                    FeedMode::InverseTime => "G93",
+                    FeedMode::PerMinute => "G94",
+                    FeedMode::PerRevolution => "G95",
+                };
+                Err(Diagnostic::error(
+                    end,
+                    "the end of G96 keeps a speed that is not known ahead of time",
+                )
+                .help(format!("program the speed beside it: {name} S1000")))
+            }
         }
     }
 

@@ -182,7 +182,7 @@ impl Interpreter<'_> {
                 self.control
                     .refuse_compensation(span, "the work offset changes")?;
                 self.control.modal.forget_position();
-                self.offset_free.begin();
+                self.offset_free.begin("G53");
             }
             1..=9 => {
                 self.control.work_offset(number as u8, span)?;

@@ -74,7 +74,7 @@ impl Interpreter<'_> {
             53 => {
                 control.refuse_compensation(span, "the work offset changes")?;
                 control.modal.forget_position();
-                self.offset_free.begin();
+                self.offset_free.begin("G53");
                 5
             }
             54..=59 => {

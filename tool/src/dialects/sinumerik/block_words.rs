@@ -214,15 +214,14 @@ impl BlockWords {
                 Ok(())
             }
             "N" => Err(Diagnostic::error(span, "the block number stands at the beginning of the block")),
-            "H" => Err(Diagnostic::error(span, "H functions are not supported")
-                    .help("they switch something on this one machine: use an M function that LinuxCNC has")),
             "P" => Err(Diagnostic::error(span, "P has no meaning here")
                     .help("P gives the number of passes after a subprogram call: L10 P3")),
             "ADISPOS" => Err(Diagnostic::error(span, "ADISPOS is not supported: LinuxCNC rounds rapid motions as it does the others")
                     .help("leave it out; where rapid motions may not be rounded by ADIS, write G60 before them")),
             "RPL" => Err(Diagnostic::error(span, "RPL has no meaning here").help("it belongs to ROT and AROT")),
-            _ => Err(Diagnostic::error(span, format!("the address {address} is not supported"))
-                    .help("axes are X Y Z A B C U V W")),
+            // Of 0 they change nothing.
+            "OFFN" | "FRC" | "FRCM" if number(word, variables)? == 0.0 => Ok(()),
+            _ => Err(unsupported(address, span)),
         }
     }
 
@@ -248,6 +247,36 @@ impl BlockWords {
             || self.polar_angle.is_some()
             || self.polar_radius.is_some()
             || self.middle.iter().any(Option::is_some)
+    }
+}
+
+/// The error for an address that is not translated: `S2`, `FRC`, `X1`.
+fn unsupported(address: &str, span: Span) -> Diagnostic {
+    let refuse = |reason: String, help: &str| Diagnostic::error(span, reason).help(help);
+    match (
+        address,
+        address.trim_end_matches(|c: char| c.is_ascii_digit()),
+    ) {
+        (_, "H") => refuse(
+            "H functions are not supported".to_string(),
+            "they switch something on this one machine: use an M function that LinuxCNC has",
+        ),
+        (_, "S" | "M" | "T") => refuse(
+            format!("{address}: only the first spindle is supported"),
+            "LinuxCNC's spindle 0 is that of S1, M1 and T1: write these, or leave the number out",
+        ),
+        ("FRC" | "FRCM", _) => refuse(
+            format!("{address}: a feed of its own for a chamfer or rounding is not supported"),
+            "leave it out, or write the corner as a line or an arc of its own with F beside it",
+        ),
+        ("OFFN", _) => refuse(
+            "OFFN: a contour with an allowance is not supported".to_string(),
+            "add twice the allowance to the diameter of the tool in the tool table of LinuxCNC",
+        ),
+        _ => refuse(
+            format!("the address {address} is not supported"),
+            "axes are X Y Z A B C U V W",
+        ),
     }
 }
 

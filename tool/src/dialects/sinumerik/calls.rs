@@ -144,9 +144,8 @@ fn missing(call: &Call) -> Diagnostic {
             Diagnostic::error(call.span, format!("the cycle {name} is not supported"))
                 .help("post the program with the cycles written out as moves")
         }
-        Some(similar) if !is_numbered => {
-            Diagnostic::error(call.span, unknown(name)).help(format!("did you mean {similar}?"))
-        }
+        Some(similar) if !is_numbered => Diagnostic::error(call.span, unknown(name))
+            .help(format!("did you mean {similar}? If not: {searched}")),
         None if call.arguments.is_empty() && !is_numbered => {
             Diagnostic::error(call.span, unknown(name)).help(searched)
         }

@@ -218,7 +218,7 @@ impl Interpreter<'_> {
         self.control.modal.forget_position();
         self.system = Some(0);
         self.set_offsets();
-        self.offset_free.begin();
+        self.offset_free.begin("G500");
         Ok(())
     }
 }

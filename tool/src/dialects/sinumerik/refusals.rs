@@ -115,7 +115,7 @@ const PATH: [Kind; 9] = [
 ];
 
 /// Feeds, spindles, threads.
-const SPEEDS: [Kind; 9] = [
+const SPEEDS: [Kind; 10] = [
     (
         "overrides are the operator's: work it into F and S",
         &["OVR", "OVRRAP", "OVRA"],
@@ -138,7 +138,11 @@ const SPEEDS: [Kind; 9] = [
     ),
     (
         "it is not supported: write S, and G96 or G97",
-        &["SVC", "SCC", "GWPSON", "GWPSOF", "SETMTH", "WAITS"],
+        &["SVC", "SCC", "GWPSON", "GWPSOF", "SETMTH"],
+    ),
+    (
+        "the program waits by itself until the spindle has come to its place: write SPOS, and leave WAITS out",
+        &["WAITS"],
     ),
     (
         "the angle where a thread begins is not supported: move its beginning along it by that part of the pitch",

@@ -90,7 +90,8 @@ impl Interpreter<'_> {
     pub(super) fn enter_speed_mode(&mut self, before: SpeedMode, span: Span) -> Done {
         if before == SpeedMode::Surface && self.speed.mode != SpeedMode::Surface {
             // S may follow before it matters.
-            self.control.modal.kept_speed = Some(span);
+            let modal = &mut self.control.modal;
+            modal.kept_speed = Some((span, modal.feed_mode));
             return Ok(());
         }
         self.limit_speed(span)

@@ -72,6 +72,9 @@ impl BlockParser<'_> {
         }
         if words::is_address(name) {
             self.cursor.advance();
+            if matches!(name, "SPOS" | "SPOSA" | "LIMS") {
+                self.first_spindle(name)?;
+            }
             if !self.cursor.is_symbol(0, Symbol::Assign) {
                 return Err(self.cursor.error(format!("`=` is missing after {name}")));
             }
@@ -88,6 +91,27 @@ impl BlockParser<'_> {
             return Err(self.not_alone(name));
         }
         Err(unknown_word(name, span))
+    }
+
+    /// The spindle of `SPOS[1]=90`.
+    fn first_spindle(&mut self, name: &str) -> Parsed<()> {
+        if !self.cursor.take(Symbol::OpenBracket) {
+            return Ok(());
+        }
+        let spindle = expression(&mut self.cursor)?;
+        self.cursor.expect(Symbol::CloseBracket, "]")?;
+        let shown = match spindle.kind {
+            ExpressionKind::Number(1.0) => return Ok(()),
+            ExpressionKind::Number(number) => number.to_string(),
+            _ => "..".to_string(),
+        };
+        Err(Diagnostic::error(
+            spindle.span,
+            format!("{name}[{shown}]: only the first spindle is supported"),
+        )
+        .help(format!(
+            "LinuxCNC's spindle 0 is that of {name}[1]: write the number, or leave it out"
+        )))
     }
 
     /// `SETMS`, `SETMS(1)`.
