@@ -24,7 +24,7 @@ pub struct Settings {
     pub arc_tolerance: ArcTolerance,
     /// Whether LinuxCNC's unit of length is the inch: all output is in this unit.
     pub machine_in_inch: bool,
-    /// What an increment counts from when the frame has changed since the axis last moved.
+    /// What an increment counts from when the frame, an offset or the tool has changed since the axis last moved.
     pub increment_after_frame: IncrementBase,
     /// Whether the machine that runs the program is a lathe.
     pub lathe: bool,
@@ -93,13 +93,14 @@ impl Default for Settings {
     }
 }
 
-/// What an increment counts from when the frame has changed since the axis last moved.
+/// What an increment counts from when the frame, an offset or the tool has changed since the axis last moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum IncrementBase {
-    /// From the coordinate that was programmed last, now taken in the new frame: the change of the
-    /// frame is travelled too. Sinumerik controls are delivered like this (setting data 42440 = 1).
+    /// From the coordinate that was programmed last, as it counts now: the change is travelled too. Sinumerik
+    /// controls are delivered like this (setting data 42440 = 1 for frames and work offsets, 42442 = 1 for
+    /// tools).
     Programmed,
-    /// From where the tool is: the axis moves by the increment and nothing else (42440 = 0).
+    /// From where the tool is: the axis moves by the increment and nothing else (42440 = 0, 42442 = 0).
     Position,
 }
 

@@ -10,6 +10,7 @@ mod errors;
 mod expected;
 mod fagor;
 mod front_end;
+mod increments;
 mod language;
 mod limits;
 mod linuxcnc;

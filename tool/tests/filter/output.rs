@@ -290,28 +290,6 @@ fn what_is_not_known_ahead_of_time_is_left_to_linuxcnc() {
 }
 
 #[test]
-fn increments_after_a_change_of_frame_follow_the_setting() {
-    let program = "G0 X10 Y0 Z0\nTRANS X5\nG91 G0 X1\nG0 X1\nM30\n";
-    let programmed = translate(program, &["--backend", "kinematics"]);
-    assert_eq!(
-        commands(&programmed)[4..6],
-        ["G0 X11 Y0 Z0".to_string(), "G0 X12".to_string()]
-    );
-    assert!(programmed.contains("(MSG, line 3: increment in X after a change of the frame"));
-    let arguments = [
-        "--backend",
-        "kinematics",
-        "--increment-after-frame",
-        "position",
-    ];
-    let position = translate(program, &arguments);
-    assert_eq!(
-        commands(&position)[4..6],
-        ["G0 X6 Y0 Z0".to_string(), "G0 X7".to_string()]
-    );
-}
-
-#[test]
 fn modes_speeds_and_stops_keep_their_meaning() {
     let program = "\
 N5 G54 G17 G90 G94 G64

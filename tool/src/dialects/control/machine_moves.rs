@@ -52,11 +52,19 @@ impl Control<'_> {
         let start = self.modal.position.coordinates();
         for (axis, target) in target.iter().enumerate() {
             let framed = axis < 3 && !self.modal.frame.is_empty();
-            if *target != Coordinate::Keep || framed {
+            let moves = *target != Coordinate::Keep;
+            if moves || framed {
                 self.modal.position.set(axis, None);
             }
+            // What has changed for an axis that stays is still to be travelled, from a place that the motion
+            // of the others may have changed in a frame.
+            let carried = &mut self.modal.carried[axis];
+            *carried = match framed {
+                _ if moves => None,
+                true => carried.map(|_| None),
+                false => *carried,
+            };
         }
-        self.modal.carried = [None; 3];
         let kind = MoveKind::Machine { rapid, tool_length };
         self.actions.push(Action::Move(Move {
             kind,

@@ -64,12 +64,13 @@ pub struct Modal {
     pub position: Position,
     /// Of each axis that G92 has given a coordinate: how far G52 has shifted it since, machine units.
     pub preset: [Option<f64>; 9],
-    /// Coordinates from before the last change of frame, for axes that have not moved since.
-    pub carried: [Option<Option<f64>>; 3],
+    /// Coordinates from before the first change of the frame, an offset or the tool, for axes that have not
+    /// moved since.
+    pub carried: [Option<Option<f64>>; 9],
     /// The direction in which the last motion ended, along X Y Z of the frame, if that is known.
     pub tangent: Option<[f64; 3]>,
-    /// Whether an increment after a change of frame follows the setting. If not, it counts from where
-    /// the tool is.
+    /// Whether an increment after a change of the frame, an offset or the tool follows the setting. If not, it
+    /// counts from where the tool is.
     pub follows_setting: bool,
 }
 
@@ -97,7 +98,7 @@ impl Modal {
             axis_factors: [1.0; 9],
             position: Position::default(),
             preset: [None; 9],
-            carried: [None; 3],
+            carried: [None; 9],
             tangent: None,
             follows_setting: false,
         };
@@ -116,10 +117,23 @@ impl Modal {
         self.feed_factor = if feed_too { factor } else { 1.0 };
     }
 
-    /// The tool or an offset changed: nothing is known about the coordinates any more.
+    /// Nothing is known about the coordinates any more.
     pub fn forget_position(&mut self) {
         self.position.forget();
-        self.carried = [None; 3];
+        self.carried = [None; 9];
+        self.tangent = None;
+    }
+
+    /// The tool or an offset changed: where the axes are is not known any more. What was programmed last is,
+    /// and increments that follow the setting may count from it.
+    pub fn change_offset(&mut self) {
+        if self.follows_setting {
+            for (axis, carried) in self.carried.iter_mut().enumerate() {
+                let programmed = self.position.get(axis);
+                *carried = carried.or(programmed.map(Some));
+            }
+        }
+        self.position.forget();
         self.tangent = None;
     }
 

@@ -85,7 +85,7 @@ impl Control<'_> {
     /// M6. With `with_length` the length of the new tool is compensated at once.
     pub fn tool_change(&mut self, span: Span, with_length: bool) -> Done {
         self.refuse_compensation(span, "the tool changes")?;
-        self.modal.forget_position();
+        self.modal.change_offset();
         self.actions.push(Action::ToolChange);
         self.tools.change();
         // LinuxCNC stops the spindle.
@@ -178,7 +178,7 @@ impl Control<'_> {
     /// Tool length compensation of the tool in the spindle, on or off.
     pub fn tool_length(&mut self, on: bool, span: Span) -> Done {
         self.refuse_compensation(span, "the tool offset changes")?;
-        self.modal.forget_position();
+        self.modal.change_offset();
         if !matches!(self.actions.last(), Some(Action::ToolLength(last)) if *last == on) {
             self.states.push(Action::ToolLength(on));
         }
@@ -191,7 +191,7 @@ impl Control<'_> {
             return self.tool_length(false, span);
         }
         self.refuse_compensation(span, "the tool offset changes")?;
-        self.modal.forget_position();
+        self.modal.change_offset();
         self.states.push(Action::ToolOffset(number));
         Ok(())
     }
@@ -263,7 +263,7 @@ impl Control<'_> {
     /// Work offset 1 to 9: G54 to G59.3 of LinuxCNC.
     pub fn work_offset(&mut self, system: u8, span: Span) -> Done {
         self.refuse_compensation(span, "the work offset changes")?;
-        self.modal.forget_position();
+        self.modal.change_offset();
         self.states.push(Action::WorkOffset(system));
         Ok(())
     }

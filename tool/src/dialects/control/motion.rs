@@ -162,14 +162,15 @@ fn increment_base(
         return Ok(position);
     }
     let letter = AXES[axis];
-    let advice = format!("program {letter} absolute once after the frame has changed");
+    let change = "a change of the frame, the offset or the tool";
+    let advice = format!("program {letter} absolute once after it has changed");
     match settings.increment_after_frame {
         IncrementBase::Position => {
             diagnostics.push(
                 Diagnostic::warning(
                     span,
                     format!(
-                        "increment in {letter} after a change of the frame: it counts from where the tool is"
+                        "increment in {letter} after {change}: it counts from where the tool is"
                     ),
                 )
                 .help(format!("{advice}, or see --increment-after-frame")),
@@ -182,8 +183,8 @@ fn increment_base(
                     Diagnostic::warning(
                         span,
                         format!(
-                            "increment in {letter} after a change of the frame: \
-                             the change is travelled too, from {letter}{carried} in the new frame"
+                            "increment in {letter} after {change}: \
+                             the change is travelled too, from {letter}{carried} as it counts now"
                         ),
                     )
                     .help(format!("{advice}, or see --increment-after-frame")),
@@ -193,7 +194,7 @@ fn increment_base(
             None => Err(Diagnostic::error(
                 span,
                 format!(
-                    "increment in {letter} after a change of the frame, \
+                    "increment in {letter} after {change}, \
                          and where {letter} was before is not known ahead of time"
                 ),
             )

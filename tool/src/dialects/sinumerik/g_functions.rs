@@ -11,7 +11,7 @@ use crate::dialects::control::Done;
 use crate::dialects::control::groups::{Groups, in_order_of_compensation};
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::At;
-use crate::program::{Compensation, FeedMode, Plane};
+use crate::program::{Action, Compensation, FeedMode, Plane};
 use crate::source::Span;
 
 impl Interpreter<'_> {
@@ -205,9 +205,16 @@ impl Interpreter<'_> {
 
     /// Work offset 1 to 9, which are those of LinuxCNC.
     pub(super) fn choose_offset(&mut self, system: u8, span: Span) -> Done {
+        let acts_already = self.system == Some(system) && self.waiting_offsets.is_empty();
         self.offset_free.end();
         self.system = Some(system);
         self.set_offsets();
+        if acts_already {
+            self.control
+                .refuse_compensation(span, "the work offset changes")?;
+            self.control.states.push(Action::WorkOffset(system));
+            return Ok(());
+        }
         self.control.work_offset(system, span)
     }
 
@@ -215,7 +222,7 @@ impl Interpreter<'_> {
     pub(super) fn suppress_offset(&mut self, span: Span) -> Done {
         self.control
             .refuse_compensation(span, "the work offset changes")?;
-        self.control.modal.forget_position();
+        self.control.modal.change_offset();
         self.system = Some(0);
         self.set_offsets();
         self.offset_free.begin("G500");
