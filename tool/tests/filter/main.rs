@@ -2,6 +2,7 @@
 
 mod blanks;
 mod compensation;
+mod contour_exit;
 mod contours;
 mod contradictions;
 mod diameters;

@@ -40,6 +40,7 @@ impl Interpreter<'_> {
     pub(super) fn try_call(&mut self, call: &Call, block: &Block) -> Result<bool, Diagnostic> {
         let name = call.name.as_str();
         if self.control_cycle(call, block)? {
+            self.contour_end = None;
             self.control.finish_marker(&block.place);
             return Ok(true);
         }

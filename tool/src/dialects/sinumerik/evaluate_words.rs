@@ -63,7 +63,9 @@ impl Interpreter<'_> {
             machine_coordinates: words.supa,
             ..OneShot::default()
         };
-        let compensated = self.control.modal.compensation != Compensation::Off;
+        self.exit_mode(&words);
+        let side = self.control.modal.compensation;
+        let compensated = side != Compensation::Off;
         self.check_open_line(&words)?;
         self.check_approach(&words)?;
         let leaves = |g: &At<u32>| shape_of(g.value).is_some_and(|(_, approaches)| !approaches);
@@ -71,6 +73,10 @@ impl Interpreter<'_> {
             self.begin_retraction(&words)?;
         }
         self.g_functions(&words, &mut once)?;
+        // A retraction has left the contour by itself.
+        if once.smooth.is_none() {
+            self.end_contour(side, &words);
+        }
         if let Some(g) = once.programmed_offset {
             self.programmed_offset(&words, g)?;
             return Ok(BlockEnd::Continue);
@@ -107,9 +113,11 @@ impl Interpreter<'_> {
         if words.motion.names_an_axis() {
             self.note_tool_left(block);
         }
+        let at = self.control.actions.len();
         if !self.move_with_spindle(words, &once, block)? {
             self.motion(words, &once, block)?;
         }
+        self.check_exit(at)?;
         self.stops(words);
         Ok(match end {
             Some(span) => BlockEnd::Ends(span),

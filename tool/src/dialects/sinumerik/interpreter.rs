@@ -4,6 +4,7 @@ use super::approach::Smooth;
 use super::arc_words::ArcForm;
 use super::block_words::BlockWords;
 use super::contour_angle::OpenLine;
+use super::contour_exit::ContourEnd;
 use super::evaluate_words::BlockEnd;
 use super::frame_commands::frame_command;
 use super::polar::Pole;
@@ -58,6 +59,10 @@ pub struct Interpreter<'a> {
     pub(super) modal_call: Option<ModalCall>,
     /// The REPEAT statements that are running.
     pub(super) repeats: Vec<Span>,
+    /// KONT, not NORM.
+    pub(super) goes_round: bool,
+    /// The end of a contour under KONT, until the tool has left it.
+    pub(super) contour_end: Option<ContourEnd>,
     /// G331, until its G332.
     pub(super) tapping: Option<Tapping>,
     /// DIAMON and DIAM90.
@@ -105,6 +110,8 @@ impl<'a> Interpreter<'a> {
             offset: ProgrammedOffset::default(),
             modal_call: None,
             repeats: Vec::new(),
+            goes_round: false,
+            contour_end: None,
             tapping: None,
             diameter: Diameter::default(),
             approach: None,
@@ -404,6 +411,7 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
             && self.rounding.is_none()
             && self.modal_call.is_none()
             && self.tapping.is_none()
+            && self.contour_end.is_none()
             && self.open_line.is_none()
             && self.approach.is_none()
             && self.diameter == Diameter::default()

@@ -34,6 +34,7 @@ pub(super) struct KeptModes {
     by_distance: bool,
     feed_mode: FeedMode,
     speed_mode: SpeedMode,
+    goes_round: bool,
     approach_side: Option<bool>,
     approach_flat: bool,
     diameter: Diameter,
@@ -57,6 +58,7 @@ impl Interpreter<'_> {
             by_distance: self.smoothing.by_distance,
             feed_mode: modal.feed_mode,
             speed_mode: self.speed.mode,
+            goes_round: self.goes_round,
             approach_side: self.approach_side,
             approach_flat: self.approach_flat,
             diameter: self.diameter,
@@ -103,6 +105,7 @@ impl Interpreter<'_> {
     fn restore_silent_modes(&mut self, kept: &KeptModes) {
         self.arc_form = kept.arc_form;
         self.spindle_motion = kept.spindle_motion;
+        self.goes_round = kept.goes_round;
         self.approach_side = kept.approach_side;
         self.approach_flat = kept.approach_flat;
         self.diameter = kept.diameter;

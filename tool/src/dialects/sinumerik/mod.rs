@@ -9,6 +9,7 @@ mod arc_words;
 mod block_words;
 mod calls;
 mod contour_angle;
+mod contour_exit;
 mod contour_milling;
 mod cursor;
 mod cycle_parameters;
