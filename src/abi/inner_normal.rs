@@ -135,7 +135,7 @@ impl AskedNormal {
         }
         let normal = match &self.turning {
             _ if !has_frame => NormalPins::refused(ToolNormalError::NoFrame),
-            Ok(turning) if turning.is_tilted_by_another(&axes) => {
+            Ok(turning) if turning.is_turned_by_another(&axes) => {
                 NormalPins::refused(ToolNormalError::ThirdAxis)
             }
             Ok(turning) => NormalPins::of_chain(turning.chain.as_ref(), control, &limits, &axes),

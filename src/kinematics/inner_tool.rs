@@ -30,8 +30,8 @@ const NUDGE: f64 = 1e-3;
 const ROUGH: f64 = 1e-5;
 /// Of what is found with whole machine units, and of directions.
 const CLOSE: f64 = 1e-7;
-/// How far, degrees, an axis that is not to tilt the tool may be off: kinematics that iterate.
-const UNTILTED: f64 = 1e-4;
+/// How far, degrees, an axis that is not to turn the tool may be off: kinematics that iterate.
+const UNTURNED: f64 = 1e-4;
 /// Angles that are tried, degrees.
 const TRIED: f64 = 20.0;
 /// Angles of both axes at which what was found is compared once more, degrees.
@@ -47,22 +47,23 @@ pub struct ToolTurning {
 }
 
 impl ToolTurning {
-    /// Whether an arm, of which the user says what turns the tool, has another axis where it tilts the tool: A or B, which may
-    /// be anywhere among its joints, neither at 0 nor half a turn from there.
-    pub fn is_tilted_by_another(&self, axes: &Axes) -> bool {
+    /// Whether an arm, of which the user says what turns the tool, has another axis where the tool may point elsewhere than these
+    /// say. LinuxCNC's arms turn the tool by A, then B, then C: so A may stand half a turn from 0, where the tool hangs down, and
+    /// B and C, which carry what the others have tilted, at 0 alone.
+    pub fn is_turned_by_another(&self, axes: &Axes) -> bool {
         let Some(chain) = self.chain.filter(|_| self.z_joint.is_none()) else {
             return false;
         };
         let is_named = |letter: usize| {
             letter == chain.tilt.letter || chain.rotary.is_some_and(|it| it.letter == letter)
         };
-        let off = |letter: usize| {
-            let half_turns = axes.get(A + letter).map_or(0.0, |angle| angle / 180.0);
-            180.0 * (half_turns - half_turns.round()).abs()
+        let off = |letter: usize, period: f64| {
+            let periods = axes.get(A + letter).map_or(0.0, |angle| angle / period);
+            period * (periods - periods.round()).abs()
         };
-        [0, 1]
+        [(0, 180.0), (1, 360.0), (2, 360.0)]
             .into_iter()
-            .any(|letter| !is_named(letter) && off(letter) > UNTILTED)
+            .any(|(letter, period)| !is_named(letter) && off(letter, period) > UNTURNED)
     }
 }
 

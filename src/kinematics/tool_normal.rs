@@ -32,7 +32,7 @@ pub enum ToolNormalError {
     NoFrame = 7,
     /// The kinematics of another module turn the tool otherwise than `tool_axes=` says.
     NotAsSaid = 8,
-    /// An axis that `tool_axes=` does not name tilts the tool of an arm.
+    /// An axis that `tool_axes=` does not name turns the tool of an arm elsewhere.
     ThirdAxis = 9,
 }
 

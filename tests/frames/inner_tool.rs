@@ -266,16 +266,16 @@ fn what_a_user_says_counts_where_nothing_can_be_found_and_has_to_be_so_where_it_
 }
 
 #[test]
-fn another_axis_of_an_arm_may_tilt_the_tool() {
+fn another_axis_of_an_arm_may_turn_the_tool() {
     let at = |text: &str, angles: [f64; 3]| {
         let axes = ToolAxes::from_text(text.as_bytes()).expect("axes");
         let mut formula = Formula(arm);
         let turning = tool_turning(&mut formula, &Axes::zeros(), &[0.0; 16], &axes);
         let [a, b, c] = angles;
         let place = Axes::from([1.0, 2.0, 3.0, a, b, c, 0.0, 0.0, 0.0]);
-        turning.expect("said").is_tilted_by_another(&place)
+        turning.expect("said").is_turned_by_another(&place)
     };
-    for (text, angles, is_tilted) in [
+    for (text, angles, is_turned) in [
         ("C,B", [0.0, 40.0, 50.0], false),
         // the tool hangs down
         ("C,B", [180.0, 40.0, 50.0], false),
@@ -284,12 +284,21 @@ fn another_axis_of_an_arm_may_tilt_the_tool() {
         ("C,B", [0.01, 0.0, 0.0], true),
         ("C,A", [150.0, 0.0, 50.0], false),
         ("C,A", [150.0, 20.0, 50.0], true),
+        ("C,A", [150.0, 360.0, 50.0], false),
+        // what A has tilted, B turns to the other side
+        ("C,A", [150.0, 180.0, 50.0], true),
         ("B", [20.0, 0.0, 0.0], true),
-        // C turns the tool about itself
-        ("A,B", [20.0, 30.0, 50.0], false),
+        ("B", [180.0, 30.0, 0.0], false),
+        // and C, wherever the others are named without it
+        ("B,A", [20.0, 30.0, 0.0], false),
+        ("B,A", [20.0, 30.0, -360.0], false),
+        ("B,A", [20.0, 30.0, 50.0], true),
+        ("B,A", [20.0, 30.0, 180.0], true),
+        ("A,B", [20.0, 30.0, 0.01], true),
+        ("B", [0.0, 30.0, 50.0], true),
         ("none", [20.0, 30.0, 50.0], false),
     ] {
-        assert_eq!(at(text, angles), is_tilted, "{text} {angles:?}");
+        assert_eq!(at(text, angles), is_turned, "{text} {angles:?}");
     }
 }
 

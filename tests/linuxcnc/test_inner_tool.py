@@ -223,9 +223,9 @@ class Described(InnerTool):
         self.stands_normal(result)
         position = result.answers["end"]["position"]
         self.assertAlmostEqual(abs(position[3]), 180, places=6)
-        # and leans where the third axis does
-        self.refused(ARM, "inner=pumakins tool_axes=C,B", "turn it to 0 or 180 of the machine first", lines[0], "G1 A170",
-                     *lines[1:])
+        # and leans where the third axis does, or is turned by one that carries the others
+        self.refused(ARM, "inner=pumakins tool_axes=C,B", "A to 0 or 180, then o<tool_normal>", lines[0], "G1 A170", *lines[1:])
+        self.refused(ARM, "inner=pumakins tool_axes=B,A", "bring B or C to 0 of the machine first", lines[0], "G1 C20", *lines[1:])
 
     def test_nothing_that_turns_the_tool(self):
         lines = ["o<trans> call [1] [0] [0]", "o<tool_normal> call", "G1 X-1 Y0", "o<rot> call [0] [20] [0]", "o<tool_normal> call"]
