@@ -19,8 +19,8 @@ REMAP = M429 modalgroup=10 ngc=to_type_0
 
 TOOL_CENTRE = "REMAP = G43.4 modalgroup=1 argspec=abcdehijklpqruvwxyz ngc=code_tool_centre\n"
 
-#: lengths of 15 and 40 mm
-TOOLS = "T1 P1 Z15\nT2 P2 Z40\n"
+#: lengths of 15 and 40 mm, and a tool of lathes
+TOOLS = "T1 P1 Z15\nT2 P2 Z40\nT3 P3 Z15 D1 Q3\n"
 
 ABORT = "ON_ABORT_COMMAND = o<frame_abort> call\n"
 

@@ -121,6 +121,21 @@ class ToolCentre(InnerTool):
         anew = self.good(TABLE.run_program("G43.4 H2", zero, "G55", *framed, move, inner=TABLE_TYPES))
         self.near([TABLE.joints(result)], [TABLE.joints(anew)], 1e-6)
 
+    def test_a_tool_that_is_not_there_changes_nothing(self):
+        bridge = Machine("5axiskins", (0,) * 6, "XYZBCW", "setp 5axiskins.pivot-length 250\n", switches=True)
+        state = "(DEBUG, STATE #<_hal[framekins.inner-type-active]> #<_plane> #<_ccomp>)"
+        for code, plane, words in (("G43.4 H7", 19, "Requested tool 7 not found"), ("G43.4 H-1", 17.1, "H-1 names no tool"),
+                                   ("G43.4 H3", 17, "")):
+            steps = [["mdi", f"G{plane}"], ["mdi", "G1 B20 F3000"], ["note", "before"], ["mdi", code], ["sleep", .3], ["mdi", state],
+                     ["note", "after"], ["mdi", "G1 B0"], ["note", "end"]]
+            result = bridge.run(steps, inner=HEAD_TYPES, record=False)
+            self.assertIn(words, "\n".join(result.errors), result.log)
+            self.assertEqual(len(result.errors), bool(words), result.log)
+            said = [[float(word) for word in text.split()[1:]] for _, text in result.messages if text.startswith("STATE")]
+            self.assertEqual(said, [[0, 10 * plane, 400]], result.log)
+            self.near([bridge.joints(result, "after")], [bridge.joints(result, "before")], CLOSE)
+            self.near([bridge.joints(result)], [(0,) * 6], CLOSE)
+
     def test_what_is_not_known_is_refused(self):
         self.refused(TABLE, "inner=xyzac-trt-kins", "as in tool_types=1", "G43.4 H1")
 

@@ -14,7 +14,8 @@ pub const SENDER: &str = "frame_send";
 pub const SHARED: &str = "on_abort";
 
 /// All of framepath, which codes, programs and one another call by these names.
-pub const OWN: [&str; 66] = [
+pub const OWN: [&str; 67] = [
+    "active_plane",
     "amirror",
     "arot",
     "arot_rpl",
