@@ -46,6 +46,8 @@ pub struct Edits<'a> {
     /// Of a HAL file that comes before all others.
     first_hal: Vec<String>,
     refusals: Vec<Refusal>,
+    /// What comes from included files: the first place of each file, and the names.
+    included: Vec<(Place, Vec<String>)>,
 }
 
 /// What is to be written.
@@ -71,6 +73,7 @@ impl<'a> Edits<'a> {
             hal: Vec::new(),
             first_hal: Vec::new(),
             refusals: Vec::new(),
+            included: Vec::new(),
         }
     }
 
@@ -81,6 +84,16 @@ impl<'a> Edits<'a> {
             found: found.into(),
             help: help.into(),
         });
+    }
+
+    /// A section, or a key, of an included file would change: one refusal for each file says all of them.
+    fn refuse_included(&mut self, place: &Place, name: String) {
+        let mut files = self.included.iter_mut();
+        match files.find(|(first, _)| first.file == place.file) {
+            Some((_, names)) if names.contains(&name) => {}
+            Some((_, names)) => names.push(name),
+            None => self.included.push((place.clone(), vec![name])),
+        }
     }
 
     /// A line of the HAL file.
@@ -124,15 +137,8 @@ impl<'a> Edits<'a> {
             .get(place.line - 1)
             .is_some_and(|line| line.trim_end().ends_with('\\'));
         if &*place.file != self.ini.file() {
-            let found = format!(
-                "{} comes from an included file, which is not changed",
-                entry.key
-            );
-            self.refuse(
-                place,
-                found,
-                format!("move it to {}", self.ini.file().display()),
-            );
+            let name = format!("[{}]{}", entry.section, entry.key);
+            self.refuse_included(place, name);
         } else if goes_on {
             let found = format!("{} goes on in the next line", entry.key);
             self.refuse(place, found, "write it in one line");
@@ -169,12 +175,7 @@ impl<'a> Edits<'a> {
         let last = named.or(entries.next_back());
         let place = last.map_or(&heading.place, |entry| &entry.place).clone();
         if &*place.file != self.ini.file() {
-            let found = format!("[{section}] comes from an included file, which is not changed");
-            return self.refuse(
-                &place,
-                found,
-                format!("move it to {}", self.ini.file().display()),
-            );
+            return self.refuse_included(&place, format!("[{section}]"));
         }
         let goes_on = |line: &usize| {
             self.lines
@@ -191,7 +192,19 @@ impl<'a> Edits<'a> {
     ///
     /// # Errors
     /// What is in the way.
-    pub fn finish(self) -> Result<Written, ConfigureError> {
+    pub fn finish(mut self) -> Result<Written, ConfigureError> {
+        for (place, names) in std::mem::take(&mut self.included) {
+            let (come, them) = match names.len() {
+                1 => ("comes", "it"),
+                _ => ("come", "them"),
+            };
+            let found = format!(
+                "{} {come} from an included file, which is not changed",
+                names.join(", ")
+            );
+            let help = format!("move {them} to {}", self.ini.file().display());
+            self.refuse(&place, found, help);
+        }
         if !self.refusals.is_empty() {
             return Err(ConfigureError::Refused(self.refusals));
         }
