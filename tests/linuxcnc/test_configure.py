@@ -132,9 +132,12 @@ class Tcl(unittest.TestCase):
         without = [("HALCMD = loadusr -W xyzac-trt-gui\n", ""), ("POSTGUI_HALFILE = switchkins_postgui.hal\n", "")]
         pictures = [(f" xyzac-trt-gui.{pin}\n", "\n") for pin in ("table-x", "saddle-y", "spindle-z", "tilt-a", "rotate-c",
                                                                   "tool-offset", "y-offset", "z-offset")]
+        # of two positions the one that A reaches, from -100 to 50
+        plane = "G43.4\nG68.2 X0 Y0 Z0 I30 J-60 K0\nG53.1\nG69\no<rotary_zero> call\no<tool_centre_off> call\n"
         result = self.run_stock("vismach/5axis/table-rotary-tilting/xyzac-trt.ini", without + pictures,
-                                [["run", "PROGRAMS/part.ngc"], ["note", "end"]], {"part.ngc": FRAMES},
-                                "--frames", "--subroutines", SUBROUTINES)
+                                [["getp", "most", "framekins.tilt-max"], ["run", "PROGRAMS/part.ngc"], ["note", "end"]],
+                                {"part.ngc": plane + FRAMES}, "--frames", "--subroutines", SUBROUTINES)
+        self.assertEqual(float(result.answers["most"]), 50, result.log)
         self.assertIsNone(result.failure, result.log)
         self.assertEqual((result.errors, result.status), ([], 0))
         for joint, place in enumerate((30, 10)):

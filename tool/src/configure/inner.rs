@@ -4,6 +4,7 @@ use super::edits::Edits;
 use crate::wiring::framekins::{INNER_TYPE, MOTION_TYPE};
 use crate::wiring::subject::Subject;
 use crate::wiring::told_the_tool::tool_type;
+use crate::wiring::turning_axes::range_pins;
 
 /// Loads it before these kinematics.
 pub fn write(subject: &Subject, edits: &mut Edits) {
@@ -22,6 +23,9 @@ pub fn write(subject: &Subject, edits: &mut Edits) {
         None => String::new(),
     };
     edits.first_hal(format!("loadrt framekins inner={module}{types}"));
+    for pin in range_pins(subject, module) {
+        edits.add_hal(format!("setp {} {}", pin.pin, pin.value));
+    }
     lead_type_to_framekins(subject, edits);
 }
 

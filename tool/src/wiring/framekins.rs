@@ -192,7 +192,7 @@ pub fn external_offset(letter: char) -> [String; 2] {
     ]
 }
 
-/// A dimension or a limit of a tilting table.
+/// A dimension of a tilting table, or a limit of an axis that turns the tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TablePin {
     /// The pin.
@@ -221,16 +221,21 @@ pub fn table_pins(tilt: char, joints: &[char]) -> Vec<TablePin> {
     ];
     for (name, letter) in [("tilt", tilt), ("rotary", 'C')] {
         let joint = joints.iter().position(|known| *known == letter);
-        for end in ["min", "max"] {
+        for end in ["MIN", "MAX"] {
             let number = joint.unwrap_or_default();
-            pins.push(TablePin {
-                pin: format!("framekins.{name}-{end}"),
-                value: format!("[JOINT_{number}]{}_LIMIT", end.to_ascii_uppercase()),
-                without: "o<tool_normal> knows no limit",
-            });
+            pins.push(range_pin(name, end, format!("[JOINT_{number}]{end}_LIMIT")));
         }
     }
     pins
+}
+
+/// One end, `MIN` or `MAX`, of the range of the axis that is named so, `tilt` or `rotary`.
+pub fn range_pin(name: &str, end: &str, value: String) -> TablePin {
+    TablePin {
+        pin: format!("framekins.{name}-{}", end.to_ascii_lowercase()),
+        value,
+        without: "o<tool_normal> knows no limit",
+    }
 }
 
 /// Pins that only a machine with a tilting table has.

@@ -16,6 +16,7 @@ pub mod settings;
 pub mod subject;
 pub mod subroutine_files;
 pub mod told_the_tool;
+pub mod turning_axes;
 #[cfg(feature = "linuxcnc")]
 pub mod user_codes;
 

@@ -199,3 +199,73 @@ fn frames_with_another_planner_are_warned_of() {
     assert_eq!(found[0]["level"], "warning");
     assert_eq!(found[0]["remedy"]["line"], "TPMOD = blendtp");
 }
+
+#[test]
+fn axes_that_turn_the_tool_keep_within_their_limits() {
+    let table = "vismach/5axis/table-rotary-tilting/xyzac-trt.ini";
+    let (joint, axis) = ("[JOINT_3]MIN_LIMIT", "[AXIS_A]MIN_LIMIT");
+    let narrow = (
+        "MIN_LIMIT = -100\n       MAX_LIMIT =   50",
+        "MIN_LIMIT = -90\nMAX_LIMIT = 50",
+    );
+    for (sample, changes, tilt, rotary) in [
+        (table, vec![], joint, "[JOINT_4]MIN_LIMIT"),
+        (table, vec![narrow], axis, "[JOINT_4]MIN_LIMIT"),
+        // joints by coordinates=
+        (
+            "vismach/5axis/bridgemill/5axis.ini",
+            vec![],
+            joint,
+            "[JOINT_4]MIN_LIMIT",
+        ),
+        (
+            "vismach/5axis/bridgemill/5axis.ini",
+            vec![("=xyzbcwy", "=xyzwcby")],
+            "[JOINT_5]MIN_LIMIT",
+            "[JOINT_4]MIN_LIMIT",
+        ),
+        // B carries A: seen from the workpiece B carries the tool
+        (
+            "vismach/5axis/table-dual-rotary/xyzab-tdr.ini",
+            vec![],
+            "[JOINT_4]MIN_LIMIT",
+            joint,
+        ),
+    ] {
+        let machine = configured(sample, &changes);
+        let written = machine.written();
+        for (name, value) in [("tilt", tilt), ("rotary", rotary)] {
+            for end in ["MIN", "MAX"] {
+                let line = format!("setp framekins.{name}-{} ", end.to_ascii_lowercase());
+                assert!(written.contains(&line), "{line}: {written}");
+            }
+            let line = format!("setp framekins.{name}-min {value}\n");
+            assert!(written.contains(&line), "{line}: {written}");
+        }
+        assert!(!machine.checked().contains("knows no limit"));
+        let file = machine.file("-framepath.hal");
+        let hal = fs::read_to_string(&file).expect("a text");
+        let line = format!("setp framekins.tilt-min {tilt}\n");
+        fs::write(&file, hal.replacen(&line, "", 1)).expect("written");
+        let said = machine.checked();
+        let found = "warning: nothing sets framekins.tilt-min: o<tool_normal> knows no limit";
+        assert!(
+            said.contains(found) && said.contains(line.trim_end()),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn an_arm_has_the_limits_of_the_axes_that_its_user_names() {
+    let machine = configured("vismach/puma/puma560.ini", &[]);
+    assert!(!machine.written().contains("tilt-min"));
+    let file = machine.file("-framepath-first.hal");
+    let first = fs::read_to_string(&file).expect("a text");
+    let said = first.replacen("inner=genserkins", "inner=genserkins tool_axes=C,B", 1);
+    fs::write(&file, said).expect("written");
+    let said = machine.checked();
+    for line in ["tilt-max [AXIS_B]MAX_LIMIT", "rotary-min [AXIS_C]MIN_LIMIT"] {
+        assert!(said.contains(line), "{line}: {said}");
+    }
+}
