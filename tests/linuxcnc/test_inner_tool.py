@@ -126,8 +126,8 @@ class ToolCentre(InnerTool):
         state = "(DEBUG, STATE #<_hal[framekins.inner-type-active]> #<_plane> #<_ccomp>)"
         for code, plane, words in (("G43.4 H7", 19, "Requested tool 7 not found"), ("G43.4 H-1", 17.1, "H-1 names no tool"),
                                    ("G43.4 H3", 17, "")):
-            steps = [["mdi", f"G{plane}"], ["mdi", "G1 B20 F3000"], ["note", "before"], ["mdi", code], ["sleep", .3], ["mdi", state],
-                     ["note", "after"], ["mdi", "G1 B0"], ["note", "end"]]
+            steps = [["mdi", f"G{plane}"], ["mdi", "G1 B20 F3000"], ["note", "before"], ["mdi", code], ["sleep", .3],
+                     ["mdi", state], ["note", "after"], ["mdi", "G1 B0"], ["note", "end"]]
             result = bridge.run(steps, inner=HEAD_TYPES, record=False)
             self.assertIn(words, "\n".join(result.errors), result.log)
             self.assertEqual(len(result.errors), bool(words), result.log)
@@ -240,7 +240,8 @@ class Described(InnerTool):
         self.assertAlmostEqual(abs(position[3]), 180, places=6)
         # and leans where the third axis does, or is turned by one that carries the others
         self.refused(ARM, "inner=pumakins tool_axes=C,B", "A to 0 or 180, then o<tool_normal>", lines[0], "G1 A170", *lines[1:])
-        self.refused(ARM, "inner=pumakins tool_axes=B,A", "bring B or C to 0 of the machine first", lines[0], "G1 C20", *lines[1:])
+        self.refused(ARM, "inner=pumakins tool_axes=B,A", "bring B or C to 0 of the machine first", lines[0], "G1 C20",
+                     *lines[1:])
 
     def test_nothing_that_turns_the_tool(self):
         lines = ["o<trans> call [1] [0] [0]", "o<tool_normal> call", "G1 X-1 Y0", "o<rot> call [0] [20] [0]", "o<tool_normal> call"]
