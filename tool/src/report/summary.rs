@@ -391,10 +391,11 @@ fn time_spent(recording: &Recording) -> TimeSpent {
     };
     let times = &recording.times;
     let total = times[times.len() - 1] - times[0];
-    let in_motion: f64 = (1..times.len())
+    // A sum of nothing is -0.
+    let in_motion = (1..times.len())
         .filter(|row| moves(*row))
         .map(|row| times[row] - times[row - 1])
-        .sum();
+        .fold(0.0, |sum, step| sum + step);
     TimeSpent {
         total,
         in_motion,
@@ -466,6 +467,15 @@ pub mod tests {
         // v^2 / r on the circle, but the jump to full speed is far over every limit.
         assert_eq!(report.verdict, Verdict::Fail);
         assert!(report.joints[1].peaks[1].peak > 10_000.0);
+    }
+
+    #[test]
+    fn what_does_not_move_is_0_s_in_motion() {
+        let mill = machine(MILL).expect("a machine");
+        let recording = recording_of(&[[1.0, 2.0, 3.0]; 5], |_| 1);
+        let time = analyse("rest", &mill, &recording, &[], None).report.time;
+        assert_eq!(time.in_motion.to_bits(), 0.0_f64.to_bits());
+        assert_eq!(time.standing, time.total);
     }
 
     #[test]
