@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::angles;
+use super::coordinates::Coordinates;
 use super::error::IniError;
 use super::ini::Ini;
-use super::numbers;
 
 /// Letters of LinuxCNC's axes, in its order.
 pub const AXIS_LETTERS: &str = "XYZABCUVW";
@@ -164,89 +164,6 @@ fn unit_of(letter: char, length_unit: &'static str) -> &'static str {
     } else {
         length_unit
     }
-}
-
-/// The letters of joints and axes.
-struct Coordinates {
-    /// The axis that each joint moves, or the one whose unit it most likely has.
-    joints: Vec<char>,
-    /// The axes, in any order.
-    axes: Vec<char>,
-    /// Whether the first joints are X, Y and Z of the machine.
-    are_joints: bool,
-}
-
-impl Coordinates {
-    /// `coordinates=` of `[KINS]KINEMATICS` for joints and axes; without it all of [`AXIS_LETTERS`] as far as there
-    /// are joints, like trivkins, and for other kinematics the axes of `[TRAJ]COORDINATES`, as LinuxCNC has them.
-    fn from_ini(ini: &Ini) -> Result<Self, IniError> {
-        let text = ini.required_text(
-            "KINS",
-            "KINEMATICS",
-            "write for example KINEMATICS = framekins coordinates=XYZ",
-        )?;
-        let mut words = text.split_whitespace();
-        let are_joints = matches!(words.next(), Some("trivkins" | "framekins"));
-        let remedy = "coordinates= takes letters out of XYZABCUVW, one for each joint";
-        let named = match words.find_map(|word| word.strip_prefix("coordinates=")) {
-            Some(text) => {
-                Some(letters(text).ok_or_else(|| ini.bad_value("KINS", "KINEMATICS", remedy))?)
-            }
-            None => None,
-        };
-        let count = joints_of(ini)?;
-        let in_order = AXIS_LETTERS.chars().take(count).collect::<Vec<_>>();
-        let (joints, axes) = match (named, ini.text("TRAJ", "COORDINATES")) {
-            (Some(named), _) => (named.clone(), named),
-            (None, Some(text)) if !are_joints => {
-                let remedy = "write the letters of the axes out of XYZABCUVW, for example XYZAC";
-                let axes =
-                    letters(text).ok_or_else(|| ini.bad_value("TRAJ", "COORDINATES", remedy))?;
-                let joints = if axes.len() == count {
-                    axes.clone()
-                } else {
-                    in_order
-                };
-                (joints, axes)
-            }
-            (None, _) => (in_order.clone(), in_order),
-        };
-        if joints.is_empty() {
-            return Err(ini.missing(
-                "JOINT_0",
-                "MAX_VELOCITY",
-                "the file describes no joint; add a section [JOINT_n] for each",
-            ));
-        }
-        Ok(Self {
-            joints,
-            axes,
-            are_joints,
-        })
-    }
-}
-
-/// `[KINS]JOINTS`, without it as many as have a section.
-fn joints_of(ini: &Ini) -> Result<usize, IniError> {
-    let Some(said) = ini.entry("KINS", "JOINTS") else {
-        return Ok((0..AXIS_LETTERS.len())
-            .take_while(|number| ini.has_section(&format!("JOINT_{number}")))
-            .count());
-    };
-    let remedy = "write how many joints the machine has, a whole number";
-    let count = numbers::number(said).filter(|count| *count >= 0.0);
-    let count = count.map(|count| count as usize);
-    count.ok_or_else(|| ini.bad_value("KINS", "JOINTS", remedy))
-}
-
-/// The letters of axes in a text, spaces left out; `None` if there are other ones.
-fn letters(text: &str) -> Option<Vec<char>> {
-    let letters = text.to_ascii_uppercase();
-    letters
-        .chars()
-        .filter(|letter| !letter.is_whitespace())
-        .map(|letter| AXIS_LETTERS.contains(letter).then_some(letter))
-        .collect()
 }
 
 fn joint(
@@ -411,6 +328,26 @@ MAX_ACCELERATION = 1000
         );
         let wrong = machine(&table.replace("= X Y c", "= XQ")).expect_err("an error");
         assert!(wrong.to_string().contains("[TRAJ]COORDINATES"), "{wrong}");
+    }
+
+    #[test]
+    fn the_axes_are_those_that_motion_has_of_the_kinematics() {
+        let letters = |members: &[Member]| members.iter().map(|m| m.letter).collect::<String>();
+        for (kinematics, coordinates, axes, joints) in [
+            ("trivkins", "X Z", "XZ", "XYZ"),
+            ("trivkins coordinates=XZ", "Z, X", "XZ", "XZ"),
+            ("framekins coordinates=XYYZ", "XYZ", "XYZ", "XYYZ"),
+        ] {
+            let text = MILL
+                .replace("framekins coordinates=XYZ", kinematics)
+                .replace("[TRAJ]", &format!("[TRAJ]\nCOORDINATES = {coordinates}"));
+            let found = machine(&text).expect("a valid machine");
+            assert_eq!(
+                (&*letters(&found.axes), &*letters(&found.joints)),
+                (axes, joints),
+                "{kinematics}"
+            );
+        }
     }
 
     #[test]

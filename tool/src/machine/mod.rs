@@ -3,6 +3,7 @@
 
 pub(crate) mod angles;
 pub(crate) mod configuration;
+mod coordinates;
 mod error;
 mod include;
 pub(crate) mod ini;

@@ -255,7 +255,7 @@ fn check_match(
         .collect();
     if recorded != named {
         return fail(format!(
-            "the axes `{recorded}` are recorded, [KINS]KINEMATICS names `{named}`; record a \
+            "the axes `{recorded}` are recorded, [TRAJ]COORDINATES (or [KINS]KINEMATICS) names `{named}`; record a \
              column axis.L for each"
         ));
     }
