@@ -116,8 +116,13 @@ fn prepare(arguments: &RecordArguments) -> Result<Wiring, RecordError> {
     Wiring::new(&state, std::process::id(), arguments.buffer)
 }
 
-/// Says what is recorded, and until when.
+/// Says what is recorded, what is not, and until when.
 fn announce(arguments: &RecordArguments, wiring: &Wiring) {
+    tell(announcement(arguments, wiring).join("\n"));
+}
+
+/// The sentences of it.
+fn announcement(arguments: &RecordArguments, wiring: &Wiring) -> Vec<String> {
     let axes: String = wiring.columns.axes.iter().collect();
     let joints = wiring.columns.joints.len();
     let mut until = Vec::from_iter(
@@ -131,16 +136,28 @@ fn announce(arguments: &RecordArguments, wiring: &Wiring) {
             .map(|seconds| format!("{seconds} s are over")),
     );
     until.push("Ctrl-C".to_owned());
-    tell(format_args!(
+    let mut sentences = vec![format!(
         "recording {joints} joints and the axes {axes} every {} ms, until {}",
         wiring.period * 1e3,
         until.join(" or ")
-    ));
-    if arguments.until_done && !wiring.columns.idle {
-        tell(format_args!(
-            "halui is not loaded: the program counts as ended when the machine has stood for {LONG_REST} s"
+    )];
+    let beside = wiring
+        .extra_joints
+        .iter()
+        .map(|joint| format!("joint.{joint}"));
+    let beside = Vec::from_iter(beside).join(", ");
+    if !beside.is_empty() {
+        sentences.push(format!(
+            "not recorded: {beside}, beside the kinematics (num_extrajoints of motmod)"
         ));
     }
+    if arguments.until_done && !wiring.columns.idle {
+        sentences.push(format!(
+            "halui is not loaded: the program counts as ended when the machine has stood for {LONG_REST} s behind a \
+             move; one without a move is not noticed"
+        ));
+    }
+    sentences
 }
 
 fn is_running() -> Result<bool, RecordError> {
@@ -276,4 +293,42 @@ impl Recording<'_> {
 fn told(file: &Path, table: &Table<OutputFile>) -> String {
     let rows = usize::try_from(table.rows).unwrap_or(usize::MAX);
     format!("{}: {} servo cycles", file.display(), grouped(rows))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::state::Pin;
+    use super::*;
+
+    #[test]
+    fn what_is_not_recorded_or_not_noticed_is_said() {
+        let arguments = |until_done| RecordArguments {
+            output: PathBuf::from("run.csv"),
+            until_done,
+            seconds: Some(20.0),
+            buffer: 10.0,
+        };
+        let mut state = state::tests::mill();
+        let wiring = Wiring::new(&state, 77, 10.0).expect("a machine");
+        assert_eq!(
+            announcement(&arguments(false), &wiring),
+            ["recording 2 joints and the axes xy every 1 ms, until 20 s are over or Ctrl-C"]
+        );
+        state.pins.push(Pin {
+            owner: "motmod".to_owned(),
+            name: "joint.1.posthome-cmd".to_owned(),
+            value: "0".to_owned(),
+            signal: None,
+        });
+        let wiring = Wiring::new(&state, 77, 10.0).expect("a machine");
+        assert_eq!(
+            announcement(&arguments(true), &wiring),
+            [
+                "recording 1 joints and the axes xy every 1 ms, until the program has ended or 20 s are over or Ctrl-C",
+                "not recorded: joint.1, beside the kinematics (num_extrajoints of motmod)",
+                "halui is not loaded: the program counts as ended when the machine has stood for 5 s behind a move; one \
+                 without a move is not noticed",
+            ]
+        );
+    }
 }

@@ -65,17 +65,13 @@ impl Columns {
         self.joints.len() + self.axes.len()
     }
 
-    /// Those of the machine that runs.
+    /// Those of the machine that runs, with these joints.
     ///
     /// # Errors
     /// More than a sampler takes.
-    fn of(state: &State) -> Result<Columns, RecordError> {
-        let joints = (0..)
-            .take_while(|joint| state.pin(&joint_pin(*joint)).is_some())
-            // One that belongs to a spindle or a tool changer is none of the kinematics.
-            .filter(|joint| state.pin(&format!("joint.{joint}.posthome-cmd")).is_none());
+    fn of(state: &State, joints: Vec<usize>) -> Result<Columns, RecordError> {
         let columns = Columns {
-            joints: joints.collect(),
+            joints,
             axes: axes_of(state),
             idle: state.pin(IDLE).is_some(),
         };
@@ -100,6 +96,14 @@ impl Columns {
             .chain(self.axes.iter().map(|axis| axis_pin(*axis)))
             .collect()
     }
+}
+
+/// The joints of the kinematics, and those beside them (num_extrajoints): one that belongs to a spindle or a tool changer
+/// is no part of the path.
+fn joints_of(state: &State) -> (Vec<usize>, Vec<usize>) {
+    (0..)
+        .take_while(|joint| state.pin(&joint_pin(*joint)).is_some())
+        .partition(|joint| state.pin(&format!("joint.{joint}.posthome-cmd")).is_none())
 }
 
 /// There are pins for all axes that LinuxCNC has; only those of the machine have a velocity.
@@ -134,6 +138,8 @@ fn axis_pin(axis: char) -> String {
 pub struct Wiring {
     /// What a row holds.
     pub columns: Columns,
+    /// Numbers of the joints that no row holds: they are none of the kinematics.
+    pub extra_joints: Vec<usize>,
     /// Servo period, s.
     pub period: f64,
     /// The lines that load what is needed.
@@ -165,7 +171,8 @@ impl Wiring {
         let scaler = free.ok_or_else(|| {
             RecordError::ScalersTaken(SCALERS.map(|scaler| scaler.module).join(", "))
         })?;
-        let columns = Columns::of(state)?;
+        let (joints, extra_joints) = joints_of(state);
+        let columns = Columns::of(state, joints)?;
         let rows = (buffer / thread.period).ceil().max(4.0);
         Ok(Wiring {
             period: thread.period,
@@ -173,6 +180,7 @@ impl Wiring {
             link: link(state, &columns, scaler)?,
             start: start(&columns, scaler, &thread.name),
             columns,
+            extra_joints,
         })
     }
 }
@@ -355,7 +363,11 @@ mod tests {
     #[test]
     fn a_joint_of_a_spindle_is_none_of_the_kinematics() {
         let state = with_pin(mill(), "joint.1.posthome-cmd", None);
-        assert_eq!(wiring(&state).expect("a machine").columns.joints, [0]);
+        let wired = wiring(&state).expect("a machine");
+        assert_eq!(
+            (wired.columns.joints, wired.extra_joints),
+            (vec![0], vec![1])
+        );
     }
 
     #[test]
