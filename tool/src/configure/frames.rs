@@ -11,6 +11,7 @@ use crate::wiring::framekins::{
 };
 use crate::wiring::outputs_line::OutputsLine;
 use crate::wiring::previews::screen;
+use crate::wiring::screens::{OTHERS, ending, why_ending};
 use crate::wiring::settings::{KEYS, SECTION};
 use crate::wiring::subject::{Subject, guard_line};
 
@@ -25,6 +26,7 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
         );
     }
     readable(subject, edits);
+    shown(subject, edits);
     homed(subject, edits);
     if subject.kinematics() == "trivkins" && !needs_trivkins(subject) {
         trivial_kinematics(subject, edits);
@@ -70,6 +72,18 @@ fn readable(subject: &Subject, edits: &mut Edits) {
             &place,
             "[TRAJ]LINEAR_UNITS is neither mm nor inch",
             "LINEAR_UNITS = mm under [TRAJ]",
+        );
+    }
+}
+
+/// LinuxCNC ends with its screen.
+fn shown(subject: &Subject, edits: &mut Edits) {
+    if let Some(screen) = ending(subject) {
+        let place = subject.place_of("DISPLAY", "DISPLAY");
+        edits.refuse(
+            &place,
+            why_ending(screen),
+            format!("{OTHERS}; or do without --frames"),
         );
     }
 }

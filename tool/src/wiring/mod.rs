@@ -12,6 +12,7 @@ pub mod joints;
 pub mod outputs_line;
 pub mod own_files;
 pub mod previews;
+pub mod screens;
 pub mod settings;
 pub mod subject;
 pub mod subroutine_files;

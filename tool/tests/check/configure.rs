@@ -326,7 +326,7 @@ fn other_screens_get_files_of_their_own_and_a_file_of_the_users_stays() {
         assert!(written.contains(&line), "{line} in {written}");
     }
     for to in [
-        "DISPLAY = touchy",
+        "DISPLAY = tklinuxcnc",
         "DISPLAY = axis\nUSER_COMMAND_FILE = own.py",
     ] {
         let (_, output) = changed("DISPLAY = axis", to, &options);

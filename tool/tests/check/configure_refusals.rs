@@ -1,6 +1,6 @@
 //! What `configure` does not write, since nothing would move with it or LinuxCNC would not find it.
 
-use crate::bench::framepath;
+use crate::bench::{framepath, samples};
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -92,6 +92,41 @@ fn angles_of_another_unit_than_the_degree() {
             && said.contains("ANGULAR_UNITS = degree"),
         "{said}"
     );
+}
+
+#[test]
+fn screens_that_end_with_framekins() {
+    let folder = stock("mill.ini");
+    let ini = folder.path().join("mill.ini");
+    let text = fs::read_to_string(&ini).expect("a text");
+    for (line, screen) in [
+        ("DISPLAY = touchy", "touchy"),
+        ("DISPLAY = /usr/bin/gscreen -c industrial", "gscreen"),
+    ] {
+        let changed = text.replace("DISPLAY = axis", line);
+        fs::write(&ini, changed).expect("written");
+        let subroutines = samples().join("subroutines").display().to_string();
+        let options = [
+            "configure",
+            "mill.ini",
+            "--frames",
+            "--subroutines",
+            &subroutines,
+        ];
+        let output = framepath(folder.path(), &options);
+        let said = refused(folder.path(), &output);
+        assert!(
+            said.contains(&format!(
+                ":1: error: {screen} ends at its start with framekins"
+            )) && said.contains("DISPLAY = axis, gmoccapy or qtvcp"),
+            "{said}"
+        );
+        let output = framepath(folder.path(), &options[..2]);
+        assert!(output.status.success(), "blendtp alone takes {screen}");
+        for written in ["mill-framepath.ini", "mill-framepath.hal"] {
+            fs::remove_file(folder.path().join(written)).expect("removed");
+        }
+    }
 }
 
 #[test]

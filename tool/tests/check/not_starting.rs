@@ -203,3 +203,17 @@ fn what_is_no_ini_file_is_an_error() {
         assert!(said.contains("this is no INI file of LinuxCNC"), "{said}");
     }
 }
+
+#[test]
+fn a_screen_that_ends_with_framekins_is_an_error() {
+    for screen in ["touchy", "gscreen"] {
+        let found = found("DISPLAY = axis", &format!("DISPLAY = {screen}"));
+        let words = format!("{screen} ends at its start with framekins");
+        assert!(
+            found
+                .iter()
+                .any(|(level, found)| level == "error" && found.contains(&words)),
+            "{found:?}"
+        );
+    }
+}

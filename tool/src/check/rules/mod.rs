@@ -25,6 +25,7 @@ mod planner_module;
 mod previews;
 mod remap_files;
 mod remaps;
+mod screens;
 mod sections;
 mod subroutines;
 mod table;
@@ -72,6 +73,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
         subroutines::look(subject, &mut findings);
         remaps::look(subject, &mut findings);
         previews::look(subject, &mut findings);
+        screens::look(subject, &mut findings);
     } else {
         left_behind::look(subject, &mut findings);
     }
