@@ -1036,7 +1036,8 @@ int framepath_planner_set_spindle_sync(struct framepath_planner *handle,
                                        int velocity_mode);
 
 /*
- Gives the next move an analog output to write at its start. -1 if there is none of this number.
+ Gives the next move an analog output to write at its start. -1 if there is none of this number, which motion then tells
+ the operator, as of M68.
 
  # Safety
  `handle` from `framepath_planner_create`.
@@ -1044,7 +1045,8 @@ int framepath_planner_set_spindle_sync(struct framepath_planner *handle,
 int framepath_planner_set_analog_output(struct framepath_planner *handle, unsigned char index, double value);
 
 /*
- Gives the next move a digital output to write at its start. -1 if there is none of this number.
+ Gives the next move a digital output to write at its start. -1 if there is none of this number, which motion then tells
+ the operator, as of M64 and M65.
 
  # Safety
  `handle` from `framepath_planner_create`.

@@ -13,7 +13,7 @@ mod termination;
 
 pub use motion_type::MotionType;
 pub use near_limit::NearLimit;
-pub use outputs::SynchronisedOutputs;
+pub use outputs::{OUTPUT_COUNT, SynchronisedOutputs};
 pub use programmed_feed::{FeedWord, INCHES, INVERSE_TIME, ProgrammedFeed, UNITS_PER_MINUTE};
 pub use queue::{CAPACITY, MoveQueue, QueueFull};
 pub use queued_move::{FEED_OVERRIDE_ENABLED, Move};

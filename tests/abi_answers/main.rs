@@ -379,6 +379,10 @@ fn outputs_are_written_when_their_move_starts() {
         assert_eq!(framepath_planner_set_analog_output(handle, 64, 2.5), -1);
         assert_eq!(framepath_planner_set_analog_output(handle, 0, f64::NAN), -1);
     }
+    // Motion says that it has none of these; what is no number never reaches it.
+    let told = machine.shared.take_written();
+    let told: Vec<c_int> = told.iter().map(|written| written.index).collect();
+    assert_eq!(told, [64, -1, 64]);
     assert_eq!(machine.line(1.0, 2, &tag()), 0);
     assert_eq!(machine.run(), [(5, 0.0), (63, 1.0), (63, 2.5)]);
 }

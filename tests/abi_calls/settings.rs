@@ -254,6 +254,10 @@ impl Calls {
                 assert_eq!(answer, if taken { 0 } else { -1 });
             }
         }
+        // Motion is asked to write what it has not, and tells the operator.
+        for told in self.shared.take_written() {
+            assert!(!(0..64).contains(&told.index), "{}", told.index);
+        }
         self.check(Kind::Command);
     }
 

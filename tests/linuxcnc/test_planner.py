@@ -234,6 +234,19 @@ class Refused(Case):
             self.assertTrue(any("can't add linear move" in error for error in result.errors), result.errors)
             self.nothing_moves(result)
 
+    def test_an_output_that_motion_has_not(self):
+        # beyond num_dio and num_aio when the move begins; beyond 63 motion has none at all
+        outputs = (("M62 P5", "5"), ("M63 P64", "64"), ("M62 P255", "255"),
+                   ("M67 E20 Q1", "20"), ("M67 E64 Q1", "64"), ("M67 E255 Q1", "255"))
+        lines = [text for n, (line, _) in enumerate(outputs) for text in (line, f"G1 X{n + 1}")]
+        result = harness.run([RUN, ["note", "end"]], program(*lines), record=False)
+        self.assertIsNone(result.failure, result.log)
+        said = [error for error in result.errors if "index out of range" in error]
+        self.assertEqual(len(said), len(outputs), result.errors)
+        for line, number in outputs:
+            self.assertTrue(any(f"out of range, {number} " in error for error in said), line)
+        self.assertAlmostEqual(result.answers["end"]["joints"][0], len(outputs), delta=AT_END)
+
     def test_a_jerk_that_changes_in_motion_holds_from_the_next_rest_on(self):
         # moves still come when the pin changes; 400 mm/s3 would lengthen the stop from some 0.15 s to 0.8
         lines = ["G64 P0.1 Q0.0001", *(f"G1 X{n} Y{0.01 * (n % 2)}" for n in range(1, 401))]

@@ -10,7 +10,7 @@ use crate::abi::linuxcnc::{EmcPose, TP_STRUCT, tc_direction_t, tp_err_t};
 use crate::abi::pose::axes_of;
 use crate::axes::{AXIS_COUNT, Axes};
 use crate::machine_map::MachineMap;
-use crate::moves::TerminationCondition;
+use crate::moves::{OUTPUT_COUNT, TerminationCondition};
 use crate::planner::{Blending, BlendingError, DirectionError, JerkLimit};
 
 /// Sets the greatest jerk of each of the nine axes, 0 = not limited. Returns -1, or the number of the first axis whose
@@ -263,7 +263,8 @@ pub unsafe extern "C" fn framepath_planner_set_spindle_sync(
     })
 }
 
-/// Gives the next move an analog output to write at its start. -1 if there is none of this number.
+/// Gives the next move an analog output to write at its start. -1 if there is none of this number, which motion then tells
+/// the operator, as of M68.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`.
@@ -274,14 +275,22 @@ pub unsafe extern "C" fn framepath_planner_set_analog_output(
     value: c_double,
 ) -> c_int {
     with(handle, |handle| {
-        match handle.planner.set_analog_output(index.into(), value) {
-            true => tp_err_t::TP_ERR_OK,
-            false => tp_err_t::TP_ERR_FAIL,
+        if handle.planner.set_analog_output(index.into(), value) {
+            return tp_err_t::TP_ERR_OK;
         }
+        if let Some(write) = handle
+            .write_analog
+            .filter(|_| usize::from(index) >= OUTPUT_COUNT)
+        {
+            // SAFETY: motmod's own function, which says that it has no output of this number, and writes none.
+            unsafe { write(index.into(), value) };
+        }
+        tp_err_t::TP_ERR_FAIL
     })
 }
 
-/// Gives the next move a digital output to write at its start. -1 if there is none of this number.
+/// Gives the next move a digital output to write at its start. -1 if there is none of this number, which motion then tells
+/// the operator, as of M64 and M65.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`.
@@ -295,10 +304,13 @@ pub unsafe extern "C" fn framepath_planner_set_digital_output(
         let set = usize::try_from(index)
             .is_ok_and(|index| handle.planner.set_digital_output(index, value != 0));
         if set {
-            tp_err_t::TP_ERR_OK
-        } else {
-            tp_err_t::TP_ERR_FAIL
+            return tp_err_t::TP_ERR_OK;
         }
+        if let Some(write) = handle.write_digital {
+            // SAFETY: motmod's own function, as for analog outputs.
+            unsafe { write(index, (value != 0).into()) };
+        }
+        tp_err_t::TP_ERR_FAIL
     })
 }
 
