@@ -33,8 +33,8 @@ pub enum PlanError {
     NoMoves(PathBuf),
     /// An axis moves that the machine does not have.
     #[error(
-        "{}:{line}: axis {letter} moves, which the machine does not have: [KINS]KINEMATICS of {} names \
-         no {letter} (coordinates=)",
+        "{}:{line}: axis {letter} moves, which the machine does not have: [TRAJ]COORDINATES (or [KINS]KINEMATICS) of {} names \
+         no {letter}",
         file.display(), ini.display()
     )]
     NoAxis {
