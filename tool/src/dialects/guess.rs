@@ -45,6 +45,22 @@ impl Evidence {
     }
 }
 
+/// A line without what stands in parentheses, which is a comment to most controls. `is_code` says of the text before a parenthesis
+/// that this one is none: then it stays.
+pub fn without_comments(line: &str, is_code: impl Fn(&str) -> bool) -> String {
+    let mut code = String::with_capacity(line.len());
+    let mut inside = false;
+    for character in line.chars() {
+        match character {
+            ')' if inside => inside = false,
+            _ if inside => {}
+            '(' if !is_code(&code) => inside = true,
+            _ => code.push(character),
+        }
+    }
+    code
+}
+
 /// The dialect that most speaks for; `None` where nothing speaks for one, or as much for two.
 pub fn guess(path: &Path, text: &str) -> Option<Guess> {
     let lines: Vec<String> = text

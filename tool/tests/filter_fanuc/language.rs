@@ -276,3 +276,30 @@ fn the_dialect_is_guessed() {
         assert_eq!(found, Some(Dialect::Fanuc), "{text}");
     }
 }
+
+#[test]
+fn comments_speak_for_no_dialect() {
+    let guessed = |text: &str| guess(Path::new("part.nc"), text).map(|guess| guess.dialect);
+    for text in [
+        "(T1  D=1. CR=0. - ZMIN=-0.4 - FLAT END MILL)\nG90\n",
+        "N10 (T1 CR=0.)\nG0 X10. (CR=1.)\nM6(CR=2.)\n",
+        "(T1 1/4\" ENDMILL)\nG0 X1 ; 1/2\" DRILL\n",
+        "(P1 = FIRST PASS)\n(CALL THE OPERATOR)\n(IF BROKEN, STOP)\n(RETURN)\n",
+        "(V.P. IS THE STOCK, G161)\nG0 X1 ; V.P.\n",
+    ] {
+        assert_eq!(guessed(text), None, "{text}");
+        let headed = format!("%\nO1001\n{}", text.repeat(9));
+        assert_eq!(guessed(&headed), Some(Dialect::Fanuc), "{headed}");
+    }
+    for (text, dialect) in [
+        ("MCALL CYCLE81 (R[1],0,2)\n", Dialect::Sinumerik),
+        ("G1 X=(R[2]+1)*(R[3])\n", Dialect::Sinumerik),
+        ("IF (R[1]==2) GOTOF END\n", Dialect::Sinumerik),
+        ("N10 (P1 = P2 + 3)\n", Dialect::Fagor),
+        ("(IF P1 EQ 2 GOTO N10)\n", Dialect::Fagor),
+        ("G1 X1 \"SLOT (P1)\n", Dialect::Mefi),
+        ("#HSC ON (SMOOTH)\n", Dialect::Isg),
+    ] {
+        assert_eq!(guessed(text), Some(dialect), "{text}");
+    }
+}

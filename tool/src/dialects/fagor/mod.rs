@@ -36,6 +36,7 @@ use super::guess::Evidence;
 use super::languages::Language;
 use super::run::{Files, run_file};
 use super::settings::Settings;
+use crate::diagnostics::Diagnostics;
 use std::path::Path;
 
 /// The Fagor 8055.
@@ -59,6 +60,13 @@ impl Language for Fagor {
     }
 }
 
+/// Whether a line is understood: what stands in parentheses is a comment to other controls, which may begin like a statement.
+fn is_block(line: &str) -> bool {
+    let mut diagnostics = Diagnostics::default();
+    parser::parse_blocks(line.into(), &mut diagnostics);
+    diagnostics.errors() == 0
+}
+
 /// What speaks for this dialect; see [`super::guess`].
 fn evidence(lines: &[String], extension: &str) -> Evidence {
     const STATEMENTS: [&str; 10] = [
@@ -80,16 +88,13 @@ fn evidence(lines: &[String], extension: &str) -> Evidence {
         if code.starts_with('%') && code.contains(",MX") {
             evidence.add(100, at);
         }
-        if STATEMENTS
+        let calls = STATEMENTS
             .iter()
-            .any(|statement| code.starts_with(statement))
-        {
-            evidence.add(40, at);
-        }
+            .any(|statement| code.starts_with(statement));
         let assigns = code.strip_prefix("(P").is_some_and(|rest| {
             rest.starts_with(|c: char| c.is_ascii_digit()) && rest.contains('=')
         });
-        if assigns {
+        if (calls || assigns) && is_block(line) {
             evidence.add(40, at);
         }
         if code.starts_with("G72S") || code.starts_with("G73Q") || code.starts_with("G14") {

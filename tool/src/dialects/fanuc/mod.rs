@@ -30,7 +30,7 @@ mod values;
 mod variables;
 
 use super::control::About;
-use super::guess::Evidence;
+use super::guess::{Evidence, without_comments};
 use super::languages::Language;
 use super::run::{Files, run_file};
 use super::settings::Settings;
@@ -67,17 +67,7 @@ impl Language for Fanuc {
 
 /// A line without comments and blanks.
 fn code(line: &str) -> String {
-    let mut inside = false;
-    let mut code = String::with_capacity(line.len());
-    for character in line.chars() {
-        match character {
-            '(' => inside = true,
-            ')' => inside = false,
-            _ if inside || character.is_whitespace() => {}
-            _ => code.push(character),
-        }
-    }
-    code
+    without_comments(line, |_| false).replace(char::is_whitespace, "")
 }
 
 /// How much the words of a line speak for this dialect.

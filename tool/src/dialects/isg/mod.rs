@@ -26,7 +26,7 @@ mod syntax;
 mod variables;
 
 use super::control::About;
-use super::guess::Evidence;
+use super::guess::{Evidence, without_comments};
 use super::languages::Language;
 use super::run::{Files, run_file};
 use super::settings::Settings;
@@ -74,6 +74,7 @@ fn evidence(lines: &[String], _extension: &str) -> Evidence {
     const FUNCTIONS: [&str; 6] = ["G161", "G162", "G261", "G351", "V.P.", "V.L."];
     let mut evidence = Evidence::default();
     for (index, line) in lines.iter().enumerate() {
+        let line = without_comments(line.split(';').next().unwrap_or(""), |_| false);
         let code = line.strip_prefix('N').map_or(line.as_str(), |rest| {
             rest.trim_start_matches(|c: char| c.is_ascii_digit())
                 .trim_start()

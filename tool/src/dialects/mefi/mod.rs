@@ -14,7 +14,7 @@ mod routine;
 mod syntax;
 
 use super::control::About;
-use super::guess::Evidence;
+use super::guess::{Evidence, without_comments};
 use super::languages::Language;
 use super::run::{Files, run_file};
 use super::settings::Settings;
@@ -48,6 +48,8 @@ impl Language for Mefi {
 fn evidence(lines: &[String], _extension: &str) -> Evidence {
     let mut evidence = Evidence::default();
     for (index, line) in lines.iter().enumerate() {
+        // These controls have neither ; nor parentheses: inches in comments of others are marked like their own comments.
+        let line = without_comments(line.split(';').next().unwrap_or(""), |_| false);
         let code = line.strip_prefix('N').map_or(line.as_str(), |rest| {
             rest.trim_start_matches(|c: char| c.is_ascii_digit())
                 .trim_start()

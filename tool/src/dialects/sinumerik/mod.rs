@@ -53,7 +53,7 @@ mod words;
 mod words_beside;
 
 use super::control::About;
-use super::guess::Evidence;
+use super::guess::{Evidence, without_comments};
 use super::languages::Language;
 use super::run::{Files, run_file};
 use super::settings::Settings;
@@ -77,6 +77,20 @@ impl Language for Sinumerik {
 
     fn evidence(&self, lines: &[String], extension: &str) -> Evidence {
         evidence(lines, extension)
+    }
+}
+
+/// Whether a parenthesis behind this text belongs to a call or an expression. Where a line begins, and behind a word such as G1 or
+/// X10., this dialect has none: there it is the comment of another.
+fn goes_on(before: &str) -> bool {
+    let before = before.trim_end();
+    let name = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+    let is_letter = |c: &char| c.is_ascii_alphabetic() || *c == '_';
+    let letters = name.chars().rev().take_while(is_letter).count();
+    let operators = ['=', '+', '-', '*', '/', '<', '>', ',', '(', '['];
+    match name.len() < before.len() {
+        true => letters > 1,
+        false => letters > 0 || (name != "/" && name.ends_with(operators)),
     }
 }
 
@@ -107,7 +121,7 @@ fn evidence(lines: &[String], extension: &str) -> Evidence {
         evidence.add_extension(50);
     }
     for (at, line) in lines.iter().enumerate() {
-        let code = line.split(';').next().unwrap_or("");
+        let code = without_comments(line.split(';').next().unwrap_or(""), goes_on);
         if code.starts_with("%_N_") || code.starts_with("%MPF") || code.starts_with("%SPF") {
             evidence.add(100, at);
         }
