@@ -39,7 +39,7 @@ pub enum CanonError {
         source: io::Error,
     },
     /// The interpreter refused a line.
-    #[error("{}{}: {message}\n    {text}", file.display(), behind_colon(*line))]
+    #[error("{}{}: {message}\n    {text}{help}", file.display(), behind_colon(*line))]
     Refused {
         /// The file.
         file: PathBuf,
@@ -49,6 +49,8 @@ pub enum CanonError {
         message: String,
         /// The line itself.
         text: String,
+        /// What to do first, in a line of its own; empty where nothing is known.
+        help: String,
     },
     /// The program does not end, or takes too long.
     #[error(
@@ -291,6 +293,7 @@ impl CallStream {
             line: number.parse().unwrap_or(0),
             message,
             text: text.trim_end().to_owned(),
+            help: refusal::of_another_control(&self.file),
         })
     }
 

@@ -1,5 +1,13 @@
 //! What a refusal of the interpreter means where its own words name another cause.
 
+use crate::dialects::guess::surely;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// How much of a program is looked at for its language, bytes.
+const HEAD: u64 = 1 << 16;
+
 /// Modules that only LinuxCNC's task controller has for the Python of remaps.
 const OF_TASK: [&str; 2] = ["emccanon", "emctask"];
 
@@ -43,4 +51,26 @@ pub fn behind_python(said: &str) -> String {
         None => return String::new(),
     };
     format!("\n  help: {help}")
+}
+
+/// What is to be done first with a program that is surely one of another control.
+pub fn of_another_control(file: &Path) -> String {
+    let mut head = Vec::new();
+    let read = File::open(file).and_then(|opened| opened.take(HEAD).read_to_end(&mut head));
+    let dialect = read
+        .ok()
+        .and_then(|_| surely(file, &String::from_utf8_lossy(&head)));
+    let Some(dialect) = dialect else {
+        return String::new();
+    };
+    let mut written = file.with_extension("ngc");
+    if written == file {
+        written = file.with_extension("filtered.ngc");
+    }
+    format!(
+        "\n  help: taken as {}: framepath filter {} > {} first",
+        dialect.name(),
+        file.display(),
+        written.display()
+    )
 }

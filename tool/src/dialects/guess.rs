@@ -12,6 +12,9 @@ const LINES: usize = 400;
 /// How sure a guess must be.
 const LEAST: u32 = 10;
 
+/// How sure one must be that nobody has asked for.
+const SURE: u32 = 50;
+
 /// A guess.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Guess {
@@ -20,6 +23,8 @@ pub struct Guess {
     /// The first line, 1 for the first, with a word that speaks for it; `None` where the ending of the
     /// file decided.
     pub line: Option<usize>,
+    /// How much speaks for it.
+    score: u32,
 }
 
 /// What speaks for a dialect.
@@ -81,9 +86,17 @@ pub fn guess(path: &Path, text: &str) -> Option<Guess> {
         [(first, dialect), ..] if first.score >= LEAST => Some(Guess {
             dialect,
             line: first.line,
+            score: first.score,
         }),
         _ => None,
     }
+}
+
+/// The dialect of a program that is surely none of LinuxCNC's, which has most words of Fanuc-like controls itself.
+pub fn surely(path: &Path, text: &str) -> Option<Dialect> {
+    let guess = guess(path, text)?;
+    let is_sure = guess.score >= SURE && guess.dialect != Dialect::Fanuc;
+    is_sure.then_some(guess.dialect)
 }
 
 /// The error where no guess can be made.

@@ -413,3 +413,26 @@ fn the_line_of_a_mistake_is_that_of_the_program() {
         assert!(error.trim_end().ends_with(mistake), "{error}");
     }
 }
+
+/// LinuxCNC's own words would not say that it is another language.
+#[test]
+fn programs_of_other_controls_are_told_from_mistakes() {
+    let bench = Bench::new();
+    bench.write("part.mpf", "%_N_PART_MPF\nTRANS X10\nG0 X1\nM30\n");
+    let error = bench.refused(&["part.mpf"]);
+    let help = "\n  help: taken as sinumerik: framepath filter part.mpf > part.ngc first\n";
+    assert!(error.ends_with(help), "{error}");
+    bench.write("call.ngc", "G90\n(P1 = 3)\n(CALL 5)\nG0 XP1\nM30\n");
+    let error = bench.refused(&["call.ngc"]);
+    let help = "taken as fagor: framepath filter call.ngc > call.filtered.ngc first\n";
+    assert!(error.ends_with(help), "{error}");
+    // LinuxCNC has these words, too, and what speaks for others stands in comments.
+    for program in [
+        "#1 = 5\n#2 = 6\nG43 H1\nG0 X[#1\nM2\n",
+        "(MSG, CR=1)\n(D=6. CR=0. TRANS ROT MIRROR)\n(V.P. V.L. G161)\nG0 X[1\nM2\n",
+    ] {
+        bench.write("part.ngc", program);
+        let error = bench.refused(&["part.ngc"]);
+        assert!(!error.contains("help"), "{error}");
+    }
+}
