@@ -6,6 +6,7 @@ mod module;
 mod table;
 mod told;
 
+use crate::loaded::kinematics::KinematicsError;
 use crate::machine::ini::Ini;
 use crate::machine::limits::{Jerk, infinite_for_none, is_rotary};
 use crate::path::Position;
@@ -316,6 +317,17 @@ impl LimitedJoints {
             Behind::Module(_) => None,
         }
     }
+}
+
+/// Where the machine stands with its joints at `[JOINT_n]HOME`, as its kinematics module says, machine units.
+///
+/// # Errors
+/// Why it cannot be asked here.
+pub(crate) fn position_at_home(
+    settings: &JointSettings,
+    ini: &Ini,
+) -> Result<Axes, KinematicsError> {
+    module::position_at_home(settings, ini)
 }
 
 /// Whether the kinematics are a tilting table of framekins.

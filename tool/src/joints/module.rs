@@ -116,6 +116,11 @@ pub(super) fn tool_tilt_axis(joints: &JointSettings, ini: &Ini) -> Option<usize>
     chain.tilt_axis_below_c()
 }
 
+/// See [`super::position_at_home`].
+pub(super) fn position_at_home(joints: &JointSettings, ini: &Ini) -> Result<Axes, KinematicsError> {
+    Ok(LoadedKinematics::load(&settings(joints, ini))?.home().1)
+}
+
 impl ModuleJoints {
     /// # Errors
     /// A module that cannot be asked here.

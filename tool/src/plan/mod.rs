@@ -1,6 +1,6 @@
 //! `framepath plan`: what the planner of blendtp will do with a program, before anything is cut.
 //!
-//! The files in the order of the work: [`setup`] is the machine, [`source`] the program as the task
+//! The files in the order of the work: [`setup`] is the machine, [`start`] where it begins, [`source`] the program as the task
 //! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with its [`joints`] where these have limits, a
 //! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
 //! cycle: [`cause`] says what limits the machine, [`places`] where time is lost, [`evenness`] how much of cutting is near the feed,
@@ -32,6 +32,7 @@ mod soft_limits;
 mod source;
 mod speed;
 mod spindle;
+mod start;
 mod svg;
 mod text;
 mod times;

@@ -4,12 +4,14 @@ use super::PlanArguments;
 use super::error::PlanError;
 use super::soft_limits::SoftLimits;
 use super::spindle::SpeedLimits;
+use super::start::at_home;
 use crate::canon::tool_table::{Tool, read_tool_table};
 use crate::canon::{CanonError, Surroundings};
 use crate::joints::{Joints, tool_tilt_axis};
 use crate::machine::configuration::{AXIS_LETTERS, Machine, UNLIMITED};
 use crate::machine::ini::Ini;
 use crate::machine::limits::{Jerk, Limits, infinite_for_none, is_rotary};
+use crate::path::Position;
 use crate::wiring::blendtp::least_jerk;
 use crate::wiring::codes::missing_files;
 use crate::wiring::joints::JointSettings;
@@ -257,7 +259,8 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     setup.soft_limits = SoftLimits::from_ini(&ini, &machine, &joints)?;
     setup.tool_tilt_axis = tool_tilt_axis(&joints, &ini);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
-    setup.surroundings = surroundings(&ini, file, &machine, millimetres, &mut setup.assumed)?;
+    let start = at_home(&ini, &machine, &joints, &mut setup.assumed)?;
+    setup.surroundings = surroundings(&ini, file, millimetres, start, &mut setup.assumed)?;
     setup.read = files_read(&ini, file);
     setup.missing_file = missing_files(&ini).first().map(|(entry, file)| {
         format!(
@@ -266,9 +269,6 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
             entry.place.file.display(), entry.place.line, entry.value
         )
     });
-    if let Some(home) = setup.joints.limited().and_then(|joints| joints.home()) {
-        setup.surroundings.start = std::array::from_fn(|axis| home[axis] / setup.scale(axis));
-    }
     // Limits of axes hold with each type.
     let planned = setup.joints.limited();
     let kind = planned.map(|_| joints.kinematics_type.unwrap_or(0));
@@ -331,8 +331,8 @@ fn in_the_spindle(tools: &[Tool]) -> i32 {
 fn surroundings(
     ini: &Ini,
     file: &Path,
-    machine: &Machine,
     unit: f64,
+    start: Position,
     assumed: &mut Vec<String>,
 ) -> Result<Surroundings, PlanError> {
     // LinuxCNC looks beside a link to an INI file, not beside the file itself.
@@ -342,14 +342,6 @@ fn surroundings(
     })?;
     let folder = absolute.parent().unwrap_or(Path::new("/")).to_owned();
     let named = |section, key| ini.text(section, key).filter(|name| !name.is_empty());
-    let mut start = [0.0; AXIS_COUNT];
-    for (number, joint) in machine.joints.iter().enumerate() {
-        if let Some(axis) = AXIS_LETTERS.find(joint.letter) {
-            let home = ini.number(&format!("JOINT_{number}"), "HOME")?;
-            let length = if is_rotary(axis) { 1.0 } else { unit };
-            start[axis] = home.unwrap_or(0.0) * length;
-        }
-    }
     if named("EMCIO", "DB_PROGRAM").is_some() {
         let problem = "tools of a database are not read: plan with a copy of the INI file that has a TOOL_TABLE in its place";
         return Err(ini.bad_value("EMCIO", "DB_PROGRAM", problem).into());

@@ -20,6 +20,7 @@ mod page;
 mod pages;
 mod signals;
 mod soft_limits;
+mod start;
 mod support;
 #[path = "../common/surface.rs"]
 mod surface;
