@@ -438,3 +438,17 @@ fn fields_are_documented() {
     std::fs::write(bench.path().join("run.csv"), changed).expect("written");
     fields::assert_documented("report", &[followed, departed, bench.json(&[])]);
 }
+
+#[test]
+fn an_axis_whose_limit_is_above_that_of_its_joint_is_named() {
+    let ini = INI.replacen("MAX_ACCELERATION = 1000", "MAX_ACCELERATION = 2000", 1);
+    let bench = Bench::new(&constant_jerk_run(30_000.0), &ini.replace("20000", "40000"));
+    let output = bench.report(&["--check"]);
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(
+        told.contains("joint.0: acceleration is 1.19 times its limit (1190 of 1000 mm/s2)")
+            && told.contains(", line 7: [AXIS_X]MAX_ACCELERATION = 2000 is above it"),
+        "{told}"
+    );
+}

@@ -2,7 +2,8 @@
 
 use super::CompareArguments;
 use super::error::CompareError;
-use crate::joints::Joints;
+use crate::joints::{Joints, are_axes};
+use crate::machine::above_joints::AboveJoint;
 use crate::machine::configuration::Machine;
 use crate::machine::ini::Ini;
 use crate::machine::limits::Limits;
@@ -83,7 +84,14 @@ impl Conditions {
         let mut joints = JointSettings::read(&ini);
         joints.turned_on = arguments.tool_centre_point;
         joints.kinematics_type = arguments.kinematics_type;
+        let are_axes = are_axes(&joints);
         let joints = Joints::from_settings(&joints, &ini, period, machine.millimetres())?;
+        if are_axes && joints.limited().is_none() && arguments.limits.is_none() {
+            let above = AboveJoint::of_machine(&ini, &machine);
+            warn_of(&Vec::from_iter(
+                above.iter().map(|above| above.warning(&ini)),
+            ));
+        }
         let (start, joints) = at_home(joints);
         let mut conditions = Conditions {
             limits_from: format!("limits of {}", file.display()),

@@ -14,6 +14,7 @@ mod unread;
 pub use error::{ConfigureError, Refusal};
 
 use crate::hal::read_script;
+use crate::machine::above_joints::AboveJoint;
 use crate::machine::ini::Ini;
 use crate::machine::jerk::Jerk;
 use crate::output::{OutputFile, overwrites};
@@ -86,6 +87,7 @@ pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
         files.iter().map(|(file, text)| begun(file, text)).collect();
     let begun = begun?;
     let new = files.iter().skip(1);
+    crate::machine::warn_of(&above_joints(&subject));
     let difference = difference(&arguments.ini, &text, &ini_file, &written.ini)
         + &new
             .map(|(file, text)| difference(Path::new("/dev/null"), "", file, text))
@@ -101,6 +103,15 @@ pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
         finished.map_err(|source| ConfigureError::Write { file: name, source })?;
     }
     Ok(())
+}
+
+/// Limits of axes above those of their joints, which the new configuration has as well: `check` says the same of it.
+fn above_joints(subject: &Subject) -> Vec<String> {
+    let joints = subject.joints.iter().enumerate();
+    let axes = joints.filter(|(_, letter)| subject.axes.contains(letter));
+    axes.flat_map(|(joint, letter)| AboveJoint::of(&subject.ini, *letter, joint))
+        .map(|above| above.warning(&subject.ini))
+        .collect()
 }
 
 fn name_of(file: &Path) -> String {

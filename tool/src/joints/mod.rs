@@ -330,6 +330,11 @@ pub(crate) fn position_at_home(
     module::position_at_home(settings, ini)
 }
 
+/// Whether each joint is an axis.
+pub(crate) fn are_axes(settings: &JointSettings) -> bool {
+    settings.is_trivial() || is_table(settings) && !settings.tool_centre_point()
+}
+
 /// Whether the kinematics are a tilting table of framekins.
 pub(crate) fn is_table(settings: &JointSettings) -> bool {
     own_table(settings).is_some()

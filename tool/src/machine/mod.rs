@@ -1,6 +1,7 @@
 //! The machine: what its INI file says ([`ini`], [`configuration`]) and what its axes are able to do
 //! ([`limits`]).
 
+pub(crate) mod above_joints;
 pub(crate) mod angles;
 pub(crate) mod configuration;
 mod coordinates;

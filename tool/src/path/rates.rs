@@ -37,6 +37,15 @@ impl Quantity {
         }
     }
 
+    /// The key of its limit in an INI file.
+    pub fn key(self) -> &'static str {
+        match self {
+            Quantity::Velocity => "MAX_VELOCITY",
+            Quantity::Acceleration => "MAX_ACCELERATION",
+            Quantity::Jerk => "MAX_JERK",
+        }
+    }
+
     /// The limit for this quantity, if there is one.
     pub fn limit(self, limits: &MemberLimits) -> Option<f64> {
         match self {

@@ -285,8 +285,11 @@ impl Figures {
         let beyond = collected.deviation.beyond.as_ref();
         let beyond = beyond.map(|farthest| distance_figure(setup, farthest));
         let movers = axes.iter().chain(&joints);
+        let mut findings =
+            findings::conclude(movers, beyond, collected.deviation.turns, setup.unit);
+        findings.extend(findings::of_joints(&axes, &setup.above_joints));
         Figures {
-            findings: findings::conclude(movers, beyond, collected.deviation.turns, setup.unit),
+            findings,
             program: program.to_owned(),
             machine: setup.machine.clone(),
             limits_from: setup.origin.clone(),

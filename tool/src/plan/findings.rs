@@ -3,6 +3,7 @@
 use super::figures::{AxisFigures, DistanceFigure, PeakFigure};
 use crate::format::{Over, length};
 use crate::layer::turns::TurnsLeftAway;
+use crate::machine::above_joints::AboveJoint;
 use crate::path::exceeded::exceeds;
 
 /// A sentence for each. `movers` are axes and joints, `beyond` is the place farthest beyond its tolerance, `turns` are
@@ -43,6 +44,31 @@ pub fn conclude<'a>(
         )
     }));
     findings
+}
+
+/// A sentence for each joint of which an axis asks more than it may do, because the limit of the axis is above its own.
+pub fn of_joints(axes: &[AxisFigures], above: &[AboveJoint]) -> Vec<String> {
+    let told = |above: &AboveJoint| {
+        let axis = axes.iter().find(|axis| axis.letter == Some(above.letter))?;
+        let mut peaks = axis.peaks.iter();
+        let peak = peaks.find(|peak| peak.quantity.key() == above.key)?;
+        let over = Over {
+            name: &format!("joint.{}", above.joint),
+            quantity: peak.quantity,
+            peak: peak.peak,
+            limit: above.of_joint,
+            unit: axis.unit,
+            time: peak.time,
+            line: peak.line.into(),
+        };
+        exceeds(peak.quantity, peak.peak / above.of_joint).then(|| {
+            format!(
+                "{over}: [AXIS_{}]{} = {} is above it",
+                above.letter, above.key, above.of_axis
+            )
+        })
+    };
+    above.iter().filter_map(told).collect()
 }
 
 #[cfg(test)]

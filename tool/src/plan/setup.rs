@@ -7,7 +7,8 @@ use super::spindle::SpeedLimits;
 use super::start::at_home;
 use crate::canon::tool_table::{Tool, read_tool_table};
 use crate::canon::{CanonError, Surroundings};
-use crate::joints::{Joints, tool_tilt_axis};
+use crate::joints::{Joints, are_axes, tool_tilt_axis};
+use crate::machine::above_joints::AboveJoint;
 use crate::machine::configuration::{AXIS_LETTERS, Machine, UNLIMITED};
 use crate::machine::ini::Ini;
 use crate::machine::limits::{Jerk, Limits, infinite_for_none, is_rotary};
@@ -40,6 +41,8 @@ pub struct Setup {
     pub jerk: [f64; AXIS_COUNT],
     /// What is known of the joints.
     pub(super) joints: Joints,
+    /// Limits of axes that are above those of their joints, where the joints are the axes.
+    pub(super) above_joints: Vec<AboveJoint>,
     /// Soft limits, where the joints are the axes.
     pub(super) soft_limits: Option<SoftLimits>,
     /// The axis that tilts the tool while C turns it, with the tool centre point on.
@@ -199,6 +202,7 @@ fn without_ini() -> Setup {
         limits: Limits::default(),
         jerk: [f64::INFINITY; AXIS_COUNT],
         joints: Joints::Axes,
+        above_joints: Vec::new(),
         soft_limits: None,
         tool_tilt_axis: None,
         axes: [true; AXIS_COUNT],
@@ -256,6 +260,9 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     joints.turned_on = arguments.tool_centre_point;
     joints.kinematics_type = arguments.kinematics_type;
     setup.joints = Joints::from_settings(&joints, &ini, setup.period, 1.0)?;
+    if are_axes(&joints) && setup.joints.limited().is_none() {
+        take_above_joints(&mut setup, &ini, &machine, arguments);
+    }
     setup.soft_limits = SoftLimits::from_ini(&ini, &machine, &joints)?;
     setup.tool_tilt_axis = tool_tilt_axis(&joints, &ini);
     setup.spindle = SpeedLimits::from_ini(&ini)?;
@@ -276,6 +283,16 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     setup.surroundings.kinematics_switch = output.map(|output| (output, kind));
     setup.ini.clone_from(&setup.surroundings.ini);
     Ok(setup)
+}
+
+/// Limits of axes above those of their joints, with a warning; an option takes the place of those of the axes.
+fn take_above_joints(setup: &mut Setup, ini: &Ini, machine: &Machine, arguments: &PlanArguments) {
+    if arguments.limits.is_some() {
+        return;
+    }
+    setup.above_joints = AboveJoint::of_machine(ini, machine);
+    let warnings = setup.above_joints.iter().map(|above| above.warning(ini));
+    setup.assumed.extend(warnings);
 }
 
 /// Of an axis whose acceleration is not limited blendtp takes any.

@@ -1,6 +1,6 @@
 //! The soft limits of the machine as blendtp looks at them: near one the path keeps to the inner side of the program.
 
-use crate::joints::is_table;
+use crate::joints::are_axes;
 use crate::machine::IniError;
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
 use crate::machine::ini::Ini;
@@ -37,8 +37,7 @@ impl SoftLimits {
         machine: &Machine,
         settings: &JointSettings,
     ) -> Result<Option<SoftLimits>, IniError> {
-        let is_plain_table = is_table(settings) && !settings.tool_centre_point();
-        if !settings.is_trivial() && !is_plain_table {
+        if !are_axes(settings) {
             return Ok(None);
         }
         let mut limits = SoftLimits {

@@ -3,15 +3,28 @@
 use super::differences::Judgement;
 use super::summary::{FarthestReport, MemberReport, PathReport, Report, Verdict};
 use crate::format::{Over, length, significant};
+use crate::machine::configuration::{Member, PathSource};
 
-/// The verdict over all parts of a report, and one sentence for each reason against `Pass`.
-pub fn conclude(report: &Report) -> (Verdict, Vec<String>) {
+/// The verdict over all parts of a report, and one sentence for each reason against `Pass`. `source` says whether its joints are
+/// its axes.
+pub fn conclude(report: &Report, source: PathSource) -> (Verdict, Vec<String>) {
     let mut findings = Vec::new();
     let mut verdict = Verdict::Pass;
     for member in report.joints.iter().chain(&report.axes) {
         verdict = verdict.max(member.verdict);
-        findings.extend(member_findings(member));
     }
+    for joint in &report.joints {
+        let mut axes = report.axes.iter().map(|axis| &axis.member);
+        let axis = axes.find(|axis| axis.letter == joint.member.letter);
+        let axis = axis.filter(|_| source == PathSource::Joints);
+        findings.extend(member_findings(joint, axis));
+    }
+    findings.extend(
+        report
+            .axes
+            .iter()
+            .flat_map(|axis| member_findings(axis, None)),
+    );
     if let Some(gap) = report.gaps.first() {
         verdict = verdict.max(Verdict::Incomplete);
         findings.push(format!(
@@ -43,7 +56,8 @@ pub fn conclude(report: &Report) -> (Verdict, Vec<String>) {
     (verdict, findings)
 }
 
-fn member_findings(member: &MemberReport) -> Vec<String> {
+/// `axis` is the one that a joint is: planners look at its limits alone.
+fn member_findings(member: &MemberReport, axis: Option<&Member>) -> Vec<String> {
     let name = &member.member.name;
     let mut findings = Vec::new();
     for peak in &member.peaks {
@@ -60,7 +74,13 @@ fn member_findings(member: &MemberReport) -> Vec<String> {
                     time: peak.time,
                     line: peak.line,
                 };
-                findings.push(over.to_string());
+                let of_axis = axis.and_then(|axis| peak.quantity.limit(&axis.limits));
+                let above = axis.zip(of_axis).filter(|(_, of_axis)| *of_axis > limit);
+                let reason = above.map_or_else(String::new, |(axis, of_axis)| {
+                    let (letter, key) = (axis.letter, peak.quantity.key());
+                    format!(": [AXIS_{letter}]{key} = {of_axis} is above it")
+                });
+                findings.push(format!("{over}{reason}"));
             }
             Judgement::Unresolved => findings.push(format!(
                 "{name}: {quantity} cannot be judged: the decimals of the recording leave {} \

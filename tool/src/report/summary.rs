@@ -279,7 +279,7 @@ pub fn analyse(
         verdict: Verdict::Pass,
         findings: Vec::new(),
     };
-    let (verdict, findings) = super::findings::conclude(&report);
+    let (verdict, findings) = super::findings::conclude(&report, machine.path_source);
     report.verdict = verdict;
     report.findings = findings;
     Analysis {

@@ -1,5 +1,6 @@
 //! `framepath check` and `framepath configure` as a user calls them.
 
+mod above_joints;
 mod bench;
 mod configure;
 mod configure_refusals;

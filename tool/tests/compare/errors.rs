@@ -173,6 +173,16 @@ fn the_conditions_are_those_of_a_machine() {
     assert_near(&changed["limits"]["velocity"][0], 10.0, 0.0);
     assert_near(&changed["limits"]["acceleration"][0], 508.0, 1e-9);
     assert_near(&changed["max_feed_override"], 1.0, 0.0);
+    let lower = ini.replace(
+        "[JOINT_0]\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 20",
+        "[JOINT_0]\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 10",
+    );
+    bench.write("machine.ini", &lower);
+    let told = String::from_utf8(bench.compare(&machine).stderr).expect("text");
+    assert!(
+        told.starts_with("warning: machine.ini:14:1: [AXIS_X]MAX_ACCELERATION = 20 asks more of the joint than [JOINT_0]"),
+        "{told}"
+    );
     assert_near(&changed["period"], 0.001, 0.0);
     let text = bench.compare(&machine);
     let text = String::from_utf8(text.stdout).expect("text");

@@ -1,5 +1,6 @@
 //! `framepath plan` as its users run it.
 
+mod above_joints;
 mod arrivals;
 #[path = "../common/bench.rs"]
 mod bench;

@@ -1,6 +1,7 @@
 //! Limits of axes, joints and the path that contradict each other.
 
 use crate::check::finding::{Findings, Remedy, add, advice, replace};
+use crate::machine::above_joints::AboveJoint;
 use crate::machine::configuration::is_rotary;
 use crate::wiring::subject::Subject;
 
@@ -54,22 +55,17 @@ fn own(subject: &Subject, section: &str, findings: &mut Findings) {
 
 /// A joint that is an axis: the planner knows the limits of the axis only.
 fn against_axis(subject: &Subject, joint: usize, letter: char, findings: &mut Findings) {
+    let above = AboveJoint::of(&subject.ini, letter, joint);
     let [axis, joint] = [format!("AXIS_{letter}"), format!("JOINT_{joint}")];
     if !subject.axes.contains(&letter) {
         return;
     }
-    for key in ["MAX_VELOCITY", "MAX_ACCELERATION"] {
-        if let (Some(a), Some(j)) = (subject.number(&axis, key), subject.number(&joint, key))
-            && a > j
-        {
-            let found =
-                format!("[{axis}]{key} = {a} asks more of the joint than [{joint}]{key} = {j}");
-            findings.warning(
-                &subject.place_of(&axis, key),
-                found,
-                replace(format!("{key} = {j}")),
-            );
-        }
+    for above in above {
+        findings.warning(
+            &subject.place_of(&axis, above.key),
+            above.to_string(),
+            replace(format!("{} = {}", above.key, above.of_joint)),
+        );
     }
     travel(subject, &axis, &joint, findings);
 }

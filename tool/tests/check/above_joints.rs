@@ -1,0 +1,36 @@
+//! What `check` says of limits of axes above those of their joints, `configure` has said before.
+
+use crate::bench::framepath;
+use std::fs;
+
+const STOCK: &str = "/usr/share/doc/linuxcnc/examples/sample-configs/sim/axis/axis_mm.ini";
+
+#[test]
+fn configure_warns_of_axes_above_their_joints() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ini = fs::read_to_string(STOCK).expect("a text");
+    let y = "[AXIS_Y]\nMAX_VELOCITY = 30.48\nMAX_ACCELERATION = ";
+    let above = ini.replacen(&format!("{y}508"), &format!("{y}600"), 1);
+    fs::write(folder.path().join("mill.ini"), &above).expect("written");
+    let output = framepath(folder.path(), &["configure", "mill.ini"]);
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert!(output.status.success(), "{told}");
+    let line = 1 + above
+        .lines()
+        .position(|line| line == "MAX_ACCELERATION = 600")
+        .expect("a line");
+    let words = "[AXIS_Y]MAX_ACCELERATION = 600 asks more of the joint than [JOINT_1]MAX_ACCELERATION = 508";
+    assert_eq!(
+        told,
+        format!("warning: mill.ini:{line}:1: {words}: write MAX_ACCELERATION = 508\n")
+    );
+    let output = framepath(folder.path(), &["check", "mill-framepath.ini"]);
+    let checked = String::from_utf8(output.stdout).expect("text");
+    assert!(
+        checked.contains(&format!("warning: {words}\n")),
+        "{checked}"
+    );
+    fs::write(folder.path().join("mill.ini"), &ini).expect("written");
+    let output = framepath(folder.path(), &["configure", "mill.ini", "--force"]);
+    assert!(output.status.success() && output.stderr.is_empty());
+}
