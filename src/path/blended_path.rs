@@ -2,6 +2,9 @@
 
 use nalgebra::ArrayStorage;
 
+/// What stays open of a leg is at least so many times as long as what the machine needs of it at once.
+const OPEN: f64 = 0.25;
+
 use super::chain::Chain;
 use super::chords::{Chords, MOST_CHORDS};
 use super::curve;
@@ -167,6 +170,22 @@ impl BlendedPath {
         let waited = self.fairing.waiting() > 0;
         self.fairing.flush(&self.settings);
         waited
+    }
+
+    /// The next move is late. As much becomes final behind path distance `from` as the machine runs in `seconds` on the last leg and
+    /// where it gathers speed and brakes besides; beyond that a corner with the next move may still be rounded. Only when
+    /// [settled](Self::is_settled). Answers whether that leaves anything worth while.
+    pub fn leave_open(&mut self, from: f64, seconds: f64) -> bool {
+        let Some(last) = self.chain.last().filter(|last| !last.is_exact()) else {
+            return false;
+        };
+        let needed = last.way_within(seconds, &self.settings);
+        let place = from + needed;
+        let worthwhile = self.chain.end() - place > OPEN * needed;
+        if worthwhile {
+            self.optimizer.freeze_up_to(&self.chain, place);
+        }
+        worthwhile
     }
 
     /// The machine will come to rest at the end of all moves: as [`flush`](Self::flush), and all

@@ -298,6 +298,12 @@ impl Leg {
         }
     }
 
+    /// How far the machine runs on it in `seconds`, and from rest to rest besides; path distance.
+    pub fn way_within(&self, seconds: f64, settings: &BlendSettings) -> f64 {
+        // At half of the speed in the mean, twice.
+        self.speed * (seconds + settings.time_to_speed(&self.direction_at_start(), self.speed))
+    }
+
     /// How far a corner with another leg may be rounded into this one if half legs are allowed:
     /// half of it, on an arc not more than a radian.
     pub fn half_for_corner(&self) -> f64 {

@@ -10,6 +10,11 @@ use crate::cube_root::cube_root;
 /// Dense code is smoothed for this jerk at most, although it may be unlimited; mm/s^3.
 const GREATEST_JERK: f64 = 100_000.0;
 
+/// And for one that builds up the acceleration of all axes in this share of the time in which that comes to the speed at least: a slow
+/// machine has the path of a fast one that needs the same way to come to its speed. With 1000 mm/s2 and 100 mm/s that is
+/// the jerk above.
+const SHORTEST_BUILD_UP: f64 = 0.1;
+
 /// What kernels are widened to at most where the tolerance leaves it open, mm.
 const GREATEST_DESIGN_WIDTH: f64 = 8.0;
 
@@ -40,6 +45,8 @@ pub struct BlendSettings {
     default_tolerance: f64,
     /// The least of X Y Z U V W, held below [`GREATEST_JERK`].
     linear_jerk: f64,
+    /// The greatest acceleration of X Y Z U V W.
+    linear_acceleration: f64,
     /// 1 over the limits of each axis; 0 where there is none.
     per_acceleration: Axes,
     per_jerk: Axes,
@@ -71,6 +78,7 @@ impl BlendSettings {
         rotary_weight: 0.1,
         default_tolerance: 0.02,
         linear_jerk: GREATEST_JERK,
+        linear_acceleration: f64::INFINITY,
         per_acceleration: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
         per_jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
         orientation: None,
@@ -102,14 +110,17 @@ impl BlendSettings {
         {
             return None;
         }
-        let [x, y, z, _, _, _, u, v, w]: [f64; 9] = limits.jerk.into();
+        let linear = |limits: &Axes| {
+            let [x, y, z, _, _, _, u, v, w]: [f64; 9] = (*limits).into();
+            [x, y, z, u, v, w].into_iter()
+        };
         let greatest = GREATEST_JERK * millimetre;
-        let linear_jerk = [x, y, z, u, v, w].into_iter().fold(greatest, f64::min);
         Some(Self {
             millimetre,
             rotary_weight,
             default_tolerance,
-            linear_jerk,
+            linear_jerk: linear(&limits.jerk).fold(greatest, f64::min),
+            linear_acceleration: linear(&limits.acceleration).fold(0.0, f64::max),
             per_acceleration: limits.acceleration.map(f64::recip),
             per_jerk: limits.jerk.map(f64::recip),
             orientation: None,
@@ -144,10 +155,20 @@ impl BlendSettings {
         self.rotary_weight
     }
 
+    /// The jerk that the path is smoothed for where it is run at `speed`, machine units per second.
+    fn jerk_at(&self, speed: f64) -> f64 {
+        let acceleration = self.linear_acceleration;
+        let built_up = acceleration * acceleration / (SHORTEST_BUILD_UP * speed);
+        self.linear_jerk.min(built_up)
+    }
+
     /// From this width on the kernels of dense code hardly limit a `speed` of so many machine units
     /// per second. Machine units.
     pub(super) fn design_width(&self, speed: f64) -> f64 {
-        let (speed, jerk) = (speed / self.millimetre, self.linear_jerk / self.millimetre);
+        let (speed, jerk) = (
+            speed / self.millimetre,
+            self.jerk_at(speed) / self.millimetre,
+        );
         let width = 1.8 * (speed / 100.0) * cube_root(20_000.0 / jerk);
         self.millimetre * width.clamp(LEAST_DESIGN_WIDTH, GREATEST_DESIGN_WIDTH)
     }
@@ -157,7 +178,7 @@ impl BlendSettings {
     /// of the circle that it allows while its radius is passed.
     pub(super) fn even_third(&self, speed: f64) -> f64 {
         let square = speed * speed;
-        let by_jerk = self.linear_jerk / (square * speed);
+        let by_jerk = self.jerk_at(speed) / (square * speed);
         let acceleration = self.per_acceleration.fixed_rows::<3>(0).max().recip();
         let by_acceleration = acceleration / square;
         by_jerk.min(by_acceleration * by_acceleration)
@@ -178,6 +199,20 @@ impl BlendSettings {
         bend.sqrt().recip().min(cube_root(twist).recip())
     }
 
+    /// Seconds from rest to a `speed` in this `direction`, shape (9), as acceleration and jerk of all axes allow; a little more where
+    /// the greatest acceleration is not reached. Machine units per second.
+    pub(super) fn time_to_speed(&self, direction: &Axes, speed: f64) -> f64 {
+        let size = direction.abs();
+        let per_acceleration = size.component_mul(&self.per_acceleration).max();
+        let per_jerk = size.component_mul(&self.per_jerk).max();
+        let built_up = (speed * per_jerk).sqrt();
+        if per_acceleration > 0.0 {
+            speed * per_acceleration + built_up.min(per_jerk / per_acceleration)
+        } else {
+            2.0 * built_up
+        }
+    }
+
     /// What a width is never raised above for the sake of speed where kernels overlap, machine
     /// units.
     pub(super) fn greatest_design_width(&self) -> f64 {
@@ -189,13 +224,13 @@ impl BlendSettings {
     pub(super) fn full_speed_width(&self, tangent_jump: f64, speed: f64) -> f64 {
         // The third derivative of the rounded corner is about 1.44 tangent_jump / w^2, and three times as
         // much is left free for changes of the speed.
-        (4.3 * tangent_jump * speed * speed * speed / self.linear_jerk).sqrt()
+        (4.3 * tangent_jump * speed * speed * speed / self.jerk_at(speed)).sqrt()
     }
 
     /// The width at which a jump of the curvature by `curvature_jump`, 1 per machine unit, is run through at
     /// `speed` within the jerk and as much again, machine units.
     pub(super) fn full_speed_easement(&self, curvature_jump: f64, speed: f64) -> f64 {
-        2.0 * 1.152 * curvature_jump * speed * speed * speed / self.linear_jerk
+        2.0 * 1.152 * curvature_jump * speed * speed * speed / self.jerk_at(speed)
     }
 
     /// The width at which a corner that stands alone is run through at `speed` within acceleration
@@ -296,6 +331,35 @@ mod tests {
         ] {
             assert!(BlendSettings::new(millimetre, weight, tolerance, &limits(jerk)).is_none());
         }
+    }
+
+    #[test]
+    fn a_slow_machine_has_the_widths_of_a_fast_one() {
+        let unlimited = |acceleration: f64| {
+            let limits = AxisLimits {
+                acceleration: Axes::repeat(acceleration),
+                ..limits(f64::INFINITY)
+            };
+            BlendSettings::new(1.0, 0.1, 0.02, &limits).expect("sound")
+        };
+        let (fast, slow) = (unlimited(1000.0), unlimited(90.0));
+        // Both come to their speed over the same way.
+        assert!((slow.design_width(30.0) / fast.design_width(100.0) - 1.0).abs() < 1e-9);
+        let easement = |settings: &BlendSettings, speed| settings.full_speed_easement(0.1, speed);
+        assert!((easement(&slow, 30.0) / easement(&fast, 100.0) - 1.0).abs() < 1e-9);
+        let even = slow.even_third(30.0) / fast.even_third(100.0);
+        assert!((even - 1.0).abs() < 1e-9);
+        assert_eq!(fast.jerk_at(50.0), GREATEST_JERK);
+    }
+
+    #[test]
+    fn the_time_to_a_speed() {
+        let mut along = Axes::zeros();
+        along[0] = 1.0;
+        let time = |settings: BlendSettings, speed| settings.time_to_speed(&along, speed);
+        assert!((time(settings(20_000.0), 100.0) - 0.15).abs() < 1e-12);
+        assert!((time(settings(f64::INFINITY), 100.0) - 0.1).abs() < 1e-12);
+        assert_eq!(time(BlendSettings::DEFAULT, 100.0), 0.0);
     }
 
     #[test]

@@ -161,6 +161,15 @@ impl WidthOptimizer {
         self.window.frozen = self.stored_end;
     }
 
+    /// The machine needs the path up to path distance `place` now: up to there it is final, with the widths in force. What comes
+    /// behind the chain may still change what lies beyond. Only when settled.
+    pub fn freeze_up_to(&mut self, chain: &Chain, place: f64) {
+        while self.window.open < self.stored_next {
+            self.close(chain);
+        }
+        self.window.frozen = self.window.frozen.max(place.min(self.stored_end));
+    }
+
     /// Works for about `budget` kernel terms, at most [`GREATEST_EXCESS`] more. `hurry`: does not
     /// wait until enough of the path is new. Answers what it took.
     pub fn step(

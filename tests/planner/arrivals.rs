@@ -74,6 +74,42 @@ fn what_comes_before_the_machine_rests_is_run_as_if_it_had_been_there() {
     }
 }
 
+/// A machine that had just begun with a long line: the path ended there, for good, and what came 12 ms later was a run of its own.
+#[test]
+fn a_move_that_comes_late_is_passed_on_to_without_a_rest() {
+    for (length, speed) in [(5.0, 20.0), (10.0, 20.0), (15.0, 50.0), (60.0, 100.0)] {
+        let [in_time, late] = [1, 12].map(|comes| {
+            let mut periods = 0;
+            with_machine(|machine| {
+                let tolerance = TerminationCondition::Continuous { tolerance: 0.05 };
+                machine.planner.set_termination(tolerance);
+                let mut ends = [
+                    at(length, 0.0),
+                    at(1.9 * length, 0.4 * length),
+                    at(3.0 * length, 0.4 * length),
+                ]
+                .into_iter();
+                for cycle in 0..20_000 {
+                    if cycle == 0 || cycle >= comes {
+                        for end in ends.by_ref().take(1) {
+                            machine.line(end, &feed_move(speed)).expect("a line");
+                        }
+                    }
+                    if machine.cycle().done && cycle > comes + 2 {
+                        periods = cycle;
+                        break;
+                    }
+                }
+            });
+            periods
+        });
+        assert!(
+            late <= in_time + 2 + in_time / 100,
+            "{length} mm: {late} periods, {in_time} if it is in time"
+        );
+    }
+}
+
 /// What holds a machine that stands.
 #[derive(Clone, Copy, Debug)]
 enum HeldBy {

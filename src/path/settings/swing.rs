@@ -112,7 +112,7 @@ impl BlendSettings {
         let width_times_turn = tolerance / kernel::peak(0.0);
         let bend = self.per_acceleration.fixed_rows::<3>(0).max();
         let by_acceleration = (kernel::greatest(0.0) * width_times_turn * bend).sqrt();
-        let by_jerk = cube_root(kernel::steepest(0.0) * width_times_turn / self.linear_jerk);
+        let by_jerk = cube_root(kernel::steepest(0.0) * width_times_turn / self.jerk_at(speed));
         speed * by_acceleration.max(by_jerk)
     }
 

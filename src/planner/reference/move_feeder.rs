@@ -199,6 +199,12 @@ impl MoveFeeder {
         self.silence >= silence.max(SHORTEST_SILENCE)
     }
 
+    /// Whether that has been so for `seconds`.
+    pub fn is_silent_beyond(&self, seconds: f64) -> bool {
+        let silence = (SILENCE * self.interval).min(LONGEST_SILENCE);
+        self.silence >= silence.max(SHORTEST_SILENCE) + seconds
+    }
+
     /// Whether what comes next is in time for a machine that is held, however late it is. A thread or a tap is ready when its
     /// spindle is.
     pub fn may_follow_while_held(&self) -> bool {

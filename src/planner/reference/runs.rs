@@ -40,6 +40,12 @@ const LONGEST_RAMP: f64 = 0.05;
 /// of the last move is better than one in the middle of it.
 const LAST_MOMENT: f64 = 0.04;
 
+/// Of a long move whose next one is late so many seconds become final at a time.
+const NEEDED: f64 = 1.5 * LAST_CALL;
+
+/// Where nothing more comes the path is settled so many seconds later at the latest, or ends.
+const SETTLING: f64 = 4e-3;
+
 /// Where moves come slowly, nothing waits for the next one on the path while less than so many times what is not final is
 /// final behind the plan.
 const SHORT_OF_PATH: f64 = 4.0;
@@ -142,13 +148,22 @@ impl Reference {
             Expected::NothingBeforeOneLeaves | Expected::OneAtOnce => {}
             Expected::Anything if last_moment && waits => self.path.finish(),
             Expected::Anything if self.feeder.is_silent() => {
-                if last_call {
+                self.path.flush();
+                if last_call && !self.stays_open(planned) {
                     self.path.finish();
-                } else {
-                    self.path.flush();
                 }
             }
             Expected::Anything => {}
+        }
+    }
+
+    /// Makes as much of a long move final as the machine needs of it now, so that a move that comes late may still be passed on to without
+    /// a rest. Answers whether the rest of it stays open.
+    fn stays_open(&mut self, planned: f64) -> bool {
+        if self.path.is_settled() {
+            self.path.leave_open(planned, NEEDED)
+        } else {
+            self.resting && !self.feeder.is_silent_beyond(SETTLING)
         }
     }
 
