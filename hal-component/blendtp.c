@@ -69,6 +69,7 @@ static int (*tool_tilt_axis)(void);
 #include "operator_pins.h"
 #include "pin_limits.h"
 #include "joint_pins.h"
+#include "joints_on_the_way.h"
 
 /* With a greatest velocity of 0 in the INI a program would wait for ever without a word. */
 static int has_velocity(void)
@@ -101,28 +102,6 @@ static int said(int result)
     if (result < 0)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s\n", framepath_planner_error_text(planner));
     return result;
-}
-
-/* Says what a look along the way of the queued moves has found. */
-static void say_finding(void)
-{
-    static int told;
-    int line, joint;
-    double position, limit;
-    switch (framepath_planner_range_finding(planner, &line, &joint, &position, &limit)) {
-    case FRAMEPATH_LEAVES_RANGE:
-        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the move would take joint %d to %f on its way, beyond its soft limit %f "
-                        "(line %d)\n", joint, position, limit, line);
-        break;
-    case FRAMEPATH_RANGE_UNKNOWN:
-        if (!told)
-            rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: %s finds no joints for a place on the way of the move of line %d: the soft "
-                            "limits are checked at its end only. This is said once\n", kinematics, line);
-        told = 1;
-        break;
-    default:
-        break;
-    }
 }
 
 /* Hands over the kinematics, whose joints are looked at on the way of each move. Their type is what motmod noted: kinematicsType

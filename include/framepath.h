@@ -176,6 +176,16 @@
 #define FRAMEPATH_RANGE_UNKNOWN 2
 
 /*
+ A joint with limits of its own would jump: the motion is stopped before the move.
+ */
+#define FRAMEPATH_JOINT_JUMPS 3
+
+/*
+ No joints lead to a place on its way, and joints have limits of their own: the motion is stopped before the move.
+ */
+#define FRAMEPATH_OUT_OF_REACH 4
+
+/*
  There is nothing to do.
  */
 #define FRAMEPATH_LIMIT_NOTHING 0
@@ -1072,7 +1082,8 @@ void framepath_planner_kinematics(int (*inverse)(const EmcPose*, double*, const 
 
 /*
  What the look along the queued moves came to in the last servo period: one of the codes above, with the program line,
- and for a move that leaves the soft limits the joint, how far it would go, and the limit.
+ for a move that leaves the soft limits the joint, how far it would go, and the limit, and for one that makes a joint
+ jump the joint, and by how much in `position`.
 
  # Safety
  `handle` from `framepath_planner_create`; the others point to numbers.
@@ -1082,6 +1093,16 @@ int framepath_planner_range_finding(const struct framepath_planner *handle,
                                     int *joint,
                                     double *position,
                                     double *limit);
+
+/*
+ Where that is, nine numbers, for a joint that would jump and for what is out of reach. Returns 0, or -1 where there is no
+ such place.
+
+ # Safety
+ `handle` from `framepath_planner_create`; `place` has room for nine numbers.
+ */
+int framepath_planner_finding_place(const struct framepath_planner *handle,
+                                    double *place);
 
 /*
  What an operator sees after the last servo period. Returns 0, or -1 without a planner.

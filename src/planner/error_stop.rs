@@ -10,8 +10,8 @@ pub(super) enum ErrorStop {
     Fault(Fault),
     /// The spindle did not do what a thread or a tap needs.
     Spindle(SpindleError),
-    /// A joint would leave its soft limits.
-    SoftLimit,
+    /// A joint would leave its soft limits on the way of a move, or jump.
+    JointsOnTheWay,
 }
 
 impl ErrorStop {
@@ -28,7 +28,7 @@ impl ErrorStop {
     pub fn fault(self) -> Option<Fault> {
         match self {
             Self::Fault(fault) => Some(fault),
-            Self::Spindle(_) | Self::SoftLimit => None,
+            Self::Spindle(_) | Self::JointsOnTheWay => None,
         }
     }
 }
@@ -46,6 +46,6 @@ mod tests {
         assert_eq!(second.after(Some(first)), first);
         assert_eq!(spindle.after(Some(first)), first);
         assert_eq!(first.after(Some(spindle)), first);
-        assert_eq!(ErrorStop::SoftLimit.after(Some(spindle)).fault(), None);
+        assert_eq!(ErrorStop::JointsOnTheWay.after(Some(spindle)).fault(), None);
     }
 }

@@ -1,4 +1,4 @@
-//! Moves wait until it is known that the joints stay within their soft limits.
+//! Moves wait until it is known that the joints stay within their soft limits, and do not jump where they have limits of their own.
 
 use super::error_stop::ErrorStop;
 use super::planner::Planner;
@@ -17,7 +17,7 @@ impl Planner {
     /// Looks at more of the queued moves, before each [`cycle`](Self::cycle). `range` are the limits
     /// of the joints now, `machine` the joints that the machine is commanded to be at.
     ///
-    /// A move that leaves the range stops the motion on the path, before that move, and no move is
+    /// A move that leaves the range, or that joints with limits cannot follow, stops the motion on the path, before that move, and no move is
     /// taken before the operator's side, or the program's, has aborted too.
     pub fn check_range(
         &mut self,
@@ -37,8 +37,8 @@ impl Planner {
         let finding = self
             .range_check
             .go_on(&mut self.queue, range, machine, deviation, solver);
-        if let Some(Finding::Leaves { .. }) = finding {
-            self.stop_for_error(ErrorStop::SoftLimit);
+        if finding.as_ref().is_some_and(Finding::stops) {
+            self.stop_for_error(ErrorStop::JointsOnTheWay);
         }
         finding
     }

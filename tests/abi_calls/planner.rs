@@ -19,7 +19,7 @@ use framepath::abi::planner::settings::{
     framepath_planner_set_run_direction,
 };
 use framepath::abi::planner::soft_limits::{
-    FRAMEPATH_STAYS_IN_RANGE, framepath_planner_range_finding,
+    FRAMEPATH_STAYS_IN_RANGE, framepath_planner_finding_place, framepath_planner_range_finding,
 };
 use framepath::abi::planner::{Handle, framepath_planner_create};
 use framepath::axes::AXIS_COUNT;
@@ -362,6 +362,8 @@ impl Calls {
                 framepath_planner_range_finding(handle, line, joint, position, limit),
                 FRAMEPATH_STAYS_IN_RANGE
             );
+            assert_eq!(framepath_planner_finding_place(handle, position), -1);
+            assert_eq!(framepath_planner_finding_place(here, position), -1);
             assert_eq!(
                 framepath_planner_add_rigid_tap(here, tp, null(), 1.0, 0.0, 0, 1.0, null()),
                 -1

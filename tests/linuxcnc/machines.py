@@ -22,6 +22,10 @@ mode), and the program takes as long (G64 P0.05, whose seconds stand here). Then
 (with the tool centre point on where the sample has one): a place in it, and the same place without it, have the same joints;
 the column says how far apart they were. LinuxCNC ends with exit status 0, and all modules are unloaded.
 
+Joints with limits of their own (`blendtp.joint.*`) follow kinematics that bend: a move is refused, before the machine comes to it, that
+leads through a place where a joint would jump (the turn of a joint of scarakins or pumakins begins anew, a wrist turns over) or that
+no joints lead to; see `man blendtp`.
+
 | sample | kinematics | seconds, LinuxCNC's planner | seconds, blendtp | periods compared | off in the frame |
 |---|---|---|---|---|---|"""
 

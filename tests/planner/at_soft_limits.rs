@@ -107,6 +107,7 @@ fn beyond(start: Point, steps: &[Step], setting: &Setting) -> Point {
         least: [f64::NEG_INFINITY; JOINT_COUNT],
         greatest: [f64::INFINITY; JOINT_COUNT],
         count: 3,
+        ..JointRange::NONE
     };
     (range.greatest[0], range.greatest[1]) = (limit.x, limit.y);
     let mut machine = Machine::new(equal_limits(setting.jerk));

@@ -31,6 +31,7 @@ fn outside(nearing: &Nearing, gap: f64) -> f64 {
         least: [f64::NEG_INFINITY; JOINT_COUNT],
         greatest: [f64::INFINITY; JOINT_COUNT],
         count: 6,
+        ..JointRange::NONE
     };
     range.greatest[nearing.axis] = gap;
     let mut solver = Cartesian {

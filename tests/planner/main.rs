@@ -17,6 +17,7 @@ mod history;
 mod holds;
 mod invariance;
 mod joint_jets;
+mod joint_jumps;
 mod joint_limits;
 mod joint_models;
 mod last_corner;

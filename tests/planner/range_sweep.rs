@@ -59,7 +59,7 @@ fn found(verdict: &RangeVerdict) -> Option<OutOfRange> {
     match verdict {
         RangeVerdict::Stays(_) => None,
         RangeVerdict::Leaves(found) => Some(*found),
-        RangeVerdict::Unknown => panic!("a machine with joints everywhere is unknown"),
+        other => panic!("a machine with smooth joints everywhere: {other:?}"),
     }
 }
 
@@ -68,6 +68,7 @@ fn range(reach: f64) -> JointRange {
         least: [-reach; JOINT_COUNT],
         greatest: [reach; JOINT_COUNT],
         count: 5,
+        ..JointRange::NONE
     }
 }
 

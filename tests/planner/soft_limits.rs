@@ -57,6 +57,7 @@ fn range(reach: f64) -> JointRange {
         least: [-reach; JOINT_COUNT],
         greatest: [reach; JOINT_COUNT],
         count: 3,
+        ..JointRange::NONE
     }
 }
 

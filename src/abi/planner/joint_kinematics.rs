@@ -154,6 +154,11 @@ impl JointKinematics {
         self.module.is_known()
     }
 
+    /// Whether they say in closed form how joints move.
+    pub(super) fn is_exact(&self) -> bool {
+        self.measured.is_some_and(|measured| measured.exact)
+    }
+
     pub(super) fn is_trivial(&self) -> bool {
         self.module.is_trivial()
     }

@@ -21,6 +21,9 @@ const CONVERGENCE: f64 = 1e-5;
 /// What the joints are moved by to see whether the answer depends on them.
 const NUDGE: f64 = 1e-3;
 
+/// How close to a place its joints lead, machine units: far less than what is out of reach, and far more than rounding.
+const REACHED: f64 = 1e-4;
+
 /// The kinematics module.
 #[derive(Clone, Copy, Debug)]
 pub struct KinematicsModule {
@@ -29,11 +32,13 @@ pub struct KinematicsModule {
     /// What `kinematicsType` says.
     kind: c_uint,
     /// Joints that are looked at.
-    pub(super) count: usize,
+    pub count: usize,
     /// Whether the forward kinematics choose the arm that the inverse kinematics take.
     chooses_arm: bool,
     /// Whether the inverse kinematics go on from the joints they are given.
     iterates: bool,
+    /// Whether the forward kinematics tell by the joints alone where these lead.
+    tells_place: bool,
 }
 
 impl KinematicsModule {
@@ -45,6 +50,7 @@ impl KinematicsModule {
         count: 0,
         chooses_arm: false,
         iterates: false,
+        tells_place: false,
     };
 
     /// The module's functions, and what `kinematicsType` says.
@@ -86,6 +92,36 @@ impl KinematicsModule {
         flags
     }
 
+    /// X Y Z of the place that joints lead to; `None` if the forward kinematics do not answer.
+    fn place(&self, joints: &Joints, guess: &Axes, forward_flags: c_ulong) -> Option<[f64; 3]> {
+        let forward = self.forward?;
+        let (mut pose, mut inverse_flags) = (pose_of(guess), 0);
+        // SAFETY: as above.
+        let result = unsafe {
+            forward(
+                joints.as_ptr(),
+                &mut pose,
+                &forward_flags,
+                &mut inverse_flags,
+            )
+        };
+        (result == 0).then_some([pose.tran.x, pose.tran.y, pose.tran.z])
+    }
+
+    /// Whether the forward kinematics lead back to a position by its joints alone: those that iterate depend on where they
+    /// begin, some on the arm that their flags say, and what they find from elsewhere may be another place.
+    fn leads_back(&self, position: &Axes, joints: &Joints) -> bool {
+        let beside = position.add_scalar(NUDGE);
+        // Behind a frame they begin where they were asked last.
+        self.place(&joints.map(|joint| joint + NUDGE), &beside, 0);
+        let from_beside = self.place(joints, &beside, 0);
+        let from_there = self.place(joints, position, 0);
+        let of_another_arm = self.place(joints, position, 1);
+        from_there.is_some_and(|place| is_at(&place, position))
+            && from_there == from_beside
+            && from_there == of_another_arm
+    }
+
     /// The joints for a position with this arm, from those of before.
     pub fn joints(&self, position: &Axes, near: &Joints, flags: c_ulong) -> Option<Joints> {
         let inverse = self.inverse?;
@@ -112,10 +148,20 @@ impl JointSolver for KinematicsModule {
             }
             _ => true,
         };
+        let [answer, _] = answers;
+        self.tells_place = self.kind == KINEMATICS_TYPE::KINEMATICS_BOTH
+            && answer.is_some_and(|answer| self.leads_back(position, &answer));
     }
 
     fn solve(&mut self, position: &Axes, near: &Joints) -> Option<Joints> {
         self.joints(position, near, self.arm(position, near))
+    }
+
+    fn reaches(&mut self, position: &Axes, joints: &Joints) -> bool {
+        !self.tells_place
+            || self
+                .place(joints, position, 0)
+                .is_none_or(|place| is_at(&place, position))
     }
 
     fn precision(&self) -> f64 {
@@ -139,4 +185,12 @@ impl JointSolver for KinematicsModule {
     fn keeps_lines(&self) -> bool {
         self.is_trivial()
     }
+}
+
+/// Whether X Y Z of a place are those of a position.
+fn is_at(place: &[f64; 3], position: &Axes) -> bool {
+    place
+        .iter()
+        .zip(position)
+        .all(|(one, other)| (one - other).abs() <= REACHED)
 }

@@ -1,4 +1,6 @@
-//! The soft limits of the joints on the way of a move.
+//! The joints on the way of a move: their soft limits, and whether they jump where they have limits of their own.
+
+use core::slice;
 
 use libc::{c_double, c_int, c_uint, c_ulong};
 
@@ -6,8 +8,9 @@ use super::handle::{Handle, module};
 use super::joint_kinematics;
 use super::kinematics_module::KinematicsModule;
 use crate::abi::linuxcnc::{EmcPose, emcmot_config_t, emcmot_status_t};
+use crate::axes::AXIS_COUNT;
 use crate::machine::JOINT_COUNT;
-use crate::planner::range::{Finding, JointRange, Joints};
+use crate::planner::range::{Finding, JointRange, Joints, Jump};
 
 /// The soft limits as motmod has them now.
 fn range_of(status: &emcmot_status_t, config: &emcmot_config_t) -> JointRange {
@@ -33,7 +36,8 @@ pub(super) fn commanded_joints(status: &emcmot_status_t) -> Joints {
 }
 
 impl Handle {
-    /// Looks at more of what is queued, and stops for a move that leaves the soft limits.
+    /// Looks at more of what is queued, and stops for a move that leaves the soft limits, or that joints with limits of their own
+    /// cannot follow.
     pub(super) fn check_range(&mut self) {
         self.finding = None;
         if !self.kinematics.is_known() {
@@ -45,7 +49,9 @@ impl Handle {
         else {
             return;
         };
-        let range = range_of(status, config);
+        let mut range = range_of(status, config);
+        // Joints whose motion is known in closed form do not jump.
+        range.may_not_jump = self.joints_limited && !joint_kinematics::kinematics().is_exact();
         let machine = commanded_joints(status);
         self.kinematics.count = range.count;
         self.finding = self
@@ -78,9 +84,14 @@ pub const FRAMEPATH_STAYS_IN_RANGE: c_int = 0;
 pub const FRAMEPATH_LEAVES_RANGE: c_int = 1;
 /// The kinematics gave no joints for a place on its way, so that it could not be looked at.
 pub const FRAMEPATH_RANGE_UNKNOWN: c_int = 2;
+/// A joint with limits of its own would jump: the motion is stopped before the move.
+pub const FRAMEPATH_JOINT_JUMPS: c_int = 3;
+/// No joints lead to a place on its way, and joints have limits of their own: the motion is stopped before the move.
+pub const FRAMEPATH_OUT_OF_REACH: c_int = 4;
 
 /// What the look along the queued moves came to in the last servo period: one of the codes above, with the program line,
-/// and for a move that leaves the soft limits the joint, how far it would go, and the limit.
+/// for a move that leaves the soft limits the joint, how far it would go, and the limit, and for one that makes a joint
+/// jump the joint, and by how much in `position`.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; the others point to numbers.
@@ -117,5 +128,48 @@ pub unsafe extern "C" fn framepath_planner_range_finding(
             *line = id;
             FRAMEPATH_RANGE_UNKNOWN
         }
+        Some(Finding::Jumps { jump, id }) => {
+            *line = id;
+            *joint = jump.joint as c_int;
+            *position = jump.way;
+            FRAMEPATH_JOINT_JUMPS
+        }
+        Some(Finding::Unreached { id, .. }) => {
+            *line = id;
+            FRAMEPATH_OUT_OF_REACH
+        }
     }
+}
+
+/// Where that is, nine numbers, for a joint that would jump and for what is out of reach. Returns 0, or -1 where there is no
+/// such place.
+///
+/// # Safety
+/// `handle` from `framepath_planner_create`; `place` has room for nine numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framepath_planner_finding_place(
+    handle: *const Handle,
+    place: *mut c_double,
+) -> c_int {
+    // SAFETY: see above.
+    let Some(handle) = (unsafe { handle.as_ref() }) else {
+        return -1;
+    };
+    let (
+        Some(
+            Finding::Jumps {
+                jump: Jump { place: found, .. },
+                ..
+            }
+            | Finding::Unreached { place: found, .. },
+        ),
+        false,
+    ) = (handle.finding, place.is_null())
+    else {
+        return -1;
+    };
+    // SAFETY: see above.
+    let room = unsafe { slice::from_raw_parts_mut(place, AXIS_COUNT) };
+    room.copy_from_slice(found.as_slice());
+    0
 }

@@ -1,8 +1,9 @@
 //! The look along the queued moves, one behind the other.
 
-use super::joints::{Finding, JointRange, JointSolver, Joints, OutOfRange};
+use super::joints::{Finding, JointRange, JointSolver, Joints, Jump, OutOfRange};
 use super::margin::{Beside, Deviation};
 use super::sweep::{RangeVerdict, Sweep};
+use crate::axes::Axes;
 use crate::machine::JOINT_COUNT;
 use crate::moves::shape::Shape;
 use crate::moves::{Move, MoveQueue, NearLimit, TerminationCondition};
@@ -98,14 +99,11 @@ impl RangeCheck {
                     end: self.ends_near(queued, &margins, solver),
                     ..NearLimit::NONE
                 },
-                Passed::Leaves(found) => {
-                    let (found, id) = (self.with_limit(found), queued.id);
-                    return Some(Finding::Leaves { found, id });
-                }
                 Passed::Unknown => {
                     finding = Some(Finding::Unknown { id: queued.id });
                     NearLimit::BOTH
                 }
+                Passed::Refused(why) => return Some(self.refusal(why, queued.id)),
             };
             queue.release_near_limit(self.next, near_limit);
             self.next += 1;
@@ -151,6 +149,18 @@ impl RangeCheck {
         joints.is_none_or(is_near)
     }
 
+    /// Why the motion stops before the move with this number.
+    fn refusal(&self, why: Refused, id: i32) -> Finding {
+        match why {
+            Refused::Leaves(found) => Finding::Leaves {
+                found: self.with_limit(found),
+                id,
+            },
+            Refused::Jumps(jump) => Finding::Jumps { jump, id },
+            Refused::Unreached(place) => Finding::Unreached { place, id },
+        }
+    }
+
     /// The limit itself, where the move began beyond it.
     fn with_limit(&self, found: OutOfRange) -> OutOfRange {
         let limits = if found.position > found.limit {
@@ -192,7 +202,15 @@ impl RangeCheck {
                     let comes_near = sweep.comes_near();
                     return Some(Passed::Stays { comes_near });
                 }
-                Some(RangeVerdict::Leaves(found)) => return Some(Passed::Leaves(found)),
+                Some(RangeVerdict::Leaves(found)) => {
+                    return Some(Passed::Refused(Refused::Leaves(found)));
+                }
+                Some(RangeVerdict::Jumps(jump)) => {
+                    return Some(Passed::Refused(Refused::Jumps(jump)));
+                }
+                Some(RangeVerdict::Unreached(place)) => {
+                    return Some(Passed::Refused(Refused::Unreached(place)));
+                }
                 Some(RangeVerdict::Unknown) => {
                     self.at_start = false;
                     return Some(Passed::Unknown);
@@ -207,6 +225,13 @@ impl RangeCheck {
 /// What became of a move.
 enum Passed {
     Stays { comes_near: bool },
-    Leaves(OutOfRange),
+    Refused(Refused),
     Unknown,
+}
+
+/// Why one is not entered.
+enum Refused {
+    Leaves(OutOfRange),
+    Jumps(Jump),
+    Unreached(Axes),
 }

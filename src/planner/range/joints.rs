@@ -15,6 +15,9 @@ pub struct JointRange {
     pub greatest: Joints,
     /// How many joints there are.
     pub count: usize,
+    /// Whether they have limits of velocity, acceleration and jerk of their own: none may jump then, and each place needs joints
+    /// that lead to it.
+    pub may_not_jump: bool,
 }
 
 impl JointRange {
@@ -23,6 +26,7 @@ impl JointRange {
         least: [f64::NEG_INFINITY; JOINT_COUNT],
         greatest: [f64::INFINITY; JOINT_COUNT],
         count: 0,
+        may_not_jump: false,
     };
 
     /// Whether both are the same, digit by digit.
@@ -30,6 +34,7 @@ impl JointRange {
         let same =
             |a: &Joints, b: &Joints| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
         self.count == other.count
+            && self.may_not_jump == other.may_not_jump
             && same(&self.least, &other.least)
             && same(&self.greatest, &other.greatest)
     }
@@ -46,6 +51,17 @@ pub struct OutOfRange {
     pub limit: f64,
 }
 
+/// A joint that would jump.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// Number of the joint that jumps furthest, the least if there are several.
+    pub joint: usize,
+    /// By how much, machine units or degrees.
+    pub way: f64,
+    /// Where, shape (9).
+    pub place: Axes,
+}
+
 /// What the check has to tell the operator.
 #[derive(Clone, Copy, Debug)]
 pub enum Finding {
@@ -53,6 +69,20 @@ pub enum Finding {
     Leaves {
         /// The joint, and how far it would go.
         found: OutOfRange,
+        /// LinuxCNC's number of the move.
+        id: i32,
+    },
+    /// A joint with limits would jump within a move.
+    Jumps {
+        /// The joint, how far, and where.
+        jump: Jump,
+        /// LinuxCNC's number of the move.
+        id: i32,
+    },
+    /// There are no joints that lead to a place within a move, and joints have limits.
+    Unreached {
+        /// The place, shape (9).
+        place: Axes,
         /// LinuxCNC's number of the move.
         id: i32,
     },
@@ -64,6 +94,13 @@ pub enum Finding {
     },
 }
 
+impl Finding {
+    /// Whether the motion has to stop before the move.
+    pub fn stops(&self) -> bool {
+        !matches!(self, Self::Unknown { .. })
+    }
+}
+
 /// Inverse kinematics, as the motion controller uses them: from the joints of before.
 pub trait JointSolver {
     /// The machine stands at `position`, shape (9), with these joints; what follows begins here.
@@ -72,6 +109,12 @@ pub trait JointSolver {
     /// The joints for a position, shape (9), that the machine reaches from `near`, the joints at a
     /// place not far away. `None` where there are none.
     fn solve(&mut self, position: &Axes, near: &Joints) -> Option<Joints>;
+
+    /// Whether the joints that were found for a position, shape (9), lead to it: some kinematics have joints for places out of
+    /// reach, too.
+    fn reaches(&mut self, _position: &Axes, _joints: &Joints) -> bool {
+        true
+    }
 
     /// What an answer may be wrong by, machine units or degrees: [`Self::ROUNDING`], or more where
     /// the kinematics iterate.

@@ -12,8 +12,12 @@
 //! How near to a cubic a joint is depends on how far the machine turns: from one place to the
 //! next all rotary axes and the arc itself turn by [`TURN`] / 4 at most. Joints of robots turn
 //! where the program does not; what a joint moves by in between is limited too.
+//!
+//! Where joints may not jump the spans are shorter, and it is looked for jumps, see [`super::jump`].
 
-use super::joints::{JointRange, JointSolver, Joints, OutOfRange};
+use super::joints::{JointRange, JointSolver, Joints, Jump, OutOfRange};
+use super::jump;
+use crate::axes::Axes;
 use crate::machine::JOINT_COUNT;
 use crate::moves::shape::Shape;
 
@@ -51,6 +55,10 @@ pub enum RangeVerdict {
     Stays(Joints),
     /// A joint would leave its range.
     Leaves(OutOfRange),
+    /// A joint would jump that may not.
+    Jumps(Jump),
+    /// There are no joints that lead to this place, shape (9), where joints may not jump.
+    Unreached(Axes),
     /// The kinematics gave no joints for a place, or jump without end.
     Unknown,
 }
@@ -60,8 +68,7 @@ pub enum RangeVerdict {
 pub struct Sweep {
     /// Spans of full width.
     spans: f64,
-    /// Where the span begins that is looked at, and how wide it is, in spans of full width. Both
-    /// are whole multiples of [`LEAST_WIDTH`].
+    /// Where the span begins that is looked at, and how wide it is, in spans of full width: both without rounding.
     begin: f64,
     width: f64,
     /// The joints at the first `filled` places of it.
@@ -85,7 +92,10 @@ impl Sweep {
     /// Before the start of a move that the machine reaches with the joints `near`, or a little beside
     /// them.
     pub fn new(shape: &Shape, range: &JointRange, near: &Joints) -> Self {
-        let spans = (turning(shape) / TURN).max(shape.length() / LENGTH);
+        let mut spans = (turning(shape) / TURN).max(shape.length() / LENGTH);
+        if range.may_not_jump {
+            spans = spans.max(shape.length().max(rotary_way(shape)) / jump::SPAN);
+        }
         let spans = spans.ceil().max(1.0);
         Self {
             spans,
@@ -125,17 +135,19 @@ impl Sweep {
     pub fn step(&mut self, shape: &Shape, solver: &mut impl JointSolver) -> Option<RangeVerdict> {
         self.calls -= 1.0;
         self.precision = solver.precision();
-        let share = self.begin + self.width * (self.filled as f64 / INTERVALS);
-        let s = shape.length() * (share / self.spans);
+        let position = self.position(shape, self.filled);
         let near = self.filled.saturating_sub(1);
         let joints = match self.places.get(near) {
-            Some(near) => solver.solve(&shape.position(s), near),
+            Some(near) => solver.solve(&position, near),
             None => None,
         };
         let count = self.allowed.count;
         let joints =
             joints.filter(|joints| joints.iter().take(count).all(|joint| joint.is_finite()));
         let Some(joints) = joints else {
+            if self.allowed.may_not_jump {
+                return Some(RangeVerdict::Unreached(position));
+            }
             // Kinematics that iterate may find from nearby what they do not from afar.
             return (self.filled == 0 || !self.halve()).then(|| self.ended());
         };
@@ -146,7 +158,19 @@ impl Sweep {
             self.allow_start(&joints);
         }
         self.filled += 1;
-        (self.filled == PLACES).then(|| self.judge()).flatten()
+        if self.filled < PLACES {
+            return None;
+        }
+        if self.allowed.may_not_jump && !solver.reaches(&position, &joints) {
+            return Some(RangeVerdict::Unreached(position));
+        }
+        self.judge(shape)
+    }
+
+    /// Where a place of the span is, shape (9).
+    fn position(&self, shape: &Shape, place: usize) -> Axes {
+        let share = self.begin + self.width * (place as f64 / INTERVALS);
+        shape.position(shape.length() * (share / self.spans))
     }
 
     /// A joint that starts beyond its limit may come back.
@@ -163,10 +187,13 @@ impl Sweep {
     }
 
     /// All places of the span are known.
-    fn judge(&mut self) -> Option<RangeVerdict> {
+    fn judge(&mut self, shape: &Shape) -> Option<RangeVerdict> {
         let spent = self.calls <= 0.0;
         let bends = self.bends();
         let known = bends.iter().take(self.allowed.count);
+        if self.allowed.may_not_jump && known.clone().any(|bend| jump::may_jump(bend.second)) {
+            return self.close_in(shape);
+        }
         if known.clone().any(|bend| bend.way > GREATEST_WAY) && !spent && self.halve() {
             return None;
         }
@@ -198,6 +225,19 @@ impl Sweep {
             }
         }
         self.go_on()
+    }
+
+    /// A joint might jump in the span: looks at the first half of it, if that is not too small. This comes to an end, however
+    /// many places it takes.
+    fn close_in(&mut self, shape: &Shape) -> Option<RangeVerdict> {
+        if jump::are_beside(&self.position(shape, 0), &self.position(shape, 1)) {
+            let place = |place| self.position(shape, place);
+            let jump = jump::furthest(&self.places, self.allowed.count, place);
+            return jump.map(RangeVerdict::Jumps);
+        }
+        self.width *= 0.5;
+        self.filled = 1;
+        None
     }
 
     /// How each joint runs through the span.
@@ -321,12 +361,16 @@ impl Sweep {
 
 /// By how much the machine turns on a move, degrees: all rotary axes and the arc itself.
 fn turning(shape: &Shape) -> f64 {
-    let way = shape.end() - shape.position(0.0);
-    let rotary: f64 = way.iter().skip(3).take(3).map(|axis| axis.abs()).sum();
     match shape {
-        Shape::Line(_) => rotary,
-        Shape::Arc(arc) => rotary + arc.angle().to_degrees(),
+        Shape::Line(_) => rotary_way(shape),
+        Shape::Arc(arc) => rotary_way(shape) + arc.angle().to_degrees(),
     }
+}
+
+/// How far all rotary axes turn together, degrees.
+fn rotary_way(shape: &Shape) -> f64 {
+    let way = shape.end() - shape.position(0.0);
+    way.iter().skip(3).take(3).map(|axis| axis.abs()).sum()
 }
 
 /// How a joint runs through a span.

@@ -12,6 +12,7 @@ use crate::machine::limits::{Jerk, infinite_for_none, is_rotary};
 use crate::path::Position;
 use crate::wiring::blendtp::LIMITED_JOINTS;
 use crate::wiring::joints::JointSettings;
+use framepath::abi::planner::kinematics_module::KinematicsModule;
 use framepath::axes::Axes;
 use framepath::machine::JOINT_COUNT;
 use framepath::planner::JerkLimit;
@@ -188,6 +189,15 @@ impl LimitedJoints {
         match &self.behind {
             Behind::Table(..) => None,
             Behind::Module(joints) => Some(*joints.home()),
+        }
+    }
+
+    /// What blendtp asks for joints on the way of a move, in machine units, and the joints of home; `None` for a table of
+    /// framekins, whose joints do not jump.
+    pub(crate) fn on_the_way(&self) -> Option<(KinematicsModule, [f64; JOINT_COUNT])> {
+        match &self.behind {
+            Behind::Table(..) => None,
+            Behind::Module(joints) => Some(joints.on_the_way()),
         }
     }
 

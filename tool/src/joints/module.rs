@@ -9,11 +9,13 @@ use crate::wiring::installed::LinuxCnc;
 use crate::wiring::joints::JointSettings;
 use framepath::abi::planner::joint_kinematics::{JointKinematics, Measured};
 use framepath::abi::planner::joint_limits::{self, FRAMEPATH_MOST_MICROSECONDS};
+use framepath::abi::planner::kinematics_module::KinematicsModule;
 use framepath::axes::{Axes, AxisLimits};
 use framepath::kinematics::ToolAxes;
 use framepath::kinematics::inner_tool::tool_turning;
 use framepath::machine::JOINT_COUNT;
 use framepath::machine_map::JointMap;
+use framepath::planner::range::JointSolver;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -191,6 +193,16 @@ impl ModuleJoints {
 
     pub(super) fn home(&self) -> &Axes {
         &self.home
+    }
+
+    /// See [`super::LimitedJoints::on_the_way`].
+    pub(super) fn on_the_way(&self) -> (KinematicsModule, [f64; JOINT_COUNT]) {
+        let mut module = self.loaded.as_module();
+        module.count = self.count();
+        let (joints, position) = self.loaded.home();
+        // The arm that the machine has there is kept from then on.
+        module.begin(position, joints);
+        (module, *joints)
     }
 
     pub(super) fn is_angular(&self, joint: usize) -> bool {

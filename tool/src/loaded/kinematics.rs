@@ -112,11 +112,12 @@ impl LoadedKinematics {
 
     /// As the planner asks them, which has not measured them yet.
     pub(crate) fn as_asked(&self) -> JointKinematics {
-        JointKinematics::of(KinematicsModule::new(
-            Some(self.inverse),
-            Some(self.forward),
-            self.kind,
-        ))
+        JointKinematics::of(self.as_module())
+    }
+
+    /// As the planner asks them on the way of a move.
+    pub(crate) fn as_module(&self) -> KinematicsModule {
+        KinematicsModule::new(Some(self.inverse), Some(self.forward), self.kind)
     }
 
     /// Where the machine stands with these joints, shape (9), machine units; axes that it does not have as in `near`.

@@ -3,11 +3,13 @@
 
 use super::arrivals::Arrivals;
 use super::error::{PlanError, refusal, spindle_error};
+use super::joint_way::JointWay;
 use super::joints;
 use super::setup::Setup;
 use super::soft_limits::SoftLimits;
 use super::source::Source;
 use super::spindle::Spindle;
+use super::supply::Supply;
 use super::turn_feeds::TurnFeeds;
 use crate::canon::call::PathMode;
 use crate::layer::program::{self, Move, Operation, Piece};
@@ -73,36 +75,14 @@ pub struct Handed {
     pub(super) pieces: Vec<Piece>,
 }
 
-/// When moves reach the planner.
-#[derive(Debug)]
-pub enum Supply {
-    /// One in each servo cycle, as far as there is room.
-    EveryCycle,
-    /// The same, and the machine is held until no more can be handed over.
-    BeforeStart,
-    /// When they were recorded to come.
-    Recorded(Arrivals),
-}
-
-impl Supply {
-    /// For the reader.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Supply::EveryCycle => "one in each cycle, overrides at 100 %",
-            Supply::BeforeStart => {
-                "one in each cycle, the machine held until the queue was full, overrides at 100 %"
-            }
-            Supply::Recorded(_) => "when they were recorded to come, with the feed scale of then",
-        }
-    }
-}
-
 /// The planner and the program that it runs.
 pub struct Drive<'a> {
     file: &'a Path,
     setup: &'a Setup,
     planner: Box<Planner>,
     soft_limits: Option<SoftLimits>,
+    /// The joints on the way of moves, where they might jump.
+    joint_way: Option<JointWay>,
     spindle: Spindle,
     turn_feeds: TurnFeeds,
     inputs: CycleInputs,
@@ -156,7 +136,8 @@ impl<'a> Drive<'a> {
             .map_err(|_| refused("the tolerances: they must be 0 or positive"))?;
         planner.set_tilt_axis(setup.tool_tilt_axis);
         planner.set_corners_inside(setup.corners_inside);
-        planner.wait_for_range_check(setup.soft_limits.is_some());
+        let joint_way = setup.joints.limited().and_then(JointWay::new);
+        planner.wait_for_range_check(setup.soft_limits.is_some() || joint_way.is_some());
         planner.set_velocity_limit(setup.velocity_limit * length);
         planner
             .set_position(&scaled(&setup.surroundings.start))
@@ -166,6 +147,7 @@ impl<'a> Drive<'a> {
             setup,
             planner,
             soft_limits: setup.soft_limits.clone(),
+            joint_way,
             spindle: Spindle::new(setup.spindle),
             turn_feeds: TurnFeeds::default(),
             inputs: CycleInputs::default(),
@@ -213,6 +195,7 @@ impl<'a> Drive<'a> {
         };
         self.inputs.spindles[0] = self.spindle.turn(self.setup.period);
         self.look_for_soft_limits()?;
+        self.look_at_joints()?;
         let status = *self.planner.cycle(&self.inputs);
         let x = status.position[0] / self.setup.scale(0);
         self.spindle.obey(&status, x);
@@ -316,6 +299,14 @@ impl<'a> Drive<'a> {
         Ok(())
     }
 
+    fn look_at_joints(&mut self) -> Result<(), PlanError> {
+        let way = self.joint_way.as_mut();
+        match way.and_then(|way| way.look(&mut self.planner)) {
+            Some(refused) => Err(self.move_refused(refused.line, refused.reason)),
+            None => Ok(()),
+        }
+    }
+
     /// What LinuxCNC would refuse for a soft limit is planned all the same, with a word.
     fn admit(&mut self, shape: Result<Shape, ShapeError>) {
         if let (Some(limits), Ok(shape)) = (&mut self.soft_limits, shape) {
@@ -369,8 +360,11 @@ impl<'a> Drive<'a> {
             indexer_joint: None,
             tag: StateTag([0; STATE_TAG_SIZE]),
         };
-        self.planner
-            .set_id(i32::try_from(a_move.index + 1).unwrap_or(i32::MAX));
+        let id = i32::try_from(a_move.index + 1).unwrap_or(i32::MAX);
+        self.planner.set_id(id);
+        if let Some(way) = &mut self.joint_way {
+            way.note(id, a_move.line);
+        }
         let end = Axes::from_fn(|axis, _| a_move.end[axis] * self.setup.scale(axis));
         if let Some(joints) = self.setup.joints.limited()
             && !joints.reaches(&end)
