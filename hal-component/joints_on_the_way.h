@@ -2,6 +2,12 @@
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#ifndef FRAMEPATH_JOINTS_ON_THE_WAY_H
+#define FRAMEPATH_JOINTS_ON_THE_WAY_H
+
+#include "rtapi.h"
+#include "framepath.h"
+
 /* Says what a look along the way of the queued moves has found. Screens show 255 letters of a message. */
 static void say_finding(void)
 {
@@ -34,3 +40,5 @@ static void say_finding(void)
         break;
     }
 }
+
+#endif

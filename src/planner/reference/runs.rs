@@ -149,7 +149,7 @@ impl Reference {
             Expected::Anything if last_moment && waits => self.path.finish(),
             Expected::Anything if self.feeder.is_silent() => {
                 self.path.flush();
-                if last_call && !self.stays_open(planned) {
+                if last_call && !self.stays_open(planned, outlook) {
                     self.path.finish();
                 }
             }
@@ -159,12 +159,23 @@ impl Reference {
 
     /// Makes as much of a long move final as the machine needs of it now, so that a move that comes late may still be passed on to without
     /// a rest. Answers whether the rest of it stays open.
-    fn stays_open(&mut self, planned: f64) -> bool {
+    fn stays_open(&mut self, planned: f64, outlook: &Outlook) -> bool {
         if self.path.is_settled() {
             self.path.leave_open(planned, NEEDED)
         } else {
-            self.resting && !self.feeder.is_silent_beyond(SETTLING)
+            self.resting
+                && self.is_long_behind(planned, outlook)
+                && !self.feeder.is_silent_beyond(SETTLING)
         }
+    }
+
+    /// Whether the last move is so long that some of it might stay open.
+    fn is_long_behind(&self, planned: f64, outlook: &Outlook) -> bool {
+        let last = outlook.queue.get(self.feeder.next().wrapping_sub(1));
+        last.is_some_and(|last| {
+            let share_of_length = last.feed * NEEDED / last.shape.length();
+            self.path.added_end() - planned > self.path.path_length(&last.shape) * share_of_length
+        })
     }
 
     /// Whether the machine is soon to come to rest where the last run begins, or is under way in that.
