@@ -208,6 +208,16 @@ class Found(Case):
             self.assertTrue(x < 1.01 or z > 49.99, f"X {x} at Z {z}")
 
 
+    def test_a_tool_that_is_prepared_in_a_contour_brings_no_rest(self):
+        # the move behind T comes some periods late, when the machine has just begun with a long line
+        contour = ["G64 P0.05", "G1 X2 Y1 F1200", "X30 Y0", "X60 Y5", "T2", "X90 Y3", "X120 Y0"]
+        result = harness.run([RUN], program(*contour))
+        self.completed(result)
+        places = [place for place in result.columns("axis.x", "axis.y") if 3 < place[0] < 115]
+        slowest = min(math.dist(*pair) for pair in pairwise(places)) / PERIOD
+        self.assertGreater(slowest, 15, f"mm/s, of {1200 / 60}")
+
+
 class Refused(Case):
     def nothing_moves(self, result):
         for axis in AXES:
