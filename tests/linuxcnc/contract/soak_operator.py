@@ -15,9 +15,11 @@ from row import PERIOD
 from soak_checks import ALL, INTERRUPTED, JOGGING, PROGRAM
 
 #: Said by LinuxCNC's interpreter at the end of a program that was stepped, also with its own planner; and by ours where
-#: a reverse run is asked for without a move behind, or behind a thread or an indexer. A running program keeps its mode.
+#: a reverse run is asked for without a move behind, or behind a thread or an indexer, or a turn in motion. A running program
+#: keeps its mode.
 EXPECTED = ("Can't switch mode while mode is AUTO", "File ended with no percent sign",
-            "Must be in MDI mode to issue MDI command", "blendtp: there is no way back from here")
+            "Must be in MDI mode to issue MDI command", "blendtp: there is no way back from here",
+            "blendtp: the run is not turned, since the machine moves")
 #: Seconds of servo periods that the machine has for coming to rest, and a program for its end once nothing interferes.
 REST, END = 4.0, 90.0
 #: The same for task to hear of a command on a busy computer.
