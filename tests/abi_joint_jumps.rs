@@ -7,9 +7,7 @@ use std::ffi::{c_int, c_ulong};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use abi_calls::motion::Shared;
-use abi_calls::moves::{pose_of, tag};
 use framepath::abi::linuxcnc::{EmcPose, KINEMATICS_TYPE};
-use framepath::abi::planner::add::framepath_planner_add_line;
 use framepath::abi::planner::joint_limits::{
     FRAMEPATH_JOINTS_TAKEN, FramepathJointLimits, framepath_planner_joint_jet,
     framepath_planner_set_joint_limits,
@@ -19,9 +17,6 @@ use framepath::abi::planner::soft_limits::{
     FRAMEPATH_JOINT_JUMPS, FRAMEPATH_OUT_OF_REACH, FRAMEPATH_STAYS_IN_RANGE,
     framepath_planner_finding_place, framepath_planner_kinematics, framepath_planner_range_finding,
 };
-
-/// LinuxCNC's number of a move at feed.
-const EMC_MOTION_TYPE_FEED: i32 = 2;
 
 /// There is one planner in a process.
 static ONE: Mutex<()> = Mutex::new(());
@@ -135,31 +130,9 @@ impl Machine {
         Self { shared, _one: one }
     }
 
-    /// Adds a line to X and Y.
-    fn add_line(&mut self, x: f64, y: f64) {
-        let end = pose_of(&[x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        let (handle, tp) = (self.shared.handle, self.shared.tp);
-        // SAFETY: a handle, and structures.
-        assert_eq!(0, unsafe {
-            framepath_planner_add_line(
-                handle,
-                tp,
-                &end,
-                EMC_MOTION_TYPE_FEED,
-                90.0,
-                100.0,
-                0.0,
-                0xff,
-                0,
-                -1,
-                &tag(),
-            )
-        });
-    }
-
     /// What the look along a line to X and Y finds: the code, the joint, by how much it jumps, and where.
     fn finding(&mut self, x: f64, y: f64) -> (c_int, c_int, f64, [f64; 9]) {
-        self.add_line(x, y);
+        self.shared.add_line(x, y);
         let (handle, tp) = (self.shared.handle, self.shared.tp);
         let (mut line, mut joint, mut way, mut limit) = (0, -1, 0.0, 0.0);
         let mut place = [0.0; 9];

@@ -9,7 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use abi_calls::motion::Shared;
-use abi_calls::moves::{pose_of, tag};
+use abi_calls::moves::pose_of;
 use framepath::abi::kinematics::{
     framepath_frame_inputs, framepath_kinematics_configure, framepath_kinematics_inverse,
     framepath_kinematics_switch,
@@ -18,7 +18,6 @@ use framepath::abi::kinematics_jet::{
     framepath_kinematics_axis_of_joint, framepath_kinematics_jet,
 };
 use framepath::abi::linuxcnc::{EmcPose, KINEMATICS_TYPE};
-use framepath::abi::planner::add::framepath_planner_add_line;
 use framepath::abi::planner::joint_limits::{
     FRAMEPATH_JOINT_ACCELERATION, FRAMEPATH_JOINT_JERK, FRAMEPATH_JOINT_VELOCITY,
     FRAMEPATH_JOINTS_ROUGH, FRAMEPATH_JOINTS_SINGULAR, FRAMEPATH_JOINTS_SLOW,
@@ -28,9 +27,6 @@ use framepath::abi::planner::joint_limits::{
 };
 use framepath::abi::planner::run::framepath_planner_run_cycle;
 use framepath::abi::planner::soft_limits::framepath_planner_kinematics;
-
-/// LinuxCNC's number of a move at feed.
-const EMC_MOTION_TYPE_FEED: i32 = 2;
 
 /// There is one planner in a process.
 static ONE: Mutex<()> = Mutex::new(());
@@ -181,24 +177,8 @@ impl Machine {
 
     /// Runs a line to X and Y: places of X and Y, period by period.
     fn line(&mut self, x: f64, y: f64) -> Vec<[f64; 2]> {
-        let end = pose_of(&[x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        self.shared.add_line(x, y);
         let (handle, tp) = (self.shared.handle, self.shared.tp);
-        // SAFETY: a handle, and structures.
-        assert_eq!(0, unsafe {
-            framepath_planner_add_line(
-                handle,
-                tp,
-                &end,
-                EMC_MOTION_TYPE_FEED,
-                90.0,
-                100.0,
-                0.0,
-                0xff,
-                0,
-                -1,
-                &tag(),
-            )
-        });
         let mut places = vec![[0.0; 2]; 4];
         for _ in 0..20_000 {
             // SAFETY: a handle and motmod's structure.

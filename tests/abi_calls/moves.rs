@@ -10,7 +10,11 @@ use framepath::abi::planner::add::{
 
 use super::choices::Choices;
 use super::judge::{Kind, coordinates};
+use super::motion::Shared;
 use super::planner::{Calls, MOST_CYCLES, Position};
+
+/// LinuxCNC's number of a move at feed.
+const EMC_MOTION_TYPE_FEED: c_int = 2;
 
 pub fn pose_of(position: &Position) -> EmcPose {
     let [x, y, z, a, b, c, u, v, w] = *position;
@@ -29,6 +33,29 @@ pub fn pose_of(position: &Position) -> EmcPose {
 pub fn tag() -> state_tag_t {
     // SAFETY: plain numbers.
     unsafe { std::mem::zeroed() }
+}
+
+impl Shared {
+    /// Adds a line at a feed of 90 to X and Y.
+    pub fn add_line(&mut self, x: f64, y: f64) {
+        let end = pose_of(&[x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        // SAFETY: a handle, and structures.
+        assert_eq!(0, unsafe {
+            framepath_planner_add_line(
+                self.handle,
+                self.tp,
+                &end,
+                EMC_MOTION_TYPE_FEED,
+                90.0,
+                100.0,
+                0.0,
+                0xff,
+                0,
+                -1,
+                &tag(),
+            )
+        });
+    }
 }
 
 impl Calls {

@@ -195,8 +195,7 @@ impl MoveFeeder {
 
     /// Whether nothing more is to be expected for a while.
     pub fn is_silent(&self) -> bool {
-        let silence = (SILENCE * self.interval).min(LONGEST_SILENCE);
-        self.silence >= silence.max(SHORTEST_SILENCE)
+        self.is_silent_beyond(0.0)
     }
 
     /// Whether that has been so for `seconds`.

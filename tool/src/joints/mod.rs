@@ -6,7 +6,6 @@ mod module;
 mod table;
 mod told;
 
-use crate::loaded::kinematics::KinematicsError;
 use crate::machine::ini::Ini;
 use crate::machine::limits::{Jerk, infinite_for_none, is_rotary};
 use crate::path::Position;
@@ -22,6 +21,7 @@ use table::{Table, TableError, TableMachine, own_table};
 use told::Told;
 
 pub use error::JointsError;
+pub(crate) use module::position_at_home;
 
 /// How close to a position the joints for it have to lead, units of length: kinematics that iterate are not exact.
 const REACHED: f64 = 1e-3;
@@ -327,17 +327,6 @@ impl LimitedJoints {
             Behind::Module(_) => None,
         }
     }
-}
-
-/// Where the machine stands with its joints at `[JOINT_n]HOME`, as its kinematics module says, machine units.
-///
-/// # Errors
-/// Why it cannot be asked here.
-pub(crate) fn position_at_home(
-    settings: &JointSettings,
-    ini: &Ini,
-) -> Result<Axes, KinematicsError> {
-    module::position_at_home(settings, ini)
 }
 
 /// Whether each joint is an axis.

@@ -118,8 +118,11 @@ pub(super) fn tool_tilt_axis(joints: &JointSettings, ini: &Ini) -> Option<usize>
     chain.tilt_axis_below_c()
 }
 
-/// See [`super::position_at_home`].
-pub(super) fn position_at_home(joints: &JointSettings, ini: &Ini) -> Result<Axes, KinematicsError> {
+/// Where the machine stands with its joints at `[JOINT_n]HOME`, as its kinematics module says, machine units.
+///
+/// # Errors
+/// Why it cannot be asked here.
+pub(crate) fn position_at_home(joints: &JointSettings, ini: &Ini) -> Result<Axes, KinematicsError> {
     Ok(LoadedKinematics::load(&settings(joints, ini))?.home().1)
 }
 
