@@ -9,6 +9,7 @@
 
 use super::block_words::BlockWords;
 use super::deep_holes::Steps;
+use super::evaluate_words::seconds;
 use super::g_functions::OneShot;
 use super::interpreter::{Interpreter, times};
 use super::pockets::Pocket;
@@ -35,7 +36,7 @@ pub struct Cycle {
     bottom: f64,
     /// G83: how many steps.
     steps: u32,
-    /// G84 R1: the spindle is followed; without it the chuck gives way.
+    /// G84 R1 and R2: the spindle is followed; without them the chuck gives way.
     rigid: bool,
     /// Seconds at the bottom.
     dwell: f64,
@@ -197,7 +198,7 @@ impl Interpreter<'_> {
             .help("check Z (reference plane) and I (bottom)"));
         }
         let dwell = match (words.centre[2], &old) {
-            (Some(dwell), _) if dwell.value >= 0.0 => dwell.value / 100.0,
+            (Some(dwell), _) if dwell.value >= 0.0 => seconds(dwell)?,
             (Some(dwell), _) => {
                 return Err(Diagnostic::error(dwell.span, "a dwell cannot be negative"));
             }
@@ -210,7 +211,7 @@ impl Interpreter<'_> {
             bottom,
             steps,
             rigid: match (radius, &old) {
-                (Some(rigid), _) => rigid.value == 1.0,
+                (Some(kind), _) => is_rigid(kind)?,
                 (None, old) => old.as_ref().is_some_and(|old| old.rigid),
             },
             dwell,
@@ -316,7 +317,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// G84 R1: the pitch is the feed over the speed of the spindle.
+    /// G84 R1 and R2: the pitch is the feed over the speed of the spindle.
     fn rigid_tap(&mut self, cycle: &Cycle) -> Done {
         let modal = &self.control.modal;
         let (feed, speed) = (modal.feed, modal.spindle_speed);
@@ -401,6 +402,20 @@ impl Interpreter<'_> {
         if cycle.dwell > 0.0 {
             self.control.actions.push(Action::Dwell(cycle.dwell));
         }
+    }
+}
+
+/// Whether R of G84 has the spindle followed. In both ways that do, G33.1 waits for the index of the
+/// spindle, which is the orientation that one of them asks for.
+fn is_rigid(kind: At<f64>) -> Result<bool, Diagnostic> {
+    match kind.value {
+        0.0 => Ok(false),
+        1.0 | 2.0 => Ok(true),
+        _ => Err(
+            Diagnostic::error(kind.span, "R of G84 is the kind of the tap: 0, 1 or 2").help(
+                "write R1 or R2 for a rigid tap, R0 where the chuck gives way; F and S give the pitch",
+            ),
+        ),
     }
 }
 

@@ -13,6 +13,9 @@ use crate::program::moves::Corner;
 use crate::program::{Action, Compensation};
 use crate::source::Span;
 
+/// How far from a whole number what is worked out from parameters may be.
+const ROUNDING: f64 = 1e-6;
+
 impl Interpreter<'_> {
     /// Runs the words of a block and appends what they do to the actions of the block. `true` when the
     /// program ends here.
@@ -152,7 +155,7 @@ impl Interpreter<'_> {
             return Err(Diagnostic::error(other, "G4 stands alone in its block")
                 .help("put axes, F, S, T, D and M functions in another block"));
         }
-        self.control.dwell(hundredths.value / 100.0, span)
+        self.control.dwell(seconds(hundredths)?, span)
     }
 
     /// The coordinates of a block: a preset, a motion, a canned cycle.
@@ -388,6 +391,20 @@ impl Interpreter<'_> {
         self.preset = true;
         Ok(())
     }
+}
+
+/// The time of a K in seconds. A fraction is that of a control whose K counts in seconds, where it is a
+/// hundred times as long.
+pub(super) fn seconds(hundredths: At<f64>) -> Result<f64, Diagnostic> {
+    let At { value, span } = hundredths;
+    if (value - value.round()).abs() > ROUNDING {
+        return Err(Diagnostic::error(
+            span,
+            "the time K is no whole number: it is in hundredths of a second here",
+        )
+        .help("K150 is 1.5 seconds; where the program was made for a control with K in seconds, write a hundred times as much"));
+    }
+    Ok(value.round() / 100.0)
 }
 
 /// G53 and G92 take axes, and nothing that belongs to a path.

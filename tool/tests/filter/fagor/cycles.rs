@@ -243,6 +243,10 @@ fn tapping_with_and_without_a_chuck_that_gives_way() {
         text.contains("G0 Z2\nM3\nG33.1 Z-8 K1\nM5\nG0 Z20 M3"),
         "{text}"
     );
+    let oriented = super::translate(&program.replace("R1", "R2"), &[]);
+    assert_eq!(oriented, super::translate(program, &[]));
+    let floats = super::translate(&program.replace("R1", "R0"), &[]).join("\n");
+    assert!(!floats.contains("G33.1"), "{floats}");
     let waits = program.replace("R1", "R1 K50");
     let text = super::translate(&waits, &[]).join("\n");
     assert!(text.contains("the dwell [K] of a rigid tap"), "{text}");
@@ -251,6 +255,14 @@ fn tapping_with_and_without_a_chuck_that_gives_way() {
         shown.contains("a rigid tap needs F in mm/min and S"),
         "{shown}"
     );
+}
+
+/// 100 times .29 is no whole number to a machine.
+#[test]
+fn times_may_be_worked_out_from_parameters() {
+    let program = "(P1 = 0.29 * 100)\nG0 X0 Y0 Z20\nG4 KP1\nG81 X10 Z2 I-8 KP1 F100\nG80\nM30\n";
+    let text = super::translate(program, &[]).join("\n");
+    assert_eq!(text.matches("G4 P0.29\n").count(), 2, "{text}");
 }
 
 #[test]

@@ -220,6 +220,11 @@ fn motion() {
         "an increment in machine coordinates",
     );
     one_error("G4\nM30\n", "1:1", "G4 needs a time");
+    one_error(
+        "G4 K1.5\nM30\n",
+        "1:4",
+        "the time K is no whole number: it is in hundredths of a second",
+    );
     one_error("G36 X5\nM30\n", "1:1", "G36 needs R");
     one_error(
         "G0 X0 Y0 Z0\nG36 R5 G1 X3 F100\nY9\nM30\n",
@@ -281,6 +286,16 @@ fn cycles() {
 /// Words that nothing uses.
 #[test]
 fn words_that_would_be_lost() {
+    one_error(
+        "G0 X0 Y0 Z5\nG81 X5 Z2 I-5 K1.5 F100\nM30\n",
+        "2:15",
+        "the time K is no whole number: it is in hundredths of a second",
+    );
+    one_error(
+        "G0 X0 Y0 Z5\nG84 X5 Z2 I-5 F100 S100 R7.5\nM30\n",
+        "2:25",
+        "R of G84 is the kind of the tap: 0, 1 or 2",
+    );
     for (block, column, text) in [
         ("G4 K100 F20", 9, "G4 stands alone"),
         ("G4 K100 S500", 9, "G4 stands alone"),
