@@ -104,6 +104,7 @@ fn mefi() {
         ),
         ("G4\nM30\n", "1:1", "G4 needs a time"),
         ("G4 F2 M3\nM30\n", "1:7", "G4 stands alone"),
+        ("G4 K2\nM30\n", "1:4", "K is no time of G4 here"),
         (
             "G0 X0 Y0\nG2 X10 Y0 R4 F1\nM30\n",
             "2:11",
@@ -320,6 +321,8 @@ fn isg() {
         ),
         ("G04\nM30\n", "1:1", "G04 needs a time"),
         ("G04 Y2\nM30\n", "1:5", "G04 stands alone"),
+        ("G04 K2\nM30\n", "1:5", "K is no time of G04 here"),
+        ("G04 F2\nM30\n", "1:5", "F is no time of G04 here"),
         ("G04 10 X2\nM30\n", "1:8", "G04 has its time twice"),
         (
             "T5 M6\nG00 X0 Y0\nG41 G01 X5 F100\nM30\n",

@@ -293,7 +293,14 @@ impl Interpreter<'_> {
             span: axis.span,
         });
         let (direct, turns) = (rest.g_value.take(), rest.speed.take());
-        let other = rest.beside_axes(&[4]).map(|(_, span)| span);
+        let other = rest.beside_axes(&[4]);
+        if let (Some((word, at)), None, None, None) = (&other, axis, direct, turns) {
+            return Err(
+                Diagnostic::error(*at, format!("{word} is no time of G04 here"))
+                    .help("G04 X2.5 and G04 2.5 wait 2.5 seconds, G04 S10 waits 10 revolutions"),
+            );
+        }
+        let other = other.map(|(_, span)| span);
         if let Some(other) = other.or(rest.motion.first_axis()) {
             return Err(Diagnostic::error(other, "G04 stands alone in its block")
                 .help("put everything but the time in another block"));

@@ -139,7 +139,14 @@ impl Interpreter<'_> {
             value: axis.value.0,
             span: axis.span,
         });
-        let other = rest.beside_axes(4).map(|(_, span)| span);
+        let other = rest.beside_axes(4);
+        if let (Some((word, at)), None, None) = (&other, feed, axis) {
+            return Err(
+                Diagnostic::error(*at, format!("{word} is no time of G4 here"))
+                    .help("G4 F2.5 and G4 X2.5 wait 2.5 seconds"),
+            );
+        }
+        let other = other.map(|(_, span)| span);
         let seconds = match (feed, axis, other.or(rest.motion.first_axis())) {
             (Some(seconds), None, None) | (None, Some(seconds), None) => seconds,
             (_, _, Some(other)) => {
