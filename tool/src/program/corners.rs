@@ -208,19 +208,12 @@ fn join(
     if inverse_time {
         return Err(timed_corner(span));
     }
-    let elements = [&first, &second].map(|motion| element(motion, plane));
-    let [Some(a), Some(b)] = elements else {
-        return Err(Diagnostic::error(
-            span,
-            "a corner is made between two motions with feed in the plane, with known coordinates",
-        )
-        .help(match within {
-            true => "program both axes of the plane absolute before; RNDM=0 ends the rounding",
-            false => {
-                "program both axes of the plane absolute before, and no other axis in these blocks"
-            }
-        }));
-    };
+    // The arc of an exit is over where the tool hurries away.
+    let exit = matches!(corner, Corner::TangentialExit(_));
+    let elements = [(&first, false), (&second, exit)];
+    let [a, b] = elements.map(|(motion, may_be_rapid)| element(motion, plane, may_be_rapid));
+    let a = a.map_err(|unfit| unfit_error(unfit, "this motion", within, span))?;
+    let b = b.map_err(|unfit| unfit_error(unfit, "the motion behind it", within, span))?;
     let joint = match corner {
         Corner::Round(radius) | Corner::RoundWithin(radius) => round(&a, &b, radius),
         Corner::ChamferFrom(distance) => chamfer_from(&a, &b, distance),
@@ -270,29 +263,94 @@ fn leaves_plane(motion: &Move, plane: Plane) -> bool {
     !with_feed || moves(normal) || (3..9).any(moves)
 }
 
-/// A move as a motion of the plane; `None` for one that leaves the plane, is rapid, or goes nowhere or
-/// to a place that is not known.
-fn element(motion: &Move, plane: Plane) -> Option<Element> {
+/// Why a motion has no part in a corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unfit {
+    /// It is rapid.
+    Rapid,
+    /// It goes in coordinates of the machine, or in step with the spindle.
+    OtherKind,
+    /// Another axis moves, or may move.
+    LeavesPlane,
+    /// Where it begins or ends is not known.
+    Unknown,
+    /// It goes nowhere.
+    Nowhere,
+    /// It makes more turns than one.
+    Turns,
+}
+
+/// A move as a motion of the plane.
+fn element(motion: &Move, plane: Plane, may_be_rapid: bool) -> Result<Element, Unfit> {
     let [first, second, normal] = plane.axes();
+    let known = |place: Option<f64>| place.ok_or(Unfit::Unknown);
+    let start = || Ok([known(motion.start[first])?, known(motion.start[second])?]);
+    let arc = match &motion.kind {
+        MoveKind::Line => None,
+        MoveKind::Rapid if may_be_rapid => None,
+        MoveKind::Rapid => return Err(Unfit::Rapid),
+        MoveKind::Arc(Arc { extra_turns, .. }) if *extra_turns != 0 => return Err(Unfit::Turns),
+        MoveKind::Arc(Arc {
+            clockwise,
+            centre: Centre::Offset(offset),
+            ..
+        }) => {
+            let [x, y] = start()?;
+            Some(([x + offset[0], y + offset[1]], *clockwise))
+        }
+        MoveKind::Arc(_) => return Err(Unfit::Unknown),
+        _ => return Err(Unfit::OtherKind),
+    };
     let stays = |axis: usize| match motion.target[axis] {
         Coordinate::Keep => true,
         _ => motion.start[axis].is_some() && motion.start[axis] == motion.end(axis),
     };
     if !stays(normal) || !(3..9).all(stays) {
-        return None;
+        return Err(Unfit::LeavesPlane);
     }
-    let start = [motion.start[first]?, motion.start[second]?];
-    let end = [motion.end(first)?, motion.end(second)?];
-    let arc = match &motion.kind {
-        MoveKind::Line => None,
-        MoveKind::Arc(Arc {
-            clockwise,
-            centre: Centre::Offset(offset),
-            extra_turns: 0,
-        }) => Some(([start[0] + offset[0], start[1] + offset[1]], *clockwise)),
-        _ => return None,
+    let start = start()?;
+    let end = [known(motion.end(first))?, known(motion.end(second))?];
+    match arc.is_some() || start != end {
+        true => Ok(Element { start, end, arc }),
+        false => Err(Unfit::Nowhere),
+    }
+}
+
+/// The error of a corner that one of its motions has no part in: this one, or that behind it.
+fn unfit_error(unfit: Unfit, which: &str, within: bool, span: Span) -> Diagnostic {
+    let (what, help) = match unfit {
+        Unfit::Rapid => ("is rapid", "write G1 in place of G0"),
+        Unfit::OtherKind => (
+            "is none of G1, G2 and G3",
+            "put a line or an arc with feed before and behind it",
+        ),
+        Unfit::LeavesPlane => (
+            "moves an axis outside of the plane, or may do so",
+            "name the axes of the plane only in these two blocks",
+        ),
+        Unfit::Unknown => (
+            "begins or ends where is not known ahead of time",
+            "program both axes of the plane absolute before",
+        ),
+        Unfit::Nowhere => (
+            "goes nowhere",
+            "leave its block out, or the rounding or chamfer",
+        ),
+        Unfit::Turns => (
+            "makes more than one turn",
+            "write the last turn as an arc of its own",
+        ),
     };
-    (arc.is_some() || start != end).then_some(Element { start, end, arc })
+    let ends = if within {
+        "; RNDM=0 ends the rounding"
+    } else {
+        ""
+    };
+    Diagnostic::error(
+        span,
+        format!("a corner is made between two motions with feed in the plane, and {which} {what}"),
+    )
+    .help(format!("{help}{ends}"))
 }
 
 fn end_at(motion: &mut Move, place: [f64; 2], plane: Plane) {

@@ -236,11 +236,47 @@ fn motion() {
         "2:1",
         "no motion follows",
     );
-    one_error(
-        "G0 X0 Y0 Z0\nG36 R1 G1 X30 F100\nZ9\nM30\n",
-        "2:1",
-        "a corner is made between two motions",
-    );
+}
+
+#[test]
+fn corners_between_motions_that_have_no_part_in_one() {
+    for (corner, next, text) in [
+        (
+            "G36 R1 G1 X30",
+            "Z9",
+            "behind it moves an axis outside of the plane",
+        ),
+        (
+            "G36 R1 G1 X30 Z9",
+            "Y9",
+            "this motion moves an axis outside of the plane",
+        ),
+        ("G36 R1 G1 X30", "G0 Y9", "behind it is rapid"),
+        ("G39 R1 G1 X30", "G0 Y9", "behind it is rapid"),
+        ("G37 R1 G0 X30", "G1 Y9", "this motion is rapid"),
+        ("G38 R1 G0 X30", "G1 Y9", "this motion is rapid"),
+        (
+            "G36 R1 G1 X30",
+            "G53 G1 Y9",
+            "behind it is none of G1, G2 and G3",
+        ),
+        ("G36 R1 G1 X30", "X30", "behind it goes nowhere"),
+        (
+            "G36 R1 G91 G1 B3",
+            "Y9",
+            "this motion moves an axis outside of the plane",
+        ),
+    ] {
+        let program = format!("G0 X0 Y0 Z0 F100\n{corner}\n{next}\nM30\n");
+        let between = "a corner is made between two motions with feed in the plane";
+        one_error(&program, "2:1", between);
+        let shown = errors(&program, &["--backend", "program"]);
+        assert!(shown.contains(text), "{program}{shown}");
+    }
+    let program = "G0 X0 Z0 F100\nG36 R1 G1 X30\nY9\nM30\n";
+    one_error(program, "2:1", "begins or ends where is not known");
+    let rapid = errors("G0 X0 Y0 F100\nG36 R1 G1 X30\nG0 Y9\nM30\n", &[]);
+    assert!(rapid.contains("write G1 in place of G0"), "{rapid}");
 }
 
 #[test]
@@ -249,6 +285,16 @@ fn cycles() {
         "G0 X0 Y0 Z5\nG81 X5 Z2 F100\nM30\n",
         "2:1",
         "G81 needs the depth I",
+    );
+    one_error(
+        "G0 X0 Y0 Z5\nG81 X5 Z2 I-5 K1.5 F100\nM30\n",
+        "2:15",
+        "the time K is no whole number: it is in hundredths of a second",
+    );
+    one_error(
+        "G0 X0 Y0 Z5\nG84 X5 Z2 I-5 F100 S100 R7.5\nM30\n",
+        "2:25",
+        "R of G84 is the kind of the tap: 0, 1 or 2",
     );
     one_error(
         "G0 X0 Y0\nG81 X5 Z2 I-5 F100\nM30\n",
@@ -286,16 +332,6 @@ fn cycles() {
 /// Words that nothing uses.
 #[test]
 fn words_that_would_be_lost() {
-    one_error(
-        "G0 X0 Y0 Z5\nG81 X5 Z2 I-5 K1.5 F100\nM30\n",
-        "2:15",
-        "the time K is no whole number: it is in hundredths of a second",
-    );
-    one_error(
-        "G0 X0 Y0 Z5\nG84 X5 Z2 I-5 F100 S100 R7.5\nM30\n",
-        "2:25",
-        "R of G84 is the kind of the tap: 0, 1 or 2",
-    );
     for (block, column, text) in [
         ("G4 K100 F20", 9, "G4 stands alone"),
         ("G4 K100 S500", 9, "G4 stands alone"),

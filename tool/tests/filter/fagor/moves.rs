@@ -191,6 +191,22 @@ M30
     check(program, &expected);
 }
 
+/// The arc of an exit has the feed of the contour, whatever leads on from it.
+#[test]
+fn a_tangential_exit_may_lead_to_a_rapid_motion() {
+    let program = "G0 X0 Y30 Z0 F100\nG90 G1 X40\nG2 G38 R5 X80 I20 J0\nG0 X120\nM30\n";
+    let lines = super::translate(program, &["--backend", "program"]);
+    let with_feed = super::translate(&program.replace("G0 X120", "G1 X120"), &[]);
+    let place = |lines: &[String]| lines.iter().position(|line| line.contains("X120"));
+    let (at, of_feed) = (
+        place(&lines).expect("the end"),
+        place(&with_feed).expect("it"),
+    );
+    assert_eq!(lines[..at], with_feed[..of_feed]);
+    assert_eq!(lines[at], "G0 X120 Y30", "{lines:?}");
+    assert!(lines[at - 1].starts_with("G3 X"), "{lines:?}");
+}
+
 #[test]
 fn compensation_begins_at_the_entry_and_ends_behind_the_exit() {
     let program = "T1 D1 M6\nG90 G0 X-5 Y10 Z0\nG43 G0 Z1\nG37 R5 G41 G1 X0 Y0 F100\nG38 R5 X30\nG40 X35 Y10\nM30\n";
