@@ -14,6 +14,7 @@ pub mod indices;
 pub mod ini;
 pub mod isg;
 mod languages;
+mod lathe;
 pub mod lexer;
 pub mod library;
 pub mod mefi;

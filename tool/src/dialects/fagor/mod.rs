@@ -15,6 +15,7 @@ mod helix;
 mod high_level;
 mod interpreter;
 mod irregular_pockets;
+mod lathe;
 pub mod lexer;
 mod parameters;
 pub mod parser;
@@ -52,6 +53,10 @@ const FILES: Files<routine::Routine> = Files {
 
 impl Language for Fagor {
     fn evaluate<'a>(&self, path: &Path, settings: &'a Settings, about: About<'a>) {
+        if let Some(refusal) = lathe::refusal(path, settings) {
+            about.diagnostics.push(refusal);
+            return;
+        }
         run_file(path, FILES, settings, about, interpreter::Interpreter::new);
     }
 
@@ -73,6 +78,7 @@ fn evidence(lines: &[String], extension: &str) -> Evidence {
         "(RPT", "(SUB", "(CALL", "(PCALL", "(MCALL", "(MDOFF", "(GOTO", "(IF", "(RET", "(ERROR",
     ];
     let mut evidence = Evidence::default();
+    // That of lathes is no less one of this control, and is refused there by name.
     if matches!(extension, "pim" | "pit") {
         evidence.add_extension(50);
     }

@@ -14,7 +14,7 @@ use std::io;
 use std::ops::Range;
 
 /// Endings of program files.
-pub const EXTENSIONS: [&str; 3] = ["pim", "pit", "nc"];
+pub const EXTENSIONS: [&str; 2] = ["pim", "nc"];
 
 /// Statements that lead elsewhere, or to which something leads.
 const FLOW: [&str; 5] = ["SUB", "RET", "GOTO", "RPT", "IF"];

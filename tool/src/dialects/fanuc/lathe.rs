@@ -5,10 +5,8 @@ use super::block_words::BlockWords;
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::words::At;
+use crate::dialects::lathe::NOT_TRANSLATED;
 use crate::source::Span;
-
-/// What is said of all of them.
-const NOT_TRANSLATED: &str = "programs of lathes of this control are not translated";
 
 /// T of lathes has two digits for the tool and two for the offset.
 const DIGITS: u32 = 4;
@@ -20,17 +18,6 @@ pub struct ToolCalls {
     like_lathe: Option<Span>,
     /// Whether M6 has been there.
     changed: bool,
-}
-
-/// The machine is a lathe.
-pub fn on_lathe() -> Diagnostic {
-    Diagnostic::error(
-        Span::start_of(0),
-        "the INI file is that of a lathe: [DISPLAY]LATHE is set, or [TRAJ]COORDINATES has no Y",
-    )
-    .help(format!(
-        "{NOT_TRANSLATED}: post it for LinuxCNC; for a mill give its INI file, --ini"
-    ))
 }
 
 impl Interpreter<'_> {

@@ -32,6 +32,7 @@ mod variables;
 use super::control::About;
 use super::guess::{Evidence, without_comments};
 use super::languages::Language;
+use super::lathe::on_lathe;
 use super::run::{Files, run_file};
 use super::settings::Settings;
 use std::path::Path;
@@ -50,7 +51,7 @@ const FILES: Files<routine::Routine> = Files {
 impl Language for Fanuc {
     fn evaluate<'a>(&self, path: &Path, settings: &'a Settings, about: About<'a>) {
         if settings.lathe {
-            about.diagnostics.push(lathe::on_lathe());
+            about.diagnostics.push(on_lathe());
             return;
         }
         run_file(path, FILES, settings, about, interpreter::Interpreter::new);

@@ -4,6 +4,7 @@ mod cycles;
 mod errors;
 mod irregular_pockets;
 mod language;
+mod lathe;
 mod moves;
 mod pockets;
 mod random;
