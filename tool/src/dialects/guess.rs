@@ -23,6 +23,8 @@ pub struct Guess {
     /// The first line, 1 for the first, with a word that speaks for it; `None` where the ending of the
     /// file decided.
     pub line: Option<usize>,
+    /// Other controls that have all of these words too; see [`Evidence::share`].
+    pub shared: Option<&'static str>,
     /// How much speaks for it.
     score: u32,
 }
@@ -32,6 +34,7 @@ pub struct Guess {
 pub struct Evidence {
     score: u32,
     line: Option<usize>,
+    shared: Option<&'static str>,
 }
 
 impl Evidence {
@@ -42,6 +45,12 @@ impl Evidence {
         if weight > 0 {
             self.line.get_or_insert(line + 1);
         }
+    }
+
+    /// All that speaks for the dialect speaks for these controls as much, whose language is none of those that are
+    /// read. Which of them is meant is for the user to say.
+    pub fn share(&mut self, others: &'static str) {
+        self.shared = Some(others);
     }
 
     /// The ending of the file speaks for the dialect.
@@ -86,9 +95,23 @@ pub fn guess(path: &Path, text: &str) -> Option<Guess> {
         [(first, dialect), ..] if first.score >= LEAST => Some(Guess {
             dialect,
             line: first.line,
+            shared: first.shared,
             score: first.score,
         }),
         _ => None,
+    }
+}
+
+/// The guess for a program that is to be run.
+///
+/// # Errors
+///
+/// Where no guess can be made, or controls whose languages are not read have the same words.
+pub fn decide(path: &Path, text: &str) -> Result<Guess, Diagnostic> {
+    let guess = guess(path, text).ok_or_else(undecided)?;
+    match guess.shared {
+        Some(others) => Err(shared(guess, others, text)),
+        None => Ok(guess),
     }
 }
 
@@ -99,8 +122,29 @@ pub fn surely(path: &Path, text: &str) -> Option<Dialect> {
     is_sure.then_some(guess.dialect)
 }
 
+/// The error where other controls have the same words, at the first of them.
+fn shared(guess: Guess, others: &str, text: &str) -> Diagnostic {
+    let mut lines = text.split_inclusive('\n');
+    let before = guess.line.unwrap_or(1).saturating_sub(1);
+    let start = lines.by_ref().take(before).map(str::len).sum();
+    let line = lines.next().unwrap_or("").trim_end();
+    let span = Span {
+        file: 0,
+        start,
+        end: start + line.len(),
+    };
+    let name = guess.dialect.name();
+    Diagnostic::error(
+        span,
+        format!("{others} have this word and all others that speak for {name}, and to them some mean something else"),
+    )
+    .help(format!(
+        "give --dialect {name} where the program is none of theirs; theirs are not translated: post it for LinuxCNC"
+    ))
+}
+
 /// The error where no guess can be made.
-pub fn undecided() -> Diagnostic {
+fn undecided() -> Diagnostic {
     let start = Span::start_of(0);
     let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
     Diagnostic::error(

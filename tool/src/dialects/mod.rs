@@ -61,12 +61,15 @@ pub fn evaluate(
 pub fn run_program<'a>(dialect: Dialect, path: &Path, settings: &'a Settings, about: About<'a>) {
     let known = match dialect {
         Dialect::Auto => {
-            guess::guess(path, &about.sources.file(0).beginning()).map(|guess| guess.dialect)
+            let guess = guess::decide(path, &about.sources.file(0).beginning());
+            guess.map(|guess| guess.dialect)
         }
-        named => Some(named),
+        named => Ok(named),
     };
-    match known.and_then(Dialect::language) {
-        Some(language) => language.evaluate(path, settings, about),
-        None => about.diagnostics.push(guess::undecided()),
+    match known.map(Dialect::language) {
+        Ok(Some(language)) => language.evaluate(path, settings, about),
+        // No guess is that it is to be guessed.
+        Ok(None) => {}
+        Err(error) => about.diagnostics.push(error),
     }
 }

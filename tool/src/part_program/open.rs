@@ -4,7 +4,7 @@ use super::{Refused, refusal};
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::Dialect;
 use crate::dialects::foreign;
-use crate::dialects::guess::{guess, undecided};
+use crate::dialects::guess::decide;
 use crate::source::open::{self, Content, OpenError, Reading};
 use crate::source::{Sources, Span};
 use std::path::Path;
@@ -42,7 +42,7 @@ pub(crate) fn open(dialect: Dialect, path: &Path, reading: &Reading) -> Result<O
     let head = head(&opened.content).map_err(|error| unreadable(path, &error))?;
     let guessed = match foreign::refusal(&head) {
         Some(foreign) => Err(foreign),
-        None => language(dialect, path, &head).ok_or_else(undecided),
+        None => language(dialect, path, &head),
     };
     let (dialect, note) = guessed.map_err(|error| {
         let mut sources = Sources::default();
@@ -88,18 +88,22 @@ fn head(content: &Content) -> std::io::Result<String> {
 }
 
 /// The dialect that is meant, and how it was guessed if it was.
-fn language(dialect: Dialect, path: &Path, text: &str) -> Option<(Dialect, Option<String>)> {
+fn language(
+    dialect: Dialect,
+    path: &Path,
+    text: &str,
+) -> Result<(Dialect, Option<String>), Diagnostic> {
     if dialect != Dialect::Auto {
-        return Some((dialect, None));
+        return Ok((dialect, None));
     }
-    let guess = guess(path, text)?;
+    let guess = decide(path, text)?;
     let because = match guess.line {
         Some(line) => format!("because of line {line}"),
         None => "because of the ending of its file".to_string(),
     };
     let name = guess.dialect.name();
     let note = format!("note: taken as a {name} program, {because}; --dialect says otherwise");
-    Some((guess.dialect, Some(note)))
+    Ok((guess.dialect, Some(note)))
 }
 
 fn unreadable(path: &Path, error: &dyn std::fmt::Display) -> Refused {

@@ -15,6 +15,7 @@ mod random;
 mod robustness;
 #[path = "../filter/rs274.rs"]
 mod rs274;
+mod shared_words;
 mod shop;
 mod silence;
 mod spindle;

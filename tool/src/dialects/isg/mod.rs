@@ -9,6 +9,7 @@ mod block_words;
 mod calls;
 mod clean;
 mod commands;
+mod evidence;
 mod expressions;
 mod flow;
 mod flow_parser;
@@ -26,7 +27,7 @@ mod syntax;
 mod variables;
 
 use super::control::About;
-use super::guess::{Evidence, without_comments};
+use super::guess::Evidence;
 use super::languages::Language;
 use super::run::{Files, run_file};
 use super::settings::Settings;
@@ -51,45 +52,7 @@ impl Language for Isg {
         run_file(path, FILES, settings, about, interpreter::Interpreter::new);
     }
 
-    fn evidence(&self, lines: &[String], extension: &str) -> Evidence {
-        evidence(lines, extension)
+    fn evidence(&self, lines: &[String], _: &str) -> Evidence {
+        evidence::evidence(lines)
     }
-}
-
-/// What speaks for this dialect; see [`super::guess`].
-fn evidence(lines: &[String], _extension: &str) -> Evidence {
-    const STATEMENTS: [&str; 9] = [
-        "$IF", "$FOR", "$WHILE", "$DO", "$SWITCH", "$GOTO", "$ENDIF", "$ENDFOR", "$REPEAT",
-    ];
-    const COMMANDS: [&str; 8] = [
-        "#HSC",
-        "#CS",
-        "#MSG",
-        "#SLOPE",
-        "#SET",
-        "#CONTOUR",
-        "#VAR",
-        "#ROTATION",
-    ];
-    const FUNCTIONS: [&str; 6] = ["G161", "G162", "G261", "G351", "V.P.", "V.L."];
-    let mut evidence = Evidence::default();
-    for (index, line) in lines.iter().enumerate() {
-        let line = without_comments(line.split(';').next().unwrap_or(""), |_| false);
-        let code = line.strip_prefix('N').map_or(line.as_str(), |rest| {
-            rest.trim_start_matches(|c: char| c.is_ascii_digit())
-                .trim_start()
-        });
-        let word = code
-            .split(|c: char| c.is_whitespace() || c == '[')
-            .next()
-            .unwrap_or("");
-        let calls = code.starts_with("LL ") || line.starts_with("%L ");
-        let only_here = calls || STATEMENTS.contains(&word) || COMMANDS.contains(&word);
-        if only_here {
-            evidence.add(100, index);
-        } else if FUNCTIONS.iter().any(|known| code.contains(known)) {
-            evidence.add(40, index);
-        }
-    }
-    evidence
 }
