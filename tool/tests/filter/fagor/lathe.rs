@@ -48,5 +48,5 @@ fn in_files_of_subroutines() {
         ("other.pit", b"(SUB 10)\nG0 X50\n(RET)\n"),
     ]);
     let shown = refused(&shop.run_in("fagor", "part.pim", &[]));
-    assert!(shown.contains("SUB 10"), "{shown}");
+    assert!(shown.contains("the subroutine 10 was not found"), "{shown}");
 }
