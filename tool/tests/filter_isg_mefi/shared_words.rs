@@ -18,8 +18,8 @@ fn words_that_other_controls_have_too_do_not_decide() {
             "2:1",
         ),
         (
-            "G0 X1\n  #HSC ON [CONTERROR 0.02]\nG0 X5\n#HSC OFF\nM30\n",
-            "2:3",
+            "G0 X1\n#HSC ON [CONTERROR 0.02]\nG0 X5\n#HSC OFF\nM30\n",
+            "2:1",
         ),
         ("G0 X1\nV.P.DEEP = 5\nG0 X5\nM30\n", "2:1"),
         ("G0 X1\n#CS DEF [1] [MODE 1,0,0,0,0,90]\nM30\n", "2:1"),
