@@ -52,6 +52,14 @@ class Modes(Case):
             self.assertEqual([mode for mode, one in zip(modes, wanted, strict=True) if one is not None],
                              [one for one in wanted if one is not None])
 
+    def test_an_abort_on_the_way_leaves_what_was(self):
+        steps: list[list] = [["mdi", "G21 G90 G94 G61 F3000"]]
+        for move in ("o<retract> call [400]", "G79 Z-400"):
+            steps += [["mdi", "G90 G0 X0 Y0 Z0"], ["mdi", "o<trans> call [0] [0] [5]"], ["mdi", "G91 G1 X1"], ["mdi_start", move],
+                      ["wait_moving"], ["sleep", 0.3], ["abort"], ["mdi", SHOW]]
+        result = self.good(harness.run(steps, record=False))
+        self.assertEqual(self.modes(result), [(10, 3000, 0, 0, 1, 0)] * 2)
+
     def test_five_axes_in_inverse_time(self):
         text = "\n".join(["G21 G90 G17", "G43.4 H1", "G0 X0 Y0 Z50", "G93 G1 X1 F60", "G68.2 X1 Y2 I10 J20 K0", "G53.1", SHOW,
                           "G1 X2 F60", "G69", "o<rotary_zero> call", SHOW, "G1 X3 F60", "G94", "M2"]) + "\n"
