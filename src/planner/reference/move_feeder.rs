@@ -1,5 +1,5 @@
-//! From the queue to the path: moves are added as they arrive, and the path is ended when nothing
-//! more is to be expected.
+//! From the queue to the path: moves are added as they arrive, and it is known when nothing more is to
+//! be expected.
 
 use super::outlook::Outlook;
 use super::supply_depth::{Expected, SupplyDepth};
