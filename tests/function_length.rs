@@ -1,4 +1,4 @@
-//! No function of `src` is so long that it cannot be taken in at once.
+//! No function of `src`, and no file, is so long that it cannot be taken in at once.
 
 #[path = "source/files.rs"]
 mod files;
@@ -14,6 +14,21 @@ use syn::{Block, ImplItemFn, ItemFn, Signature, TraitItemFn};
 
 /// Lines from the first one of the signature to the closing brace.
 const MOST_LINES: usize = 60;
+
+/// Lines of a file.
+const MOST_LINES_OF_A_FILE: usize = 500;
+
+/// Folders with files of source.
+const FOLDERS: [&str; 8] = [
+    "benches",
+    "build",
+    "demo",
+    "fuzz",
+    "hal-component",
+    "src",
+    "tests",
+    "tool",
+];
 
 /// Longer ones, as `file: function`, each with the reason why it is not split.
 const LONGER: &[(&str, &str)] = &[];
@@ -84,6 +99,24 @@ fn no_function_is_longer_than_60_lines_without_a_reason() {
         found.is_empty(),
         "longer than {MOST_LINES} lines, to be split, or listed with the reason: {found:#?}"
     );
+}
+
+#[test]
+fn no_file_is_longer_than_500_lines() {
+    let mut count = 0;
+    let mut long = Vec::new();
+    for folder in FOLDERS {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        for path in files::with_endings(&root, &["rs", "py", "c", "h", "cc", "hh"]) {
+            let text = fs::read_to_string(root.join(&path)).expect("text");
+            count += 1;
+            if text.lines().count() > MOST_LINES_OF_A_FILE {
+                long.push(format!("{folder}/{path}"));
+            }
+        }
+    }
+    assert!(long.is_empty(), "to be split: {long:#?}");
+    assert!(count > 900, "{count} files: are they found at all?");
 }
 
 #[test]

@@ -18,15 +18,13 @@ const SLOTS: usize = 4096;
 /// A kernel reaches no farther than this many vertices to either side.
 pub(super) const NEIGHBOURS: u64 = 32;
 
-/// How many legs behind a place are needed to evaluate it: whatever reaches it, and what reaches
-/// these.
+/// How many legs behind a place are needed to evaluate it: whatever reaches it, and what reaches these.
 const REACHING: u64 = 2 * NEIGHBOURS + 8;
 
 /// How many legs behind a place are kept: a run may go back over them.
 const HISTORY: u64 = 512 + REACHING;
 
-/// Legs, each with the vertex at its start. They are numbered from the first one of the machine's
-/// life; the vertex at the start of a leg has the leg's number.
+/// Legs, each with the vertex at its start, which has the number of the leg: they are numbered through the machine's life.
 #[derive(Debug)]
 pub(super) struct Chain {
     legs: Ring<Leg, SLOTS>,
@@ -200,8 +198,7 @@ impl Chain {
         self.next = self.next.wrapping_add(1);
     }
 
-    /// Number of the leg at path distance `s`: the later one where two meet. Held within what
-    /// there is; the chain must not be empty.
+    /// Number of the leg at path distance `s`: the later one where two meet. Held within the chain, which must not be empty.
     pub fn locate(&self, s: f64) -> u64 {
         let last = self.next.saturating_sub(1);
         let near = self.found.get().min(last).max(self.first);
@@ -223,8 +220,7 @@ impl Chain {
         low
     }
 
-    /// Numbers that the leg at path distance `s` lies between, the first one included: steps from
-    /// the leg `near`, each twice as long as the one before.
+    /// Numbers that the leg at path distance `s` lies between, the first included: steps from `near`, each twice the one before.
     fn around(&self, near: u64, s: f64) -> (u64, u64) {
         let (mut low, mut high) = (near, near);
         let mut step = 1;
@@ -250,8 +246,7 @@ impl Chain {
         self.first = self.first.max(keep);
     }
 
-    /// Vertices that may reach into a leg from its left, nearest first. Nothing reaches beyond a
-    /// wall, so that they end with one.
+    /// Vertices that may reach into a leg from its left, nearest first. Nothing reaches beyond a wall: they end with one.
     pub fn left_of(&self, leg: u64) -> impl Iterator<Item = (u64, &Vertex)> + '_ {
         let mut open = true;
         let count = leg.saturating_add(1).saturating_sub(self.first);
