@@ -88,6 +88,8 @@ class Documents(unittest.TestCase):
         self.assertEqual(self.numbers(r"\| (\d+) promises of LinuxCNC's motion", self.page), [len(self.rows)])
         self.assertEqual(self.numbers(r": (\d+) promises work with both, (\d+) work better with blendtp, (\d+) fail",
                                       self.introduction), self.outcomes("plain"))
+        self.assertEqual(self.numbers(r"(\d+) of these work with both, (\d+) work better with blendtp, (\d+) fail",
+                                      self.introduction), self.outcomes("frame"))
         self.assertEqual(plain, framekins)
         self.assertEqual(self.numbers(r"the same (\d+)\. .* it keeps (\d+): (\d+) of the (\d+), for (\d+) .* and (\d+) about",
                                       self.introduction),
