@@ -16,7 +16,8 @@ pub const ROTARY_AXES: core::ops::Range<usize> = 3..6;
 /// X Y Z and U V W are in machine units of length (usually mm), A B C in degrees.
 pub type Axes = SVector<f64, AXIS_COUNT>;
 
-/// What each axis is able to do. Always positive; `f64::INFINITY` where nothing limits the axis.
+/// What each axis is able to do: positive, `f64::INFINITY` where nothing limits it. What LinuxCNC says of an axis is taken
+/// as it is, 0 where the machine does not have it: a move that needs an axis without usable limits is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisLimits {
     /// Machine units (or degrees) per second.

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use framepath::planner::Planner;
+
 /// Folders that hold what is named.
 const FOLDERS: [&str; 8] = [
     "benches",
@@ -107,6 +109,16 @@ fn constants_that_tune_have_the_values_of_their_page() {
         count += 1;
     }
     assert!(count > 10, "{count} constants");
+}
+
+#[cfg(target_pointer_width = "64")]
+#[test]
+fn the_planner_is_as_large_as_is_said() {
+    let said = format!("{:.0} MB", size_of::<Planner>() as f64 / 1e6);
+    for name in ["DESIGN.md", "src/planner/planner.rs", "src/test_room.rs"] {
+        let text = std::fs::read_to_string(root().join(name)).expect("a text");
+        assert!(text.contains(&said), "{name}: not {said}");
+    }
 }
 
 /// The numbers that a file of the core names outside of its tests.

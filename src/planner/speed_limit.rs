@@ -8,7 +8,7 @@ use crate::machine_map::MachineMap;
 /// From this share of what is asked for on the machine is as fast as that.
 const AS_ASKED: f64 = 0.995;
 
-/// The feed that is below the greatest velocity by more than this is what the program asks for.
+/// A feed below this share of the greatest velocity is what the program asks for.
 const BELOW_GREATEST: f64 = 0.999;
 
 /// From this share on the limit that is used up most counts as the one that limits the machine: in single periods even a

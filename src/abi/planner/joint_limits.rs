@@ -220,7 +220,7 @@ impl Handle {
 
 /// Sets the limits of joints, from the next rest on: that of velocity, acceleration and jerk of each joint holds for all
 /// motion that is planned, and the limits of acceleration and jerk of the axes do not. Returns one of the codes above. With anything but
-/// the first and the last nothing changes, and no move may be added.
+/// `FRAMEPATH_JOINTS_TAKEN` and `FRAMEPATH_JOINTS_TRIVIAL` nothing changes, and no move may be added.
 ///
 /// # Safety
 /// `handle` from `framepath_planner_create`; `pins` points to one of these.
