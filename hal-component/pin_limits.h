@@ -19,10 +19,16 @@ static int take_jerk_limits(void)
     for (int i = 0; i < AXES; i++)
         jerk[i] = *pins->max_jerk[i];
     int axis = framepath_planner_set_jerk(planner, jerk, &least, &unlimited);
+    if (axis >= 0 && axis < AXES && least == 0.0) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.axis.%c.max-jerk is %g, and the machine has no axis %c, or one without "
+                        "[AXIS_%c]MAX_ACCELERATION: set the pin to 0\n", letters[axis], jerk[axis], capital(letters[axis]),
+                        capital(letters[axis]));
+        return -1;
+    }
     if (axis >= 0 && axis < AXES) {
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp.axis.%c.max-jerk is %g: it must be 0 (not limited) or, in machine units per "
                         "second cubed, at least %g, a fifth of the acceleration; set it with setp or "
-                        "[AXIS_%c]MAX_JERK\n", letters[axis], jerk[axis], least, letters[axis] - 'a' + 'A');
+                        "[AXIS_%c]MAX_JERK\n", letters[axis], jerk[axis], least, capital(letters[axis]));
         return -1;
     }
     for (int i = 0; i < AXES; i++)

@@ -234,6 +234,14 @@ class Refused(Case):
             self.assertTrue(any("can't add linear move" in error for error in result.errors), result.errors)
             self.nothing_moves(result)
 
+    def test_a_jerk_that_makes_no_sense_of_an_axis_that_is_not_there(self):
+        # the machine has X Y Z
+        for value in ("-5", "nan"):
+            result = harness.run([["mdi", "G0 X10"]], hal=f"setp blendtp.axis.a.max-jerk {value}\n")
+            self.assertIn(f"blendtp.axis.a.max-jerk is {value}, and the machine has no axis A, or one without "
+                          "[AXIS_A]MAX_ACCELERATION: set the pin to 0", result.log)
+            self.nothing_moves(result)
+
     def test_a_tolerance_that_makes_no_sense(self):
         for pin, value, words in (("millimetre", "0", "length of a millimetre"),
                                   ("rotary-tolerance", "-0.1", "number of degrees"),
