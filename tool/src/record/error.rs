@@ -54,7 +54,10 @@ pub enum RecordError {
     #[error("there is no pin {0}: framepath record knows LinuxCNC 2.9")]
     NoPin(String),
     /// A sampler has only so many.
-    #[error("{joints} joints and {axes} axes are more than a sampler takes ({most})")]
+    #[error(
+        "{joints} joints and {axes} axes are more than a sampler takes ({most} of both), and framepath record records all of \
+         them: load sampler and halsampler by hand for those that matter, see man 9 sampler"
+    )]
     TooMany {
         /// Of the machine.
         joints: usize,

@@ -152,8 +152,13 @@ fn announcement(arguments: &RecordArguments, wiring: &Wiring) -> Vec<String> {
         ));
     }
     if arguments.until_done && !wiring.columns.idle {
+        let why = if wiring.columns.leave_room() {
+            "halui is not loaded"
+        } else {
+            "a sampler has no pin left for what halui says"
+        };
         sentences.push(format!(
-            "halui is not loaded: the program counts as ended when the machine has stood for {LONG_REST} s behind a \
+            "{why}: the program counts as ended when the machine has stood for {LONG_REST} s behind a \
              move; one without a move is not noticed"
         ));
     }
@@ -329,6 +334,18 @@ mod tests {
                 "halui is not loaded: the program counts as ended when the machine has stood for 5 s behind a move; one \
                  without a move is not noticed",
             ]
+        );
+        let mut many = state::tests::mill();
+        many.pins.extend((2..17).map(|joint| Pin {
+            owner: "motmod".to_owned(),
+            name: format!("joint.{joint}.pos-cmd"),
+            value: "0".to_owned(),
+            signal: None,
+        }));
+        let wiring = Wiring::new(&many, 77, 10.0).expect("a machine");
+        assert!(
+            announcement(&arguments(true), &wiring)[1]
+                .starts_with("a sampler has no pin left for what halui says: the program counts")
         );
     }
 }

@@ -12,6 +12,9 @@ pub const MARK: &str = "framepath-record";
 /// A sampler has at most so many pins.
 const MOST_PINS: usize = 21;
 
+/// Positions at most: the line and the kind of motion have a pin each.
+const MOST_POSITIONS: usize = MOST_PINS - 2;
+
 /// All axes of LinuxCNC in the order of a recording.
 const AXES: &str = "xyzabcuvw";
 
@@ -65,28 +68,34 @@ impl Columns {
         self.joints.len() + self.axes.len()
     }
 
+    /// Whether the positions leave a pin for the state of the program.
+    pub fn leave_room(&self) -> bool {
+        self.positions() < MOST_POSITIONS
+    }
+
     /// Those of the machine that runs, with these joints.
     ///
     /// # Errors
     /// More than a sampler takes.
     fn of(state: &State, joints: Vec<usize>) -> Result<Columns, RecordError> {
-        let columns = Columns {
+        let mut columns = Columns {
             joints,
             axes: axes_of(state),
-            idle: state.pin(IDLE).is_some(),
+            idle: false,
         };
         if columns.joints.is_empty() {
             return Err(RecordError::NoPin(joint_pin(0)));
         }
-        let most = MOST_PINS - 2 - usize::from(columns.idle);
-        match columns.positions() > most {
-            true => Err(RecordError::TooMany {
+        if columns.positions() > MOST_POSITIONS {
+            return Err(RecordError::TooMany {
                 joints: columns.joints.len(),
                 axes: columns.axes.len(),
-                most,
-            }),
-            false => Ok(columns),
+                most: MOST_POSITIONS,
+            });
         }
+        // Positions are what a recording is for; the end of a program is noticed without halui, too.
+        columns.idle = columns.leave_room() && state.pin(IDLE).is_some();
+        Ok(columns)
     }
 
     /// The pins of the positions.
@@ -392,9 +401,26 @@ mod tests {
         for joint in 2..20 {
             many = with_pin(many, &joint_pin(joint), None);
         }
-        assert!(
-            message(&many).starts_with("20 joints and 2 axes are more than a sampler takes (19)")
+        assert_eq!(
+            message(&many),
+            "20 joints and 2 axes are more than a sampler takes (19 of both), and framepath record records all of them: \
+             load sampler and halsampler by hand for those that matter, see man 9 sampler"
         );
+    }
+
+    #[test]
+    fn where_positions_fill_a_sampler_the_state_of_the_program_has_no_place() {
+        let gantry = |joints: std::ops::Range<usize>| {
+            let idle = with_pin(mill(), "halui.program.is-idle", None);
+            joints.fold(idle, |state, joint| {
+                with_pin(state, &joint_pin(joint), None)
+            })
+        };
+        let columns = wiring(&gantry(2..16)).expect("18 positions").columns;
+        assert_eq!((columns.positions(), columns.idle), (18, true));
+        let wired = wiring(&gantry(2..17)).expect("19 positions");
+        assert_eq!((wired.columns.positions(), wired.columns.idle), (19, false));
+        assert!(wired.load[3].ends_with("ffss"), "{:?}", wired.load);
     }
 
     /// The machine with all that a recording puts there.
