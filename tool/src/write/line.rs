@@ -100,7 +100,7 @@ impl<'a> Lines<'a> {
         }
         let start = self.line.len();
         words(&mut self.line);
-        if start > 0 && self.shares_numbers(start) {
+        if start > 0 && (self.shares_numbers(start) || self.reads_too_early(start)) {
             let later = self.line.split_off(start);
             self.flush();
             self.line.push_str(&later);
@@ -123,6 +123,16 @@ impl<'a> Lines<'a> {
                 .bytes()
                 .any(|letter| later.as_bytes().contains(&letter))
         })
+    }
+
+    /// Whether the words from `start` on read a parameter that others of the line change: LinuxCNC works out
+    /// all expressions of a line before it executes the first of its words.
+    fn reads_too_early(&self, start: usize) -> bool {
+        let changes = |(rank, _): &(Rank, usize)| {
+            matches!(rank, Rank::ToolChange | Rank::ToolLength | Rank::WorkOffset)
+        };
+        let later = self.line.get(start..).unwrap_or("");
+        self.words.iter().any(changes) && later.contains('#')
     }
 
     /// Ends the line that is being made.

@@ -2,6 +2,7 @@
 //! the filter makes of them, with work offsets that show the difference.
 
 use crate::linuxcnc::{interpret, positions};
+use crate::rs274::{self, numbers};
 use crate::shop::Shop;
 use framepath_tool::dialects::Dialect;
 
@@ -127,5 +128,51 @@ fn what_g53_cannot_carry_is_refused() {
     ] {
         let shown = Shop::with(Dialect::Isg, program).refused(&["--backend", "kinematics"]);
         assert!(shown.contains(text), "{program}\n{shown}");
+    }
+}
+
+/// LinuxCNC works out the expressions of a line before it executes the offsets that stand in it.
+#[test]
+fn places_are_read_behind_the_offsets_of_their_block() {
+    let blocks = "G54 G90 G00 X0 Y0 Z50\nG55 X5\nG54 G91 X1\nX1\nM30\n";
+    let wanted = [
+        [100.0, 200.0, 60.0],
+        [1005.0, 200.0, 60.0],
+        [1006.0, 200.0, 60.0],
+        [1007.0, 200.0, 60.0],
+    ];
+    for (dialect, head) in [
+        (Dialect::Isg, ""),
+        (Dialect::Mefi, ""),
+        (Dialect::Fanuc, ""),
+        (Dialect::Fagor, "%PART,MX--,\n"),
+    ] {
+        let shop = Shop::with(dialect, &format!("{head}{blocks}"));
+        for backend in ["program", "kinematics"] {
+            let given = machine_positions(&shop, backend);
+            assert_eq!(given, wanted, "{dialect:?} {backend}");
+        }
+    }
+    let arc = "G55 G90 G01 X-900 Y200 Z50 F100\nG161\nG54 G02 X10 Y0 I5 J0\nM30\n";
+    let shop = Shop::with(Dialect::Isg, arc);
+    let offsets = "G10 L2 P1 X100 Y200 Z10\nG10 L2 P2 X1000 Y0 Z0\n";
+    let canon = interpret(&shop, &format!("{offsets}{}", shop.accepted(&[])));
+    let arc = canon.iter().find_map(|line| numbers(line, "ARC_FEED"));
+    assert_eq!(arc.expect("an arc")[..4], [10.0, 0.0, 5.0, 0.0]);
+}
+
+/// The tools of the next tests, lengths in inch.
+const LENGTHS: &str = "T1 P1 Z1\nT2 P2 Z3 X0.5 Y0.25\n";
+
+#[test]
+fn increments_beside_a_row_count_from_the_tool() {
+    for dialect in [Dialect::Isg, Dialect::Mefi] {
+        let program = "G54 G90 G00 X0 Y0 Z5 D1\nG91 D2 Z1\nZ1\nM30\n";
+        let shop = Shop::with(dialect, program);
+        let output = shop.accepted(&["--machine-in-inch"]);
+        let canon = rs274::interpret(&shop.path(""), LENGTHS, &output);
+        let heights: Vec<f64> = positions(&canon).iter().map(|[_, _, z]| *z).collect();
+        // The tool of row 2 is longer by two.
+        assert_eq!(heights, [5.0, 4.0, 5.0], "{output}");
     }
 }
