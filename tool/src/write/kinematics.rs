@@ -11,13 +11,14 @@
 
 use super::blocks::{begin, end};
 use super::line::{Lines, Rank};
+use super::machine_move::add_machine_move;
 use super::modes::{Modes, Stop};
 use super::number::{coordinate, factor, push_coordinate};
 use super::tolerance::PathScale;
 use super::turns::whole_turns;
 use super::words::{
-    STOPPING_DWELL, centre_words, common_action, compensation_words, machine_move_words,
-    path_control_words, push_axis_words, push_spindle_motion, scaled_thread,
+    STOPPING_DWELL, centre_words, common_action, compensation_words, path_control_words,
+    push_axis_words, push_spindle_motion, scaled_thread,
 };
 use super::{SAME_SIZE, WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -268,11 +269,9 @@ impl KinematicsWriter<'_> {
     }
 
     fn motion(&mut self, motion: &Move, span: Span) {
-        if let MoveKind::Machine { rapid, tool_length } = motion.kind {
+        if matches!(motion.kind, MoveKind::Machine { .. }) {
             self.tell_length();
-            let tool_length = tool_length && self.modes.tool_length != Some(false);
-            self.lines
-                .add(Rank::Motion, machine_move_words(motion, rapid, tool_length));
+            add_machine_move(&mut self.lines, motion, &self.modes);
             return;
         }
         self.resume();

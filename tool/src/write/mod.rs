@@ -4,6 +4,7 @@ mod blocks;
 mod comment;
 mod kinematics;
 mod line;
+mod machine_move;
 mod modes;
 mod number;
 mod rewrite;

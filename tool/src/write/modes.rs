@@ -16,6 +16,11 @@ pub struct Modes {
     pub written_feed: Option<f64>,
     /// Whether the length of the tool counts, where the program has said so.
     pub tool_length: Option<bool>,
+    /// Whether the length that counts is that of the tool in the spindle.
+    pub length_of_spindle: bool,
+    /// T as it was named last, and the tool that M6 has put into the spindle, as far as the program has named it.
+    named_tool: Option<u32>,
+    tool_in_spindle: Option<u32>,
     /// Row of the tool table that G41 and G42 take the radius from, if it is not that of the tool in the
     /// spindle.
     pub radius_row: Option<u32>,
@@ -44,6 +49,9 @@ impl Modes {
             feed: None,
             written_feed: None,
             tool_length: None,
+            length_of_spindle: true,
+            named_tool: None,
+            tool_in_spindle: None,
             radius_row: None,
             cutter_diameter: None,
         }
@@ -71,17 +79,23 @@ impl Modes {
             }
             Action::ToolLength(on) => {
                 self.tool_length = Some(*on);
+                self.length_of_spindle = true;
                 self.radius_row = None;
                 self.cutter_diameter = None;
             }
             Action::ToolOffset(row) => {
                 self.tool_length = Some(true);
+                self.length_of_spindle = self.tool_in_spindle == Some(*row);
                 self.radius_row = Some(*row);
                 self.cutter_diameter = None;
             }
             Action::CutterDiameter(diameter) => self.cutter_diameter = *diameter,
             Action::RadiusRow(row) => self.radius_row = *row,
+            Action::Tool(tool) => self.named_tool = Some(*tool),
             Action::ToolChange => {
+                // The length of the tool before stays in force until G43 or G49.
+                self.tool_in_spindle = self.named_tool;
+                self.length_of_spindle = false;
                 self.radius_row = None;
                 self.cutter_diameter = None;
             }

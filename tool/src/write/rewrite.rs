@@ -7,12 +7,13 @@
 
 use super::blocks::{begin, end};
 use super::line::{Lines, Rank};
+use super::machine_move::add_machine_move;
 use super::modes::{Modes, Stop};
 use super::number::{coordinate, push_coordinate};
 use super::turns::{Apart, whole_turns};
 use super::words::{
-    STOPPING_DWELL, centre_words, common_action, compensation_words, machine_move_words,
-    path_control_words, push_axis_words, push_spindle_motion, scaled_thread,
+    STOPPING_DWELL, centre_words, common_action, compensation_words, path_control_words,
+    push_axis_words, push_spindle_motion, scaled_thread,
 };
 use super::{WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
@@ -242,10 +243,7 @@ impl RewriteWriter<'_> {
     }
 
     fn motion(&mut self, motion: &Move, span: Span) -> Result<(), Diagnostic> {
-        if let MoveKind::Machine { rapid, tool_length } = motion.kind {
-            let tool_length = tool_length && self.modes.tool_length != Some(false);
-            self.lines
-                .add(Rank::Motion, machine_move_words(motion, rapid, tool_length));
+        if add_machine_move(&mut self.lines, motion, &self.modes) {
             return Ok(());
         }
         if motion.kind == MoveKind::Line {

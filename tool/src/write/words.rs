@@ -5,7 +5,7 @@ use super::line::{Lines, Rank};
 use super::modes::Modes;
 use super::number::{coordinate, push_coordinate};
 use crate::diagnostics::Diagnostic;
-use crate::program::moves::{Centre, Coordinate, Move, MoveKind};
+use crate::program::moves::{Centre, Coordinate, MoveKind};
 use crate::program::{Action, Compensation, Coolant, FeedMode, PathControl, Plane, Spindle};
 use crate::source::Span;
 
@@ -192,26 +192,6 @@ pub fn push_axis_words(text: &mut String, targets: &[Coordinate; 9]) {
             }
         }
     }
-}
-
-/// The words of a motion in machine coordinates. LinuxCNC's G53 leaves the tool out; where the tip is
-/// to go there, its length is added.
-pub fn machine_move_words(motion: &Move, rapid: bool, tool_length: bool) -> String {
-    let mut words = vec![
-        "G53".to_string(),
-        if rapid { "G0" } else { "G1" }.to_string(),
-    ];
-    for (axis, target) in motion.target.iter().enumerate() {
-        if let Coordinate::At(value) = target {
-            let letter = LETTERS[axis];
-            let value = coordinate(*value);
-            words.push(match tool_length {
-                true => format!("{letter}[{value}+#{}]", 5401 + axis),
-                false => format!("{letter}{value}"),
-            });
-        }
-    }
-    words.join(" ")
 }
 
 /// Appends the words of a motion that follows the spindle; the axes are those of `targets`. `false` for

@@ -176,3 +176,35 @@ fn increments_beside_a_row_count_from_the_tool() {
         assert_eq!(heights, [5.0, 4.0, 5.0], "{output}");
     }
 }
+
+/// To LinuxCNC, #5403 is the length of the tool in the spindle, whatever row is in force.
+#[test]
+fn modal_g53_brings_the_tip_of_the_row_in_force_there() {
+    for (dialect, tools) in [
+        (Dialect::Isg, "T1 M6 D2\nG53 X1 Y2 Z0"),
+        (Dialect::Isg, "T1 M6 D1\nG53 X1 Y2 Z0"),
+        (Dialect::Isg, "G53 X1 Y2 Z0 D2"),
+        (Dialect::Mefi, "T1 M6\nD2\nG53\nX1 Y2 Z0"),
+        (Dialect::Mefi, "T1 M6 D1\nT2 M6\nG53\nX1 Y2 Z0"),
+        (Dialect::Mefi, "T2 M6\nG53\nX1 Y2 Z0 D2"),
+        (Dialect::Mefi, "T1 M6\nD2\nD0\nG53\nX1 Y2 Z0"),
+    ] {
+        let shop = Shop::with(dialect, &format!("G54 G90 G00 X3 Y4 Z5\n{tools}\nM30\n"));
+        for backend in ["program", "kinematics"] {
+            let output = shop.accepted(&["--machine-in-inch", "--backend", backend]);
+            let offsets = "G20\nG10 L2 P1 X1 Y2 Z3 R30\n";
+            let canon = rs274::interpret(&shop.path(""), LENGTHS, &format!("{offsets}{output}"));
+            let end = positions(&canon).pop().expect("a motion");
+            let wanted = [1.0, 2.0, 0.0];
+            let near = end.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-3);
+            assert!(near, "{dialect:?} {tools:?} {end:?}\n{output}");
+        }
+    }
+    // Where the program has loaded the tool of the row, one line is enough.
+    let shop = Shop::with(Dialect::Isg, "T1 M6\nG53 G00 Z0 D1\nM30\n");
+    let output = shop.accepted(&[]);
+    assert!(
+        code(&output).contains("G43 H1 \nG53 G0 Z[0+#5403]"),
+        "{output}"
+    );
+}
