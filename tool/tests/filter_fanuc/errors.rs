@@ -46,6 +46,11 @@ fn words_and_blocks() {
         ),
         ("G1 X1.\nM30\n", "1:4", "no F is in force"),
         ("M77\nM30\n", "1:1", "M77 is not defined"),
+        (
+            "M97 P100\nM30\n",
+            "1:1",
+            "call it with M98 P and that number",
+        ),
         ("G4\nM30\n", "1:1", "G4 needs one time"),
         ("G4 P.5\nM30\n", "1:4", "thousandths of a second"),
         ("G4 P5.\nM30\n", "1:4", "thousandths of a second"),

@@ -79,6 +79,12 @@ impl Interpreter<'_> {
                 }
                 29 => self.rigid = true,
                 48 | 49 => self.control.overrides(m.value == 48, m.span)?,
+                97 if !self.control.settings.passed_m.contains(&97) => {
+                    return Err(Diagnostic::error(m.span, "M97 is not supported").help(
+                        "it calls lines of the same program by their number: make a program of them, from O and \
+                         a number to M99, and call it with M98 P and that number",
+                    ));
+                }
                 _ => others.push(*m),
             }
         }
