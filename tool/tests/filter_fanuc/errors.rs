@@ -411,6 +411,16 @@ fn offsets_frames_and_cycles() {
             "K0 beside a place",
         ),
         (
+            "G0 Z50.\nG43 H1 Z5.\nG91 G43 H2 Z1.\nM30\n",
+            "3:12",
+            "an increment in Z behind another length of the tool",
+        ),
+        (
+            "G0 Z50.\nG43 H1\nG91\nX1. Z1.\nM30\n",
+            "4:5",
+            "program Z once with G90",
+        ),
+        (
             "G91 G53 Z1.\nM30\n",
             "1:5",
             "an increment in machine coordinates",

@@ -26,6 +26,11 @@ fn motions_are_those_of_linuxcnc() {
             "G0 X0 Y0 Z0\nG1 G91 X5. F100.\nY5.\nG90 X1.\nM30\n",
             "G0 X0 Y0 Z0\nG1 X5 F100\nY5\nX1\nM30\n",
         ),
+        // The length that is in force already, and one behind which Z is absolute, leave increments as they are.
+        (
+            "G49 G0 X0 Y0 Z9.\nG91 Z1.\nG90 G43 H1 Z5.\nG91 G43 H1 Z1.\nZ1.\nG49 X1.\nG28 Z0\nM30\n",
+            "G49 G0 X0 Y0 Z9\nZ10\nG43 H1 Z5\nZ6\nZ7\nG49\nG91 G0 X1\nG90 G53 G0 Z0\nM30\n",
+        ),
         // Arcs by centre and radius, more than half a circle, whole ones, helices, the other planes.
         (
             "G0 X10. Y0 Z0\nG3 X0 Y10. I-10. F200.\nG2 X10. Y0 R10.\nG3 X0 Y10. R-10.\nG2 J-10.\nG3 Y-10. J-10. Z-2.\nM30\n",

@@ -53,6 +53,7 @@ impl Control<'_> {
         for (axis, target) in target.iter().enumerate() {
             let framed = axis < 3 && !self.modal.frame.is_empty();
             let moves = *target != Coordinate::Keep;
+            self.modal.length_undecided &= !(moves && axis == 2);
             if moves || framed {
                 self.modal.position.set(axis, None);
             }

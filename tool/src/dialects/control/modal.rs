@@ -67,6 +67,9 @@ pub struct Modal {
     /// Coordinates from before the first change of the frame, an offset or the tool, for axes that have not
     /// moved since.
     pub carried: [Option<Option<f64>>; 9],
+    /// Whether the length of the tool has changed since Z was programmed last, on a control that has a parameter
+    /// for whether an increment in Z travels that change too.
+    pub length_undecided: bool,
     /// The direction in which the last motion ended, along X Y Z of the frame, if that is known.
     pub tangent: Option<[f64; 3]>,
     /// Whether an increment after a change of the frame, an offset or the tool follows the setting. If not, it
@@ -99,6 +102,7 @@ impl Modal {
             position: Position::default(),
             preset: [None; 9],
             carried: [None; 9],
+            length_undecided: false,
             tangent: None,
             follows_setting: false,
         };

@@ -147,6 +147,14 @@ fn increment_base(
     settings: &Settings,
     diagnostics: &mut Diagnostics,
 ) -> Result<Option<f64>, Diagnostic> {
+    if axis == 2 && modal.length_undecided {
+        return Err(Diagnostic::error(
+            span,
+            "an increment in Z behind another length of the tool (G43, G49): a parameter of the control (5006) says \
+             whether the change is travelled too",
+        )
+        .help("program Z once with G90, in the block of G43 or G49 or behind it"));
+    }
     let position = modal.position.get(axis);
     let Some(carried) = modal.carried.get(axis).copied().flatten() else {
         return Ok(position);
@@ -404,6 +412,7 @@ fn carry_out(result: &Move, modal: &mut Modal) {
             continue;
         }
         modal.position.set(axis, result.end(axis));
+        modal.length_undecided &= axis != 2;
         if let Some(carried) = modal.carried.get_mut(axis) {
             *carried = None;
         }

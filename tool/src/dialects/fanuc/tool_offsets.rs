@@ -21,6 +21,16 @@ pub struct ToolOffsets {
     explained: bool,
 }
 
+impl ToolOffsets {
+    /// The row whose length counts; 0 for none.
+    fn length_in_force(&self) -> u32 {
+        match self.length_on {
+            Some(true) => self.length_row.unwrap_or(0),
+            Some(false) | None => 0,
+        }
+    }
+}
+
 impl Interpreter<'_> {
     /// H and D, with G43, G49, G41 and G42 of the block.
     pub(super) fn tool_offsets(
@@ -29,6 +39,7 @@ impl Interpreter<'_> {
         length: Option<At<bool>>,
         radius: Option<At<Compensation>>,
     ) -> Done {
+        let before = self.offsets.length_in_force();
         let row = words.h.take();
         if let Some(row) = row {
             self.offsets.length_row = Some(row_number('H', row)?);
@@ -45,6 +56,7 @@ impl Interpreter<'_> {
             (None, Some(row)) if self.offsets.length_on == Some(true) => self.length(row.span)?,
             _ => {}
         }
+        self.control.modal.length_undecided |= self.offsets.length_in_force() != before;
         let row = words.d.take();
         let before = self.offsets.radius_row;
         if let Some(row) = row {
