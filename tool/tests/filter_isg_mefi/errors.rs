@@ -310,6 +310,17 @@ fn isg() {
         ),
         ("#VAR\nG00 X1\n#ENDVAR\nM30\n", "2:1", "only declarations"),
         (
+            "#COMMENT\nM30\n",
+            "1:1",
+            "write #COMMENT BEGIN in a line before",
+        ),
+        ("G11\nM30\n", "1:1", "write G10, and F for that path"),
+        (
+            "%1\nL SUB1\nM30\n%L SUB1\nM17\n",
+            "2:3",
+            "write LL SUB1 for %L SUB1 of this file",
+        ),
+        (
             "#COMMENT BEGIN\nM30\n",
             "1:1",
             "the #COMMENT END that belongs to this is missing",

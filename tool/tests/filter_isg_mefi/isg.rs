@@ -427,7 +427,7 @@ fn a_path_deviation_is_in_millimetres() {
 fn words_of_all_kinds() {
     let program = "N10 G17 G71 G90 G54 G94\nT3 D3 M06\nS=200 M3 M8\nG04 X4.5\nG04 3.0\nP1=2\nG04 P1\nG04 S10\n\
                    #TIME P1\n#MSG [\"depth %f of %d%%\", 2.5, 7]\n#MSG [\"plain\"]\nG159=2\nG01 X1 F=P1*100\nM40\nM01\n\
-                   G25 G52\nM9 M5\nM30\n";
+                   G25 G52\nG08 G10 G13\nG09 X2\nM9 M5\nM30\n";
     let output = shop(program).accepted(&[]);
     for wanted in [
         "T3 M6 G43 H3 (line 2)",
@@ -442,6 +442,9 @@ fn words_of_all_kinds() {
         "M1 (line",
         "M40 tunes the other control",
         "G25 tunes the other control",
+        "G8 tunes the other control",
+        "G9 tunes the other control",
+        "G13 tunes the other control",
     ] {
         assert!(output.contains(wanted), "{wanted}\n{output}");
     }

@@ -29,7 +29,11 @@ impl Interpreter<'_> {
             .library
             .find(&key, control.sources, control.diagnostics);
         let Some(routine) = found else {
-            return Err(missing(call));
+            let local = format!("{}:{}", call.span.file, call.name);
+            let in_file = self
+                .library
+                .find(&local, control.sources, control.diagnostics);
+            return Err(missing(call, in_file.is_some()));
         };
         if !call.local && call.name.contains('.') && routine.title != call.name {
             return Err(Diagnostic::error(
@@ -63,11 +67,15 @@ fn file_stem(call: &Call) -> Result<&str, Diagnostic> {
         .map_or(&call.name, |(stem, _)| stem))
 }
 
-fn missing(call: &Call) -> Diagnostic {
+/// `in_file`: whether the file of the call has a local subprogram of this name.
+fn missing(call: &Call, in_file: bool) -> Diagnostic {
     let name = &call.name;
     let error = Diagnostic::error(call.span, format!("the subprogram {name} was not found"));
     match call.local {
         true => error.help(format!("it is looked for as %L {name} in this file")),
+        false if in_file => error.help(format!(
+            "L calls a file; write LL {name} for %L {name} of this file"
+        )),
         false => error.help(
             "it is looked for beside the program and in the folders of --subprograms, with the \
              endings .nc .sub .cnc .iso .prg .txt",

@@ -69,6 +69,9 @@ pub fn command(reader: &mut Reader, start: usize) -> Parsed<Command> {
         "CS" => system(reader),
         "ROTATION" => rotation(reader),
         "TIME" => Ok(Command::Dwell(expression(reader)?)),
+        "COMMENT" => Err(Diagnostic::error(span, "#COMMENT without BEGIN or END").help(
+            "write #COMMENT BEGIN in a line before the comment, and #COMMENT END in a line behind it",
+        )),
         _ => {
             let refused = REFUSED.iter().find(|(known, _)| *known == name);
             if let Some((_, reason)) = refused {

@@ -71,6 +71,17 @@ impl Interpreter<'_> {
                 self.control.note(&format!("G{code}"), span);
                 3
             }
+            // Where feeds begin and end to change: blendtp and LinuxCNC keep the limits of the axes by themselves.
+            8 | 9 | 900 | 901 => {
+                self.control.note(&format!("G{code}"), span);
+                15
+            }
+            // F holds for the centre of the tool, as it does for LinuxCNC.
+            10 => 16,
+            12 | 13 => {
+                self.control.note(&format!("G{code}"), span);
+                17
+            }
             40..=42 => {
                 let compensation = [Compensation::Off, Compensation::Left, Compensation::Right];
                 let value = compensation[code as usize - 40];
@@ -209,6 +220,7 @@ fn no_row(code: u32, span: Span) -> Diagnostic {
 
 fn unsupported(code: u32, span: Span) -> Diagnostic {
     let help = match code {
+        11 => "LinuxCNC takes F for the path of the tool's centre: write G10, and F for that path",
         331 | 332 => "write G63 Z-20 F300 S200, and Z5 S-200 to come back",
         51 => "diameter programming is not supported: program radii",
         68 | 69 => "write #ROTATION ON [ANGLE=30] and #ROTATION OFF",
