@@ -246,14 +246,14 @@ int tpSetVmax(TP_STRUCT *tp, double vmax, double ini_maxvel)
     (void)tp;
     (void)vmax;
     (void)ini_maxvel;
-    command_comes(motion.status);
-    return 0;
+    return command_comes(motion.status) ? TP_ERR_FAIL : TP_ERR_OK;
 }
 
 int tpSetVlimit(TP_STRUCT *tp, double limit)
 {
     (void)tp;
-    command_comes(motion.status);
+    if (command_comes(motion.status))
+        return TP_ERR_FAIL;
     greatest_velocity = limit;
     was_positive |= limit > 0;
     return framepath_planner_set_velocity_limit(planner, limit);
@@ -264,32 +264,37 @@ int tpSetAmax(TP_STRUCT *tp, double amax)
     /* Acceleration is limited axis by axis. */
     (void)tp;
     (void)amax;
-    command_comes(motion.status);
-    return 0;
+    return command_comes(motion.status) ? TP_ERR_FAIL : TP_ERR_OK;
 }
 
 int tpSetId(TP_STRUCT *tp, int id)
 {
     (void)tp;
-    move_comes(motion.status);
+    if (move_comes(motion.status))
+        return TP_ERR_FAIL;
     return framepath_planner_set_id(planner, id);
 }
 
 int tpSetTermCond(TP_STRUCT *tp, int condition, double tolerance)
 {
     (void)tp;
-    command_comes(motion.status);
+    if (command_comes(motion.status))
+        return TP_ERR_FAIL;
     return framepath_planner_set_termination(planner, condition, tolerance);
 }
 
 int tpSetPos(TP_STRUCT *tp, EmcPose const *position)
 {
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
     return framepath_planner_set_position(planner, tp, position);
 }
 
 int tpSetSpindleSync(TP_STRUCT * const tp, int spindle, double sync, int velocity_mode)
 {
     (void)tp;
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
     return framepath_planner_set_spindle_sync(planner, spindle, sync, velocity_mode);
 }
 
@@ -297,6 +302,8 @@ int tpSetAout(TP_STRUCT * const tp, unsigned char index, double start, double en
 {
     (void)tp;
     (void)end;
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
     return framepath_planner_set_analog_output(planner, index, start);
 }
 
@@ -304,33 +311,46 @@ int tpSetDout(TP_STRUCT * const tp, int index, unsigned char start, unsigned cha
 {
     (void)tp;
     (void)end;
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
     return framepath_planner_set_digital_output(planner, index, start);
 }
 
 int tpSetRunDir(TP_STRUCT * const tp, tc_direction_t direction)
 {
-    int result = framepath_planner_set_run_direction(planner, tp, direction);
+    int result;
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
+    result = framepath_planner_set_run_direction(planner, tp, direction);
     direction_asked(tp, motion.status, direction, result);
     return result == TP_ERR_OK ? TP_ERR_OK : TP_ERR_FAIL;
 }
 
 int tpClear(TP_STRUCT *tp)
 {
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
     return framepath_planner_clear(planner, tp);
 }
 
 int tpPause(TP_STRUCT *tp)
 {
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
     return framepath_planner_pause(planner, tp);
 }
 
 int tpResume(TP_STRUCT *tp)
 {
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
     return framepath_planner_resume(planner, tp);
 }
 
 int tpAbort(TP_STRUCT *tp)
 {
+    if (is_misplaced_command())
+        return TP_ERR_FAIL;
     return framepath_planner_abort(planner, tp);
 }
 

@@ -31,4 +31,18 @@ static int is_misplaced(void)
     return told = 1;
 }
 
+/* Whether motion-command-handler, which asks whether the end of a move has joints, is not in that thread; said once. Then no
+ * place has any, and motion takes no move: the library is in use by the controller. */
+static int is_asked_in_another_thread(void)
+{
+    static int told;
+    if (!on_another_thread())
+        return 0;
+    if (!told)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: motion-command-handler is in another thread than motion-controller, no move is "
+                        "taken: write addf motion-command-handler servo-thread and then addf motion-controller servo-thread in "
+                        "the HAL file\n");
+    return told = 1;
+}
+
 #endif

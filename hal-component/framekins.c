@@ -221,7 +221,7 @@ int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMAT
 int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMATICS_INVERSE_FLAGS *iflags,
                       KINEMATICS_FORWARD_FLAGS *fflags)
 {
-    if (is_another_place(world))
+    if (is_asked_in_another_thread() || is_another_place(world))
         return -1;
     if (*inner)
         return framepath_kinematics_inner_inverse(world, joints, iflags, fflags);
@@ -248,7 +248,7 @@ KINEMATICS_TYPE kinematicsType(void)
         return KINEMATICS_BOTH;
     if (is_in_inner(inner, &pins, __builtin_return_address(0)))
         return own_type_of_inner(inner, &pins);
-    if (!inner_found.module && (servo_thread.seen || begin_inner()))
+    if (!inner_found.module && (is_servo_thread_seen() || begin_inner()))
         return KINEMATICS_BOTH;
     return inner_found.type == KINEMATICS_IDENTITY ? KINEMATICS_BOTH : inner_found.type;
 }

@@ -43,27 +43,41 @@ static int check_thread(void)
     return -1;
 }
 
-/* A command that only the command handler gives, with task's number for it (what calls without numbers is no LinuxCNC);
- * the first one on a wrong thread is told at once. */
-static void command_comes(const emcmot_status_t *status)
+/* Whether a command is not to be taken, since it is on another thread than the controller's: the first one is told at once. No
+ * move has been taken that it could be about, so that an abort, too, has nothing to stop. */
+static int is_misplaced_command(void)
 {
     static int told;
+    if (!on_another_thread())
+        return 0;
     if (!told)
         told = check_thread();
-    if (told || threads.said || !status || status->commandNumEcho == threads.number)
-        return;
+    return 1;
+}
+
+/* A command that only the command handler gives, with task's number for it (what calls without numbers is no LinuxCNC); whether it is
+ * not to be taken. */
+static int command_comes(const emcmot_status_t *status)
+{
+    if (is_misplaced_command())
+        return 1;
+    if (threads.said || !status || status->commandNumEcho == threads.number)
+        return 0;
     threads.number = status->commandNumEcho;
     if (++threads.commands < COMMANDS_WITHOUT_CONTROLLER)
-        return;
+        return 0;
     threads.said = 1;
     rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: motion-controller is in no thread that runs: " SAME_THREAD "\n");
+    return 0;
 }
 
 /* The number of a move comes just before it. */
-static void move_comes(const emcmot_status_t *status)
+static int move_comes(const emcmot_status_t *status)
 {
-    command_comes(status);
+    if (command_comes(status))
+        return 1;
     threads.commanded = threads.ended && status && status->commandNumEcho ? rtapi_get_time() : 0;
+    return 0;
 }
 
 /* The controller begins to plan, every so many ns; looks at the order until that is sure. A thread that is late runs one period
@@ -72,6 +86,8 @@ static void move_comes(const emcmot_status_t *status)
 static void controller_plans(long period)
 {
     long long now, before, after, since;
+    /* Here already, for commands that another thread gives during its first period. */
+    this_is_the_servo_thread();
     if (threads.order <= -ORDER_IS_SURE || threads.said)
         return;
     now = rtapi_get_time();

@@ -11,19 +11,24 @@
 static struct {
     int seen;
     pthread_t id;
-} servo_thread;
+} servo_thread; /* looked at by other threads, and atomic for them */
 
 /* To be called by what only motion-controller calls. */
 static void this_is_the_servo_thread(void)
 {
-    servo_thread.seen = 1;
-    servo_thread.id = pthread_self();
+    __atomic_store_n(&servo_thread.id, pthread_self(), __ATOMIC_RELAXED);
+    __atomic_store_n(&servo_thread.seen, 1, __ATOMIC_RELEASE);
+}
+
+static int is_servo_thread_seen(void)
+{
+    return __atomic_load_n(&servo_thread.seen, __ATOMIC_ACQUIRE);
 }
 
 /* Whether what calls now is in another thread; not before the servo thread has been seen. */
 static int on_another_thread(void)
 {
-    return servo_thread.seen && !pthread_equal(servo_thread.id, pthread_self());
+    return is_servo_thread_seen() && !pthread_equal(__atomic_load_n(&servo_thread.id, __ATOMIC_RELAXED), pthread_self());
 }
 
 #endif

@@ -1,7 +1,8 @@
 //! The kinematics as hal-component/framekins.c sees them.
 //!
 //! Static memory, one machine in a module. LinuxCNC calls `configure` while the module is loaded, and everything else
-//! from the servo thread: the HAL function of the module has to be in the same thread as motion-controller.
+//! from the servo thread: on another one hal-component/framekins.c neither runs the HAL function of the module nor says where joints
+//! are (hal-component/frame_messages.h), and blendtp, which asks for more, takes no command there.
 
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
@@ -148,7 +149,7 @@ static MEMORY: KinematicsMemory = KinematicsMemory(UnsafeCell::new(Kinematics {
 
 /// The machine of the module.
 pub(super) fn module() -> &'static mut Kinematics {
-    // SAFETY: one thread at a time, and nothing here or in inner_kinematics.rs asks for it while it holds a part of it.
+    // SAFETY: one thread at a time, and no function of this folder uses a part of it any more once it has asked for it again.
     unsafe { &mut *MEMORY.0.get() }
 }
 

@@ -61,15 +61,20 @@ class Threads(Case):
         self.assertEqual(len(said), 1, result.errors)
         self.assertIn("write addf motion-command-handler servo-thread and then addf motion-controller", said[0])
 
-    def test_another_thread_is_said_at_start_and_takes_no_move(self):
+    def test_another_thread_is_said_at_start_and_takes_no_command(self):
         fast = "base_period_nsec=500000 base_thread_fp=1"
-        result = run_with([["note", "start"], ["mdi", "G0 X5"], ["note", "end"]],
+        result = run_with([["note", "start"], ["reverse"], ["mdi", "G0 X5"], ["note", "end"]],
                           ("[EMCMOT]EMCMOT servo_period", f"[EMCMOT]EMCMOT {fast} servo_period"),
                           (HANDLER, HANDLER.replace("servo-thread", "base-thread")))
-        said = self.said(result, "motion-command-handler is in another thread than motion-controller, no move is taken")
-        self.assertEqual(len(said), 2, result.errors)
-        self.assertIn("write addf motion-command-handler servo-thread and then addf motion-controller", said[0])
-        self.assertTrue(self.said(result, "can't add linear move"), result.errors)
+        for module in ("blendtp", "framekins"):
+            said = self.said(result, f"{module}: motion-command-handler is in another thread than motion-controller, "
+                                     "no move is taken")
+            self.assertEqual(len(said), 1, result.errors)
+            self.assertIn("write addf motion-command-handler servo-thread and then addf motion-controller", said[0])
+        # motion asks framekins whether the end of a move has joints before it asks blendtp to take the move
+        self.assertTrue(self.said(result, "fails kinematicsInverse"), result.errors)
+        # what blendtp says of a run that it is asked to reverse
+        self.assertFalse(self.said(result, "there is no way back from here"), result.errors)
         self.assertEqual(result.answers["end"]["position"], result.answers["start"]["position"])
 
     def test_no_controller_is_said_at_start(self):

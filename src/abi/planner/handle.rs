@@ -129,7 +129,7 @@ pub(super) fn touch_memory() {
     let memory = MEMORY.0.get().cast::<MaybeUninit<u8>>();
     let mut offset = 0;
     while offset < size_of::<Handle>() {
-        // SAFETY: a byte of the planner, which keeps its value; one thread at a time, see [`super`].
+        // SAFETY: a byte of the planner, which keeps its value; there is no servo thread yet.
         unsafe {
             let byte = memory.add(offset);
             byte.write_volatile(byte.read_volatile());

@@ -1,8 +1,9 @@
 //! The planner as hal-component/blendtp.c sees it: LinuxCNC's structures in, LinuxCNC's return codes out.
 //!
 //! There is one planner in a module, in static memory: motmod has one coordinated planner, and a module must not
-//! allocate. LinuxCNC calls all of this either while modules are loaded or from the servo thread, never from two threads
-//! at a time.
+//! allocate. LinuxCNC calls all of this while modules are loaded, and later from the threads of its two functions. Those have to
+//! be one: hal-component/blendtp.c takes no command on another thread than that of motion-controller
+//! (hal-component/motion_threads.h), so that what is here is never called from two threads at a time.
 
 mod acknowledgement;
 pub mod add;
