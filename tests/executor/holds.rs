@@ -3,7 +3,7 @@
 use crate::support::monitor::Monitor;
 use crate::support::uniform_limits;
 use framepath::axes::{Axes, AxisLimits};
-use framepath::cycle::{Cell, Demand, Executor, ExecutorStep};
+use framepath::cycle::{Cell, Demand, Executor, ExecutorStep, JERK_KEPT};
 
 const PERIOD: f64 = 1e-3;
 const RADIUS: f64 = 2.0;
@@ -73,7 +73,7 @@ impl Circling {
     fn keeps_limits(&self) {
         let monitor = &self.monitor;
         assert!(monitor.acceleration <= 1.001, "{}", monitor.acceleration);
-        assert!(monitor.jerk <= 1.05, "{}", monitor.jerk);
+        assert!(monitor.jerk <= JERK_KEPT, "{}", monitor.jerk);
         assert_eq!(self.executor.backups_lost(), 0);
     }
 }

@@ -6,7 +6,7 @@ use crate::support::player::Player;
 use crate::support::reference::{Move, Reference, Shape};
 use crate::support::uniform_limits;
 use framepath::axes::{Axes, AxisLimits};
-use framepath::cycle::Demand;
+use framepath::cycle::{Demand, JERK_KEPT};
 use proptest::prelude::*;
 
 /// Axes with each value from a range.
@@ -155,7 +155,7 @@ fn judge(
         "acceleration {}",
         monitor.acceleration
     );
-    prop_assert!(monitor.jerk <= 1.05, "jerk {}", monitor.jerk);
+    prop_assert!(monitor.jerk <= JERK_KEPT, "jerk {}", monitor.jerk);
     prop_assert_eq!(player.executor.backups_lost(), 0);
     Ok(())
 }

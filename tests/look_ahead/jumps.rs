@@ -2,6 +2,7 @@
 
 use crate::routes::run::{check_continuity, limits, offline, planner};
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::shape::PathPoint;
 use framepath::speed::look_ahead::{
     MOST_BREAKPOINTS, PlannedSegment, Route, RouteVertex, SpeedCap,
@@ -119,7 +120,7 @@ fn the_jerk_holds_on_both_sides_of_a_vertex_and_is_used() {
         let pieces = offline(&mut planner(&axes), &Cubics, 200);
         check_continuity(&pieces, Cubics::length());
         let most = pieces.iter().map(greatest_jerk).fold(0.0, f64::max) / jerk;
-        assert!(most <= 1.05, "{jerk}: {most}");
+        assert!(most <= JERK_KEPT, "{jerk}: {most}");
         let total: f64 = pieces.iter().map(|piece| piece.duration).sum();
         assert!(total <= 1.005 * duration, "{jerk}: {total}");
     }

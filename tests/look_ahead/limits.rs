@@ -5,6 +5,7 @@ use crate::routes::run::{
 };
 use crate::routes::{Curve, Polyline, circle, contour, line, lissajous, zigzag};
 use framepath::axes::{Axes, AxisLimits};
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::shape::PathPoint;
 use framepath::speed::look_ahead::{PlanProgress, PlanRefusal};
 use proptest::prelude::*;
@@ -62,7 +63,7 @@ fn any_limits() -> impl Strategy<Value = AxisLimits> {
 fn within(peaks: &Peaks) -> Result<(), TestCaseError> {
     prop_assert!(peaks.velocity <= 1.0, "{peaks:?}");
     prop_assert!(peaks.acceleration <= 1.0, "{peaks:?}");
-    prop_assert!(peaks.jerk <= 1.05, "{peaks:?}");
+    prop_assert!(peaks.jerk <= JERK_KEPT, "{peaks:?}");
     Ok(())
 }
 

@@ -2,6 +2,7 @@
 
 use crate::common::{Machine, at, equal_limits, feed_move, with_machine, with_room};
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::machine_map::MachineMap;
 use framepath::moves::shape::Circle;
 use framepath::planner::{AddError, Added};
@@ -62,7 +63,7 @@ proptest! {
             machine.line(end, &feed_move(feed)).expect("a line");
         });
         prop_assert!(extremes.velocity <= 1.001 && extremes.acceleration <= 1.001, "{extremes:?}");
-        prop_assert!(extremes.jerk <= 1.05, "{extremes:?}");
+        prop_assert!(extremes.jerk <= JERK_KEPT, "{extremes:?}");
     }
 
     #[test]
@@ -72,7 +73,7 @@ proptest! {
             machine.circle(at(radius, radius), &circle, &feed_move(feed)).expect("an arc");
         });
         prop_assert!(extremes.velocity <= 1.001 && extremes.acceleration <= 1.001, "{extremes:?}");
-        prop_assert!(extremes.jerk <= 1.05, "{extremes:?}");
+        prop_assert!(extremes.jerk <= JERK_KEPT, "{extremes:?}");
     }
 }
 

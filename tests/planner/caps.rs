@@ -4,6 +4,7 @@
 use crate::common::seeded_runner::seeded_runner;
 use crate::common::{Machine, PERIOD, equal_limits, feed_move, with_room};
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::{MotionType, TerminationCondition};
 use framepath::planner::MoveRequest;
 use proptest::prelude::*;
@@ -52,7 +53,7 @@ fn run(jerk: f64, corners: &[[f64; 2]], kind: Cap, cap: f64, from: usize) -> (f6
     }
     let extremes = machine.extremes();
     assert!(extremes.acceleration <= 1.001, "{extremes:?}");
-    assert!(extremes.jerk <= 1.05, "{extremes:?}");
+    assert!(extremes.jerk <= JERK_KEPT, "{extremes:?}");
     // Twice what it takes on a line from 100 mm/s, where the acceleration is built up and taken back with all of
     // the jerk: a corner may need the acceleration for itself.
     let slowing = if from == 0 {

@@ -3,6 +3,7 @@
 //! `FRAMEPATH_CASES=2000 cargo test --test planner dense_passes -- --nocapture` runs as many.
 
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::TerminationCondition;
 use framepath::planner::MoveRequest;
 use proptest::prelude::*;
@@ -171,7 +172,7 @@ fn the_limits_are_kept() {
         let program = program.current();
         let found = with_room(|| run(&program));
         assert!(
-            found.velocity < 1.001 && found.acceleration < 1.001 && found.jerk < 1.05,
+            found.velocity < 1.001 && found.acceleration < 1.001 && found.jerk < JERK_KEPT,
             "{found:?}: {program:?}"
         );
     }

@@ -2,6 +2,7 @@
 
 use crate::common::{Machine, at, equal_limits, feed_move, with_machine, with_room};
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::TerminationCondition;
 use framepath::planner::{AddError, CycleInputs, Fault, Planner, Status};
 
@@ -90,7 +91,7 @@ fn runs_with(fault: Fault, period: usize) -> Option<usize> {
         assert!(status.queue_depth == 0);
         let extremes = machine.extremes();
         assert!(
-            extremes.velocity < 1.001 && extremes.acceleration < 1.001 && extremes.jerk < 1.05,
+            extremes.velocity < 1.001 && extremes.acceleration < 1.001 && extremes.jerk < JERK_KEPT,
             "{extremes:?}"
         );
         // The operator, or task, aborts: from here on all is as always.

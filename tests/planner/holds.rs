@@ -1,6 +1,7 @@
 //! How soon a machine comes to rest whose plan has yet to be continued.
 
 use crate::common::{Machine, at, feed_move, with_machine};
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::TerminationCondition;
 
 /// Adds the next of many short lines around a circle. They come as fast as the machine runs, so that the plan
@@ -40,7 +41,7 @@ fn a_hold_does_not_wait_for_a_better_plan() {
             );
             let extremes = machine.extremes();
             assert!(
-                extremes.acceleration < 1.001 && extremes.jerk < 1.05,
+                extremes.acceleration < 1.001 && extremes.jerk < JERK_KEPT,
                 "{extremes:?}"
             );
         });

@@ -2,6 +2,7 @@
 
 use crate::common::{at, feed_move, joints_at, with_machine};
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::machine::JOINT_COUNT;
 use framepath::moves::TerminationCondition;
 use framepath::moves::shape::{Line9, Shape};
@@ -222,7 +223,7 @@ fn a_move_that_makes_a_joint_jump_stops_the_machine_before_it() {
         assert_eq!(jump.joint, 0);
         let extremes = machine.extremes();
         assert!(extremes.velocity <= 1.001 && extremes.acceleration <= 1.001);
-        assert!(extremes.jerk <= 1.05, "{extremes:?}");
+        assert!(extremes.jerk <= JERK_KEPT, "{extremes:?}");
         let more = machine.line(at(-400.0, 90.0), &feed_move(50.0));
         assert_eq!(more, Err(AddError::Tripped));
     });

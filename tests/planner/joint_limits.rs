@@ -6,6 +6,7 @@ use crate::joint_models::{
     EXACT_TABLE, NUMERICAL_ROBOT, NUMERICAL_TABLE, REACH, joint_limits, joints_of, robot, table,
 };
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::machine_map::JointMap;
 use framepath::moves::TerminationCondition;
 use framepath::moves::shape::Circle;
@@ -42,7 +43,7 @@ fn of_joints(machine: &mut Machine, count: usize, inverse: fn(&Axes) -> Axes) ->
 fn keeps_limits(extremes: &Extremes) -> Result<(), TestCaseError> {
     prop_assert!(extremes.velocity <= 1.001, "{extremes:?}");
     prop_assert!(extremes.acceleration <= 1.001, "{extremes:?}");
-    prop_assert!(extremes.jerk <= 1.05, "{extremes:?}");
+    prop_assert!(extremes.jerk <= JERK_KEPT, "{extremes:?}");
     Ok(())
 }
 
@@ -161,7 +162,7 @@ fn of_a_robot_that_comes_near_to_straight_arms() {
             println!("{beside} {radially}: {periods} {extremes:?}");
             let within = extremes.velocity <= 1.001
                 && extremes.acceleration <= 1.001
-                && extremes.jerk <= 1.05;
+                && extremes.jerk <= JERK_KEPT;
             assert!(
                 within && periods < 30_000,
                 "{beside} {radially}: {periods} {extremes:?}"

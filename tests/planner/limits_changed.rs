@@ -2,6 +2,7 @@
 
 use crate::common::{Machine, at, equal_limits, feed_move, with_machine};
 use framepath::axes::AxisLimits;
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::TerminationCondition;
 
 /// A thousandth of everything the machine is able to do.
@@ -115,7 +116,7 @@ fn a_blended_path_without_a_rest_is_run_with_the_limits_it_began_with() {
         assert_eq!(machine.planner.status().position, at(30.0, 30.0));
         let extremes = machine.extremes();
         assert!(
-            extremes.velocity < 1.001 && extremes.jerk < 1.05,
+            extremes.velocity < 1.001 && extremes.jerk < JERK_KEPT,
             "{extremes:?}"
         );
     });

@@ -2,6 +2,7 @@
 
 use crate::common::{PERIOD, at, feed_move, with_machine};
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, TerminationCondition};
 use framepath::planner::{AddError, MoveRequest};
@@ -93,7 +94,7 @@ fn an_abort_stops_on_the_path_and_new_moves_start_from_there() {
             extremes.velocity < 1.001 && extremes.acceleration < 1.001,
             "{extremes:?}"
         );
-        assert!(extremes.jerk < 1.05, "{extremes:?}");
+        assert!(extremes.jerk < JERK_KEPT, "{extremes:?}");
     });
 }
 
@@ -119,7 +120,7 @@ fn a_pause_holds_on_the_path_and_a_resume_goes_on() {
         assert_eq!(machine.planner.status().position, at(100.0, 0.0));
         let extremes = machine.extremes();
         assert!(
-            extremes.acceleration < 1.001 && extremes.jerk < 1.05,
+            extremes.acceleration < 1.001 && extremes.jerk < JERK_KEPT,
             "{extremes:?}"
         );
     });
@@ -186,7 +187,7 @@ fn adaptive_feed_slows_moves_with_and_without_override() {
         }
         let extremes = machine.extremes();
         assert!(
-            extremes.acceleration < 1.001 && extremes.jerk < 1.05,
+            extremes.acceleration < 1.001 && extremes.jerk < JERK_KEPT,
             "{extremes:?}"
         );
     });
@@ -228,7 +229,7 @@ fn masked_and_not(feed: f64, scale: f64, length: f64, delay: usize) -> (f64, f64
         figures = (fast / feed, second / (feed * scale));
         let extremes = machine.extremes();
         assert!(
-            extremes.acceleration < 1.001 && extremes.jerk < 1.05,
+            extremes.acceleration < 1.001 && extremes.jerk < JERK_KEPT,
             "{extremes:?}"
         );
     });

@@ -4,6 +4,7 @@
 use crate::common::seeded_runner::seeded_runner;
 use crate::common::{Machine, at, equal_limits, feed_move, with_machine, with_room};
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::shape::Circle;
 use framepath::moves::{MotionType, TerminationCondition};
 use framepath::planner::{DirectionError, MoveRequest, Status};
@@ -116,7 +117,7 @@ fn goes_back_over_its_own_path_and_forward_again() {
         assert_eq!(machine.planner.status().position, end);
         let extremes = machine.extremes();
         assert!(extremes.velocity <= 1.001 && extremes.acceleration <= 1.001);
-        assert!(extremes.jerk <= 1.05, "{extremes:?}");
+        assert!(extremes.jerk <= JERK_KEPT, "{extremes:?}");
     });
 }
 
@@ -167,7 +168,7 @@ fn remembers_some_hundred_moves_and_rests_there() {
             .line(at(0.0, 0.0), &feed_move(40.0))
             .expect("a line");
         machine.run(60_000);
-        assert!(machine.extremes().jerk <= 1.05);
+        assert!(machine.extremes().jerk <= JERK_KEPT);
     });
 }
 
@@ -317,7 +318,7 @@ fn random_turns_keep_the_limits() {
         assert!(extremes.velocity <= 1.001, "{extremes:?}");
         assert!(extremes.acceleration <= 1.001, "{extremes:?}");
         assert!(
-            !case.jerk.is_finite() || extremes.jerk <= 1.05,
+            !case.jerk.is_finite() || extremes.jerk <= JERK_KEPT,
             "{extremes:?}"
         );
     };

@@ -4,6 +4,7 @@ use crate::common::{
     Machine, PERIOD, at, equal_limits, feed_move, joints_at, with_machine, with_room,
 };
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::machine::JOINT_COUNT;
 use framepath::moves::TerminationCondition;
 use framepath::moves::shape::Circle;
@@ -183,7 +184,7 @@ fn a_later_move_that_leaves_stops_the_machine_before_it() {
         assert!(machine.planner.status().position[0] > 0.0);
         let extremes = machine.extremes();
         assert!(extremes.velocity <= 1.001 && extremes.acceleration <= 1.001);
-        assert!(extremes.jerk <= 1.05, "{extremes:?}");
+        assert!(extremes.jerk <= JERK_KEPT, "{extremes:?}");
     });
 }
 

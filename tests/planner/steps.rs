@@ -6,6 +6,7 @@ use crate::program::queue::queue;
 use crate::program::{Programmed, Shape};
 use crate::random_program::{any_corners, any_limits, any_shape};
 use framepath::axes::Axes;
+use framepath::cycle::JERK_KEPT;
 use framepath::moves::TerminationCondition;
 use framepath::moves::TerminationCondition::{Continuous, Exact, Stop};
 use framepath::planner::{MoveRequest, Status};
@@ -74,7 +75,7 @@ fn assert_within_limits(machine: &Machine) {
     let extremes = machine.extremes();
     assert!(extremes.velocity < 1.001, "{extremes:?}");
     assert!(extremes.acceleration < 1.001, "{extremes:?}");
-    assert!(extremes.jerk < 1.05, "{extremes:?}");
+    assert!(extremes.jerk < JERK_KEPT, "{extremes:?}");
 }
 
 #[test]
@@ -377,7 +378,7 @@ fn steps_from_anywhere_end_at_the_end_of_their_moves() {
             let extremes = machine.extremes();
             prop_assert!(extremes.velocity < 1.001, "{:?}", extremes);
             prop_assert!(extremes.acceleration < 1.001, "{:?}", extremes);
-            prop_assert!(extremes.jerk < 1.05, "{:?}", extremes);
+            prop_assert!(extremes.jerk < JERK_KEPT, "{:?}", extremes);
             Ok(())
         });
         result.expect("every step ends at the end of its move");

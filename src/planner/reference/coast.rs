@@ -85,6 +85,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use crate::axes::{Axes, AxisLimits};
+    use crate::cycle::JERK_KEPT;
     use crate::machine_map::{JointJet, JointMap};
     use crate::moves::shape::Circle;
     use crate::moves::{MotionType, StateTag, TerminationCondition};
@@ -183,7 +184,7 @@ mod tests {
         }
     }
 
-    /// The velocity is at most `greatest`, the acceleration the limit, the jerk at most a tenth more than the limit.
+    /// The velocity is at most `greatest`, the acceleration the limit, and the jerk what is promised.
     fn keep_the_limits(positions: &[Axes], greatest: f64, jerk: f64) {
         for window in positions.windows(4) {
             let velocity = (window[3] - window[2]).amax() / PERIOD;
@@ -194,7 +195,7 @@ mod tests {
                 velocity <= 1.001 * greatest && acceleration <= 1001.0,
                 "{velocity} {acceleration}"
             );
-            assert!(third <= 1.1 * jerk, "{third}");
+            assert!(third <= JERK_KEPT * jerk, "{third}");
         }
     }
 

@@ -81,6 +81,7 @@ fn path_limits<R: Route>(route: &R, start: f64, end: f64, outlook: &Outlook) -> 
 #[cfg(test)]
 mod tests {
     use crate::axes::{Axes, AxisLimits};
+    use crate::cycle::JERK_KEPT;
     use crate::moves::{MotionType, StateTag, TerminationCondition};
     use crate::planner::{CycleInputs, MoveRequest, Planner};
     use crate::test_room::with_room;
@@ -148,7 +149,7 @@ mod tests {
             let over = |value: &Axes, limit: &Axes| value.component_div(limit).amax();
             assert!(over(&first, &limits.velocity) <= 1.0001, "{refused}");
             assert!(over(&second, &limits.acceleration) <= 1.0001, "{refused}");
-            assert!(over(&third, &limits.jerk) <= 1.05, "{refused}");
+            assert!(over(&third, &limits.jerk) <= JERK_KEPT, "{refused}");
         }
         cycles
     }
