@@ -54,6 +54,17 @@ impl Move {
         self.enables & FEED_OVERRIDE_ENABLED != 0
     }
 
+    /// Which override of the operator scales it, of that of the feed and that of rapid moves; 1 where none does.
+    pub fn override_of(&self, feed: f64, rapid: f64) -> f64 {
+        if !self.override_enabled() {
+            1.0
+        } else if self.motion_type.is_rapid() {
+            rapid
+        } else {
+            feed
+        }
+    }
+
     /// Whether it follows the angle of a spindle: a thread or a tap.
     pub fn follows_angle(&self) -> bool {
         self.synchronisation

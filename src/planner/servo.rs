@@ -475,11 +475,7 @@ pub(super) fn further_scale(
     let Some(running) = running.filter(|_| reported.active_depth > 0) else {
         return 1.0;
     };
-    let operator = match (running.override_enabled(), running.motion_type.is_rapid()) {
-        (false, _) => 1.0,
-        (true, true) => inputs.rapid_scale,
-        (true, false) => inputs.feed_scale,
-    };
+    let operator = running.override_of(inputs.feed_scale, inputs.rapid_scale);
     let further = inputs.net_feed_scale / operator;
     if (0.0..1.0 - SCALE_ROUNDING).contains(&further) {
         further

@@ -82,12 +82,7 @@ impl Planner {
 
     /// How fast the running move may be.
     fn asked(&self, inputs: &CycleInputs, running: &Move) -> Asked {
-        let (overridden, rapid) = (running.override_enabled(), running.motion_type.is_rapid());
-        let by_operator = match (overridden, rapid) {
-            (false, _) => 1.0,
-            (true, true) => inputs.rapid_scale,
-            (true, false) => inputs.feed_scale,
-        };
+        let by_operator = running.override_of(inputs.feed_scale, inputs.rapid_scale);
         Asked {
             feed: self.spindle.feed(running),
             scale: by_operator * further_scale(inputs, Some(running), &self.status),

@@ -77,14 +77,8 @@ impl Outlook<'_> {
             };
             return wanted.min(self.now.velocity_limit.max(wanted * LEAST_PLANNED_SHARE));
         }
-        let scale = if !queued.override_enabled() {
-            1.0
-        } else if queued.motion_type.is_rapid() {
-            self.now.rapid_scale.max(1.0)
-        } else {
-            self.now.feed_scale.max(1.0)
-        };
-        let wanted = (queued.feed * scale).min(queued.max_velocity);
+        let scale = queued.override_of(self.now.feed_scale, self.now.rapid_scale);
+        let wanted = (queued.feed * scale.max(1.0)).min(queued.max_velocity);
         let slider = if queued.shape.is_rotary() {
             queued.max_velocity * self.now.velocity_share
         } else {
