@@ -11,28 +11,60 @@ const NUMBER_STEP: f64 = 1000.0;
 /// Added to the code of a command that adds to the frame instead of replacing it.
 const ADDITIVE: i32 = 100;
 
-/// The code of the command that removes the frame.
-const REMOVE: f64 = 9.0;
+/// What a command is to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Code {
+    /// Makes the frame of one operation, the number of its kind.
+    Set(i32),
+    /// Removes the frame, which needs no values and is never wrong.
+    Remove,
+    /// Drops the scales of the frame.
+    DropScales,
+    /// Takes over offsets, tool and dimensions; a frame that is suspended comes back.
+    Refresh,
+    /// Makes the frame of the map pins.
+    MapPins,
+    /// Suspends the frame.
+    Suspend,
+    /// Asks how the tool is turned.
+    Ask,
+    /// Takes over offsets, tool and dimensions, and brings nothing back.
+    TakeOver,
+    /// Adds one operation to the frame, the number of its kind.
+    Add(i32),
+    /// Nonsense.
+    Unknown,
+}
 
-/// The code of the command that drops the scales of the frame.
-const DROP_SCALES: f64 = 10.0;
-
-/// The code of the command that suspends the frame.
-const SUSPEND: f64 = 13.0;
-
-/// The code of the command that asks how the tool is turned.
-const ASK: f64 = 14.0;
-
-/// The code of the command that takes over offsets, tool and dimensions, and brings nothing back.
-const TAKE_OVER: f64 = 15.0;
+impl Code {
+    /// The code that a number says, 0 to 999.
+    fn of(number: f64) -> Self {
+        let whole = number as i32;
+        if f64::from(whole) != number {
+            return Self::Unknown;
+        }
+        match whole {
+            1..=8 => Self::Set(whole),
+            9 => Self::Remove,
+            10 => Self::DropScales,
+            11 => Self::Refresh,
+            12 => Self::MapPins,
+            13 => Self::Suspend,
+            14 => Self::Ask,
+            15 => Self::TakeOver,
+            _ if whole > ADDITIVE => Self::Add(whole - ADDITIVE),
+            _ => Self::Unknown,
+        }
+    }
+}
 
 /// A command as it stands on `framekins.command`: its number times 1000, plus its code.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Command {
     /// Changes from command to command, so that the same command can be given twice.
     pub number: f64,
-    /// What to do; not a whole number if the program sent nonsense.
-    code: f64,
+    /// What to do.
+    code: Code,
 }
 
 impl Command {
@@ -42,34 +74,34 @@ impl Command {
         let number = (value / NUMBER_STEP).floor();
         (number.is_finite() && number > 0.0).then_some(Self {
             number,
-            code: value - number * NUMBER_STEP,
+            code: Code::of(value - number * NUMBER_STEP),
         })
     }
 
     /// Whether the frame is removed, which needs no values and is never wrong.
     pub fn removes(&self) -> bool {
-        self.code == REMOVE
+        self.code == Code::Remove
     }
 
     /// Whether the program wants to know how the kinematics of another module turn the tool, also without a frame.
     pub fn asks(&self) -> bool {
-        self.code == ASK
+        self.code == Code::Ask
     }
 
     /// Whether it acts in the frame that is active, and keeps what that is made of.
     pub fn adds(&self) -> bool {
-        self.code == DROP_SCALES || self.code > f64::from(ADDITIVE)
+        matches!(self.code, Code::DropScales | Code::Add(_))
     }
 
     /// Whether it changes neither what the frame is made of nor whether it is suspended.
     pub fn keeps(&self) -> bool {
-        self.code == ASK || self.code == TAKE_OVER
+        matches!(self.code, Code::Ask | Code::TakeOver)
     }
 
     /// Whether the machine is to run without the frame for a while: what the frame is made of stays,
     /// and a command of its own brings it back.
     pub fn suspends(&self) -> bool {
-        self.code == SUSPEND
+        self.code == Code::Suspend
     }
 }
 
@@ -119,44 +151,39 @@ impl Source {
     ///
     /// What is wrong with the command.
     pub fn after(&self, command: &Command, values: &[f64; 3]) -> Result<Self, FrameRefusal> {
-        let code = command.code as i32;
-        if f64::from(code) != command.code {
-            return Err(FrameRefusal::UnknownCommand);
-        }
-        if command.removes() {
-            return Ok(Self::nothing());
-        }
         let mut next = if self.map { Self::nothing() } else { *self };
-        match code {
-            10 => {
+        match command.code {
+            Code::Remove => return Ok(Self::nothing()),
+            Code::DropScales => {
                 next.list.drop_scales()?;
                 if next.list.is_empty() {
                     return Ok(Self::nothing());
                 }
             }
-            11 | 14 | 15 => return Ok(*self),
-            12 => return Ok(Self::map_pins()),
-            _ if code > ADDITIVE => {
-                next.list.append(&operation(code - ADDITIVE, values)?)?;
+            Code::Refresh | Code::Suspend | Code::Ask | Code::TakeOver => return Ok(*self),
+            Code::MapPins => return Ok(Self::map_pins()),
+            Code::Add(kind) => {
+                next.list.append(&operation(kind, values)?)?;
                 next.commands = next.commands.saturating_add(1);
             }
-            _ => {
-                next.list.set(&operation(code, values)?);
+            Code::Set(kind) => {
+                next.list.set(&operation(kind, values)?);
                 next.commands = 1;
             }
+            Code::Unknown => return Err(FrameRefusal::UnknownCommand),
         }
         Ok(next)
     }
 }
 
-/// The operation of a code with its values.
-fn operation(code: i32, values: &[f64; 3]) -> Result<Operation, FrameRefusal> {
+/// The operation of a kind with its values.
+fn operation(kind: i32, values: &[f64; 3]) -> Result<Operation, FrameRefusal> {
     if values.iter().any(|value| !value.is_finite()) {
         return Err(FrameRefusal::NotFinite);
     }
     let [a, b, c] = *values;
     let vector = Vector3::new(a, b, c);
-    Ok(match code {
+    Ok(match kind {
         1 => Operation::translate(vector)?,
         2 => Operation::rotate_zyx(vector)?,
         3 => Operation::rotate(axis(b)?, a)?,
