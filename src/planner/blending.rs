@@ -123,16 +123,26 @@ impl Blending {
         }
     }
 
+    /// What moves are left by that are to be followed exactly, machine units.
+    fn exact_tolerance(&self) -> f64 {
+        BlendSettings::EXACT_TOLERANCE * self.in_force.millimetre
+    }
+
+    /// The tolerance of runs of short moves under G64 without P, machine units.
+    fn default_tolerance(&self) -> f64 {
+        self.in_force.default_tolerance.max(self.exact_tolerance())
+    }
+
     /// How far the path may be from a move, but for corners that are cut by half of a leg.
     pub(super) fn greatest_deviation(&self, queued: &Move) -> Deviation {
-        let exact = BlendSettings::EXACT_TOLERANCE * self.in_force.millimetre;
+        let exact = self.exact_tolerance();
         let tolerance = match queued.termination {
             TerminationCondition::Stop => 0.0,
             TerminationCondition::Exact => exact,
             TerminationCondition::Continuous { tolerance } if tolerance > 0.0 => {
                 tolerance.min(self.greatest_tolerance()).max(exact)
             }
-            TerminationCondition::Continuous { .. } => self.in_force.default_tolerance.max(exact),
+            TerminationCondition::Continuous { .. } => self.default_tolerance(),
         };
         let rotary = tolerance / self.weight;
         let turn_share = self.orientation().map_or(1.0, |orientation| {
@@ -159,7 +169,7 @@ impl Blending {
 
     /// The settings of a path that begins with the first move of the queue. Finds the weight of
     /// rotary axes: linear and rotary axes use up their tolerances together. The weight belongs to the
-    /// first P of the moves that have come so far, or to the tolerance for G64 without P where they
+    /// first P of the first 16 moves that have come so far, or to the tolerance for G64 without P where they
     /// have none; a P that comes later on the same path is held down so that rotary axes keep their
     /// tolerance.
     ///
@@ -207,11 +217,7 @@ impl Blending {
                     }
                     _ => None,
                 });
-            let tolerance = given.unwrap_or(
-                self.in_force
-                    .default_tolerance
-                    .max(1e-4 * self.in_force.millimetre),
-            );
+            let tolerance = given.unwrap_or_else(|| self.default_tolerance());
             self.weight =
                 (tolerance / self.in_force.rotary_tolerance).clamp(LEAST_WEIGHT, GREATEST_WEIGHT);
         }
@@ -245,6 +251,20 @@ mod tests {
             assert_eq!(blending.set(1.0, rotary, default), Ok(()));
             assert!(blending.settings(&EMPTY, &limits(2e4)).is_some());
             assert!(blending.greatest_tolerance() > 0.0);
+        }
+    }
+
+    #[test]
+    fn rotary_axes_keep_their_tolerance_also_where_a_default_is_less_than_what_exact_moves_are_left_by()
+     {
+        for (millimetre, default) in [(1.0, 0.0), (1.0, 1e-4), (1.0, 0.02), (1.0 / 25.4, 0.0)] {
+            let mut blending = Blending::DEFAULT;
+            assert_eq!(blending.set(millimetre, 0.05, default), Ok(()));
+            blending.take(&EMPTY);
+            for left_by in [default, BlendSettings::EXACT_TOLERANCE * millimetre] {
+                let rotary = left_by / blending.weight;
+                assert!(rotary <= 0.05 * (1.0 + 1e-12), "{default}: {rotary}");
+            }
         }
     }
 
