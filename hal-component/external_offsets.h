@@ -40,7 +40,7 @@ static int is_unknown_offset(hal_float_t *const *offsets, int axis)
 {
     double value = *offsets[axis];
     return !MOTION_TAKES_OFFSETS_OFF
-           && (!isfinite(value) || fabs(value) > GREATEST_LENGTH || (value != 0 && offsets[axis] == unlinked_offsets[axis]));
+           && (!isfinite(value) || fabs(value) > FRAMEPATH_GREATEST_LENGTH || (value != 0 && offsets[axis] == unlinked_offsets[axis]));
 }
 
 static int has_unknown_offset(hal_float_t *const *offsets)

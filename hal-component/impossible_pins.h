@@ -9,9 +9,6 @@
 #include "rtapi.h"
 #include "framepath.h"
 
-/* What no length of a machine exceeds, machine units; the library refuses more. */
-#define GREATEST_LENGTH 1e6
-
 struct named_value {
     const char *name;
     double value;
@@ -23,7 +20,7 @@ static const char *const row_names[12] = {"xx", "xy", "xz", "x", "yx", "yy", "yz
 
 static int is_impossible(const struct named_value *pin)
 {
-    return !isfinite(pin->value) || (pin->is_length && fabs(pin->value) > GREATEST_LENGTH);
+    return !isfinite(pin->value) || (pin->is_length && fabs(pin->value) > FRAMEPATH_GREATEST_LENGTH);
 }
 
 static void tell_of(const char *group, const struct named_value *pin)

@@ -26,6 +26,11 @@
 #define FRAMEPATH_GUARD_LOST 2
 
 /*
+ What no length of a machine exceeds, machine units.
+ */
+#define FRAMEPATH_GREATEST_LENGTH 1e6
+
+/*
  Errors of `framepath_kinematics_configure`: `coordinates=` names no axis.
  */
 #define FRAMEPATH_NO_AXIS 1

@@ -16,12 +16,17 @@ use super::inner_normal::AskedNormal;
 use super::linuxcnc::EmcPose;
 use super::pose::{axes_of, pose_of};
 use crate::axes::{AXIS_COUNT, Axes};
+use crate::frame::affine::MAX_TRANSLATION;
 use crate::frame::{ActiveFrame, AffineMap, ToolLength};
 use crate::kinematics::control::{FrameControl, FrameInputs};
 use crate::kinematics::offset_motion::OffsetMotion;
 use crate::kinematics::switch_place::SwitchPlace;
 use crate::kinematics::tool_jump::ToolJump;
 use crate::machine::{ConfigurationError, CoordinatesError, JOINT_COUNT, Machine, TiltAxis};
+
+/// What no length of a machine exceeds, machine units.
+pub const FRAMEPATH_GREATEST_LENGTH: c_double = 1e6;
+const _: () = assert!(FRAMEPATH_GREATEST_LENGTH == MAX_TRANSLATION);
 
 /// Errors of `framepath_kinematics_configure`: `coordinates=` names no axis.
 pub const FRAMEPATH_NO_AXIS: c_int = 1;

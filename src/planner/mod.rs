@@ -42,7 +42,7 @@ pub use direction::DirectionError;
 pub use inputs::{CycleInputs, SpindleInputs};
 pub use jerk_limit::JerkLimit;
 pub use planner::{Planner, PositionError};
-pub use request::{AddError, Added, MoveRequest};
+pub use request::{AddError, Added, LEAST_ACCELERATION, LEAST_VELOCITY, MoveRequest};
 pub use speed_limit::{Quantity, SpeedLimit};
 pub use spindle::SpindleError;
 pub use status::{Fault, Status};

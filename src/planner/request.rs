@@ -5,11 +5,14 @@ use crate::moves::{MotionType, StateTag};
 
 /// Feeds and limits of velocity from here on are taken, units per second: with less a micrometre takes more than a quarter
 /// of an hour, and times overflow.
-pub(super) const LEAST_VELOCITY: f64 = 1e-9;
+pub const LEAST_VELOCITY: f64 = 1e-9;
+
+/// Limits of acceleration from here on are taken, units per second squared.
+pub const LEAST_ACCELERATION: f64 = 1e-3;
 
 /// What of velocity, acceleration and jerk is taken for a limit from here on, units per second, second squared and cubed. A
 /// jerk that reaches the acceleration in a time that makes sense is never as small.
-pub(super) const LEAST_LIMITS: [f64; 3] = [LEAST_VELOCITY, 1e-3, 1e-4];
+pub(super) const LEAST_LIMITS: [f64; 3] = [LEAST_VELOCITY, LEAST_ACCELERATION, 1e-4];
 
 /// What comes with a move besides its shape.
 #[derive(Clone, Copy, Debug)]

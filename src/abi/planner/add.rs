@@ -15,7 +15,7 @@ use crate::moves::shape::{Circle, ShapeError};
 use crate::moves::{
     FeedWord, INCHES, INVERSE_TIME, MotionType, STATE_TAG_SIZE, StateTag, UNITS_PER_MINUTE,
 };
-use crate::planner::{AddError, Added, MoveRequest};
+use crate::planner::{AddError, Added, LEAST_ACCELERATION, LEAST_VELOCITY, MoveRequest};
 
 /// LinuxCNC's numbers of the codes that mean the machine itself: G28, G30, G53.
 const MACHINE_CODES: [c_int; 3] = [280, 300, 530];
@@ -65,6 +65,8 @@ impl Handle {
 
 /// What is said of each axis that has no usable limits.
 const WITHOUT_LIMITS: [&CStr; AXIS_COUNT] = {
+    // The numbers in the words.
+    assert!(LEAST_VELOCITY == 1e-9 && LEAST_ACCELERATION == 0.001);
     macro_rules! of {
         ($($letter:literal)*) => {
             [$(match CStr::from_bytes_with_nul(

@@ -8,7 +8,7 @@ use super::soft_limits::commanded_joints;
 use crate::axes::{AXIS_COUNT, Axes, AxisLimits};
 use crate::machine_map::JointMap;
 use crate::numerical_jet::{BEND, STEP};
-use crate::planner::JerkLimit;
+use crate::planner::{JerkLimit, LEAST_ACCELERATION, LEAST_VELOCITY};
 
 /// The limits are taken, or there are none.
 pub const FRAMEPATH_JOINTS_TAKEN: c_int = 0;
@@ -45,10 +45,6 @@ const NOISE_SHARE: f64 = 0.02;
 /// What noise of the answers becomes in second and third derivatives, for a step of 1.
 const IN_ACCELERATION: f64 = 4.0;
 const IN_JERK: f64 = 2.8;
-
-/// The least velocity and acceleration that are taken for limits.
-const LEAST_VELOCITY: f64 = 1e-9;
-const LEAST_ACCELERATION: f64 = 1e-3;
 
 /// What the pins say, and what was found wrong with it.
 #[repr(C)]
