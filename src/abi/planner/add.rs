@@ -1,6 +1,7 @@
 //! Moves: queued, or refused with the reason.
 
 use core::ffi::CStr;
+use core::mem::MaybeUninit;
 
 use libc::{c_char, c_double, c_int, c_uchar};
 use nalgebra::Vector3;
@@ -138,8 +139,10 @@ fn feed_word_of(tag: &state_tag_t) -> Option<FeedWord> {
 
 fn tag_in(tag: &state_tag_t) -> StateTag {
     const { assert!(size_of::<state_tag_t>() == STATE_TAG_SIZE) };
-    // SAFETY: plain numbers of the same size; every bit pattern is a valid array of bytes.
-    StateTag(unsafe { core::mem::transmute_copy::<state_tag_t, [u8; STATE_TAG_SIZE]>(tag) })
+    // SAFETY: of the same size; bytes that may be of no value, as those between the fields are, are valid whatever they are.
+    StateTag(unsafe {
+        core::mem::transmute_copy::<state_tag_t, [MaybeUninit<u8>; STATE_TAG_SIZE]>(tag)
+    })
 }
 
 fn vector_of(cartesian: &PmCartesian) -> Vector3<f64> {

@@ -1,5 +1,6 @@
 //! The servo cycle, the operator's commands, and what is reported after them.
 
+use core::mem::MaybeUninit;
 use core::ptr;
 
 use libc::{c_char, c_double, c_int};
@@ -130,8 +131,8 @@ impl Handle {
 }
 
 fn tag_out(tag: &StateTag) -> state_tag_t {
-    // SAFETY: plain numbers of the same size; every bit pattern is a valid tag.
-    unsafe { core::mem::transmute_copy::<[u8; STATE_TAG_SIZE], state_tag_t>(&tag.0) }
+    // SAFETY: of the same size, and either the bytes of a tag or zeros: plain numbers, for which every bit pattern is valid.
+    unsafe { core::mem::transmute_copy::<[MaybeUninit<u8>; STATE_TAG_SIZE], state_tag_t>(&tag.0) }
 }
 
 /// What went wrong inside the planner, null if nothing did. The motion was stopped for it; an abort ends that.

@@ -16,7 +16,7 @@ use crate::layer::program::{self, Move, Operation, Piece};
 use crate::path::Position;
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::moves::shape::{Circle, Shape, ShapeError};
-use framepath::moves::{FeedWord, MotionType, STATE_TAG_SIZE, StateTag, TerminationCondition};
+use framepath::moves::{FeedWord, MotionType, StateTag, TerminationCondition};
 use framepath::planner::{CycleInputs, MoveRequest, Planner, Status};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -358,7 +358,7 @@ impl<'a> Drive<'a> {
             enables: OVERRIDES,
             wait_for_spindle: a_move.at_speed,
             indexer_joint: None,
-            tag: StateTag([0; STATE_TAG_SIZE]),
+            tag: StateTag::EMPTY,
         };
         let id = i32::try_from(a_move.index + 1).unwrap_or(i32::MAX);
         self.planner.set_id(id);
