@@ -111,3 +111,12 @@ fn the_modules_can_neither_panic_nor_allocate() {
         assert!(found.is_empty(), "{name}: {found:?}");
     }
 }
+
+/// The tool has that of Rust's library, whose last digit is another one.
+#[test]
+fn the_modules_take_no_cube_root_from_the_c_library() {
+    for name in ["blendtp.so", "framekins.so"] {
+        let imports = dynamic_symbols(&module(name), "--undefined-only");
+        assert!(!imports.contains("cbrt"), "{name} calls cbrt");
+    }
+}

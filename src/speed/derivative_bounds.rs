@@ -2,6 +2,7 @@
 
 use super::path_limits::PathLimits;
 use crate::axes::{Axes, AxisLimits};
+use crate::cube_root::cube_root;
 
 /// What derivatives of the path may be greater by between the places.
 const UNSEEN: f64 = 1.5;
@@ -51,7 +52,7 @@ impl DerivativeBounds {
         let velocity = cap
             .min(self.velocity(&limits.velocity))
             .min((TERM_SHARE * least(&limits.acceleration, &second)).sqrt())
-            .min((TERM_SHARE * least(&limits.jerk, &third)).cbrt());
+            .min(cube_root(TERM_SHARE * least(&limits.jerk, &third)));
         let coupling = Axes::from_fn(|axis, _| 3.0 * second[axis] * velocity);
         PathLimits {
             velocity,
