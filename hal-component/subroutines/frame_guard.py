@@ -15,7 +15,6 @@ Reads the settings (frame_settings.py) and does not come up if one is wrong, so 
 The README beside this file tells what an operator sees of it.
 """
 
-import math
 import os
 import signal
 import sys
@@ -26,8 +25,9 @@ import linuxcnc
 
 from frame_heart import Heart
 from frame_held import Held
+from frame_look import Look
 from frame_nets import missing_nets
-from frame_offsets import SAME, OffsetOfFrame, Offsets, differ
+from frame_offsets import SAME, differ
 from frame_settings import Settings, SettingsError
 from frame_stays import complaint, late_start, work_offset_changed
 
@@ -58,53 +58,6 @@ WATCHED = {"releases": ("releases", hal.HAL_S32), "active": ("guard.active", hal
                "frame-tool-offset.x", "frame-tool-offset.y", "frame-tool-offset.z")}}
 
 
-class Look:
-    """LinuxCNC's state at one moment."""
-
-    def __init__(self, status, pins):
-        """pins: the guard's own, see WATCHED."""
-        status.poll()
-        self.on = status.task_state == linuxcnc.STATE_ON
-        self.mode = status.task_mode
-        self.auto = status.task_mode == linuxcnc.MODE_AUTO
-        self.interpreter = status.interp_state
-        self.idle = status.interp_state == linuxcnc.INTERP_IDLE
-        #: changes with each command to LinuxCNC
-        self.serial = status.echo_serial_number
-        self.teleop = status.motion_mode == linuxcnc.TRAJ_MODE_TELEOP
-        # a jog in teleop is in position all the while
-        jogging = self.teleop and any(axis["velocity"] for axis in status.axis)
-        self.moving = not status.inpos or status.queue > 0 or jogging
-        self.coordinated = status.motion_mode == linuxcnc.TRAJ_MODE_COORD
-        self.non_modal = status.gcodes[2]
-        self.motion_type = status.motion_type
-        # what is left of the move: nothing at all before it begins
-        to_go = [abs(way) > SAME for way in status.dtg]
-        #: it is not one of rotary axes alone, which neither the work offset nor a frame leads elsewhere
-        self.runs = any(to_go[:3] + to_go[6:])
-        self.tool_offset = tuple(status.tool_offset[:3])
-        # G92 turns with the work offset; the same sum as in frame_send.ngc, of X Y Z
-        turned = turn(status.rotation_xy, status.g92_offset)
-        self.work_offset = (*(a + b for a, b in zip(status.g5x_offset[:3], turned, strict=True)), status.rotation_xy)
-        self.active = pins["active"]
-        #: a frame is taken off for a while, and a command would bring it back
-        self.suspended = not self.active and pins["operations"] > 0
-        self.has_frame = self.active or self.suspended
-        #: framekins holds the machine for what has changed on its pins
-        self.pending = pins["parameters-pending"]
-        self.command = pins["command"]
-        self.acknowledged = pins["acknowledged"]
-        #: how often framekins has removed a frame by itself
-        self.releases = pins["releases"]
-        self.offsets = Offsets(status)
-
-
-def turn(degrees, offset):
-    """X Y Z turned about Z."""
-    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return c * offset[0] - s * offset[1], s * offset[0] + c * offset[1], offset[2]
-
-
 def is_type_refused():
     """Whether the kinematics of inner= do not have the type that the pin says."""
     return hal.get_value("framekins.inner-refusal") != 0
@@ -121,7 +74,6 @@ class Guard:
         self.status = linuxcnc.stat()
         self.command = linuxcnc.command()
         self.last = None
-        self.offset = OffsetOfFrame()
         #: why the frame has to go, None if it may stay
         self.due = None
         #: since when the interpreter has been idle behind a program
@@ -200,14 +152,9 @@ class Guard:
             self.pins["programs-ended"] += 1
 
     def follow_commands(self, now, last):
-        """Whether frames come by commands, and with which work offset."""
-        self.offset.follow(now, self.offset_made())
+        """Whether frames come by commands."""
         if now.acknowledged != last.acknowledged:
             self.commanded = True
-
-    def offset_made(self):
-        """The work offset that the frame was made with."""
-        return tuple(self.pins[f"work-offset.{k}"] for k in ("x", "y", "z", "rotation"))
 
     def find_due(self, now, last):
         """Whether the frame has to be removed."""
@@ -253,9 +200,9 @@ class Guard:
             self.due = self.due or "start"
             self.stop(late_start(now.active, self.stays_since is not None))
             return
-        if not now.active or not now.moving or not now.coordinated:
+        if not now.active or not now.moving or not now.coordinated or not now.steady:
             return
-        if now.non_modal in MACHINE_MOVES:
+        if now.non_modal in MACHINE_MOVES and now.under_way:
             code = MACHINE_MOVES[now.non_modal]
             self.stop(f"{code} would run through the active frame: use o<machine_move> call, or put {code} between "
                       "o<frame_suspend> call and o<frame_resume> call")
@@ -264,9 +211,9 @@ class Guard:
                       "frame_tool_change, or call o<frame_suspend> before M6 and o<frame_resume> after it")
         elif not self.commanded:
             return  # a frame set on the pins by hand: what it was made for is not known
-        elif now.runs and self.offset.has_changed(now, self.offset_made()):
+        elif now.runs and differ(now.work_offset, now.offset_made):
             self.stop(work_offset_changed(self.due is not None))
-        elif self.pins["tool-length-matters"] and differ(now.tool_offset, [self.pins[f"frame-tool-offset.{k}"] for k in "xyz"]):
+        elif now.tool_length_matters and differ(now.tool_offset, now.tool_made):
             self.stop("the tool offset has changed while a frame with a scale or a mirror is active, or one that tilts or "
                       "turns where the tool's length stays along the machine's axes: call o<frame_refresh> behind the change")
 

@@ -38,28 +38,6 @@ class Offsets:
         return f"G10 L2 P{self.index} {' '.join(words)} R{self.rotation:.9f}"
 
 
-class OffsetOfFrame:
-    """Whether another work offset counts than the frame was made with.
-
-    Behind a startup code that chooses or sets one (RS274NGC_STARTUP_CODE) LinuxCNC's status does not have it before a program
-    or MDI does: what it says while the frame is made is no change for as long as it says that."""
-
-    def __init__(self):
-        self.frame = None
-        self.said = None
-
-    def follow(self, now, made):
-        """One look; made: what the frame in force was made with."""
-        said = (now.offsets.index, *now.work_offset)
-        if (now.active, made) != self.frame:
-            self.frame, self.said = (now.active, made), said
-        elif said != self.said:
-            self.said = None
-
-    def has_changed(self, now, made):
-        return self.said is None and differ(now.work_offset, made)
-
-
 def differ(one, other):
     """Whether two lists of offsets are not equal."""
     return any(abs(a - b) > SAME for a, b in zip(one, other, strict=True))

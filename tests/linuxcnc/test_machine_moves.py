@@ -67,6 +67,38 @@ class Modes(Case):
         self.assertEqual([(mode[0], mode[2]) for mode in self.modes(result)], [(10, 1), (10, 1)])
 
 
+class BackInTheFrame(Case):
+    """The move behind one of the machine waits for the next, or for a spindle, while the codes in force are still those of the
+    move before: frame_guard takes it for no move of the machine."""
+
+    MOVES = ("G79 X1 Y2 Z3", "o<machine_move> call [1] [2] [3]", "o<retract> call [9]",
+             "o<frame_suspend> call\nG28\no<frame_resume> call")
+    BEGIN = "G21 G90 G17 G61 F6000\no<trans> call [7] [-3] [4]\no<arot> call [30] [20] [10]\n"
+    PLANNERS: dict = {
+        "blendtp": ({}, None),
+        "tpmod": ({("TRAJ", "TPMOD"): "tpmod", ("HAL", "HALFILE"): "framepath-sim.hal"},
+                  lambda text: "\n".join(line for line in text.splitlines() if "blendtp" not in line) + "\n"),
+    }
+
+    def test_the_next_move_is_none_of_the_machine(self):
+        lines = [f"G1 X{3 + turn % 3} Y2 Z1\n{move}\n" for turn in range(8) for move in self.MOVES]
+        texts = {"many": f"{self.BEGIN}{''.join(lines)}G1 X3 Y2 Z1\nM66 E0 L0\n",
+                 "spindle": f"{self.BEGIN}G1 X3 Y2 Z1\nG79 X1 Y2 Z3\nM3 S100\nG1 X3 Y2 Z1\nM66 E0 L0\n",
+                 "wrong": f"{self.BEGIN}G1 X3 Y2 Z1\nG53 G0 X40\n"}
+        for planner, (ini, edit) in self.PLANNERS.items():
+            with self.subTest(planner):
+                result = harness.run(
+                    [["run", "PROGRAMS/many.ngc"], ["setp", "spindle.0.at-speed", 0], ["start", "PROGRAMS/spindle.ngc"],
+                     ["expect", "spindle.0.on", "TRUE"], ["sleep", 0.3], ["setp", "spindle.0.at-speed", 1], ["finish"],
+                     ["recall", "right"], ["run", "PROGRAMS/wrong.ngc"], ["expect", "framekins.active", "FALSE"],
+                     ["recall", "wrong"]],
+                    {f"{name}.ngc": f"{text}o<frame_off> call\nM2\n" for name, text in texts.items()}, ini={**QUICK, **ini},
+                    edit_hal=edit, record=False)
+                self.good(result)
+                self.assertEqual(result.answers["right"], [])
+                self.assertIn("G53", "\n".join(result.answers["wrong"]))
+
+
 class Lathe(Case):
     def test_x_is_a_diameter_in_a_code_and_a_radius_in_a_call(self):
         steps: list[list] = [["mdi", "G18 G7"]]

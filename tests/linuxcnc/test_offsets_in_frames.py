@@ -88,6 +88,39 @@ class StartupCode(Case):
         self.assertIn("work offset has changed", said["changes"])
 
 
+class BehindOneCommand(Case):
+    """A work offset or G92 that changes directly behind the only command for frames, between two looks of frame_guard."""
+
+    TEXTS = {
+        "chosen": "G54\no<rot> call [0] [0] [90]\nG55\nG1 X-60 Y5\n",
+        "set": "G54\no<rot> call [0] [0] [90]\nG10 L2 P1 X1\nG1 X-60 Y5\nM66 E0 L0\n",
+        "g92": "G54\no<rot> call [0] [0] [90]\nG92 X7\nG1 X-60 Y5\nM66 E0 L0\n",
+        "refreshed": "G55\no<rot> call [0] [0] [90]\nG54\no<frame_refresh> call\nG55\nG1 X-60 Y5\n",
+    }
+
+    def test_it_is_noticed(self):
+        steps: list[list] = [["mdi", "G10 L2 P2 X100 Y0 Z0 R0"]]
+        names = [f"{name} {turn}" for turn in range(6) for name in self.TEXTS]
+        for name in names:
+            # an abort may leave LinuxCNC's status with an offset that its interpreter does not have
+            steps += [["forget"], run(name.split()[0]), OFF, KNOWN, ["sleep", 0.1], ["recall", name],
+                      ["mdi", "G54 G92.1"], ["mdi", "G10 L2 P1 X0 Y0 Z0"], ["mdi", "G53 G0 X0 Y0 Z0"]]
+        result = harness.run(steps, programs(**{name: f"{text}o<frame_off> call\nM2\n" for name, text in self.TEXTS.items()}))
+        self.fine(result)
+        for name in names:
+            self.assertIn("work offset has changed", "\n".join(result.answers[name]), name)
+
+    def test_what_an_abort_leaves_is_told_anew(self):
+        # the second time the status has G55 of the first, where the interpreter is back in G54 and finds nothing to do
+        steps: list[list] = [["mdi", "G10 L2 P2 X100 Y0 Z0 R0"]]
+        for turn in range(8):
+            steps += [["forget"], run("chosen"), OFF, KNOWN, ["sleep", 0.1], ["recall", str(turn)]]
+        result = harness.run(steps, programs(chosen=self.TEXTS["chosen"] + "M2\n"))
+        self.fine(result)
+        for turn in range(8):
+            self.assertIn("work offset has changed", "\n".join(result.answers[str(turn)]), turn)
+
+
 class TouchingOff(Case):
     FRAME = "o<rot> call [0] [0] [90]\no<ascale> call [2] [2] [2]\nG0 X10 Y20 Z5\n"
     END = "M66 E0 L0\n(DEBUG, AT #<_x> #<_y> #<_z>)\nG0 X0 Y0 Z0\n"
