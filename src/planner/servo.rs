@@ -68,6 +68,11 @@ impl Planner {
         if self.queue.released(self.queue.first_serial()).is_none() {
             return;
         }
+        // What is in force is that of a move which waits for more moves, as with LinuxCNC's planner: it starts such a move at
+        // once, but not one that waits for a spindle or an indexer.
+        if !(backwards || self.status.waiting_for_spindle || next.indexer_joint.is_some()) {
+            self.status.tag = next.tag;
+        }
         // In the middle of a move there is only the path that led here.
         if !self.reference.is_active() || stale && !begun && !backwards {
             self.take_limits();

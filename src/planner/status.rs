@@ -32,7 +32,8 @@ pub struct Status {
     pub position: Axes,
     /// LinuxCNC's number of the move that runs, or waits for the spindle; 0 if there is none.
     pub exec_id: i32,
-    /// The tag of the last move that started; it stays after the end, as with LinuxCNC's planner.
+    /// The tag of the last move that started, or that waits for nothing but to be planned or for the operator; it stays after
+    /// the end, as with LinuxCNC's planner.
     pub tag: StateTag,
     /// The kind of the move that runs, `None` if there is none (LinuxCNC's 0).
     pub motion_type: Option<MotionType>,

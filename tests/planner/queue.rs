@@ -67,6 +67,37 @@ fn a_move_is_reported_while_it_runs() {
 }
 
 #[test]
+fn what_is_in_force_is_that_of_a_move_that_is_held() {
+    let tagged = |byte| MoveRequest {
+        tag: StateTag([byte; STATE_TAG_SIZE]),
+        ..feed_move(50.0)
+    };
+    with_machine(|machine| {
+        machine.line(at(10.0, 0.0), &tagged(1)).expect("a line");
+        machine.run(10_000);
+        machine.line(at(20.0, 0.0), &tagged(2)).expect("a line");
+        machine.planner.pause();
+        let status = machine.cycle();
+        assert_eq!((status.active_depth, status.tag), (0, tagged(2).tag));
+        machine.planner.resume();
+        machine.run(10_000);
+        // but not one that LinuxCNC's planner does not start
+        machine.inputs.spindles_at_speed = false;
+        let request = MoveRequest {
+            wait_for_spindle: true,
+            ..tagged(3)
+        };
+        machine.line(at(30.0, 0.0), &request).expect("a line");
+        for _ in 0..50 {
+            let status = machine.cycle();
+            assert_eq!((status.active_depth, status.tag), (0, tagged(2).tag));
+        }
+        machine.inputs.spindles_at_speed = true;
+        assert_eq!(machine.cycle().tag, request.tag);
+    });
+}
+
+#[test]
 fn ids_follow_the_moves() {
     with_machine(|machine| {
         machine.planner.set_id(10);
