@@ -67,6 +67,29 @@ class Prerequisites(unittest.TestCase):
         self.assertRegex(said, r"sudo is not there; as root: apt-get install --no-install-recommends.* cargo-web rustc-web\n")
         self.assertNotIn("installing", said)
 
+    def test_nothing_is_installed_where_apt_would_remove_something_for_it(self):
+        self.put("commands/id", "echo 0")
+        self.put("commands/cargo", "echo cargo 1.85.0")
+        self.put("commands/apt-get", 'echo apt-get "$@"\n[ "$2" != --simulate ] || printf "Remv cargo [1.85.0]\\nRemv rustup [1.27]\\n"')
+        code, said = self.run_with()
+        self.assertEqual(code, 1)
+        self.assertIn("nothing is installed, since apt would remove what is there: cargo rustup\n", said)
+        self.assertRegex(said, "where you can do without: apt-get install --no-install-recommends.* cargo-web rustc-web\n")
+        self.assertIn("cargo 1.90 or newer of rustup's", said)
+        self.assertNotIn("apt-get install -y", said)
+
+    def test_apt_is_told_to_remove_nothing(self):
+        self.put("commands/id", "echo 0")
+        self.put("commands/cargo", "echo cargo 1.85.0")
+        self.assertRegex(self.run_with()[1], "apt-get install -y .*--no-remove .* cargo-web rustc-web\n")
+
+    def test_beside_a_linuxcnc_that_is_run_in_place_none_is_installed(self):
+        self.put("commands/id", "echo 0")
+        text = self.text().replace("/usr/lib/linuxcnc/modules", self.folder)
+        self.assertIn("linuxcnc-uspace", self.run_with(text, LINUXCNC_INCLUDE="/nonexistent")[1])
+        said = self.run_with(text, LINUXCNC_INCLUDE="/nonexistent", LINUXCNC_IN_PLACE="/nonexistent")[1]
+        self.assertNotIn("linuxcnc-uspace", said)
+
 
 if __name__ == "__main__":
     unittest.main()
