@@ -320,25 +320,36 @@ installable:
 	        "or make install DESTDIR=... with a folder of yours" >&2; exit 1; }; \
 	done
 
-# Not what a run of a sample in the source has left there.
-SAMPLES = $(patsubst hal-component/%,%,$(wildcard $(addprefix hal-component/configs/*/*.,hal ini ngc tbl)))
+# What goes into $(SHARE): not what a run of a sample in the source has left there.
+SHARED_PROGRAMS = subroutines/frame_guard.py panel/program_time.py
+SHARED_PATTERNS = subroutines/*.ngc subroutines/frame_*.py subroutines/README.md preview/*.py panel/time_table.py \
+    $(addprefix panel/*.,xml ui hal) $(addprefix configs/*/*.,hal ini ngc tbl)
+SHARED_TEXTS = $(filter-out $(SHARED_PROGRAMS),$(patsubst hal-component/%,%,$(wildcard $(addprefix hal-component/,$(SHARED_PATTERNS)))))
+# They name others by where they are in the source.
+WITH_PATHS = $(filter configs/%.ini configs/%.hal panel/%.xml panel/%.hal,$(SHARED_TEXTS))
+
+# What was put into $(SHARE) is listed there: users put files of theirs beside it, into folders of ours, too.
+INSTALLED = installed-files
+REMOVE_INSTALLED = if [ -e $(SHARE)/$(INSTALLED) ]; then cd $(SHARE) && xargs -r -d '\n' rm -f -- < $(INSTALLED); fi
+REMOVE_EMPTY = if [ -d $(SHARE) ]; then \
+    rm -rf $(addprefix $(SHARE)/,$(addsuffix /__pycache__,subroutines preview panel)) && find $(SHARE) -depth -type d -empty -delete; fi
 
 install: installable modules completions
-# What an older one had and this one has not goes, since LinuxCNC would find it. What users have put beside samples stays.
-	rm -rf $(addprefix $(SHARE)/,subroutines preview panel)
-	rm -f $(SHARE)/configs/framepath-*/*.ini $(SHARE)/configs/framepath-*/*.hal
-	install -d $(MODULE_FOLDER) $(BIN) $(SHARE)/subroutines $(SHARE)/preview $(SHARE)/panel $(MAN)/man1 $(MAN)/man9
+# What an older one had and this one has not goes, since LinuxCNC would find it. What users have put beside it stays. One that
+# left no list may have left either.
+	@if [ -d $(SHARE) ] && [ ! -e $(SHARE)/$(INSTALLED) ]; then \
+	    if others=$$(cd $(SHARE) && find . -type f -printf '%P\n' | grep -Fvx $(addprefix -e ,$(SHARED_TEXTS) $(SHARED_PROGRAMS))); then \
+	        printf '%s\n' "make install: left in $(SHARE), since they are yours or of a framepath that kept no list:" "$$others"; fi; fi
+	@$(REMOVE_INSTALLED)
+	@$(REMOVE_EMPTY)
+	install -d $(MODULE_FOLDER) $(BIN) $(SHARE) $(MAN)/man1 $(MAN)/man9
+	@printf '%s\n' $(SHARED_TEXTS) $(SHARED_PROGRAMS) $(INSTALLED) | install -m 644 /dev/stdin $(SHARE)/$(INSTALLED)
 	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
 	install -m 755 $(TOOL) $(BIN)
-	install -m 644 hal-component/subroutines/*.ngc hal-component/subroutines/frame_[!g]*.py \
-	    hal-component/subroutines/README.md $(SHARE)/subroutines
-	install -m 755 hal-component/subroutines/frame_guard.py $(SHARE)/subroutines
-	install -m 644 hal-component/preview/*.py $(SHARE)/preview
-	install -m 644 $(addprefix hal-component/panel/,*.xml *.ui *.hal time_table.py) $(SHARE)/panel
-	install -m 755 hal-component/panel/program_time.py $(SHARE)/panel
-	for file in $(SAMPLES); do install -D -m 644 hal-component/$$file $(SHARE)/$$file || exit 1; done
+	@for file in $(SHARED_TEXTS); do install -D -m 644 hal-component/$$file $(SHARE)/$$file || exit 1; done
+	@for file in $(SHARED_PROGRAMS); do install -D -m 755 hal-component/$$file $(SHARE)/$$file || exit 1; done
 # A copy in the user's folder has to find them, too.
-	sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|g' $(SHARE)/configs/*/*.ini $(SHARE)/configs/*/*.hal $(SHARE)/panel/*.xml $(SHARE)/panel/*.hal
+	@cd $(SHARE) && sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|g' $(WITH_PATHS)
 	install -d $(EXAMPLES)
 	ln -sfn $(PREFIX)/share/framepath/configs $(EXAMPLES)/framepath
 	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
@@ -352,8 +363,12 @@ uninstall:
 	rm -f $(MODULE_FOLDER)/framekins.so $(MODULE_FOLDER)/blendtp.so $(BIN)/framepath
 	rm -f $(MAN)/man9/framekins.9 $(MAN)/man9/blendtp.9 $(MAN)/man1/framepath.1
 	rm -f $(COMPLETIONS)
-	rm -rf $(SHARE)
+	@$(REMOVE_INSTALLED)
+# An older one has left no list: what this one has goes.
+	@rm -f $(addprefix $(SHARE)/,$(SHARED_TEXTS) $(SHARED_PROGRAMS))
+	@$(REMOVE_EMPTY)
 	rm -f $(EXAMPLES)/framepath
+	@if [ -d $(SHARE) ]; then echo "make uninstall: left, since framepath has not put them there:" && find $(SHARE) ! -type d; fi
 
 # Packages are made from a copy of the source beside what is built: target/package. What is built may lie in the source under
 # any name, which tar would copy into itself; and runs of the samples leave files in their folders.

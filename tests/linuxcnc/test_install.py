@@ -18,6 +18,16 @@ def make(target, *settings, umask=-1):
                           stderr=subprocess.STDOUT, text=True, check=False, umask=umask)
     if done.returncode:
         raise AssertionError(done.stdout)
+    return done.stdout
+
+
+def put(folder, *names, text=""):
+    """Files with this text, and their folders."""
+    for name in names:
+        path = os.path.join(folder, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
 
 
 def files(folder):
@@ -96,24 +106,43 @@ class Install(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             share = os.path.join(folder, "usr/share/framepath")
             older = ("subroutines/gone.ngc", "panel/gone.hal", "preview/gone.py", "configs/framepath-gone/gone.ini")
-            kept = ("configs/framepath-sim/framepath-sim.var", "configs/framepath-sim/mine.ngc", "configs/mine/mine.ini")
-            for name in (*older, *kept):
-                os.makedirs(os.path.dirname(os.path.join(share, name)), exist_ok=True)
-                with open(os.path.join(share, name), "w", encoding="utf-8"):
-                    pass
+            kept = ("configs/framepath-sim/framepath-sim.var", "configs/framepath-sim/mine.ngc",
+                    "configs/framepath-sim/mine.ini", "configs/mine/mine.ini", "subroutines/mine.ngc", "panel/mine.hal")
+            put(share, *older)
+            put(share, *kept, text="../../mine\n")
+            put(share, "installed-files", text="".join(f"{name}\n" for name in older))
             left = os.path.join(harness.SAMPLES, "configs/framepath-lathe/position.txt")
-            with open(left, "w", encoding="utf-8"):
-                pass
+            put("", left)
             try:
-                make("install", f"DESTDIR={folder}")
+                said = make("install", f"DESTDIR={folder}")
                 ignored = subprocess.run(["git", "-C", harness.ROOT, "check-ignore", left], capture_output=True, check=False)
             finally:
                 os.remove(left)
             there = files(share)
             self.assertEqual(there & {*older, "configs/framepath-lathe/position.txt"}, set())
-            self.assertLessEqual(set(kept), there)
+            self.assertFalse(os.path.exists(os.path.join(share, "configs/framepath-gone")))
+            self.assertNotIn("left in", said)
+            # again, with a list of this one
+            make("install", f"DESTDIR={folder}")
+            for name in kept:
+                with open(os.path.join(share, name), encoding="utf-8") as file:
+                    self.assertEqual(file.read(), "../../mine\n", name)
+            said = make("uninstall", f"DESTDIR={folder}")
+            self.assertEqual(files(folder), {os.path.join("usr/share/framepath", name) for name in kept})
+            self.assertIn(f"left, since framepath has not put them there:\n{share}/", said)
             # 128: this source is not a clone of git
             self.assertIn(ignored.returncode, (0, 128))
+
+    def test_over_an_older_one_without_a_list_only_what_this_one_has_is_replaced(self):
+        with tempfile.TemporaryDirectory() as folder:
+            share = os.path.join(folder, "usr/share/framepath")
+            put(share, "subroutines/gone.ngc", "subroutines/trans.ngc")
+            said = make("install", f"DESTDIR={folder}")
+            self.assertRegex(said, f"left in {share}, since .*\nsubroutines/gone.ngc\n(?!subroutines)")
+            self.assertGreater(os.path.getsize(os.path.join(share, "subroutines/trans.ngc")), 0)
+            os.remove(os.path.join(share, "installed-files"))
+            make("uninstall", f"DESTDIR={folder}")
+            self.assertEqual(files(folder), {"usr/share/framepath/subroutines/gone.ngc"})
 
     def run_copy(self, folder, *arguments, **options):
         """make with nothing but the Makefile, in a folder; its code and what it says of errors."""
