@@ -6,9 +6,13 @@ $(foreach name,CURDIR CARGO_TARGET_DIR DESTDIR PREFIX LINUXCNC_SOURCE,$(if $(wor
 
 CARGO ?= cargo
 PYTHON = /usr/bin/python3
-TARGET = $(abspath $(or $(CARGO_TARGET_DIR),target))
+TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
 $(if $(filter $(CURDIR),$(realpath $(TARGET))),$(error \
     CARGO_TARGET_DIR=$(CARGO_TARGET_DIR) is the folder of the source: take one in it or beside it))
+# cargo builds there and nowhere else, whatever its own configuration ([build] target-dir) says: what was built earlier would
+# be taken otherwise. So does every make that this one starts, in other folders, too.
+override export CARGO_TARGET_DIR := $(TARGET)
+MAKEOVERRIDES := $(filter-out CARGO_TARGET_DIR=%,$(MAKEOVERRIDES))
 MODULES = $(TARGET)/modules
 FAULT_MODULES = $(TARGET)/fault-modules
 # dev builds faster: the tests use it

@@ -162,6 +162,19 @@ class Install(unittest.TestCase):
                     self.assertEqual(code, 2)
                     self.assertIn(f"{setting} has a blank", said)
 
+    def test_cargo_builds_where_make_looks_whatever_its_own_configuration_says(self):
+        with tempfile.TemporaryDirectory() as folder:
+            put(folder, "hal-component/Makefile", text="built-for all:\n\techo $(CARGO_TARGET_DIR) >&2\n")
+            put(folder, "cargo", text='#!/bin/sh\necho "$CARGO_TARGET_DIR" >&2\n')
+            os.chmod(os.path.join(folder, "cargo"), 0o755)
+            environment = {name: value for name, value in os.environ.items() if name != "CARGO_TARGET_DIR"}
+            for settings, target in (((), "target"), (("CARGO_TARGET_DIR=build/out",), "build/out")):
+                with self.subTest(target=target):
+                    code, said = self.run_copy(folder, "-s", "-o", "prerequisites", f"CARGO={folder}/cargo", "modules", *settings,
+                                               env=environment)
+                    self.assertEqual(code, 0, said)
+                    self.assertEqual(said.splitlines(), [os.path.join(folder, target)] * 3)
+
     def test_who_may_not_write_there_is_told_before_the_build(self):
         with tempfile.TemporaryDirectory() as folder:
             there = os.path.join(folder, "usr")

@@ -95,7 +95,7 @@ class OfALittleSource(unittest.TestCase):
         """What dpkg-deb lists of the package, after a make whose files are for nobody else."""
         done = subprocess.run(["make", "-C", self.source, "-o", "prerequisites", "deb-source"], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False, umask=0o077,
-                              env=dict(os.environ, **environment))
+                              env={**os.environ, "CARGO_TARGET_DIR": "target", **environment})
         self.assertEqual(done.returncode, 0, done.stdout)
         target = environment.get("CARGO_TARGET_DIR", "target")
         found = glob.glob(os.path.join(self.source, target, "package", "*.deb"))
