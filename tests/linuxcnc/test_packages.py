@@ -207,7 +207,8 @@ class BuiltWhereInstalled(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertNotIn("install\n", log)
         for words in ("NOT BUILT", "    cargo 1.90 is needed", "dpkg-reconfigure framepath-source", "TPMOD = blendtp",
-                      "KINEMATICS = trivkins", "LinuxCNC itself is as it was"):
+                      "KINEMATICS = trivkins", "LinuxCNC itself is as it was", "each REMAP", "M6", "ON_ABORT_COMMAND = o<frame_abort>",
+                      "USER_COMMAND_FILE", "operator.hal", "/usr/src/framepath/README.md"):
             self.assertIn(words, said)
 
 
