@@ -379,9 +379,9 @@ uninstall:
 PACKAGE = $(TARGET)/package
 BUILT_INSIDE = $(addprefix ./,$(filter-out ../%,$(shell realpath -m --relative-to=. $(TARGET) $(PACKAGE))))
 LEFT_OUT = target __pycache__ ./.git *.var *.var.bak position.txt $(BUILT_INSIDE)
-COPY_SOURCE = rm -rf $(PACKAGE)/framepath $(PACKAGE)/$(1)_* && mkdir -p $(PACKAGE)/framepath && \
+COPY_SOURCE = version=$$(debian/package-version) && rm -rf $(PACKAGE)/framepath $(PACKAGE)/$(1)_* && mkdir -p $(PACKAGE)/framepath && \
     tar -c --exclude-caches-all $(addprefix --exclude=,$(LEFT_OUT)) . | tar -x -C $(PACKAGE)/framepath && \
-    sed -i "1s/(.*)/($$(debian/package-version))/" $(PACKAGE)/framepath/debian/changelog
+    sed -i "1s/(.*)/($$version)/" $(PACKAGE)/framepath/debian/changelog
 BUILD_PACKAGE = cd $(PACKAGE)/framepath && CARGO_TARGET_DIR=$(TARGET) FRAMEPATH_BUILT=1 dpkg-buildpackage -d -nc -us -uc
 
 # With the modules for the LinuxCNC that is installed: sudo apt install ./target/package/framepath_*.deb

@@ -132,6 +132,21 @@ class OfALittleSource(unittest.TestCase):
         subprocess.run(["git", "-C", self.source, *settings, *arguments], check=True, capture_output=True,
                        env=dict(os.environ, GIT_AUTHOR_DATE=date, GIT_COMMITTER_DATE=date))
 
+    def test_a_clone_that_git_does_not_read_has_no_version(self):
+        os.mkdir(os.path.join(self.source, ".git"))
+        commands = os.path.join(self.source, "commands")
+        os.mkdir(commands)
+        with open(os.path.join(commands, "git"), "w", encoding="utf-8") as file:
+            file.write("#!/bin/sh\necho fatal: dubious ownership >&2\nexit 128\n")
+        os.chmod(os.path.join(commands, "git"), 0o755)
+        done = subprocess.run(["make", "-C", self.source, "-o", "prerequisites", "deb-source"], capture_output=True, text=True,
+                              check=False, env={**os.environ, "CARGO_TARGET_DIR": "target",
+                                                "PATH": f"{commands}:{os.environ['PATH']}"})
+        self.assertEqual(done.returncode, 2)
+        for words in ("dubious ownership", f"{self.source} is a clone of git", "apt install git", "safe.directory"):
+            self.assertIn(words, done.stderr)
+        self.assertFalse(os.path.exists(os.path.join(self.source, "target", "package")))
+
     def test_each_commit_makes_a_newer_version(self):
         versions = [self.version()]
         self.assertRegex(versions[0], r"^[\d.]+$")
