@@ -88,7 +88,16 @@ help:
 prerequisites:
 	@./prerequisites
 
-modules: prerequisites
+# What root has built (sudo make install) no other user can build on: said before cargo or the compiler stumble over it.
+BUILT_IN = $(MODULES) $(FAULT_MODULES) $(COMPLETED) $(addprefix $(TARGET)/,realtime release debug)
+
+buildable:
+	@foreign=$$([ -w $(TARGET) ] || [ ! -e $(TARGET) ] || echo $(TARGET); \
+	    for folder in $(wildcard $(BUILT_IN)); do find -H $$folder -maxdepth 2 ! -type l ! -writable -print -quit; done); \
+	[ -z "$$foreign" ] || { set -- $$foreign; echo "make: $$(id -un) may not write $$1, which belongs to $$(stat -c %U $$1):" \
+	    "sudo chown -R $$(id -un) $(TARGET), or make CARGO_TARGET_DIR=... with a folder of yours" >&2; exit 1; }
+
+modules: buildable prerequisites
 	$(MAKE) -C hal-component OUT=$(MODULES) built-for
 	$(CARGO) build --locked --profile realtime --lib
 	$(MAKE) -C hal-component LIBRARY=$(TARGET)/realtime/libframepath.a OUT=$(MODULES)
@@ -99,7 +108,7 @@ fault-modules: modules
 	$(MAKE) -C hal-component LIBRARY=$(TARGET)/realtime/libframepath.a OUT=$(FAULT_MODULES) \
 	    DEFINES=-DFRAMEPATH_FAULT_INJECTION
 
-tool: prerequisites
+tool: buildable prerequisites
 	$(CARGO) build --locked --profile $(TOOL_PROFILE) -p framepath-tool
 
 demo: modules tool
@@ -403,6 +412,6 @@ debian-12 debian-13:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
+.PHONY: help prerequisites buildable modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
     fuzz fuzz-filter mutants compare figures five-axes tuning book screens header completions installable install uninstall deb deb-source \
     debian-12 debian-13 clean

@@ -175,6 +175,22 @@ class Install(unittest.TestCase):
                     self.assertEqual(code, 0, said)
                     self.assertEqual(said.splitlines(), [os.path.join(folder, target)] * 3)
 
+    def test_who_may_not_build_on_what_another_has_built_is_told_before_the_build(self):
+        with tempfile.TemporaryDirectory() as folder:
+            put(folder, "target/realtime/deps/built")
+            os.chmod(folder, 0o755)
+            nobody = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+            for place, mode in (("target/realtime/deps", 0o555), ("target/realtime/deps/built", 0o444)):
+                for name in ("target", "target/realtime", "target/realtime/deps", "target/realtime/deps/built"):
+                    os.chmod(os.path.join(folder, name), mode if name == place else 0o777)
+                for goal in ("modules", "tool"):
+                    code, said = self.run_copy(folder, "-o", "prerequisites", "CARGO=true", goal, **nobody,
+                                               env={**os.environ, "CARGO_TARGET_DIR": "target"})
+                    self.assertEqual(code, 2)
+                    self.assertIn(f"may not write {folder}/{place}, which belongs to ", said)
+                    self.assertIn("sudo chown -R ", said)
+                    self.assertIn(f" {folder}/target, or make CARGO_TARGET_DIR=", said)
+
     def test_who_may_not_write_there_is_told_before_the_build(self):
         with tempfile.TemporaryDirectory() as folder:
             there = os.path.join(folder, "usr")
