@@ -1,9 +1,11 @@
 """What the tests themselves would notice."""
 
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
+from unittest import mock
 
 import harness
 
@@ -43,6 +45,17 @@ class Harness(unittest.TestCase):
             self.assertNotEqual(done.returncode, 0, done.stderr)
             self.assertIn("is no Debian", done.stderr)
             self.assertTrue(os.path.exists(work))
+
+    @unittest.skipIf(os.geteuid(), "LinuxCNC runs as who runs the tests, unless that is root")
+    def test_what_only_root_may_read_or_enter(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("framekins.so", "blendtp.so"):
+                shutil.copy(os.path.join(harness.MODULES, name), folder)
+                os.chmod(os.path.join(folder, name), 0o600)
+            self.assertEqual(harness.run([["mdi", "G0 X1"]], modules=folder, record=False).errors, [])
+            told = f"nobody, who cannot get to {folder}/"
+            with mock.patch("tempfile.tempdir", folder), self.assertRaisesRegex(RuntimeError, told):
+                harness.run([])
 
 
 if __name__ == "__main__":
