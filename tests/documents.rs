@@ -83,6 +83,28 @@ fn files_that_are_named_exist() {
     );
 }
 
+/// DESIGN and CONTRIBUTING are pages of the book, too, as if they were in docs.
+#[test]
+fn links_of_the_book_lead_to_its_pages() {
+    let mut dead = Vec::new();
+    for document in documents() {
+        let text = std::fs::read_to_string(&document).expect("a text");
+        if document.ends_with("README.md") {
+            continue;
+        }
+        let links = text.split("](").skip(1);
+        for link in links.filter_map(|behind| behind.split([')', '#']).next()) {
+            if !link.is_empty()
+                && !link.starts_with("http")
+                && !root().join("docs").join(link).exists()
+            {
+                dead.push(format!("{}: {link}", document.display()));
+            }
+        }
+    }
+    assert!(dead.is_empty(), "{dead:#?}");
+}
+
 /// The value that a file of the core gives a constant.
 fn value_of(constant: &str, file: &str) -> Option<String> {
     let text = std::fs::read_to_string(root().join("src").join(file)).ok()?;
