@@ -347,6 +347,14 @@ REMOVE_INSTALLED = if [ -e $(SHARE)/$(INSTALLED) ]; then cd $(SHARE) && xargs -r
 REMOVE_EMPTY = if [ -d $(SHARE) ]; then \
     rm -rf $(addprefix $(SHARE)/,$(addsuffix /__pycache__,subroutines preview panel)) && find $(SHARE) -depth -type d -empty -delete; fi
 
+comma := ,
+
+# The usual prefix that this one is not: what is installed there comes first in PATH, or is left behind. The modules have one
+# folder for both.
+OTHER_PREFIX = $(if $(filter /usr/local,$(PREFIX:%/=%)),/usr,/usr/local)
+TELL_OTHER = if [ -e $(DESTDIR)$(OTHER_PREFIX)/bin/framepath ]; then \
+    echo "make $@: another one is there, $(DESTDIR)$(OTHER_PREFIX)/bin/framepath: to remove it make uninstall PREFIX=$(OTHER_PREFIX)$(1)"; fi
+
 install: installable modules completions
 # What an older one had and this one has not goes, since LinuxCNC would find it. What users have put beside it stays. One that
 # left no list may have left either.
@@ -371,6 +379,7 @@ install: installable modules completions
 	install -m 644 $(COMPLETED)/bash $(word 1,$(COMPLETIONS))
 	install -m 644 $(COMPLETED)/zsh $(word 2,$(COMPLETIONS))
 	install -m 644 $(COMPLETED)/fish $(word 3,$(COMPLETIONS))
+	@$(call TELL_OTHER,$(comma) then make install again)
 
 uninstall:
 	rm -f $(MODULE_FOLDER)/framekins.so $(MODULE_FOLDER)/blendtp.so $(BIN)/framepath
@@ -382,6 +391,7 @@ uninstall:
 	@$(REMOVE_EMPTY)
 	rm -f $(EXAMPLES)/framepath
 	@if [ -d $(SHARE) ]; then echo "make uninstall: left, since framepath has not put them there:" && find $(SHARE) ! -type d; fi
+	@$(TELL_OTHER)
 
 # Packages are made from a copy of the source beside what is built: target/package. What is built may lie in the source under
 # any name, which tar would copy into itself; and runs of the samples leave files in their folders.

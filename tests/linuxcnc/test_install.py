@@ -91,6 +91,14 @@ class Install(unittest.TestCase):
             make("uninstall", f"DESTDIR={folder}", "PREFIX=/usr/local")
             self.assertEqual(files(folder), set())
 
+    def test_one_of_another_prefix_is_told_of(self):
+        with tempfile.TemporaryDirectory() as folder:
+            put(folder, "usr/local/bin/framepath")
+            told = f"another one is there, {folder}/usr/local/bin/framepath: to remove it make uninstall PREFIX=/usr/local"
+            self.assertIn(f"make install: {told}, then make install again\n", make("install", f"DESTDIR={folder}"))
+            self.assertIn(f"make uninstall: {told}\n", make("uninstall", f"DESTDIR={folder}"))
+            self.assertNotIn("another", make("uninstall", f"DESTDIR={folder}", "PREFIX=/usr/local"))
+
     def test_everybody_may_read_what_a_careful_root_installs(self):
         with tempfile.TemporaryDirectory() as folder:
             make("install", f"DESTDIR={folder}", umask=0o077)
