@@ -3,6 +3,7 @@
 //! HAL stands for a planner module (C, src/loaded/stubs.c).
 
 use std::env;
+use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio, exit};
@@ -33,6 +34,7 @@ pub fn build() {
     let modules = in_place().map(|folder| folder.join("rtlib"));
     let modules = modules.unwrap_or_else(|| INSTALLED_MODULES.into());
     println!("cargo:rustc-env=LINUXCNC_MODULES={}", modules.display());
+    println!("cargo:rustc-env=FRAMEPATH_BUILT_FOR={}", version(&include));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     compile_interpreter(&include, &out.join("interpreter"));
     compile_stubs(&include, &out.join("stubs.so"));
@@ -42,6 +44,27 @@ pub fn build() {
 fn in_place() -> Option<PathBuf> {
     println!("cargo:rerun-if-env-changed=LINUXCNC_IN_PLACE");
     env::var_os("LINUXCNC_IN_PLACE").map(PathBuf::from)
+}
+
+/// The version of the LinuxCNC whose headers these are, as hal-component/Makefile finds it: no header has it, the script
+/// beside them does. Empty where there is none.
+fn version(include: &[String]) -> String {
+    println!("cargo:rerun-if-env-changed=LINUXCNC_VERSION");
+    if let Ok(version) = env::var("LINUXCNC_VERSION") {
+        return version.trim().to_owned();
+    }
+    let scripts = include.iter().flat_map(|folder| {
+        ["../../bin/linuxcnc", "../scripts/linuxcnc"].map(|script| Path::new(folder).join(script))
+    });
+    let text = scripts
+        .filter_map(|script| fs::read(script).ok())
+        .map(|text| String::from_utf8_lossy(&text).into_owned())
+        .next()
+        .unwrap_or_default();
+    let version = text
+        .lines()
+        .find_map(|line| line.strip_prefix("LINUXCNCVERSION=\"")?.split('"').next());
+    version.unwrap_or_default().to_owned()
 }
 
 /// Whether LinuxCNC gives a limit of jerk with each move.

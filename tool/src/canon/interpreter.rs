@@ -6,6 +6,7 @@ use super::surroundings::Surroundings;
 use super::timed::Timed;
 use crate::memory_file::MemoryFile;
 use crate::path::Position;
+use crate::wiring::same_series::{OtherSeries, check_installed};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -64,6 +65,9 @@ pub enum CanonError {
         /// How long was waited, s.
         seconds: u64,
     },
+    /// LinuxCNC is another one than when this command was built.
+    #[error(transparent)]
+    OtherSeries(#[from] OtherSeries),
     /// The process was asked to stop.
     #[error("{}: ended before it was done; no file is written or changed", .0.display())]
     Stopped(PathBuf),
@@ -175,6 +179,7 @@ impl CallStream {
         home: Home,
         surroundings: &Surroundings,
     ) -> Result<CallStream, CanonError> {
+        check_installed()?;
         let unusable = |error: io::Error| failure(file, error.to_string());
         surroundings
             .write(&home.parameters(), &home.settings())

@@ -3,6 +3,7 @@
 use crate::canon::CanonError;
 use crate::joints::JointsError;
 use crate::machine::IniError;
+use crate::wiring::same_series::OtherSeries;
 use std::io;
 use std::path::PathBuf;
 
@@ -53,6 +54,9 @@ pub enum CompareError {
         /// What to do.
         hint: &'static str,
     },
+    /// A module is of another LinuxCNC than this command.
+    #[error(transparent)]
+    OtherSeries(#[from] OtherSeries),
     /// --repeat, and a module does something else when it is run again.
     #[error(
         "{}: another run of the same program went another way, so that its calls cannot be compared: leave \

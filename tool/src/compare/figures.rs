@@ -81,7 +81,9 @@ impl State {
                     "the move of line {line}, code {code}{}",
                     module_says()
                 )),
-                Ending::NotUsable(problem) => State::NotUsable(problem.clone()),
+                Ending::NotUsable(problem) => {
+                    State::NotUsable(format!("{problem}{}", module_says()))
+                }
                 Ending::Missing => State::Crashed("the record has no end".to_owned()),
             },
         }

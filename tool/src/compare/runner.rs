@@ -21,6 +21,7 @@ use crate::host::supervise;
 use crate::layer::program::Program;
 #[cfg(feature = "optimum")]
 use crate::machine::limits::{Limits, infinite_for_none};
+use crate::wiring::same_series::check_module;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -43,7 +44,7 @@ pub(super) struct Runner<'a> {
 
 impl<'a> Runner<'a> {
     /// # Errors
-    /// A module that does not exist.
+    /// A module that does not exist, or that this command cannot call.
     pub(super) fn new(
         arguments: &'a CompareArguments,
         conditions: &'a Conditions,
@@ -239,6 +240,7 @@ fn modules(named: &[PathBuf]) -> Result<Vec<Module>, CompareError> {
                 file: file.clone(),
                 hint,
             })?;
+            check_module(&absolute)?;
             Ok(Module {
                 name: file_name(file),
                 file: absolute.to_string_lossy().into_owned(),

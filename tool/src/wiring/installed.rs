@@ -26,6 +26,25 @@ impl LinuxCnc {
         let script = std::env::split_paths(&folders)
             .map(|folder| folder.join("linuxcnc"))
             .find(|file| file.is_file())?;
+        LinuxCnc::started_by(&script)
+    }
+
+    /// The one whose modules are in this folder: that of `PATH`, or the one that the folder is a part of, installed or built
+    /// to be run in place.
+    #[cfg(feature = "linuxcnc")]
+    pub fn of_modules(folder: &Path) -> Option<LinuxCnc> {
+        let folder = fs::canonicalize(folder).ok()?;
+        let scripts = ["../scripts/linuxcnc", "../../../bin/linuxcnc"];
+        let around = scripts
+            .iter()
+            .filter_map(|script| LinuxCnc::started_by(&folder.join(script)));
+        LinuxCnc::in_path()
+            .into_iter()
+            .chain(around)
+            .find(|found| fs::canonicalize(&found.modules).is_ok_and(|modules| modules == folder))
+    }
+
+    fn started_by(script: &Path) -> Option<LinuxCnc> {
         LinuxCnc::of_script(&String::from_utf8_lossy(&fs::read(script).ok()?))
     }
 

@@ -12,6 +12,8 @@ pub mod joints;
 pub mod outputs_line;
 pub mod own_files;
 pub mod previews;
+#[cfg(feature = "linuxcnc")]
+pub mod same_series;
 pub mod screens;
 pub mod settings;
 pub mod subject;

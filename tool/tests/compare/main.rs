@@ -12,6 +12,7 @@ mod json;
 mod measuring;
 mod operator;
 mod optimum;
+mod other_linuxcnc;
 mod programs;
 mod stock;
 mod support;

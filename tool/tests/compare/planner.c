@@ -48,6 +48,7 @@ int rtapi_app_main(void)
         return -1;
 #endif
 #ifdef FAULT_NO_START
+    rtapi_print_msg(RTAPI_MSG_ERR, "made-up: no heart\n");
     return -1;
 #endif
     return hal_ready(id);
