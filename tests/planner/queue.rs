@@ -10,6 +10,11 @@ use framepath::moves::{CAPACITY, MotionType, STATE_TAG_SIZE, StateTag, Terminati
 use framepath::planner::{AddError, Added, MoveRequest, PositionError};
 use nalgebra::Vector3;
 
+/// A tag that has this in all of its bytes.
+fn tag_of(byte: u8) -> StateTag {
+    StateTag([MaybeUninit::new(byte); STATE_TAG_SIZE])
+}
+
 /// The bytes of a tag that has been written in all of its bytes.
 #[allow(unsafe_code)]
 fn bytes(tag: &StateTag) -> [u8; STATE_TAG_SIZE] {
@@ -21,7 +26,7 @@ fn bytes(tag: &StateTag) -> [u8; STATE_TAG_SIZE] {
 fn a_move_is_reported_while_it_runs() {
     with_machine(|machine| {
         machine.planner.set_id(7);
-        let tag = StateTag([MaybeUninit::new(3); STATE_TAG_SIZE]);
+        let tag = tag_of(3);
         let request = MoveRequest {
             tag,
             enables: 0x0d,
@@ -69,7 +74,7 @@ fn a_move_is_reported_while_it_runs() {
 #[test]
 fn what_is_in_force_is_that_of_a_move_that_is_held() {
     let tagged = |byte| MoveRequest {
-        tag: StateTag([byte; STATE_TAG_SIZE]),
+        tag: tag_of(byte),
         ..feed_move(50.0)
     };
     with_machine(|machine| {
@@ -78,7 +83,10 @@ fn what_is_in_force_is_that_of_a_move_that_is_held() {
         machine.line(at(20.0, 0.0), &tagged(2)).expect("a line");
         machine.planner.pause();
         let status = machine.cycle();
-        assert_eq!((status.active_depth, status.tag), (0, tagged(2).tag));
+        assert_eq!(
+            (status.active_depth, bytes(&status.tag)),
+            (0, [2; STATE_TAG_SIZE])
+        );
         machine.planner.resume();
         machine.run(10_000);
         // but not one that LinuxCNC's planner does not start
@@ -90,10 +98,13 @@ fn what_is_in_force_is_that_of_a_move_that_is_held() {
         machine.line(at(30.0, 0.0), &request).expect("a line");
         for _ in 0..50 {
             let status = machine.cycle();
-            assert_eq!((status.active_depth, status.tag), (0, tagged(2).tag));
+            assert_eq!(
+                (status.active_depth, bytes(&status.tag)),
+                (0, [2; STATE_TAG_SIZE])
+            );
         }
         machine.inputs.spindles_at_speed = true;
-        assert_eq!(machine.cycle().tag, request.tag);
+        assert_eq!(bytes(&machine.cycle().tag), [3; STATE_TAG_SIZE]);
     });
 }
 
