@@ -2,15 +2,13 @@
 
 use super::finding::{Findings, advice};
 use crate::machine::configuration::is_rotary;
+use crate::machine::length_unit::INCH;
 use crate::wiring::blendtp::jerk_pin;
 use crate::wiring::subject::Subject;
 use serde::Serialize;
 
 /// A stop that the limit of jerk makes longer by more than this is told, mm or degrees.
 const MUCH_LONGER: f64 = 5.0;
-
-/// Millimetres in an inch.
-const INCH: f64 = 25.4;
 
 /// The stop of an axis, in machine units (degrees) and seconds.
 #[derive(Clone, Debug, PartialEq, Serialize)]

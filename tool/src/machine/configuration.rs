@@ -6,6 +6,7 @@ use super::angles;
 use super::coordinates::Coordinates;
 use super::error::IniError;
 use super::ini::Ini;
+use super::length_unit;
 
 /// Letters of LinuxCNC's axes, in its order.
 pub const AXIS_LETTERS: &str = "XYZABCUVW";
@@ -64,15 +65,12 @@ pub struct Machine {
     pub path_source: PathSource,
 }
 
-/// Millimetres in an inch.
-const INCH: f64 = 25.4;
-
 impl Machine {
     /// Length of a machine unit, mm.
     #[cfg(feature = "linuxcnc")]
     pub fn millimetres(&self) -> f64 {
         match self.length_unit {
-            "in" => INCH,
+            "in" => length_unit::INCH,
             _ => 1.0,
         }
     }
@@ -94,7 +92,7 @@ impl Machine {
                 "the servo period is in nanoseconds, 10000 to 100000000",
             ));
         }
-        let length_unit = length_unit(ini)?;
+        let length_unit = length_unit::needed(ini)?;
         angles::need_degrees(ini)?;
         let coordinates = Coordinates::from_ini(ini)?;
         let mut joints = Vec::with_capacity(coordinates.joints.len());
@@ -130,26 +128,6 @@ impl Machine {
             axes,
             path_source,
         })
-    }
-}
-
-fn length_unit(ini: &Ini) -> Result<&'static str, IniError> {
-    let text = ini.required_text(
-        "TRAJ",
-        "LINEAR_UNITS",
-        "write LINEAR_UNITS = mm (or inch); without it no number of the report has a unit",
-    )?;
-    // LinuxCNC 2.9 also takes how many units a millimetre has.
-    let is_near = |units: f64| {
-        text.parse::<f64>()
-            .is_ok_and(|number| (number / units - 1.0).abs() < 1e-3)
-    };
-    match text.to_ascii_lowercase().as_str() {
-        "mm" | "metric" => Ok("mm"),
-        "in" | "inch" | "imperial" => Ok("in"),
-        _ if is_near(1.0) => Ok("mm"),
-        _ if is_near(1.0 / INCH) => Ok("in"),
-        _ => Err(ini.bad_value("TRAJ", "LINEAR_UNITS", "mm or inch are understood here")),
     }
 }
 
@@ -372,15 +350,6 @@ MAX_ACCELERATION = 1000
         assert!(message("LINEAR_UNITS = mm", "LINEAR_UNITS = 2.0").contains("mm or inch"));
         assert!(message("MAX_VELOCITY = 100", "MAX_VELOCITY = 0").contains("above 0"));
         assert!(message("TYPE = LINEAR", "TYPE = LINEA").contains("LINEAR or ANGULAR"));
-    }
-
-    #[test]
-    fn units_may_be_a_number() {
-        let unit = |text: &str| {
-            let text = MILL.replace("LINEAR_UNITS = mm", &format!("LINEAR_UNITS = {text}"));
-            machine(&text).expect("a valid machine").length_unit
-        };
-        assert_eq!(["1", "1.0", "0.03937"].map(unit), ["mm", "mm", "in"]);
     }
 
     #[test]

@@ -8,6 +8,7 @@ use crate::hal::{Module, Script, State, Statement};
 use crate::machine::IniError;
 use crate::machine::configuration::AXIS_LETTERS;
 use crate::machine::ini::{Entry, Ini};
+use crate::machine::length_unit;
 use crate::machine::numbers;
 use crate::machine::place::Place;
 use std::path::{Path, PathBuf};
@@ -156,22 +157,21 @@ impl Subject {
         })
     }
 
-    /// `[TRAJ]LINEAR_UNITS` as it is compared.
-    fn linear_units(&self) -> String {
-        let units = self.text("TRAJ", "LINEAR_UNITS").unwrap_or("");
-        units.to_ascii_lowercase()
+    /// The machine unit, `mm` or `in`; `None` where it is another one, or none is given.
+    pub fn length_unit(&self) -> Option<&'static str> {
+        length_unit::meant(self.text("TRAJ", "LINEAR_UNITS")?)
     }
 
     /// Whether the machine unit is the inch.
     pub fn is_in_inches(&self) -> bool {
-        ["in", "inch", "imperial"].contains(&self.linear_units().as_str())
+        self.length_unit() == Some("in")
     }
 
     /// Whether frame_guard understands `[TRAJ]LINEAR_UNITS`.
     pub fn has_linear_units(&self) -> bool {
-        let units = self.linear_units();
-        let is_metric = ["mm", "metric"].contains(&units.as_str());
-        is_metric || self.is_in_inches() || leading_number(&units).is_some_and(|units| units > 0.0)
+        let units = self.text("TRAJ", "LINEAR_UNITS").unwrap_or("");
+        let is_possible = |units: f64| units > 0.0 && units.is_finite();
+        self.length_unit().is_some() || units.parse().is_ok_and(is_possible)
     }
 
     /// The module of motion.

@@ -338,21 +338,20 @@ fn other_screens_get_files_of_their_own_and_a_file_of_the_users_stays() {
 
 #[test]
 fn machines_in_inches_and_other_limits_of_jerk() {
-    let (folder, output) = changed(
-        "LINEAR_UNITS = mm",
-        "LINEAR_UNITS = inch",
-        &["--jerk", "50000"],
-    );
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let written = text(&output.stdout);
-    assert!(written.contains("+MAX_JERK = 50000\n"), "{written}");
-    for line in ["millimetre 0.0393700787", "default-tolerance 0.0008"] {
-        assert!(
-            written.contains(&format!("+setp blendtp.{line}\n")),
-            "{written}"
-        );
+    for inch in ["inch", ".03937"] {
+        let units = format!("LINEAR_UNITS = {inch}");
+        let (folder, output) = changed("LINEAR_UNITS = mm", &units, &["--jerk", "50000"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let written = text(&output.stdout);
+        assert!(written.contains("+MAX_JERK = 50000\n"), "{written}");
+        for line in ["millimetre 0.0393700787", "default-tolerance 0.0008"] {
+            assert!(
+                written.contains(&format!("+setp blendtp.{line}\n")),
+                "{inch}: {written}"
+            );
+        }
+        assert_eq!(findings(folder.path()), Value::Array(Vec::new()), "{inch}");
     }
-    assert_eq!(findings(folder.path()), Value::Array(Vec::new()));
 }
 
 #[test]

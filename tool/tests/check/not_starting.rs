@@ -125,6 +125,24 @@ fn angles_of_another_unit_than_the_degree_are_an_error() {
 }
 
 #[test]
+fn lengths_of_another_unit_than_millimetre_and_inch_are_told() {
+    for (units, level) in [
+        ("0.001", Some("warning")),
+        ("1", None),
+        ("metric", None),
+        ("cm", Some("error")),
+        ("1/25.4", Some("error")),
+    ] {
+        let found = found("LINEAR_UNITS = mm", &format!("LINEAR_UNITS = {units}"));
+        let told = found
+            .iter()
+            .find(|(_, said)| said.contains("LINEAR_UNITS"))
+            .map(|(level, _)| level.as_str());
+        assert_eq!(told, level, "{units}: {found:?}");
+    }
+}
+
+#[test]
 fn comments_behind_texts_are_errors() {
     for (key, value) in [
         ("VERSION", "1.1"),

@@ -16,6 +16,7 @@ mod joint_limits;
 mod kinematics;
 mod left_behind;
 mod limits;
+mod linear_units;
 mod loaded_modules;
 mod modules;
 mod motion_numbers;
@@ -63,6 +64,7 @@ pub fn apply(subject: &Subject, filter: FilterCheck, linuxcnc: Option<&LinuxCnc>
     }
     if subject.has_planner() || subject.has_frames() {
         threads::look(subject, &mut findings);
+        linear_units::look(subject, &mut findings);
         angular_units::look(subject, &mut findings);
     }
     if subject.has_frames() {

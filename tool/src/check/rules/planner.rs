@@ -2,14 +2,12 @@
 
 use crate::check::finding::{Findings, Level, Remedy, add, advice, if_missing, replace};
 use crate::hal::{Fix, Setting};
+use crate::machine::length_unit::INCH;
 use crate::wiring::USUAL_JERK;
 use crate::wiring::blendtp::{
     TOLERANCE_PIN, axis_of_pin, has_pin, inch_tolerance_line, jerk_line, jerk_pin, least_jerk,
 };
 use crate::wiring::subject::Subject;
-
-/// Millimetres in an inch.
-const INCH: f64 = 25.4;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
     unknown_pins(subject, findings);
@@ -186,14 +184,11 @@ fn tolerance_in_inches(subject: &Subject, findings: &mut Findings) {
 }
 
 fn millimetre(subject: &Subject, findings: &mut Findings) {
-    let units = subject
-        .text("TRAJ", "LINEAR_UNITS")
-        .unwrap_or("")
-        .to_ascii_lowercase();
-    let unit = match units.as_str() {
-        "mm" | "metric" => 1.0,
-        "in" | "inch" | "imperial" => 1.0 / INCH,
-        _ => return,
+    let units = subject.text("TRAJ", "LINEAR_UNITS").unwrap_or("");
+    let unit = match subject.length_unit() {
+        Some("in") => 1.0 / INCH,
+        Some(_) => 1.0,
+        None => return,
     };
     let pin = "blendtp.millimetre";
     let line = format!(
