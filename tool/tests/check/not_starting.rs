@@ -125,6 +125,26 @@ fn angles_of_another_unit_than_the_degree_are_an_error() {
 }
 
 #[test]
+fn endings_are_translated_in_capitals_and_without() {
+    let words = "nothing translates programs with the ending .";
+    for (line, ending) in [
+        ("\nMPF = framepath filter --dialect sinumerik", "MPF,"),
+        ("\nspf = framepath filter --dialect sinumerik", "spf,"),
+    ] {
+        let found = found(line, "");
+        let told = |(level, said): &(String, String)| {
+            level == "warning" && said.contains(&format!("{words}{ending}"))
+        };
+        assert!(found.iter().any(told), "{found:?}");
+    }
+    let found = found("# LinuxCNC looks for an ending", "# It looks for an ending");
+    assert!(
+        !found.iter().any(|(_, said)| said.contains(words)),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn lengths_of_another_unit_than_millimetre_and_inch_are_told() {
     for (units, level) in [
         ("0.001", Some("warning")),

@@ -142,8 +142,26 @@ fn endings(subject: &Subject, filters: &[&Entry], findings: &mut Findings) {
         let line = format!("{EXTENSIONS} = {} part program", list.join(","));
         findings.warning(&first.place, found, add(format!("[{SECTION}]"), line));
     }
+    other_case(subject, filters, findings);
     for entry in offers {
         untranslated(subject, entry, &offered(entry), filters, findings);
+    }
+}
+
+/// LinuxCNC looks for an ending as it is written, and programs come with capitals and without.
+fn other_case(subject: &Subject, filters: &[&Entry], findings: &mut Findings) {
+    for filter in filters {
+        let own = filter.key.trim_start_matches('.');
+        for ending in [own.to_ascii_lowercase(), own.to_ascii_uppercase()] {
+            if ending == own || subject.text(SECTION, &ending).is_some() {
+                continue;
+            }
+            let found = format!(
+                "nothing translates programs with the ending .{ending}, which is not .{own} to LinuxCNC: it reads them as its own"
+            );
+            let line = format!("{ending} = {}", filter.value);
+            findings.warning(&filter.place, found, add(format!("[{SECTION}]"), line));
+        }
     }
 }
 
@@ -166,10 +184,12 @@ fn untranslated(
         if subject.text(SECTION, ending).is_some() || (beside.is_none() && foreign.is_none()) {
             continue;
         }
-        if filters
-            .iter()
-            .any(|filter| filter.key.trim_start_matches('.') == ending)
-        {
+        // The same ending in the other case has been told of.
+        let is_ending = |filter: &&Entry| {
+            let key = filter.key.trim_start_matches('.');
+            key.eq_ignore_ascii_case(ending)
+        };
+        if filters.iter().any(is_ending) {
             continue;
         }
         let value = match foreign {
