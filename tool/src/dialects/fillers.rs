@@ -63,6 +63,19 @@ pub fn is_nul(file: &SourceFile) -> io::Result<bool> {
     Ok(nul)
 }
 
+/// Whether there is nothing in a file, not even NUL.
+pub fn is_empty(file: &SourceFile) -> io::Result<bool> {
+    for index in 0.. {
+        let Some(page) = file.page(index)? else {
+            break;
+        };
+        if page.text().contains('\0') || !page.text().chars().all(is_filler) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
 fn is_filler(c: char) -> bool {
     is_blank(c) || c.is_whitespace()
 }

@@ -149,6 +149,14 @@ impl<R: Routine> Library<R> {
         self.known(name)
     }
 
+    /// The file that has been read for this name, and the name of the program with which it begins.
+    pub fn first_of_file(&self, name: &str) -> Option<(&Path, &str)> {
+        let mut folders = self.folders.iter();
+        let path = folders.find_map(|folder| in_folder(folder, name, self.extensions))?;
+        let (path, first) = self.firsts.iter().find(|(known, _)| *known == path)?;
+        Some((path, first.name()))
+    }
+
     /// The first program of the file with this name, with this ending or one of those of subprograms. `folders`
     /// are looked for inside the known ones, the outermost first, which may be missing there.
     pub fn find_file(
@@ -303,6 +311,10 @@ impl<R: Routine> Library<R> {
         if let Some(guessed) = opened.guessed {
             diagnostics.note_encoding(&name, guessed);
         }
+        // What cannot be read is said by those who read it.
+        if fillers::is_empty(sources.file(file)).unwrap_or(false) {
+            diagnostics.push(nothing_to_call(file));
+        }
         self.add_file(file, path, sources, diagnostics);
         Some(())
     }
@@ -330,6 +342,14 @@ impl<R: Routine> Library<R> {
             self.firsts.push((path.to_path_buf(), Rc::clone(first)));
         }
     }
+}
+
+/// A subprogram file that was not transferred, or an empty one: the program would go on as if it had run.
+fn nothing_to_call(file: usize) -> Diagnostic {
+    let message =
+        "there is no block in this subprogram: nothing that a machine could do, and no end";
+    Diagnostic::error(Span::start_of(file), message)
+        .help("send the file once more, or write its end into it (M17, M99 or the like) if it is to do nothing")
 }
 
 fn stem(path: &Path) -> String {

@@ -431,6 +431,20 @@ fn offsets_frames_and_cycles() {
     }
 }
 
+#[test]
+fn a_subprogram_file_that_begins_with_another_number_is_named() {
+    let program = "O1\nM98 P11\nM30\n";
+    let files = [("part.nc", program), ("O0011.nc", "O12\nM99\n")];
+    let shown = Shop::new(Dialect::Fanuc, &files).refused(&[]);
+    let words = [
+        "the program O11 was not found: ",
+        "O0011.nc is there, but it begins with O12",
+    ];
+    for words in words {
+        assert!(shown.contains(words), "{shown}");
+    }
+}
+
 /// In increments an argument without a point has no sure value.
 #[test]
 fn arguments_have_points_where_numbers_count_increments() {

@@ -233,14 +233,25 @@ impl Interpreter<'_> {
             format!("{number}"),
             format!("{number:04}"),
         ];
-        for stem in stems {
-            for wanted in [&stem, &name] {
+        for stem in &stems {
+            for wanted in [stem, &name] {
                 let (sources, diagnostics) =
                     (&mut *self.control.sources, &mut *self.control.diagnostics);
                 if let Some(found) = self.library.find(wanted, sources, diagnostics) {
                     return Ok(found);
                 }
             }
+        }
+        let mut stems = stems.iter();
+        if let Some((path, first)) = stems.find_map(|stem| self.library.first_of_file(stem)) {
+            let path = path.display();
+            return Err(Diagnostic::error(
+                span,
+                format!(
+                    "the program {name} was not found: {path} is there, but it begins with {first}"
+                ),
+            )
+            .help(format!("write {name} into its first line, or call {first}")));
         }
         Err(Diagnostic::error(span, format!("the program {name} was not found")).help(format!(
                 "it is looked for in this file, and as O{number:04}.nc, {number:04}.nc and the like \
