@@ -58,6 +58,18 @@ WATCHED = {"releases": ("releases", hal.HAL_S32), "active": ("guard.active", hal
                "frame-tool-offset.x", "frame-tool-offset.y", "frame-tool-offset.z")}}
 
 
+def has_begun(now, last):
+    """Whether a program has started between two looks."""
+    if last.idle:
+        return True
+    # a program waits and goes on by itself as well; a start is a command
+    goes_on = last.interpreter == linuxcnc.INTERP_WAITING and now.interpreter == linuxcnc.INTERP_READING
+    if not goes_on or now.serial == last.serial:
+        return False
+    # to resume or step may let LinuxCNC read on where it has read all; a start reads from the beginning
+    return now.line != last.line or now.line == 0
+
+
 def is_type_refused():
     """Whether the kinematics of inner= do not have the type that the pin says."""
     return hal.get_value("framekins.inner-refusal") != 0
@@ -191,11 +203,7 @@ class Guard:
 
     def check_run(self, now, last):
         """Stops a run that must not go on with this frame."""
-        # a program waits and goes on by itself as well; a start is a command
-        begun = now.auto and (last.idle or (last.interpreter == linuxcnc.INTERP_WAITING
-                                            and now.interpreter == linuxcnc.INTERP_READING
-                                            and now.serial != last.serial))
-        if begun and last.has_frame and last.acknowledged == now.acknowledged and \
+        if now.auto and has_begun(now, last) and last.has_frame and last.acknowledged == now.acknowledged and \
                 (self.settings.clear_at_start or self.due):
             self.due = self.due or "start"
             self.stop(late_start(now.active, self.stays_since is not None))

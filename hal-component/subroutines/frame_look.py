@@ -28,6 +28,8 @@ class Look:
         self.idle = status.interp_state == linuxcnc.INTERP_IDLE
         #: changes with each command to LinuxCNC
         self.serial = status.echo_serial_number
+        #: the line of the program that was read last, 0 behind its end and before its first
+        self.line = status.read_line
         self.teleop = status.motion_mode == linuxcnc.TRAJ_MODE_TELEOP
         # a jog in teleop is in position all the while
         jogging = self.teleop and any(axis["velocity"] for axis in status.axis)

@@ -136,6 +136,29 @@ class Clearing(Case):
         self.assertIn("a frame was still suspended when the program started", "\n".join(result.answers["stopped"]))
         self.at(result, "end", (10, 0, 0))
 
+    def test_a_start_that_falls_between_two_looks(self):
+        # frame_guard sees the first run waiting for its last move, and next the second one reading
+        text = "G1 X3\nG4 P1\nM66 E0 L0\no<trans> call [10] [20] [0]\nG1 X5 F600\nM2\n"
+        result = harness.run([
+            ["start", "PROGRAMS/part.ngc"], ON, ["wait_place", 0, 14.9], ["forget"], ["guard", "STOP"], ["finish"], ["cycle_start"],
+            ["sleep", 0.2], ["guard", "CONT"], ["finish"], OFF, KNOWN, ["recall", "stopped"], ["note", "end"],
+        ], programs(part=text), ini=QUICK)
+        self.fine(result)
+        self.assertIn("a frame was still active when the program started", "\n".join(result.answers["stopped"]))
+        self.at(result, "end", (13, 0, 0), (13, 0, 0))
+
+    def test_to_resume_or_step_is_no_start(self):
+        # behind a pause of the while in which it was read LinuxCNC reads once more at each of them, beyond the end of the program
+        text = "G1 X3 F600\nM66 E0 L0\no<trans> call [10] [20] [0]\nG1 X50 F1500\nG4 P0.1\nX0\nM2\n(the end)\n"
+        begin = [["start", "PROGRAMS/part.ngc"], ["wait_moving"], ["pause"], ["sleep", 0.1], ["resume"], ON, ["wait_place", 0, 15]]
+        for keys in (("resume",), ("step", "resume")):
+            with self.subTest(keys):
+                pressed = [step for key in keys for step in ([key], ["sleep", 0.007])] * (60 // len(keys))
+                result = harness.run([*begin, *pressed, ["finish"], OFF, KNOWN, ["note", "end"]], programs(part=text), ini=QUICK)
+                result.forgive_end_of_steps()
+                self.fine(result)
+                self.at(result, "end", (10, 0, 0))
+
     def test_an_abort_that_leaves_a_frame_suspended_says_so(self):
         result = harness.run([
             ["mdi", "o<rot> call [0] [0] [90]"], ["mdi", "G91 G1 X1 F3000"], ["forget"], ["mdi_start", "G79 Z400"], ["wait_moving"],
