@@ -140,7 +140,7 @@ class Clearing(Case):
         # frame_guard sees the first run waiting for its last move, and next the second one reading
         text = "G1 X3\nG4 P1\nM66 E0 L0\no<trans> call [10] [20] [0]\nG1 X5 F600\nM2\n"
         result = harness.run([
-            ["start", "PROGRAMS/part.ngc"], ON, ["wait_place", 0, 14.9], ["forget"], ["guard", "STOP"], ["finish"], ["cycle_start"],
+            ["start", "PROGRAMS/part.ngc"], ON, ["wait_place", 0, 14], ["forget"], ["guard", "STOP"], ["finish"], ["cycle_start"],
             ["sleep", 0.2], ["guard", "CONT"], ["finish"], OFF, KNOWN, ["recall", "stopped"], ["note", "end"],
         ], programs(part=text), ini=QUICK)
         self.fine(result)
