@@ -19,30 +19,31 @@ static void tell_alarm(int alarm)
     told = alarm;
 }
 
-/* Whether this is not the thread in which motion asks for positions; said once. Then nothing is taken and nothing shown. */
+/* Whether what calls is not in the servo thread: refused with these words, once. */
+static int is_refused_here(int *told, const char *words)
+{
+    if (!on_another_thread())
+        return 0;
+    if (!*told)
+        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: %s in the HAL file\n", words);
+    return *told = 1;
+}
+
+/* Whether this is not the thread in which motion asks for positions. Then nothing is taken and nothing shown. */
 static int is_misplaced(void)
 {
     static int told;
-    if (!on_another_thread())
-        return 0;
-    if (!told)
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: it is in another thread than motion-controller, no frame is taken: write addf "
-                        "framekins servo-thread behind addf motion-controller servo-thread in the HAL file\n");
-    return told = 1;
+    return is_refused_here(&told, "it is in another thread than motion-controller, no frame is taken: write addf framekins "
+                                  "servo-thread behind addf motion-controller servo-thread");
 }
 
-/* Whether motion-command-handler, which asks whether the end of a move has joints, is not in that thread; said once. Then no
- * place has any, and motion takes no move: the library is in use by the controller. */
+/* Whether motion-command-handler, which asks whether the end of a move has joints, is not in that thread. Then no place has any,
+ * and motion takes no move: the library is in use by the controller. */
 static int is_asked_in_another_thread(void)
 {
     static int told;
-    if (!on_another_thread())
-        return 0;
-    if (!told)
-        rtapi_print_msg(RTAPI_MSG_ERR, "framekins: motion-command-handler is in another thread than motion-controller, no move is "
-                        "taken: write addf motion-command-handler servo-thread and then addf motion-controller servo-thread in "
-                        "the HAL file\n");
-    return told = 1;
+    return is_refused_here(&told, "motion-command-handler is in another thread than motion-controller, no move is taken: write "
+                                  "addf motion-command-handler servo-thread and then addf motion-controller servo-thread");
 }
 
 #endif
