@@ -81,8 +81,8 @@ static int move_comes(const emcmot_status_t *status)
 }
 
 /* The controller begins to plan, every so many ns; looks at the order until that is sure. A thread that is late runs one period
- * right behind the other, and may wait for the processor between handler and controller: that looks like the wrong order, and
- * counts for nothing. */
+ * right behind the other, and may wait for the processor between handler and controller: either order may then look like the
+ * other, and it counts for nothing. */
 static void controller_plans(long period)
 {
     long long now, before, after, since;
@@ -98,10 +98,9 @@ static void controller_plans(long period)
     before = threads.commanded - threads.ended;
     after = now - threads.commanded;
     threads.commanded = 0;
-    if (after <= MUCH_LONGER * before)
-        threads.order -= RIGHT_OUTWEIGHS;
-    else if (ON_TIME * llabs(since - period) <= period)
-        threads.order++;
+    if (ON_TIME * llabs(since - period) > period)
+        return;
+    threads.order += after > MUCH_LONGER * before ? 1 : -RIGHT_OUTWEIGHS;
     if (threads.order < ORDER_IS_SURE)
         return;
     threads.said = 1;

@@ -12,7 +12,7 @@ from test_loading import MOTION, halrun
 
 SAMPLE = "framepath-sim"
 HANDLER, CONTROLLER = ("addf motion-command-handler servo-thread\n", "addf motion-controller servo-thread\n")
-MOVES = "G21 G90 G64 P0.01 G1 F6000\n" + "".join(f"X{n % 7} Y{n % 5}\n" for n in range(60)) + "M2\n"
+MOVES = "G21 G90 G64 P0.01 G1 F6000\n" + "".join(f"X{n % 7} Y{n % 5}\n" for n in range(240)) + "M2\n"
 PROGRAM = [["run", "PROGRAMS/moves.ngc"]]
 
 
