@@ -114,7 +114,7 @@ fn blames(
     let mut total = others.axes() + JumpSum::of_groups(&[linear]).axes();
     let place = chain.leg(leg);
     shift::add(&mut total, &place.shift_at(s));
-    place.take_off_along(s, &mut total);
+    place.take_off_along(s, metric, &mut total);
     let mut blames = [0.0; MOST];
     for (((trial, number), value), blame) in trials().zip(values).zip(&mut blames) {
         if chain.vertex(number).held {

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::leg_check::LegCheck;
 use super::metric::Metric;
+use super::nearly_linear::is_nearly_linear;
 use super::settings::{Allowance, BlendSettings};
 use super::shift::Shift;
 use crate::axes::Axes;
@@ -14,9 +15,6 @@ use crate::moves::{FeedWord, NearLimit, TerminationCondition};
 /// Legs that turn by less, length of the difference of unit vectors, may be chords of a curve: 60
 /// degrees.
 const CHORD_JUMP: f64 = 1.0;
-
-/// What the length of a move may differ by from what F counts on it, of that: nothing else moves.
-const ROUNDING: f64 = 1e-12;
 
 /// A move as the blended path takes it.
 #[derive(Clone, Copy, Debug)]
@@ -76,6 +74,8 @@ pub(super) struct Leg {
     pub measure_rate: f64,
     /// What F counts.
     pub measure: Measure,
+    /// Whether nothing but X, Y and Z counts for much on it: see [`nearly_linear`](super::nearly_linear).
+    pub is_linear: bool,
     /// How far its direction turns for a unit of path distance, radians: 0 on a line.
     pub turning: f64,
     /// Programmed speed, path distance per second.
@@ -119,6 +119,7 @@ impl Leg {
         shift: Shift::NONE,
         measure_rate: 1.0,
         measure: Measure::Linear,
+        is_linear: false,
         turning: 0.0,
         speed: 0.0,
         greatest_speed: 0.0,
@@ -140,6 +141,13 @@ impl Leg {
         let per_measure = metric.per_measure(&programmed.shape);
         let length = programmed.shape.length() * per_measure;
         let speed = programmed.feed * per_measure;
+        let measure = match &programmed.shape {
+            Shape::Line(line) => {
+                let displacement = line.direction() * line.length();
+                measure::of(&displacement).map_or(Measure::Linear, |(measure, _)| measure)
+            }
+            Shape::Arc(_) => Measure::Linear,
+        };
         let allowance = match programmed.termination {
             TerminationCondition::Continuous { tolerance } => settings.allowance(tolerance),
             TerminationCondition::Exact | TerminationCondition::Stop => settings.exact(),
@@ -151,13 +159,9 @@ impl Leg {
             length,
             whole: length,
             measure_rate: 1.0 / per_measure,
-            measure: match &programmed.shape {
-                Shape::Line(line) => {
-                    let displacement = line.direction() * line.length();
-                    measure::of(&displacement).map_or(Measure::Linear, |(measure, _)| measure)
-                }
-                Shape::Arc(_) => Measure::Linear,
-            },
+            measure,
+            is_linear: measure == Measure::Linear
+                && is_nearly_linear(&programmed.shape, per_measure, settings),
             turning: turning(&programmed.shape) / per_measure,
             speed,
             greatest_speed: programmed.greatest_feed.max(programmed.feed) * per_measure,
@@ -200,11 +204,6 @@ impl Leg {
         }
     }
 
-    /// Whether it moves nothing but X, Y and Z.
-    pub fn is_linear(&self) -> bool {
-        self.measure == Measure::Linear && (self.measure_rate - 1.0).abs() < ROUNDING
-    }
-
     /// Whether it is one of several [chords](super::chords) of an arc.
     pub fn is_chord(&self) -> bool {
         self.before > 0.0 || self.after > 0.0
@@ -212,13 +211,13 @@ impl Leg {
 
     /// Whether it may be anywhere in its tolerance, and where along it does not matter.
     pub fn is_free(&self) -> bool {
-        self.may_swing_out && self.near_limit == NearLimit::NONE && self.is_linear()
+        self.may_swing_out && self.near_limit == NearLimit::NONE && self.is_linear
     }
 
-    /// The line, if it does not matter where along it the path is: one of XYZ alone, and no thread, whose pitch that would change.
+    /// The line, if it does not matter where along it the path is: one of XYZ for the most, and no thread, whose pitch that would change.
     fn line_in_space(&self) -> Option<&Line9> {
         match &self.shape {
-            Shape::Line(line) if self.may_swing_out && self.is_linear() => Some(line),
+            Shape::Line(line) if self.may_swing_out && self.is_linear => Some(line),
             _ => None,
         }
     }
@@ -235,13 +234,16 @@ impl Leg {
     /// The distance from a line is convex, and two places differ in it by no more than they are apart: what bounds the
     /// deviation between two places bounds this as well.
     #[inline]
-    pub fn take_off_along(&self, s: f64, deviation: &mut Axes) {
+    pub fn take_off_along(&self, s: f64, metric: &Metric, deviation: &mut Axes) {
         let behind = self.distance(s) + self.lead;
         let ahead = self.whole - behind;
         let is_end = behind <= 0.0 || ahead <= 0.0 || (self.is_last_part && s >= self.end());
         if !is_end && let Some(line) = self.line_in_space() {
-            let direction = line.direction();
-            let along = direction.dot(deviation).min(ahead).max(-behind);
+            let direction = line.direction() * self.measure_rate;
+            let along = metric
+                .product(&direction, deviation)
+                .min(ahead)
+                .max(-behind);
             *deviation -= direction * along;
         }
     }
@@ -410,8 +412,7 @@ mod tests {
     /// A line of 10 mm along X, and along this much of B.
     fn line(b: f64, may_swing_out: bool) -> Leg {
         let mut end = Axes::zeros();
-        end[0] = 10.0;
-        end[4] = b;
+        (end[0], end[4]) = (10.0, b);
         let programmed = ProgrammedMove {
             serial: 1,
             shape: Shape::Line(Line9::new(&Axes::zeros(), &end).expect("a line")),
@@ -424,14 +425,13 @@ mod tests {
             may_swing_out,
             near_limit: NearLimit::NONE,
         };
-        let metric = Metric::new(0.1);
-        Leg::new(&programmed, &BlendSettings::DEFAULT, &metric)
+        Leg::new(&programmed, &BlendSettings::DEFAULT, &Metric::new(0.1))
     }
 
     /// What is left at `s` of a deviation by this much along the leg, .4 across it, and .2 degrees.
     fn left(leg: &Leg, s: f64, along: f64) -> [f64; AXIS_COUNT] {
         let mut deviation = Axes::from([along, 0.0, 0.4, 0.0, 0.2, 0.0, 0.0, 0.0, 0.0]);
-        leg.take_off_along(s, &mut deviation);
+        leg.take_off_along(s, &Metric::new(0.1), &mut deviation);
         let [axes] = deviation.data.0;
         axes
     }
@@ -474,10 +474,22 @@ mod tests {
 
     #[test]
     fn on_a_thread_and_beside_other_axes_all_of_it_counts() {
-        for leg in [line(0.0, false), line(1.0, true)] {
+        for leg in [line(0.0, false), line(100.0, true)] {
             assert!(!leg.is_free_along());
             assert_eq!(left(&leg, 5.0, 0.3), of(0.3));
         }
         assert!(line(0.0, true).is_free_along());
+    }
+
+    #[test]
+    fn beside_a_little_of_a_rotary_axis_what_is_left_is_across_both() {
+        let metric = Metric::new(0.1);
+        let leg = line(50.0, true);
+        assert!(leg.is_free_along());
+        let rest = Axes::from(left(&leg, 5.0, 0.3));
+        assert!(metric.product(&rest, &leg.direction_at_start()).abs() < 1e-15);
+        let along = Axes::from(of(0.3)) - rest;
+        let share = metric.product(&along, &leg.direction_at_start()) / metric.norm(&along);
+        assert!((share.abs() - 1.0).abs() < 1e-12, "{share}");
     }
 }

@@ -60,6 +60,7 @@ mod line_merger;
 mod lone_corner;
 mod metric;
 mod narrowed;
+mod nearly_linear;
 mod orientation;
 mod path_sums;
 mod reaching;

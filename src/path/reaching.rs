@@ -139,7 +139,7 @@ impl Reaching {
         let mut deviation = sum.axes();
         let leg = chain.leg(self.leg);
         shift::add(&mut deviation, &leg.shift_at(s));
-        leg.take_off_along(s, &mut deviation);
+        leg.take_off_along(s, metric, &mut deviation);
         metric.deviation(&deviation, turn_share)
     }
 
@@ -249,7 +249,7 @@ mod tests {
                             bound += vertex.bend_bound(counted, near);
                         }
                         let mut expected = sum.axes();
-                        leg.take_off_along(s, &mut expected);
+                        leg.take_off_along(s, metric, &mut expected);
                         let expected = metric.deviation(&expected, 0.7);
                         let deviation = reaching.deviation(chain, s, metric, 0.7);
                         assert!((deviation - expected).abs() < 1e-12, "{number} {share}");

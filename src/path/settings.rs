@@ -53,6 +53,8 @@ pub struct BlendSettings {
     orientation: Option<Orientation>,
     /// Whether corners may [swing out](super::lone_corner).
     swings: bool,
+    /// Whether rotary axes turn the tool about its tip.
+    turns_tool: bool,
 }
 
 /// How far the blended path may be from a move.
@@ -83,6 +85,7 @@ impl BlendSettings {
         per_jerk: Axes::from_array_storage(nalgebra::ArrayStorage([[0.0; AXIS_COUNT]])),
         orientation: None,
         swings: true,
+        turns_tool: false,
     };
 
     /// `millimetre`: its length in machine units (1, or 1/25.4). `rotary_weight`: how many machine
@@ -125,6 +128,7 @@ impl BlendSettings {
             per_jerk: limits.jerk.map(f64::recip),
             orientation: None,
             swings: true,
+            turns_tool: false,
         })
     }
 
@@ -134,6 +138,15 @@ impl BlendSettings {
     pub fn with_tilt(self, tilt: usize, tolerance: f64) -> Self {
         Self {
             orientation: Some(Orientation { tilt, tolerance }),
+            ..self
+        }
+    }
+
+    /// The same where rotary axes turn the tool about its tip: joints follow them with X, Y and Z.
+    #[must_use]
+    pub fn with_turning_tool(self) -> Self {
+        Self {
+            turns_tool: true,
             ..self
         }
     }
@@ -182,6 +195,11 @@ impl BlendSettings {
         let acceleration = self.per_acceleration.fixed_rows::<3>(0).max().recip();
         let by_acceleration = acceleration / square;
         by_jerk.min(by_acceleration * by_acceleration)
+    }
+
+    /// Whether rotary axes turn the tool about its tip.
+    pub(super) fn turns_tool(&self) -> bool {
+        self.turns_tool
     }
 
     /// Whether the path may be led to the outer side of the program.

@@ -28,7 +28,7 @@ pub(super) fn stands_alone(before: &Leg, after: &Leg, settings: &BlendSettings) 
     let to = after.programmed_point(after.start).first;
     let jump = to - from;
     let turn = jump.norm();
-    if turn < SHARP || !before.is_linear() || !after.is_linear() {
+    if turn < SHARP || !before.is_linear || !after.is_linear {
         return false;
     }
     let widest = before.tolerance().min(after.tolerance()) / (kernel::peak(0.0) * turn);

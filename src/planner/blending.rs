@@ -192,6 +192,11 @@ impl Blending {
         } else {
             settings
         };
+        let settings = if self.in_force.tilt.is_some() {
+            settings.with_turning_tool()
+        } else {
+            settings
+        };
         Some(match self.orientation() {
             Some(orientation) => settings.with_tilt(orientation.tilt, orientation.tolerance),
             None => settings,

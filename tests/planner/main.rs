@@ -22,6 +22,7 @@ mod joint_limits;
 mod joint_models;
 mod last_corner;
 mod limits_changed;
+mod little_beside;
 mod monotone;
 mod move_jerk;
 mod moves;

@@ -137,7 +137,7 @@ fn is_short(piece: &Leg) -> bool {
 /// either side.
 pub(super) fn is_moved(leg: &Leg, settings: &BlendSettings) -> bool {
     // The length of what moves other axes as well is not what F counts.
-    let linear = leg.is_linear();
+    let linear = leg.is_linear;
     leg.turning * leg.whole <= MOST_TURN
         && matches!(leg.allowance, Allowance::Tolerance(_))
         && linear

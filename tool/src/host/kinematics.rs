@@ -18,6 +18,7 @@ static KINEMATICS: HostKinematics = HostKinematics {
     inverse,
     jet,
     axis_of_joint,
+    tool_tilt_axis,
 };
 
 /// The kinematics with these joints, of which a process has one.
@@ -79,6 +80,12 @@ unsafe extern "C" fn jet(position: *const f64, derivatives: *const f64, joints: 
 unsafe extern "C" fn axis_of_joint(joint: c_int) -> c_int {
     let axis = JOINTS.get().zip(usize::try_from(joint).ok());
     let axis = axis.and_then(|(machine, joint)| machine.axis(joint));
+    axis.and_then(|axis| c_int::try_from(axis).ok())
+        .unwrap_or(-1)
+}
+
+unsafe extern "C" fn tool_tilt_axis() -> c_int {
+    let axis = JOINTS.get().and_then(|machine| machine.tool_tilt_axis);
     axis.and_then(|axis| c_int::try_from(axis).ok())
         .unwrap_or(-1)
 }

@@ -1,5 +1,4 @@
-//! Joints that have limits of their own, behind a table of framekins or a kinematics module of LinuxCNC's: what the planner
-//! asks of them.
+//! Joints with limits of their own, behind a table of framekins or a kinematics module: what the planner asks of them.
 
 mod error;
 mod module;
@@ -43,6 +42,8 @@ pub(crate) enum Joints {
 pub(crate) struct LimitedJoints {
     behind: Behind,
     limits: [Position; 3],
+    /// See [`tool_tilt_axis`].
+    pub(crate) tool_tilt_axis: Option<usize>,
     begin: Begin,
 }
 
@@ -95,6 +96,7 @@ impl Joints {
         Ok(Joints::Limited(Box::new(LimitedJoints {
             limits: limits(settings, unit, period)?,
             behind: Behind::Table(table, TableMachine::new(machine)),
+            tool_tilt_axis: tool_tilt_axis(settings, ini),
             begin: Begin::default(),
         })))
     }
@@ -125,6 +127,7 @@ impl Joints {
         Ok(Joints::Limited(Box::new(LimitedJoints {
             behind: Behind::Module(Box::new(joints)),
             limits,
+            tool_tilt_axis: tool_tilt_axis(settings, ini),
             begin: Begin::default(),
         })))
     }
@@ -192,8 +195,8 @@ impl LimitedJoints {
         }
     }
 
-    /// What blendtp asks for joints on the way of a move, in machine units, and the joints of home; `None` for a table of
-    /// framekins, whose joints do not jump.
+    /// What blendtp asks for joints on the way of a move, in machine units, and the joints of home; `None` for a table,
+    /// whose joints do not jump.
     pub(crate) fn on_the_way(&self) -> Option<(KinematicsModule, [f64; JOINT_COUNT])> {
         match &self.behind {
             Behind::Table(..) => None,
@@ -201,8 +204,7 @@ impl LimitedJoints {
         }
     }
 
-    /// From here on the tool has this length along Z, in lengths of the joints, as far as HAL hands it to the kinematics.
-    /// Whether it does.
+    /// From here on the tool has this length along Z, in lengths of the joints, if HAL hands it to the kinematics; whether it does.
     pub(crate) fn set_tool_length(&self, length: f64) -> bool {
         match &self.behind {
             Behind::Table(table, machine) => {
@@ -408,6 +410,7 @@ mod tests {
         LimitedJoints {
             behind: Behind::Table(table, machine),
             limits: [[100.0; 9], [1000.0; 9], [f64::INFINITY; 9]],
+            tool_tilt_axis: Some(3),
             begin: Begin::default(),
         }
     }

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Told {
     behind: ToldBehind,
     limits: [Position; 3],
+    tool_tilt_axis: Option<usize>,
     begin: Begin,
 }
 
@@ -37,6 +38,7 @@ impl TryFrom<Told> for LimitedJoints {
         Ok(LimitedJoints {
             behind,
             limits: told.limits,
+            tool_tilt_axis: told.tool_tilt_axis,
             begin: told.begin,
         })
     }
@@ -50,6 +52,7 @@ impl From<LimitedJoints> for Told {
                 Behind::Module(joints) => ToldBehind::Module(Box::new(joints.into_settings())),
             },
             limits: joints.limits,
+            tool_tilt_axis: joints.tool_tilt_axis,
             begin: joints.begin,
         }
     }

@@ -426,6 +426,7 @@ struct framepath_host_kinematics {
     int (*inverse)(const struct EmcPose *world, double *joint);
     int (*jet)(const double *position, const double *derivatives, double *joints);
     int (*axis_of_joint)(int joint);
+    int (*tool_tilt_axis)(void);
 };
 
 static const struct framepath_host_kinematics *machine;
@@ -444,6 +445,11 @@ EXPORTED int framekinsJet(const double *position, const double *derivatives, dou
 EXPORTED int framekinsAxisOfJoint(int joint)
 {
     return machine ? machine->axis_of_joint(joint) : -1;
+}
+
+EXPORTED int framekinsToolTiltAxis(void)
+{
+    return machine ? machine->tool_tilt_axis() : -1;
 }
 
 EXPORTED int kinematicsForward(const double *joint, struct EmcPose *world, const KINEMATICS_FORWARD_FLAGS *forward,

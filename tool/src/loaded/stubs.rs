@@ -10,6 +10,7 @@ pub(crate) struct HostKinematics {
     pub inverse: unsafe extern "C" fn(*const EmcPose, *mut f64) -> c_int,
     pub jet: unsafe extern "C" fn(*const f64, *const f64, *mut f64) -> c_int,
     pub axis_of_joint: unsafe extern "C" fn(c_int) -> c_int,
+    pub tool_tilt_axis: unsafe extern "C" fn() -> c_int,
 }
 
 /// `stubs.c` as a shared object, compiled by the build script.
