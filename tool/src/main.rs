@@ -14,7 +14,7 @@ use framepath_tool::plan::{self, PlanArguments};
 use framepath_tool::record::{self, RecordArguments};
 use framepath_tool::report::{self, ReportArguments};
 use std::fmt::Display;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 /// Frames and smooth motion for LinuxCNC.
@@ -108,10 +108,11 @@ fn command_line() -> clap::Command {
     })
 }
 
-/// Help, version, or what is wrong with the arguments.
+/// Help, version, or what is wrong with the arguments. Whoever closes the pipe of a help has read enough of it.
 fn answer(told: &clap::Error) -> ExitCode {
     let written = told.print().and_then(|()| std::io::stdout().flush());
     match written {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) if !told.use_stderr() => {
             finish(Err(format!("standard output: cannot be written: {error}")))
         }

@@ -49,3 +49,20 @@ fn help_that_cannot_be_written_is_an_error() {
         );
     }
 }
+
+/// As behind `| head -1`, with a reader that has gone already.
+#[test]
+fn help_of_which_enough_is_read_is_no_error() {
+    for arguments in [&["--help"][..], &["--version"], &["filter", "--help"]] {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let output = Command::new(env!("CARGO_BIN_EXE_framepath"))
+            .args(arguments)
+            .stdout(writer)
+            .stderr(Stdio::piped())
+            .output()
+            .expect("the program runs");
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert_eq!((output.status.code(), said.as_str()), (Some(0), ""));
+    }
+}
