@@ -13,6 +13,9 @@ const OF_TASK: [&str; 2] = ["emccanon", "emctask"];
 
 /// What is to be said behind a message, which may be nothing.
 pub fn behind(message: &str, has_ini: bool) -> &'static str {
+    if message.starts_with("File ended with no percent sign") {
+        return ": end it with a line M2 (or M30)";
+    }
     let user_code = message.strip_prefix("Unknown m code used: M");
     let user_code = user_code.and_then(|code| code.trim().parse::<u32>().ok());
     let is_user_code = user_code.is_some_and(|code| (100..=199).contains(&code));

@@ -436,3 +436,30 @@ fn programs_of_other_controls_are_told_from_mistakes() {
         assert!(!error.contains("help"), "{error}");
     }
 }
+
+/// The words of the interpreter do not say how, and the line of the startup code is none of the program.
+#[test]
+fn a_program_without_an_end_is_told_how_to_end() {
+    let bench = Bench::new();
+    bench.write("mill.ini", MILL);
+    for (program, place) in [
+        ("", "part.ngc: "),
+        ("\n\n", "part.ngc: "),
+        ("G21 F100\nG1 X1\n", "part.ngc:2: "),
+    ] {
+        bench.write("part.ngc", program);
+        let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+        assert!(
+            error.starts_with(place) && error.contains("end it with a line M2"),
+            "{error}"
+        );
+        assert!(!error.contains("G61.1"), "{error}");
+    }
+    // What cannot be carried out of the startup code is named as that, with its text.
+    bench.write("mill.ini", &MILL.replace("G61.1 G21", "G21 G3333"));
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.contains("RS274NGC_STARTUP_CODE") && error.contains("G3333"),
+        "{error}"
+    );
+}

@@ -106,9 +106,14 @@ static std::string line_text(InterpBase &interpreter)
     return line;
 }
 
+/* Whether the program was handed to the interpreter: before its first line the text that the interpreter has is none of it. */
+static bool opened;
+
 static int print_refusal(InterpBase &interpreter, int number, const std::string &message)
 {
     std::string line = line_carried_out.empty() ? line_text(interpreter) : line_carried_out;
+    if (opened && number == 0)
+        line.clear();
     fprintf(output, "REFUSED %d %s\n", number, one_line(message.c_str()).c_str());
     fprintf(output, "SOURCE %s\n", one_line(line.c_str()).c_str());
     return 1;
@@ -172,6 +177,7 @@ static int interpret(InterpBase &interpreter, const char *file)
         if (failed(status))
             return refuse(interpreter, status, "[RS274NGC]RS274NGC_STARTUP_CODE: ");
     }
+    opened = true;
     status = interpreter.open(file);
     if (failed(status))
         return refuse(interpreter, status);
