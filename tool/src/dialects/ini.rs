@@ -2,6 +2,7 @@
 
 use crate::machine::IniError;
 use crate::machine::ini::Ini;
+use crate::machine::lathe;
 use crate::wiring::settings::SECTION;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -28,18 +29,13 @@ pub fn retract_z(file: &Path) -> Result<Option<f64>, IniError> {
     number(file, "RETRACT_Z", &PLACES, problem)
 }
 
-/// Whether the machine is a lathe: LinuxCNC shows it as one, or it has no Y.
+/// Whether the machine is a lathe.
 ///
 /// # Errors
 ///
 /// When the file cannot be read.
 pub fn is_lathe(file: &Path) -> Result<bool, IniError> {
-    let ini = Ini::read(file)?;
-    let shown = ini.text("DISPLAY", "LATHE").unwrap_or("0");
-    let off = ["", "0", "NO", "FALSE", "OFF"];
-    let has_y = |axes: &str| axes.contains(['Y', 'y']);
-    let mill = ini.text("TRAJ", "COORDINATES").is_none_or(has_y);
-    Ok(!mill || !off.contains(&shown.trim().to_ascii_uppercase().as_str()))
+    Ok(lathe::is_lathe(&Ini::read(file)?))
 }
 
 /// Whether X is a diameter (G7) when LinuxCNC has started.

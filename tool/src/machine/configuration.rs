@@ -6,6 +6,7 @@ use super::angles;
 use super::coordinates::Coordinates;
 use super::error::IniError;
 use super::ini::Ini;
+use super::lathe::is_lathe;
 use super::length_unit;
 
 /// Letters of LinuxCNC's axes, in its order.
@@ -63,6 +64,8 @@ pub struct Machine {
     pub axes: Vec<Member>,
     /// Whose positions are compared with the programmed path.
     pub path_source: PathSource,
+    /// Whether it is a lathe with X and Z, whose X is a radius.
+    pub is_lathe: bool,
 }
 
 impl Machine {
@@ -127,6 +130,10 @@ impl Machine {
             joints,
             axes,
             path_source,
+            is_lathe: is_lathe(ini)
+                && ['X', 'Z']
+                    .iter()
+                    .all(|axis| coordinates.axes.contains(axis)),
         })
     }
 }

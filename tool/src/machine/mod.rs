@@ -9,6 +9,7 @@ mod error;
 mod include;
 pub(crate) mod ini;
 pub(crate) mod jerk;
+pub(crate) mod lathe;
 pub(crate) mod length_unit;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod limits;

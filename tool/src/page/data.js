@@ -21,6 +21,7 @@ const bucketTime = decode(data.profiles.time, Float32Array);
 const endTime = data.profiles.end;
 
 const unit = report.length_unit;
+const speedUnit = data.speed_unit ?? `${unit}/s`;
 const greatestSpeed = Math.max(report.greatest_speed.value, 1e-9);
 
 function colour(name) {
@@ -57,9 +58,9 @@ function number(value, digits = 5) {
   return (value < 0 ? "\u2212" : "") + grouped + (fraction ? "." + fraction : "");
 }
 
-// A length as [number, unit]: small ones in micrometres.
-function length(value) {
-  if (unit !== "mm") return [fixed(value, 6), unit];
+// A length, or an angle, as [number, unit]: small lengths in micrometres.
+function length(value, measure = unit) {
+  if (measure !== "mm") return [fixed(value, 6), measure];
   if (value >= 0.1) return [number(value, value < 1 ? 3 : 5), "mm"];
   return [value < 1e-8 ? "0" : number(value * 1e3, 3), "\u00b5m"];
 }

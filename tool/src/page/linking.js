@@ -25,7 +25,7 @@ function fillCursor(point) {
     ["time", `${fixed(point.time, 3)} s`],
     ["line", line > 0 ? String(line) : "\u2013"],
     ...["x", "y", "z"].map((axis) => [axis.toUpperCase(), fixed(point[axis], 3)]),
-    ["speed", `${number(point.speed, 4)} ${unit}/s`],
+    ["speed", `${number(point.speed, 4)} ${speedUnit}`],
     ...more,
   ];
   const shown = entries.map(([label, words]) => element("span", "", element("em", "", label), words));

@@ -62,6 +62,7 @@ function addFigure(label, [value, of], note) {
 }
 
 function fillAbout(parts) {
+  if (data.lathe) parts.push("X is a radius");
   byId("about").textContent = parts.filter(Boolean).join("  \u00b7  ");
 }
 
@@ -72,7 +73,7 @@ function cycles(count) {
 // The scale of the speed colours.
 function speedScale(words) {
   const marks = [0, 0.25, 0.5, 0.75, 1].map((share) => element("span", "", number(share * greatestSpeed, 3)));
-  return element("div", "scale", element("i"), element("div", "", ...marks), `${words} (${unit}/s)`);
+  return element("div", "scale", element("i"), element("div", "", ...marks), `${words} (${speedUnit})`);
 }
 
 // The program, as [line, text].

@@ -9,8 +9,11 @@ function makeProfile(holder, series, onTime, onSpan) {
   const high = series.high ? decode(series.high, Float32Array) : low;
   const margin = { left: 58, right: 6, top: 8, bottom: series.last ? 40 : 6 };
   const limit = series.limit;
-  let greatest = 1e-12;
+  let greatest = 0;
   for (let i = 0; i < low.length; i++) greatest = Math.max(greatest, -low[i], high[i]);
+  // What rounding leaves is no curve.
+  const isFlat = greatest < 1e-7;
+  if (isFlat) greatest = 1;
   // A limit that is far away is not drawn, or the curve would be flat.
   const limitShown = limit !== null && limit <= 4 * greatest;
   const top = 1.1 * Math.max(greatest, limitShown ? limit : 0);
@@ -59,7 +62,8 @@ function makeProfile(holder, series, onTime, onSpan) {
     context.textAlign = "right";
     context.textBaseline = "middle";
     const scale = limitShown ? limit : ticks(0, greatest, 2.5).pop() || greatest;
-    for (const value of series.oneSided ? [0, scale] : [-scale, 0, scale]) {
+    const marks = series.oneSided ? [0, scale] : [-scale, 0, scale];
+    for (const value of isFlat && !limitShown ? [0] : marks) {
       context.fillText(number(value, 4), margin.left - 7, toY(value));
     }
 
@@ -200,7 +204,7 @@ function memberColumns(members, envelopes) {
 // The distance from the programmed path; without a tolerance `null`.
 function distanceCurve(series, tolerance) {
   const factor = data.profiles.distance_factor;
-  const name = factor === 1000 ? "\u00b5m" : unit;
+  const name = factor === 1000 ? "\u00b5m" : data.profiles.distance_unit ?? unit;
   const limit = tolerance === null ? "" : `, tolerance ${number(tolerance * factor, 5)}`;
   return {
     ...series, title: `distance (${name})${limit}`, limit: tolerance === null ? null : tolerance * factor,

@@ -1,4 +1,7 @@
-// The two drawings of the path: seen from above, and in space.
+// The two drawings of the path: in a plane, and in space.
+
+// Coordinates across and up in the plane: X and Y, as seen from above; of a lathe Z and X.
+const [ACROSS, UP] = data.lathe ? [2, 0] : [0, 1];
 
 const box = { low: [], high: [] };
 for (const name of ["x", "y", "z"]) {
@@ -108,15 +111,17 @@ function draft(draw) {
 
 function makePlan(holder, onPoint) {
   const canvases = layers(holder);
+  if (data.lathe) byId("seen").textContent = "X over Z";
   const margin = { left: 62, right: 18, top: 16, bottom: 44 };
   let zoom = 1;
-  let centre = [boxCentre[0], boxCentre[1]];
+  const middleOfBox = () => [boxCentre[ACROSS], boxCentre[UP]];
+  let centre = middleOfBox();
   let size = { width: 1, height: 1 };
   let cursor = null;
 
   const scale = () => {
-    const width = Math.max(box.high[0] - box.low[0], boxDiagonal / 50);
-    const height = Math.max(box.high[1] - box.low[1], boxDiagonal / 50);
+    const width = Math.max(box.high[ACROSS] - box.low[ACROSS], boxDiagonal / 50);
+    const height = Math.max(box.high[UP] - box.low[UP], boxDiagonal / 50);
     const fit = Math.min((size.width - margin.left - margin.right) / width, (size.height - margin.top - margin.bottom) / height);
     return 0.92 * fit * zoom;
   };
@@ -124,10 +129,12 @@ function makePlan(holder, onPoint) {
     (margin.left + size.width - margin.right) / 2,
     (margin.top + size.height - margin.bottom) / 2,
   ];
-  const project = (x, y) => {
+  const toPixels = (across, up) => {
     const [mx, my] = middle();
-    return [mx + (x - centre[0]) * scale(), my - (y - centre[1]) * scale()];
+    return [mx + (across - centre[0]) * scale(), my - (up - centre[1]) * scale()];
   };
+  const project = data.lathe ? (x, y, z) => toPixels(z, x) : toPixels;
+  const title = (axis) => `${"XYZ"[axis]}${data.lathe && axis === 0 ? ", a radius" : ""} (${unit})`;
 
   function draw(coarse = false) {
     const { context, width, height } = canvases.base();
@@ -142,12 +149,12 @@ function makePlan(holder, onPoint) {
     context.lineWidth = 1;
     context.beginPath();
     for (const x of xs) {
-      const px = Math.round(project(x, 0)[0]) + 0.5;
+      const px = Math.round(toPixels(x, 0)[0]) + 0.5;
       context.moveTo(px, margin.top);
       context.lineTo(px, bottom);
     }
     for (const y of ys) {
-      const py = Math.round(project(0, y)[1]) + 0.5;
+      const py = Math.round(toPixels(0, y)[1]) + 0.5;
       context.moveTo(margin.left, py);
       context.lineTo(right, py);
     }
@@ -156,21 +163,21 @@ function makePlan(holder, onPoint) {
     context.textAlign = "center";
     context.textBaseline = "top";
     for (const x of xs) {
-      const px = project(x, 0)[0];
+      const px = toPixels(x, 0)[0];
       if (px > margin.left + 8 && px < right - 8) context.fillText(number(x, 7), px, bottom + 6);
     }
-    context.fillText(`X (${unit})`, (margin.left + right) / 2, bottom + 24);
+    context.fillText(title(ACROSS), (margin.left + right) / 2, bottom + 24);
     context.textAlign = "right";
     context.textBaseline = "middle";
     for (const y of ys) {
-      const py = project(0, y)[1];
+      const py = toPixels(0, y)[1];
       if (py > margin.top + 4 && py < bottom - 2) context.fillText(number(y, 7), margin.left - 7, py);
     }
     context.save();
     context.translate(14, (margin.top + bottom) / 2);
     context.rotate(-Math.PI / 2);
     context.textAlign = "center";
-    context.fillText(`Y (${unit})`, 0, 0);
+    context.fillText(title(UP), 0, 0);
     context.restore();
     context.save();
     context.beginPath();
@@ -184,7 +191,7 @@ function makePlan(holder, onPoint) {
   function show(point) {
     cursor = point;
     const { context } = canvases.overlay();
-    if (point) drawDot(context, project(point.x, point.y));
+    if (point) drawDot(context, project(point.x, point.y, point.z));
   }
 
   let drag = null;
@@ -210,8 +217,8 @@ function makePlan(holder, onPoint) {
   });
   function enlarge(factor) {
     zoom = factor ? Math.max(1, zoom * factor) : 1;
-    if (zoom === 1) centre = [boxCentre[0], boxCentre[1]];
-    else if (cursor) centre = [cursor.x, cursor.y];
+    if (zoom === 1) centre = middleOfBox();
+    else if (cursor) centre = data.lathe ? [cursor.z, cursor.x] : [cursor.x, cursor.y];
     draw();
   }
   return { draw, show, enlarge };

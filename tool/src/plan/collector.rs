@@ -300,6 +300,7 @@ impl<'a> Collector<'a> {
                 0.0
             },
             speed,
+            turns: turning,
             line,
             of_program: self.running.is_none_or(|known| known.of_program),
             position,

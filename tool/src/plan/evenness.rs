@@ -189,6 +189,7 @@ mod tests {
             duration: 0.001,
             share_of_feed,
             speed: 10.0 * share_of_feed,
+            turns: false,
             line,
             of_program: true,
             position: [0.0; 9],

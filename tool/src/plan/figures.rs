@@ -2,7 +2,7 @@
 
 use super::cause::{Cause, Phase};
 use super::collector::{Collected, Peak, Seen};
-use super::deviation::Farthest;
+use super::distances::{DeviationFigures, Measure};
 use super::evenness::{CuttingTime, Found, Stretch};
 use super::findings;
 use super::joints;
@@ -82,39 +82,6 @@ impl From<[f64; 2]> for SurfaceFigures {
     }
 }
 
-/// A largest distance.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct DistanceFigure {
-    /// Machine units.
-    pub distance: f64,
-    /// What is allowed there; `None`: G64 without P.
-    pub tolerance: Option<f64>,
-    /// Line of the program.
-    pub line: i32,
-}
-
-impl DistanceFigure {
-    /// What to write where G64 without P has led farther from the program than programs commonly allow.
-    pub fn advice(&self, length_unit: &str) -> Option<String> {
-        let usual = if length_unit == "mm" { 0.05 } else { 0.002 };
-        (self.tolerance.is_none() && self.distance > usual)
-            .then(|| format!("G64 P{usual} keeps it within {usual} {length_unit}"))
-    }
-}
-
-/// Distance from the program.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct DeviationFigures {
-    /// Of the planned path from the program.
-    pub planned: DistanceFigure,
-    /// Of the ends of programmed moves from the planned path.
-    pub programmed: DistanceFigure,
-    /// Where P is used up most.
-    pub tightest: Option<DistanceFigure>,
-    /// In exact modes (G61, G61.1).
-    pub exact: Option<DistanceFigure>,
-}
-
 /// A slow place.
 #[derive(Clone, Debug, Serialize)]
 pub struct PlaceFigure {
@@ -132,8 +99,10 @@ pub struct PlaceFigure {
     pub duration: f64,
     /// Seconds that would be saved at feed.
     pub lost: f64,
-    /// The least speed, machine units per second.
+    /// The least speed, in its unit per second.
     pub least_speed: f64,
+    /// `mm` or `in`; `deg` where only rotary axes move.
+    pub speed_unit: &'static str,
     /// The same over the feed.
     pub least_share: f64,
     /// X Y Z.
@@ -210,6 +179,9 @@ pub struct Figures {
     pub limits_of_joints: Option<String>,
     /// `mm` or `in`.
     pub length_unit: &'static str,
+    /// Whether X is a radius, for the reader.
+    #[serde(skip)]
+    pub is_lathe: bool,
     /// s.
     pub servo_period: f64,
     /// From the first motion to the last, s.
@@ -281,12 +253,15 @@ impl Figures {
             .collect();
         limited_by.sort_by(|a, b| b.time.total_cmp(&a.time));
         let (axes, joints) = (axes(setup, collected), joints(setup, collected));
-        let deviation = deviation_figures(setup, collected);
+        let speed = SpeedFigure::new(setup, collected);
+        let places = collected.places.iter();
+        let measure = Measure::new(setup, &speed);
+        let deviation = DeviationFigures::new(measure, &collected.deviation);
         let beyond = collected.deviation.beyond.as_ref();
-        let beyond = beyond.map(|farthest| distance_figure(setup, farthest));
+        let beyond = beyond.map(|farthest| measure.figure(farthest));
         let movers = axes.iter().chain(&joints);
         let mut findings =
-            findings::conclude(movers, beyond, collected.deviation.turns, setup.unit);
+            findings::conclude(movers, beyond, collected.deviation.turns, measure.unit);
         findings.extend(findings::of_joints(&axes, &setup.above_joints));
         Figures {
             findings,
@@ -295,6 +270,7 @@ impl Figures {
             limits_from: setup.origin.clone(),
             limits_of_joints: joints::told(&setup.joints),
             length_unit: setup.unit,
+            is_lathe: setup.is_lathe,
             servo_period: setup.period,
             time,
             cycles: collected.cycles,
@@ -303,12 +279,14 @@ impl Figures {
             moves,
             handed_over,
             path_length: collected.length,
-            greatest_speed: SpeedFigure::new(setup, collected),
+            greatest_speed: speed,
             drawn_speed: DrawnSpeed::new(setup, collected),
             surface_speed: None,
             phases: phases.into(),
             limited_by,
-            slowest: collected.places.iter().map(place_figure).collect(),
+            slowest: places
+                .map(|place| place_figure(place, speed.unit))
+                .collect(),
             evenness: evenness_figures(&collected.evenness),
             deviation,
             axes,
@@ -352,7 +330,8 @@ fn evenness_figures(found: &Found) -> EvennessFigures {
     }
 }
 
-fn place_figure(place: &Place) -> PlaceFigure {
+/// `unit` is that of the greatest speed of the program.
+fn place_figure(place: &Place, unit: &'static str) -> PlaceFigure {
     let [x, y, z, ..] = place.position;
     PlaceFigure {
         line: place.line,
@@ -363,30 +342,11 @@ fn place_figure(place: &Place) -> PlaceFigure {
         duration: place.duration,
         lost: place.lost,
         least_speed: place.least_speed,
+        speed_unit: if place.turns { "deg" } else { unit },
         least_share: place.least_share,
         position: [x, y, z],
         phase: place.phase.name(),
         cause: place.cause.name(),
-    }
-}
-
-fn distance_figure(setup: &Setup, farthest: &Farthest) -> DistanceFigure {
-    DistanceFigure {
-        distance: farthest.distance / setup.millimetres,
-        tolerance: farthest.tolerance.map(|t| t / setup.millimetres),
-        line: farthest.line,
-    }
-}
-
-fn deviation_figures(setup: &Setup, collected: &Collected) -> DeviationFigures {
-    let figure = |farthest: &Farthest| distance_figure(setup, farthest);
-    let there = |farthest: &Farthest| farthest.tolerance.map(|_| figure(farthest));
-    let deviation = &collected.deviation;
-    DeviationFigures {
-        planned: figure(&deviation.planned),
-        programmed: figure(&deviation.programmed),
-        tightest: there(&deviation.tightest),
-        exact: there(&deviation.exact),
     }
 }
 

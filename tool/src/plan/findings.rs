@@ -1,6 +1,7 @@
 //! Which limits and tolerances a plan does not keep, in words.
 
-use super::figures::{AxisFigures, DistanceFigure, PeakFigure};
+use super::distances::DistanceFigure;
+use super::figures::{AxisFigures, PeakFigure};
 use crate::format::{Over, length};
 use crate::layer::turns::TurnsLeftAway;
 use crate::machine::above_joints::AboveJoint;

@@ -5,7 +5,7 @@
 //! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
 //! cycle: [`cause`] says what limits the machine, [`places`] where time is lost, [`evenness`] how much of cutting is near the feed,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
-//! drawings; [`figures`] holds all of it, the greatest [`speed`] among it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
+//! drawings; [`figures`] holds all of it, the greatest [`speed`] and the [`distances`] among it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
 //! [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
 
 mod arrivals;
@@ -14,6 +14,7 @@ mod collector;
 mod csv;
 mod deviation;
 mod dip;
+mod distances;
 mod drive;
 mod error;
 mod evenness;

@@ -4,6 +4,7 @@ use super::cause::Cause;
 use super::collector::{Collected, DISTANCE, SPEED};
 use super::figures::Figures;
 use super::listing::Listing;
+use crate::machine::length_unit::INCH;
 use crate::page::Envelope;
 use crate::page::{EnvelopeData, Page, distance_factor, floats, integers};
 use crate::path::rates::Quantity;
@@ -19,6 +20,8 @@ struct PageData<'a> {
     /// By their number.
     causes: Vec<CauseData>,
     listing: &'a Listing,
+    /// Whether Z is drawn across and X up, a radius.
+    lathe: bool,
     /// Of the speed over time.
     speed_unit: &'a str,
     /// What to write where the path is far from the program.
@@ -56,6 +59,8 @@ struct ProfileData {
     speed: EnvelopeData,
     distance: EnvelopeData,
     distance_factor: f64,
+    /// Of what is no micrometre.
+    distance_unit: &'static str,
 }
 
 #[derive(Serialize)]
@@ -97,8 +102,12 @@ pub fn render(
             })
             .collect(),
         listing,
+        lathe: figures.is_lathe,
         speed_unit: &figures.drawn_speed.unit,
-        advice: figures.deviation.planned.advice(figures.length_unit),
+        advice: figures
+            .deviation
+            .planned
+            .advice(figures.length_unit, figures.deviation.unit),
     };
     Page {
         kind: "plan",
@@ -137,7 +146,12 @@ fn profile_data(figures: &Figures, collected: &Collected) -> ProfileData {
             .unzip();
         EnvelopeData::from(Envelope { low, high })
     };
-    let distance_factor = distance_factor(figures.length_unit);
+    // They were kept in machine units.
+    let distance_unit = figures.deviation.unit;
+    let distance_factor = match (distance_unit, figures.length_unit) {
+        ("deg", "in") => INCH,
+        _ => distance_factor(distance_unit),
+    };
     let times = (0..profiles.buckets()).map(|bucket| (bucket * profiles.cycles) as f64 * period);
     ProfileData {
         time: floats(times.map(|time| time as f32)),
@@ -154,5 +168,6 @@ fn profile_data(figures: &Figures, collected: &Collected) -> ProfileData {
         speed: envelope(SPEED, 1.0),
         distance: envelope(DISTANCE, distance_factor),
         distance_factor,
+        distance_unit,
     }
 }

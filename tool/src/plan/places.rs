@@ -16,8 +16,10 @@ pub struct Pace {
     pub duration: f64,
     /// Speed over feed, 0 to 1.
     pub share_of_feed: f64,
-    /// Machine units per second.
+    /// Machine units per second, degrees where it turns.
     pub speed: f64,
+    /// Whether only rotary axes move.
+    pub turns: bool,
     /// Line of the program.
     pub line: i32,
     /// Whether that is a line of the program, not of a file of subroutines.
@@ -51,6 +53,8 @@ pub struct Place {
     pub least_share: f64,
     /// The least speed.
     pub least_speed: f64,
+    /// Whether only rotary axes move there.
+    pub turns: bool,
     /// Where it is slowest.
     pub position: Position,
     /// What the machine does most of the lost time.
@@ -95,6 +99,7 @@ impl Places {
                 lost: 0.0,
                 least_share: f64::INFINITY,
                 least_speed: 0.0,
+                turns: pace.turns,
                 position: pace.position,
                 phase: pace.phase,
                 cause: pace.cause,
@@ -103,9 +108,13 @@ impl Places {
             lost_by_cause: [0.0; Cause::COUNT],
             lost_by_phase: [0.0; Phase::COUNT],
         });
-        let lost = pace.duration * (1.0 - share);
+        // At feed nothing is lost, and no place begins: the little that a long move is below it would count for more than the
+        // start that is looked for.
+        let lost = match pace.phase {
+            Phase::AtFeed => 0.0,
+            _ => pace.duration * (1.0 - share),
+        };
         let place = &mut stretch.place;
-        // At feed nothing is lost, and no place begins.
         if lost > 0.0 {
             if place.lost == 0.0 {
                 place.first_line = pace.line;
@@ -119,6 +128,7 @@ impl Places {
         if stretch.dip.note(share) {
             place.least_share = share;
             place.least_speed = pace.speed;
+            place.turns = pace.turns;
             place.line = pace.line;
             place.of_program = pace.of_program;
             place.time = pace.time;
@@ -167,17 +177,25 @@ mod tests {
             // Slow at 300 and slower, for longer, at 700.
             let near = |at: i32, width: f64| (f64::from(k - at).abs() / width).min(1.0);
             let share = (0.4 + 0.6 * near(300, 50.0)).min(0.1 + 0.9 * near(700, 100.0));
-            let turns = share < 0.5;
             places.note(&Pace {
                 time: f64::from(k) * 0.001,
                 duration: 0.001,
                 share_of_feed: share,
                 speed: 100.0 * share,
+                turns: false,
                 line: 1 + k / 100,
                 of_program: true,
                 position: [0.0; 9],
-                phase: if turns { Phase::Turning } else { Phase::AtFeed },
-                cause: if turns { Cause::Between } else { Cause::Feed },
+                phase: if share < 0.995 {
+                    Phase::Turning
+                } else {
+                    Phase::AtFeed
+                },
+                cause: if share < 0.995 {
+                    Cause::Between
+                } else {
+                    Cause::Feed
+                },
             });
         }
         let found = places.finish();
@@ -186,5 +204,41 @@ mod tests {
         assert!((found[0].lost - 0.09).abs() < 0.005, "{found:?}");
         assert!((found[0].time - 0.7).abs() < 1e-9);
         assert_eq!((found[0].first_line, found[0].last_line), (7, 8));
+    }
+
+    /// A start of 0.05 s, then a minute a little below the feed.
+    #[test]
+    fn a_long_move_at_feed_is_not_what_a_start_costs() {
+        let mut places = Places::default();
+        for k in 0..60_000 {
+            let share = (f64::from(k) / 50.0).min(0.998);
+            let starts = k < 50;
+            places.note(&Pace {
+                time: f64::from(k) * 0.001,
+                duration: 0.001,
+                share_of_feed: share,
+                speed: 6.0 * share,
+                turns: true,
+                line: 2,
+                of_program: true,
+                position: [0.0; 9],
+                phase: if starts {
+                    Phase::ChangingSpeed
+                } else {
+                    Phase::AtFeed
+                },
+                cause: if starts { Cause::Between } else { Cause::Feed },
+            });
+        }
+        let found = places.finish();
+        assert_eq!(found.len(), 1);
+        assert_eq!(
+            (found[0].phase, found[0].cause),
+            (Phase::ChangingSpeed, Cause::Between)
+        );
+        assert!(
+            (found[0].lost - 0.0255).abs() < 1e-9 && found[0].turns,
+            "{found:?}"
+        );
     }
 }

@@ -35,6 +35,8 @@ pub struct Setup {
     pub unit: &'static str,
     /// Length of a machine unit, mm.
     pub millimetres: f64,
+    /// Whether it is a lathe, whose X is a radius.
+    pub is_lathe: bool,
     /// Velocity and acceleration of each axis, mm (degrees) and seconds.
     pub(super) limits: Limits,
     /// Jerk of each axis, mm (degrees) per second cubed, infinite where it is not limited.
@@ -199,6 +201,7 @@ fn without_ini() -> Setup {
         period: 0.001,
         unit: "mm",
         millimetres: 1.0,
+        is_lathe: false,
         limits: Limits::default(),
         jerk: [f64::INFINITY; AXIS_COUNT],
         joints: Joints::Axes,
@@ -231,6 +234,7 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
         period: machine.servo_period,
         unit: machine.length_unit,
         millimetres,
+        is_lathe: machine.is_lathe,
         axes: [false; AXIS_COUNT],
         default_tolerance: DEFAULT_TOLERANCE * millimetres,
         assumed: ini

@@ -179,13 +179,17 @@ fn axes_cross(svg: &mut String, figures: &Figures, collected: &Collected) -> fmt
             ty + 5.0
         )?;
     }
+    let x_is = match figures.is_lathe {
+        true => ", X is a radius",
+        false => "",
+    };
     let extents = [0, 1, 2].map(|k| {
         let size = collected.axes.high[k] - collected.axes.low[k];
         significant(size, 5)
     });
     writeln!(
         svg,
-        "<text x=\"130\" y=\"630\" class=\"quiet\">box {} {}</text>",
+        "<text x=\"130\" y=\"630\" class=\"quiet\">box {} {}{x_is}</text>",
         extents.join(" × "),
         figures.length_unit
     )

@@ -1,6 +1,7 @@
 //! The plan as text for a terminal: plain ASCII, aligned.
 
-use super::figures::{AxisFigures, DistanceFigure, Figures, SurfaceFigures};
+use super::distances::DistanceFigure;
+use super::figures::{AxisFigures, Figures, PlaceFigure, SurfaceFigures};
 use crate::format::{
     duration, fixed, greatest_speed, grouped, in_column, length, significant, unit,
 };
@@ -12,6 +13,9 @@ const LISTED_PLACES: usize = 10;
 
 /// Width of the column of labels.
 const LABEL: usize = 22;
+
+/// What is programmed as a diameter is half of that in all figures.
+const X_OF_LATHES: &str = "a radius in all figures, behind G7 too";
 
 /// Characters of a program line that are shown.
 const LINE_WIDTH: usize = 40;
@@ -102,6 +106,9 @@ fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
             figures.handed_over
         ),
     )?;
+    if figures.is_lathe {
+        entry("X", X_OF_LATHES.to_owned())?;
+    }
     let long = significant(figures.path_length, 7);
     entry("Path length", format!("{long} {u}"))?;
     let speed = figures.greatest_speed;
@@ -112,22 +119,23 @@ fn heading(out: &mut String, figures: &Figures) -> fmt::Result {
     if let Some(speeds) = &figures.surface_speed {
         entry("Spindle with G96", surface_speed(speeds))?;
     }
+    let measure = figures.deviation.unit;
     let far = |figure: &DistanceFigure| {
         let tolerance = match figure.tolerance {
             Some(0.0) => "exact mode".to_owned(),
             Some(tolerance) => format!(
                 "{:.0} % of the tolerance {}",
                 100.0 * figure.distance / tolerance,
-                length(tolerance, u)
+                length(tolerance, measure)
             ),
-            None => match figure.advice(u) {
+            None => match figure.advice(u, measure) {
                 Some(advice) => format!("G64 without P: {advice}"),
                 None => "G64 without P".to_owned(),
             },
         };
         format!(
             "{}, line {} ({tolerance})",
-            length(figure.distance, u),
+            length(figure.distance, measure),
             figure.line
         )
     };
@@ -179,25 +187,36 @@ fn places(out: &mut String, figures: &Figures) -> fmt::Result {
     if figures.slowest.is_empty() {
         return Ok(());
     }
+    let unit = figures.greatest_speed.unit;
+    let is_other = |place: &&PlaceFigure| place.speed_unit != unit;
+    // Where only rotary axes move in a program that moves others too, the row says so.
+    let width = match figures.slowest.iter().any(|place| is_other(&place)) {
+        true => 16,
+        false => 12,
+    };
     writeln!(out, "\nSlowest places")?;
     writeln!(
         out,
-        "  {:>8}{:>11}{:>10}{:>12}{:>8}  {:<22}{:<26}",
+        "  {:>8}{:>11}{:>10}{:>width$}{:>8}  {:<22}{:<26}",
         "line",
         "at s",
         "s lost",
-        format!("{}/s", figures.length_unit),
+        format!("{unit}/s"),
         "of F",
         "what it does",
         "limited by"
     )?;
     for place in figures.slowest.iter().take(LISTED_PLACES) {
+        let mut speed = in_column(place.least_speed, 4);
+        if is_other(&place) {
+            speed += &format!(" {}", place.speed_unit);
+        }
         let row = format!(
-            "  {:>8}{:>11.3}{:>10}{:>12}{:>6.0} %  {:<22}{:<26}{}",
+            "  {:>8}{:>11.3}{:>10}{:>width$}{:>6.0} %  {:<22}{:<26}{}",
             place.line,
             place.time,
             fixed(place.lost, 4),
-            in_column(place.least_speed, 4),
+            speed,
             100.0 * place.least_share,
             place.phase,
             place.cause,

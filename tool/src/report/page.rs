@@ -39,6 +39,8 @@ struct PageData<'a> {
     programmed: ProgrammedData,
     profiles: ProfileData,
     listing: Option<ListingData<'a>>,
+    /// Whether Z is drawn across and X up, a radius.
+    lathe: bool,
 }
 
 /// The executed path, shape (samples), 32-bit numbers in base64.
@@ -101,6 +103,7 @@ pub fn render(
         programmed: programmed_data(contour),
         profiles: profile_data(analysis, recording),
         listing: listing.map(listing_data),
+        lathe: analysis.report.is_lathe,
     };
     Page {
         kind: "report",

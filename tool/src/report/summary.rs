@@ -20,6 +20,9 @@ pub struct Report {
     pub machine: String,
     /// `mm` or `in`.
     pub length_unit: &'static str,
+    /// Whether X is a radius, for the reader.
+    #[serde(skip)]
+    pub is_lathe: bool,
     /// Seconds.
     pub servo_period: f64,
     /// Rows of the recording.
@@ -261,6 +264,7 @@ pub fn analyse(
         title: title.to_owned(),
         machine: machine.name.clone(),
         length_unit: machine.length_unit,
+        is_lathe: machine.is_lathe,
         servo_period: period,
         rows: recording.rows(),
         resolution: recording.resolution,

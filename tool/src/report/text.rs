@@ -40,6 +40,9 @@ pub fn render(report: &Report, recording: &str) -> Result<String, fmt::Error> {
         "Moves",
         format!("{programmed}{} executed", grouped(report.moves.ids_seen)),
     )?;
+    if report.is_lathe {
+        entry("X", "a radius in all figures".to_owned())?;
+    }
     entry("Time in motion", duration(report.time.in_motion))?;
     entry("Time standing", duration(report.time.standing))?;
     entry(

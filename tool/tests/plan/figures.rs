@@ -295,6 +295,52 @@ fn speeds_of_rotary_axes_are_degrees() {
     );
 }
 
+#[test]
+fn slow_places_and_distances_of_rotary_axes_are_degrees() {
+    let bench = Bench::new();
+    for (units, length_unit) in [("mm", "mm"), ("inch", "in")] {
+        let table = MILL
+            .replace("LINEAR_UNITS = mm", &format!("LINEAR_UNITS = {units}"))
+            .replace("COORDINATES = XYZ", "COORDINATES = XYA")
+            .replace("coordinates=XYZ", "coordinates=XYA")
+            .replace("AXIS_Z", "AXIS_A");
+        // There and back: the point of return is missed by as many degrees as P has millimetres, at most.
+        let figures = bench.figures_on(&table, "G21 G64 P0.01\nG1 A90 F360\nG1 A0\nM2\n");
+        let deviation = &figures["deviation"];
+        assert_eq!(deviation["unit"], "deg");
+        assert!(
+            (number(&deviation["tightest"]["tolerance"]) - 0.01).abs() < 1e-9,
+            "{figures}"
+        );
+        let missed = number(&deviation["programmed"]["distance"]);
+        assert!((0.002..0.0102).contains(&missed), "{figures}");
+        for place in figures["slowest"].as_array().expect("places") {
+            assert_eq!(place["speed_unit"], "deg", "{figures}");
+            assert_ne!(place["phase"], "at feed", "{figures}");
+        }
+        let text = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+        let text = String::from_utf8_lossy(&text.stdout).into_owned();
+        assert!(
+            text.contains("s lost       deg/s    of F")
+                && text.contains("of the tolerance 0.010000 deg"),
+            "{text}"
+        );
+        assert!(
+            !text.contains(&format!("{length_unit}/s")) && !text.contains(" um"),
+            "{text}"
+        );
+        // Beside lengths they count as such, and rows say which is which.
+        let figures = bench.figures_on(&table, "G21 G61.1\nG1 A90 F360\nG1 X1\nM2\n");
+        assert_eq!(figures["deviation"]["unit"], length_unit);
+        let text = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+        let text = String::from_utf8_lossy(&text.stdout).into_owned();
+        assert!(
+            text.contains(&format!("{length_unit}/s    of F")) && text.contains(" deg     0 %"),
+            "{text}"
+        );
+    }
+}
+
 /// Facing at a constant surface speed takes the time in which the spiral of the feed is as long as the surface has run.
 #[test]
 fn with_g96_the_spindle_follows_the_diameter() {

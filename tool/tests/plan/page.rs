@@ -2,7 +2,7 @@
 
 use crate::browser::{open, probe};
 use crate::pages::{assert_needs_nothing, click_on_line};
-use crate::support::Bench;
+use crate::support::{Bench, MILL};
 use serde_json::Value;
 
 const PROGRAM: &str =
@@ -203,4 +203,85 @@ fn far_from_the_program_the_page_says_what_to_write() {
     });"#;
     let found = probe(bench.path(), &[TIME], &bench.read("plan.html"), script);
     assert!(found.as_str().expect("text").contains(advice), "{found}");
+}
+
+/// What the page shows of a program on a machine with this INI file.
+fn shown(ini: &str, program: &str, script: &str) -> Value {
+    let bench = Bench::new();
+    bench.write("machine.ini", ini);
+    bench.write("part.ngc", program);
+    let output = bench.plan(&["part.ngc", "--ini", "machine.ini", "--html", "plan.html"]);
+    assert!(output.status.success(), "{output:?}");
+    probe(bench.path(), &[TIME], &bench.read("plan.html"), script)
+}
+
+/// All that is written, in the page and in its drawings: these are drawn before the script runs, and once more.
+const WRITTEN: &str = r#"window.addEventListener("load", () => {
+  const written = [];
+  const write = CanvasRenderingContext2D.prototype.fillText;
+  CanvasRenderingContext2D.prototype.fillText = function (text, ...more) {
+    written.push(`[${this.canvas.parentElement.id}: ${text}]`);
+    write.call(this, text, ...more);
+  };
+  window.dispatchEvent(new Event("resize"));
+  document.title = JSON.stringify(document.querySelector("main").innerText + written.join(" "));
+});"#;
+
+#[test]
+fn a_lathe_is_drawn_in_its_plane_and_x_is_a_radius() {
+    let lathe = MILL
+        .replace("COORDINATES = XYZ", "COORDINATES = XZ")
+        .replace("coordinates=XYZ", "coordinates=XZ");
+    let program = "G21 G18 G7 G61\nG0 X20 Z0\nG1 X10 F600\nZ-30\nM2\n";
+    let found = shown(&lathe, program, WRITTEN);
+    let text = found.as_str().expect("text");
+    for words in [
+        "X over Z",
+        "X is a radius",
+        "[plan: X, a radius (mm)]",
+        "[plan: Z (mm)]",
+        "[plan: \u{2212}30]",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert!(!text.contains("Seen from above"), "{text}");
+    let shown_as_one = MILL.to_owned() + "[DISPLAY]\nLATHE = 1\n";
+    let found = shown(&shown_as_one, program, WRITTEN);
+    assert!(
+        found.as_str().expect("text").contains("[plan: Z (mm)]"),
+        "{found}"
+    );
+    let found = shown(MILL, program, WRITTEN);
+    let text = found.as_str().expect("text");
+    assert!(
+        text.contains("[plan: Y (mm)]") && text.contains("Seen from above"),
+        "{text}"
+    );
+    assert!(!text.contains("radius"), "{text}");
+}
+
+#[test]
+fn what_only_turns_is_shown_in_degrees() {
+    let table = MILL
+        .replace("COORDINATES = XYZ", "COORDINATES = XYA")
+        .replace("coordinates=XYZ", "coordinates=XYA")
+        .replace("AXIS_Z", "AXIS_A");
+    let found = shown(&table, "G21 G64 P0.01\nG1 A90 F360\nG1 A0\nM2\n", WRITTEN);
+    let text = found.as_str().expect("text");
+    for words in [
+        "speed along the path (deg/s)",
+        "Slowest (deg/s)",
+        "0.010000 deg",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert!(!text.contains("mm/s") && !text.contains('\u{b5}'), "{text}");
+    // What is off by nothing but rounding has one mark, 0; behind it stands that of the time.
+    let of_distance = "G21 G61\nG1 X20 F600\nM2\n";
+    let found = shown(MILL, of_distance, WRITTEN);
+    let text = found.as_str().expect("text");
+    assert!(
+        text.contains("distance (\u{b5}m)") && !text.contains("[: 0] [: 0] [: 0]"),
+        "{text}"
+    );
 }

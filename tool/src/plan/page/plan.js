@@ -24,7 +24,7 @@ function fillFigures() {
   addFigure("Peak speed", [number(speed.value, 4), `${speed.unit}/s`], `${number(speed.value * 60, 5)} ${speed.unit}/min, line ${speed.line}`);
   const { planned, tightest } = deviation;
   const used = tightest ? `${number((100 * tightest.distance) / tightest.tolerance, 3)} % of P at most` : "";
-  addFigure("Off the program", length(planned.distance), [`line ${planned.line}`, used, data.advice].filter(Boolean).join(", "));
+  addFigure("Off the program", length(planned.distance, deviation.unit), [`line ${planned.line}`, used, data.advice].filter(Boolean).join(", "));
   byId("figures").style.setProperty("--columns", 6);
 }
 
@@ -59,12 +59,14 @@ const text = (place) => place.of_program ? element("code", "", place.text) : "in
 function fillPlaces() {
   if (!report.slowest.length) return;
   byId("slow").hidden = false;
+  const units = new Set(report.slowest.map((place) => place.speed_unit));
+  const slowest = units.size > 1 ? "Slowest" : `Slowest (${report.slowest[0].speed_unit}/s)`;
   const rows = report.slowest.map((place) => [
-    String(place.line), fixed(place.time, 3), fixed(place.lost, 4), number(place.least_speed, 4),
+    String(place.line), fixed(place.time, 3), fixed(place.lost, 4), number(place.least_speed, 4) + (units.size > 1 ? ` ${place.speed_unit}/s` : ""),
     `${fixed(100 * place.least_share, 0)} %`, place.phase, place.cause,
     place.position.map((v) => fixed(v, 3)).join(",  "), text(place),
   ]);
-  const headings = ["Line", "at (s)", "Lost (s)", `Slowest (${unit}/s)`, "of the feed", "What it does", "Limited by", `X, Y, Z (${unit})`, "Program"];
+  const headings = ["Line", "at (s)", "Lost (s)", slowest, "of the feed", "What it does", "Limited by", `X, Y, Z (${unit})`, "Program"];
   const made = table(headings, rows, [0, 1, 2, 3, 4]);
   byId("places").append(made);
   made.querySelectorAll("tbody tr").forEach((row, i) => row.addEventListener("click", () => {
@@ -96,13 +98,13 @@ function fillPeaks() {
 }
 
 function fillAccuracy() {
-  const { planned, programmed: points, tightest, exact } = report.deviation;
+  const { planned, programmed: points, tightest, exact, unit: measure } = report.deviation;
   const rows = [];
   const add = (text, figure) => {
     if (!figure) return;
-    const given = figure.tolerance === null ? "G64 without P" : figure.tolerance === 0 ? "exact" : length(figure.tolerance).join(" ");
+    const given = figure.tolerance === null ? "G64 without P" : figure.tolerance === 0 ? "exact" : length(figure.tolerance, measure).join(" ");
     const share = figure.tolerance ? `${number((100 * figure.distance) / figure.tolerance, 3)} %` : "";
-    rows.push([text, length(figure.distance).join(" "), given, share, String(figure.line)]);
+    rows.push([text, length(figure.distance, measure).join(" "), given, share, String(figure.line)]);
   };
   add("Planned path, farthest from the program", planned);
   add("Programmed point, farthest from the planned path", points);
