@@ -161,8 +161,9 @@ fn junction_stops(one: &Piece, next: &Piece, limits: &Limits, period: f64) -> bo
         return true;
     }
     let turn = turn(one, next);
-    // A move that is to be followed exactly is so from its start on.
-    if one.mode == PathMode::ExactPath || next.mode == PathMode::ExactPath {
+    // A move that is to be followed exactly, and to stop at its end, is so from its start on.
+    let is_exact = next.mode == PathMode::ExactPath || next.mode == PathMode::ExactStop;
+    if one.mode == PathMode::ExactPath || is_exact {
         return turn > TANGENT;
     }
     if turn > REVERSAL {
@@ -300,17 +301,20 @@ mod tests {
             (0, 0),
             "back the same way"
         );
-        let text =
-            "TERM 3 0.1\nRATE 6000\nFEED 1 1 0 0 0 0 0 0 0 0\nTERM 2 0\nFEED 2 1 1 0 0 0 0 0 0 0";
-        let calls: Vec<Call> = text.lines().filter_map(Call::parse).collect();
-        let program = lay(&calls, &LayerSettings::default());
-        let (recording, _) = stop_between("TERM 3 0.1", to(1.0, 1.0, 0.0));
-        let (limits, range) = (Limits::default(), Some((0, 24)));
-        assert_eq!(
-            rests(&recording, &program, &limits, &[0.0; 9], 0.001, range).count,
-            0,
-            "into a move in exact path mode"
-        );
+        for mode in ["TERM 2 0", "TERM 1 0"] {
+            let text = format!(
+                "TERM 3 0.1\nRATE 6000\nFEED 1 1 0 0 0 0 0 0 0 0\n{mode}\nFEED 2 1 1 0 0 0 0 0 0 0"
+            );
+            let calls: Vec<Call> = text.lines().filter_map(Call::parse).collect();
+            let program = lay(&calls, &LayerSettings::default());
+            let (recording, _) = stop_between("TERM 3 0.1", to(1.0, 1.0, 0.0));
+            let (limits, range) = (Limits::default(), Some((0, 24)));
+            assert_eq!(
+                rests(&recording, &program, &limits, &[0.0; 9], 0.001, range).count,
+                0,
+                "into a move with {mode}"
+            );
+        }
     }
 
     #[test]
