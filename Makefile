@@ -39,13 +39,16 @@ HEADER_FOLDERS = rtapi hal emc emc/ini emc/kinematics emc/motion emc/nml_intf em
     libnml/,buffer cms inifile linklist nml os_intf posemath rcs)
 empty :=
 export LINUXCNC_INCLUDE := $(subst $(empty) ,:,$(wildcard $(addprefix $(abspath $(LINUXCNC_SOURCE))/src/,$(HEADER_FOLDERS))))
-export LINUXCNC_VERSION := $(shell cat $(LINUXCNC_SOURCE)/VERSION)
+export LINUXCNC_VERSION := $(shell cat $(LINUXCNC_SOURCE)/VERSION 2> /dev/null)
 # Where it was built, the command runs the interpreter and the planner from there.
 ifneq ($(wildcard $(LINUXCNC_SOURCE)/lib/librs274.so),)
 export LINUXCNC_IN_PLACE := $(abspath $(LINUXCNC_SOURCE))
 endif
 ifeq ($(LINUXCNC_INCLUDE),)
 $(error LINUXCNC_SOURCE=$(LINUXCNC_SOURCE) has no src/emc/motion: it is to be the folder of LinuxCNC's source)
+endif
+ifeq ($(LINUXCNC_VERSION),)
+$(error LINUXCNC_SOURCE=$(LINUXCNC_SOURCE) has no version in a file VERSION: it is to be the folder of LinuxCNC's source)
 endif
 endif
 

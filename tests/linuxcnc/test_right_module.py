@@ -221,6 +221,10 @@ class Built(unittest.TestCase):
             done = subprocess.run([*show, f"LINUXCNC_SOURCE={source}/src"], capture_output=True, text=True, check=False)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(f"LINUXCNC_SOURCE={source}/src has no src/emc/motion", done.stderr)
+            os.remove(os.path.join(source, "VERSION"))
+            done = subprocess.run([*show, f"LINUXCNC_SOURCE={source}"], capture_output=True, text=True, check=False)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(f"LINUXCNC_SOURCE={source} has no version in a file VERSION: it is to be", done.stderr)
 
     def test_headers_of_a_linuxcnc_that_is_run_in_place(self):
         with tempfile.TemporaryDirectory() as tree:
