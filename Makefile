@@ -1,8 +1,15 @@
 # framepath. The two commands for a newcomer: make demo, make test. All others: make help.
 
-# make takes a blank for the end of a name, also one in front of it or behind it: rm would have two.
-$(foreach name,CURDIR CARGO_TARGET_DIR DESTDIR PREFIX LINUXCNC_SOURCE,$(if $(word 2,x$($(name))x),$(error \
+# make takes a blank for the end of a name, also one in front of it or behind it: rm would have two. The shell, and sed, take
+# some characters for other than a part of a name.
+PATHS = CURDIR CARGO_TARGET_DIR DESTDIR PREFIX LINUXCNC_SOURCE
+open := (
+close := )
+SPECIAL = & \ | ; < > * ? [ ] ' " ` $$ $(open) $(close)
+$(foreach name,$(PATHS),$(if $(word 2,x$($(name))x),$(error \
     $(name)=$($(name)) has a blank, at which make cuts it: take a path without one)))
+$(foreach name,$(PATHS),$(foreach character,$(SPECIAL),$(if $(findstring $(character),$($(name))),$(error \
+    $(name)=$($(name)) has $(character), which the shell does not take for a part of a name: take a path without it))))
 
 CARGO ?= cargo
 PYTHON = /usr/bin/python3
@@ -21,6 +28,8 @@ TOOL = $(TARGET)/$(if $(filter dev,$(TOOL_PROFILE)),debug,$(TOOL_PROFILE))/frame
 
 DESTDIR ?=
 PREFIX ?= /usr
+# The samples name what they need with it, wherever they are copied to.
+$(if $(filter /%,$(PREFIX)),,$(error PREFIX=$(PREFIX) does not begin with /: take the whole path, $(abspath $(or $(PREFIX),/usr))))
 MODULE_FOLDER = $(DESTDIR)/usr/lib/linuxcnc/modules
 SHARE = $(DESTDIR)$(PREFIX)/share/framepath
 MAN = $(DESTDIR)$(PREFIX)/share/man

@@ -170,6 +170,21 @@ class Install(unittest.TestCase):
                     self.assertEqual(code, 2)
                     self.assertIn(f"{setting} has a blank", said)
 
+    def test_a_path_that_leads_elsewhere_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for setting, words in (
+                    # in a sample that has been copied it would begin elsewhere
+                    ("PREFIX=opt", f"PREFIX=opt does not begin with /: take the whole path, {folder}/opt"),
+                    ("PREFIX=", "PREFIX= does not begin with /: take the whole path, /usr"),
+                    # sed would put into the samples what it replaces
+                    ("PREFIX=/a&b", "PREFIX=/a&b has &, which"),
+                    *((f"{name}=/a{character}b", f"{name}=/a{character}b has {character}, which")
+                      for name in ("PREFIX", "DESTDIR", "CARGO_TARGET_DIR", "LINUXCNC_SOURCE") for character in "'\"`;|\\*(")):
+                with self.subTest(setting=setting):
+                    code, said = self.run_copy(folder, "-n", "uninstall", setting)
+                    self.assertEqual(code, 2)
+                    self.assertIn(words, said)
+
     def test_cargo_builds_where_make_looks_whatever_its_own_configuration_says(self):
         with tempfile.TemporaryDirectory() as folder:
             put(folder, "hal-component/Makefile", text="built-for all:\n\techo $(CARGO_TARGET_DIR) >&2\n")
