@@ -350,7 +350,7 @@ SHARED_PROGRAMS = subroutines/frame_guard.py panel/program_time.py
 SHARED_PATTERNS = subroutines/*.ngc subroutines/frame_*.py subroutines/README.md preview/*.py panel/time_table.py \
     $(addprefix panel/*.,xml ui hal) $(addprefix configs/*/*.,hal ini ngc tbl)
 SHARED_TEXTS = $(filter-out $(SHARED_PROGRAMS),$(patsubst hal-component/%,%,$(wildcard $(addprefix hal-component/,$(SHARED_PATTERNS)))))
-# They name others by where they are in the source.
+# They name others by where they are in the source; a copy in the user's folder has to find them, too.
 WITH_PATHS = $(filter configs/%.ini configs/%.hal panel/%.xml panel/%.hal,$(SHARED_TEXTS))
 
 # What was put into $(SHARE) is listed there: users put files of theirs beside it, into folders of ours, too.
@@ -373,24 +373,23 @@ install: installable modules completions
 	@if [ -d $(SHARE) ] && [ ! -e $(SHARE)/$(INSTALLED) ]; then \
 	    if others=$$(cd $(SHARE) && find . -type f -printf '%P\n' | grep -Fvx $(addprefix -e ,$(SHARED_TEXTS) $(SHARED_PROGRAMS))); then \
 	        printf '%s\n' "make install: left in $(SHARE), since they are yours or of a framepath that kept no list:" "$$others"; fi; fi
-	@$(REMOVE_INSTALLED)
+	@{ \
+	    for module in framekins blendtp; do \
+	        echo 644 $(MODULES)/$$module.so $(MODULE_FOLDER)/$$module.so; \
+	        echo 644 hal-component/$$module.9 $(MAN)/man9/$$module.9; \
+	    done; \
+	    echo 755 $(TOOL) $(BIN)/framepath; \
+	    echo 644 tool/framepath.1 $(MAN)/man1/framepath.1; \
+	    for file in $(filter-out $(WITH_PATHS),$(SHARED_TEXTS)); do echo 644 hal-component/$$file $(SHARE)/$$file; done; \
+	    for file in $(WITH_PATHS); do echo sample hal-component/$$file $(SHARE)/$$file; done; \
+	    for file in $(SHARED_PROGRAMS); do echo 755 hal-component/$$file $(SHARE)/$$file; done; \
+	    echo link $(PREFIX)/share/framepath/configs $(EXAMPLES)/framepath; \
+	    echo 644 $(COMPLETED)/bash $(word 1,$(COMPLETIONS)); \
+	    echo 644 $(COMPLETED)/zsh $(word 2,$(COMPLETIONS)); \
+	    echo 644 $(COMPLETED)/fish $(word 3,$(COMPLETIONS)); \
+	} | ./put-in-place $(SHARE) $(PREFIX)/share/framepath
 	@$(REMOVE_EMPTY)
-	install -d $(MODULE_FOLDER) $(BIN) $(SHARE) $(MAN)/man1 $(MAN)/man9
-	@printf '%s\n' $(SHARED_TEXTS) $(SHARED_PROGRAMS) $(INSTALLED) | install -m 644 /dev/stdin $(SHARE)/$(INSTALLED)
-	install -m 644 $(MODULES)/framekins.so $(MODULES)/blendtp.so $(MODULE_FOLDER)
-	install -m 755 $(TOOL) $(BIN)
-	@for file in $(SHARED_TEXTS); do install -D -m 644 hal-component/$$file $(SHARE)/$$file || exit 1; done
-	@for file in $(SHARED_PROGRAMS); do install -D -m 755 hal-component/$$file $(SHARE)/$$file || exit 1; done
-# A copy in the user's folder has to find them, too.
-	@cd $(SHARE) && sed -i 's|\.\./\.\./|$(PREFIX)/share/framepath/|g' $(WITH_PATHS)
-	install -d $(EXAMPLES)
-	ln -sfn $(PREFIX)/share/framepath/configs $(EXAMPLES)/framepath
-	install -m 644 hal-component/framekins.9 hal-component/blendtp.9 $(MAN)/man9
-	install -m 644 tool/framepath.1 $(MAN)/man1
-	install -d $(dir $(COMPLETIONS))
-	install -m 644 $(COMPLETED)/bash $(word 1,$(COMPLETIONS))
-	install -m 644 $(COMPLETED)/zsh $(word 2,$(COMPLETIONS))
-	install -m 644 $(COMPLETED)/fish $(word 3,$(COMPLETIONS))
+	@echo "make install: in place are $(MODULE_FOLDER)/framekins.so and blendtp.so, $(BIN)/framepath, $(SHARE)"
 	@$(call TELL_OTHER,$(comma) then make install again)
 
 uninstall:

@@ -3,6 +3,7 @@
 import glob
 import os
 import re
+import resource
 import shutil
 import subprocess
 import tempfile
@@ -11,11 +12,15 @@ import unittest
 import harness
 
 
-def make(target, *settings, umask=-1):
+def run_make(target, *settings, **options):
     # What was built for the tests is installed; nothing is built anew.
     built = ["-o", "modules", "-o", "tool", f"MODULES={harness.MODULES}", f"TOOL={harness.TOOL}"]
-    done = subprocess.run(["make", "-C", harness.ROOT, *built, target, *settings], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, check=False, umask=umask)
+    return subprocess.run(["make", "-C", harness.ROOT, *built, target, *settings], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, check=False, **options)
+
+
+def make(target, *settings, umask=-1):
+    done = run_make(target, *settings, umask=umask)
     if done.returncode:
         raise AssertionError(done.stdout)
     return done.stdout
@@ -32,6 +37,11 @@ def put(folder, *names, text=""):
 
 def files(folder):
     return {os.path.relpath(os.path.join(where, name), folder) for where, _, names in os.walk(folder) for name in names}
+
+
+def fill_disk():
+    """What is run then has room for small files only."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
 
 class Install(unittest.TestCase):
@@ -80,7 +90,7 @@ class Install(unittest.TestCase):
         # root installs what a user without rights has built
         command = ["make", "-n", "-C", harness.ROOT, "-o", "modules", "-o", "completions", f"TOOL={harness.TOOL}", "install"]
         lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
-        self.assertEqual({line.split()[0] for line in lines if harness.TOOL in line}, {"install"})
+        self.assertEqual([line.split()[:3] for line in lines if harness.TOOL in line], [["echo", "755", harness.TOOL]])
 
     def test_with_another_prefix_zsh_finds_its_completions(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -140,6 +150,36 @@ class Install(unittest.TestCase):
             self.assertIn(f"left, since framepath has not put them there:\n{share}/", said)
             # 128: this source is not a clone of git
             self.assertIn(ignored.returncode, (0, 128))
+
+    def test_one_that_fails_leaves_all_as_it_was(self):
+        with tempfile.TemporaryDirectory() as folder:
+            there = os.path.join(folder, "there")
+            make("install", f"DESTDIR={there}")
+            with open(os.path.join(there, "usr/share/framepath/installed-files"), "a", encoding="utf-8") as file:
+                file.write("subroutines/gone.ngc\n")
+            put(there, "usr/share/framepath/subroutines/gone.ngc")
+            # neither touched nor replaced
+            before = self.looks(there)
+            for limit, settings in ((fill_disk, ()), (None, (f"MODULES={folder}/nothing",))):
+                with self.subTest(settings=settings):
+                    done = run_make("-o", "completions", "install", f"DESTDIR={there}", *settings, preexec_fn=limit)
+                    self.assertNotEqual(done.returncode, 0)
+                    self.assertIn("make install: nothing was changed\n", done.stdout)
+                    self.assertEqual(self.looks(there), before)
+            new = os.path.join(folder, "new")
+            self.assertNotEqual(run_make("-o", "completions", "install", f"DESTDIR={new}", preexec_fn=fill_disk).returncode, 0)
+            self.assertFalse(os.path.exists(new))
+            os.remove(os.path.join(there, "usr/bin/framepath"))
+            put(there, "usr/bin/framepath/mine")
+            done = run_make("install", f"DESTDIR={there}")
+            self.assertIn(f"{there}/usr/bin/framepath is a folder: move it away", done.stdout)
+            self.assertTrue(os.path.exists(os.path.join(there, "usr/share/framepath/subroutines/gone.ngc")))
+
+    def looks(self, folder):
+        """Which files and folders are there, and since when."""
+        paths = glob.glob("**", root_dir=folder, recursive=True, include_hidden=True)
+        return {path: (os.lstat(os.path.join(folder, path)).st_ino, os.lstat(os.path.join(folder, path)).st_size)
+                for path in paths}
 
     def test_over_an_older_one_without_a_list_only_what_this_one_has_is_replaced(self):
         with tempfile.TemporaryDirectory() as folder:
