@@ -176,7 +176,7 @@ BUILT = ("modules/blendtp.so", "modules/framekins.so", "release/framepath",
 class BuiltWhereInstalled(unittest.TestCase):
     """debian/build-where-installed, with its folders moved and with a make that does what is asked of it."""
 
-    def run_with(self, make_says):
+    def run_with(self, make_says, mktemp='exec /usr/bin/mktemp "$@"', **environment):
         """Its code, what it says, its log, and what it ran as the user who builds."""
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(DEBIAN, "build-where-installed"), encoding="utf-8") as file:
@@ -189,21 +189,27 @@ class BuiltWhereInstalled(unittest.TestCase):
             # a log of the user who builds leads elsewhere
             victim = os.path.join(folder, "victim")
             os.symlink(victim, os.path.join(work, "build.log"))
-            moved = text.replace("/var/lib/framepath", work).replace("/var/log", folder)
+            moved = (text.replace("/var/lib/framepath", work).replace("/var/log", folder)
+                     .replace("PATH=/usr/sbin", f"PATH={folder}:/usr/sbin").replace("/usr/bin/cargo", f"{folder}/debian-cargo"))
             for name, content in (("script", moved),
                                   ("make", f"#!/bin/sh\necho make $CARGO_TARGET_DIR \"$@\"\n{make_says}\n"),
+                                  ("debian-cargo", "#!/bin/sh\necho cargo 1.96.0\n"),
+                                  ("mktemp", f"#!/bin/sh\n{mktemp}\n"),
+                                  # the caller's, in front of Debian's
+                                  ("callers/make", "#!/bin/sh\necho of the caller; exit 1\n"),
                                   ("setpriv", f'#!/bin/sh\nshift 3\necho "$@" >> {folder}/as-builder\nexec "$@"\n')):
+                os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     file.write(content)
                 os.chmod(os.path.join(folder, name), 0o755)
-            path = f"{folder}:{os.environ['PATH']}"
-            done = subprocess.run([os.path.join(folder, "script")], env=dict(os.environ, PATH=path), stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, text=True, check=False)
+            path = f"{folder}/callers:{os.environ['PATH']}"
+            done = subprocess.run([os.path.join(folder, "script")], env=dict(os.environ, PATH=path, **environment),
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
             self.assertFalse(os.path.exists(victim))
             texts = []
             for name in ("framepath-build.log", "as-builder"):
                 with open(os.path.join(folder, name), encoding="utf-8") as file:
-                    texts.append(file.read().replace(work, "WORK"))
+                    texts.append(file.read().replace(work, "WORK").replace(folder, "FOLDER"))
             return done.returncode, done.stdout, *texts
 
     def test_what_is_built_is_installed(self):
@@ -211,7 +217,7 @@ class BuiltWhereInstalled(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertIn("are installed", said)
         built, installed = log.splitlines()
-        self.assertRegex(built, r"^make WORK/target .* modules completions$")
+        self.assertRegex(built, r"^make WORK/target .* CARGO=FOLDER/debian-cargo modules completions$")
         self.assertRegex(installed, r"^make /\S+ .* -o modules -o completions install$")
         # root neither runs nor opens what lies where others may write
         self.assertNotIn("WORK", installed)
@@ -221,10 +227,32 @@ class BuiltWhereInstalled(unittest.TestCase):
         code, said, log, _ = self.run_with("echo cargo 1.90 is needed; exit 1")
         self.assertEqual(code, 0, said)
         self.assertNotIn("install\n", log)
-        for words in ("NOT BUILT", "    cargo 1.90 is needed", "dpkg-reconfigure framepath-source", "TPMOD = blendtp",
+        for words in ("NOT BUILT", "debian-cargo (cargo 1.96.0)", "    cargo 1.90 is needed", "dpkg-reconfigure framepath-source", "TPMOD = blendtp",
                       "KINEMATICS = trivkins", "LinuxCNC itself is as it was", "each REMAP", "M6", "ON_ABORT_COMMAND = o<frame_abort>",
                       "USER_COMMAND_FILE", "operator.hal", "/usr/src/framepath/README.md"):
             self.assertIn(words, said)
+
+    def test_the_environment_of_who_calls_apt_says_nothing_but_the_way_into_the_network(self):
+        names = {"PREFIX": "/usr/local", "DESTDIR": "/nonexistent", "LINUXCNC_SOURCE": "/nonexistent", "MAKEFLAGS": "-n",
+                 "LINUXCNC_INCLUDE": "/nonexistent", "CARGO": "/nonexistent", "RUSTFLAGS": "-Cdebuginfo=2",
+                 "TMPDIR": "/nonexistent"}
+        kept = {"https_proxy": "http://a b", "CARGO_HTTP_CAINFO": "/ca", "SSL_CERT_FILE": "/cert"}
+        code, said, log, _ = self.run_with("env", **names, **kept)
+        self.assertEqual(code, 0, said)
+        self.assertIn("are installed", said)
+        found = dict(line.split("=", 1) for line in log.splitlines() if re.match(r"\w+=", line))
+        self.assertEqual(found.keys() & names.keys(), set())
+        self.assertEqual({name: found.get(name) for name in kept}, kept)
+        with open(os.path.join(DEBIAN, "framepath-source.prerm"), encoding="utf-8") as file:
+            self.assertRegex(file.read(), r" env -i PATH=\S+ make ")
+
+    def test_without_a_folder_for_what_was_built_nothing_is_installed(self):
+        code, said, log, as_builder = self.run_with("true", mktemp="echo no room >&2; exit 1")
+        self.assertEqual(code, 0, said)
+        for words in ("NOT BUILT", "    no room"):
+            self.assertIn(words, said)
+        self.assertNotIn("completions install\n", log)
+        self.assertNotIn("cat", as_builder)
 
 
 if __name__ == "__main__":
