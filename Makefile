@@ -345,6 +345,17 @@ installable:
 	        "or make install DESTDIR=... with a folder of yours" >&2; exit 1; }; \
 	done
 
+# What dpkg has put there it has to remove. framepath-source makes this install and uninstall from its own source, what is
+# installed then is in no list of dpkg.
+PACKAGED = $(addprefix $(MODULE_FOLDER)/,framekins.so blendtp.so) $(abspath $(BIN))/framepath \
+    $(if $(filter $(realpath /usr/src/framepath),$(CURDIR)),,/usr/lib/framepath/build-where-installed)
+
+no-package:
+	@[ -n "$(DESTDIR)" ] || { \
+	    owner=$$(dpkg-query -S $(PACKAGED) 2> /dev/null | sed -n '/^diversion /d; s/: .*//p' | head -n 1); \
+	    [ -z "$$owner" ] || { echo "make: what is installed belongs to the Debian package $$owner, and nothing was changed:" \
+	        "sudo apt remove $$owner; then make again" >&2; exit 1; }; }
+
 # What goes into $(SHARE): not what a run of a sample in the source has left there.
 SHARED_PROGRAMS = subroutines/frame_guard.py panel/program_time.py
 SHARED_PATTERNS = subroutines/*.ngc subroutines/frame_*.py subroutines/README.md preview/*.py panel/time_table.py \
@@ -367,7 +378,7 @@ OTHER_PREFIX = $(if $(filter /usr/local,$(PREFIX:%/=%)),/usr,/usr/local)
 TELL_OTHER = if [ -e $(DESTDIR)$(OTHER_PREFIX)/bin/framepath ]; then \
     echo "make $@: another one is there, $(DESTDIR)$(OTHER_PREFIX)/bin/framepath: to remove it make uninstall PREFIX=$(OTHER_PREFIX)$(1)"; fi
 
-install: installable modules completions
+install: no-package installable modules completions
 # What an older one had and this one has not goes, since LinuxCNC would find it. What users have put beside it stays. One that
 # left no list may have left either.
 	@if [ -d $(SHARE) ] && [ ! -e $(SHARE)/$(INSTALLED) ]; then \
@@ -392,7 +403,7 @@ install: installable modules completions
 	@echo "make install: in place are $(MODULE_FOLDER)/framekins.so and blendtp.so, $(BIN)/framepath, $(SHARE)"
 	@$(call TELL_OTHER,$(comma) then make install again)
 
-uninstall:
+uninstall: no-package
 	rm -f $(MODULE_FOLDER)/framekins.so $(MODULE_FOLDER)/blendtp.so $(BIN)/framepath
 	rm -f $(MAN)/man9/framekins.9 $(MAN)/man9/blendtp.9 $(MAN)/man1/framepath.1
 	rm -f $(COMPLETIONS)
@@ -434,5 +445,5 @@ clean:
 	$(CARGO) clean
 
 .PHONY: help prerequisites buildable modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
-    fuzz fuzz-filter mutants compare figures five-axes tuning book screens header completions installable install uninstall deb deb-source \
+    fuzz fuzz-filter mutants compare figures five-axes tuning book screens header completions installable no-package install uninstall deb deb-source \
     debian-12 debian-13 clean

@@ -109,6 +109,25 @@ class Install(unittest.TestCase):
             self.assertIn(f"make uninstall: {told}\n", make("uninstall", f"DESTDIR={folder}"))
             self.assertNotIn("another", make("uninstall", f"DESTDIR={folder}", "PREFIX=/usr/local"))
 
+    def test_what_a_debian_package_has_installed_is_left_to_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            put(folder, "dpkg-query", text="#!/bin/sh\nfor name; do case $name in\n"
+                                           '*/blendtp.so) echo "some-package: $name" ;; esac; done\n')
+            os.chmod(os.path.join(folder, "dpkg-query"), 0o755)
+            names = ("modules/blendtp.so", "usr/bin/framepath")
+            put(folder, *names)
+            places = (f"PREFIX={folder}/usr", f"MODULE_FOLDER={folder}/modules", f"EXAMPLES={folder}/examples")
+            path = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
+            for goal in ("install", "uninstall"):
+                code, said = self.run_copy(folder, "-o", "modules", "-o", "completions", goal, *places, env=path)
+                self.assertEqual(code, 2)
+                self.assertIn("belongs to the Debian package some-package, and nothing was changed: sudo apt remove some-package",
+                              said)
+                self.assertLess({*names}, files(folder))
+            # below DESTDIR dpkg has nothing
+            code, said = self.run_copy(folder, "uninstall", *places, "DESTDIR=/nonexistent", env=path)
+            self.assertEqual(code, 0, said)
+
     def test_everybody_may_read_what_a_careful_root_installs(self):
         with tempfile.TemporaryDirectory() as folder:
             make("install", f"DESTDIR={folder}", umask=0o077)
@@ -219,7 +238,8 @@ class Install(unittest.TestCase):
                     # sed would put into the samples what it replaces
                     ("PREFIX=/a&b", "PREFIX=/a&b has &, which"),
                     *((f"{name}=/a{character}b", f"{name}=/a{character}b has {character}, which")
-                      for name in ("PREFIX", "DESTDIR", "CARGO_TARGET_DIR", "LINUXCNC_SOURCE") for character in "'\"`;|\\*(")):
+                      for name in ("PREFIX", "DESTDIR", "CARGO_TARGET_DIR", "LINUXCNC_SOURCE")
+                      for character in "'\"`;|\\*(")):
                 with self.subTest(setting=setting):
                     code, said = self.run_copy(folder, "-n", "uninstall", setting)
                     self.assertEqual(code, 2)

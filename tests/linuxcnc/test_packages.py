@@ -169,6 +169,34 @@ class OfALittleSource(unittest.TestCase):
         self.assertRegex(output("dpkg-deb", "--field", package, "Version"), r"\+git\d{14}\.[0-9a-f]{7,}$")
 
 
+class OverAnother(unittest.TestCase):
+    def test_over_what_make_has_installed_the_package_is_not_laid(self):
+        with open(os.path.join(DEBIAN, "framepath.preinst"), encoding="utf-8") as file:
+            text = file.read()
+        with tempfile.TemporaryDirectory() as folder:
+            script = os.path.join(folder, "preinst")
+            with open(script, "w", encoding="utf-8") as file:
+                file.write(text.replace(" /usr", f" {folder}/usr"))
+            query = os.path.join(folder, "dpkg-query")
+            os.symlink("/bin/false", query)
+
+            def run(action):
+                return subprocess.run(["sh", script, action], capture_output=True, text=True, check=False,
+                                      env=dict(os.environ, PATH=f"{folder}:{os.environ['PATH']}"))
+
+            self.assertEqual(run("install").returncode, 0)
+            for prefix in ("usr/local", "usr"):
+                make("install", f"DESTDIR={folder}", f"PREFIX=/{prefix}")
+                done = run("install")
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(f"sudo make uninstall PREFIX={folder}/{prefix}, then", done.stderr)
+                # what is the package's own may be replaced
+                self.assertEqual(run("upgrade").returncode, 0)
+            os.remove(query)
+            os.symlink("/bin/true", query)
+            self.assertEqual(run("install").returncode, 0)
+
+
 BUILT = ("modules/blendtp.so", "modules/framekins.so", "release/framepath",
          *(f"completions/{shell}" for shell in ("bash", "zsh", "fish")))
 
@@ -190,12 +218,14 @@ class BuiltWhereInstalled(unittest.TestCase):
             victim = os.path.join(folder, "victim")
             os.symlink(victim, os.path.join(work, "build.log"))
             moved = (text.replace("/var/lib/framepath", work).replace("/var/log", folder)
-                     .replace("PATH=/usr/sbin", f"PATH={folder}:/usr/sbin").replace("/usr/bin/cargo", f"{folder}/debian-cargo"))
+                     .replace("PATH=/usr/sbin", f"PATH={folder}:/usr/sbin").replace("/usr/bin/cargo", f"{folder}/debian-cargo")
+                     .replace("/usr/local/bin", f"{folder}/callers"))
             for name, content in (("script", moved),
                                   ("make", f"#!/bin/sh\necho make $CARGO_TARGET_DIR \"$@\"\n{make_says}\n"),
                                   ("debian-cargo", "#!/bin/sh\necho cargo 1.96.0\n"),
                                   ("mktemp", f"#!/bin/sh\n{mktemp}\n"),
                                   # the caller's, in front of Debian's
+                                  ("callers/framepath", ""),
                                   ("callers/make", "#!/bin/sh\necho of the caller; exit 1\n"),
                                   ("setpriv", f'#!/bin/sh\nshift 3\necho "$@" >> {folder}/as-builder\nexec "$@"\n')):
                 os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
@@ -216,6 +246,8 @@ class BuiltWhereInstalled(unittest.TestCase):
         code, said, log, as_builder = self.run_with('[ -e "$CARGO_TARGET_DIR/release/framepath" ]')
         self.assertEqual(code, 0, said)
         self.assertIn("are installed", said)
+        self.assertRegex(said, "another one is there, .*/callers/framepath: to remove it "
+                               "sudo make -C .* uninstall PREFIX=/usr/local, then")
         built, installed = log.splitlines()
         self.assertRegex(built, r"^make WORK/target .* CARGO=FOLDER/debian-cargo modules completions$")
         self.assertRegex(installed, r"^make /\S+ .* -o modules -o completions install$")
@@ -227,7 +259,8 @@ class BuiltWhereInstalled(unittest.TestCase):
         code, said, log, _ = self.run_with("echo cargo 1.90 is needed; exit 1")
         self.assertEqual(code, 0, said)
         self.assertNotIn("install\n", log)
-        for words in ("NOT BUILT", "debian-cargo (cargo 1.96.0)", "    cargo 1.90 is needed", "dpkg-reconfigure framepath-source", "TPMOD = blendtp",
+        for words in ("NOT BUILT", "debian-cargo (cargo 1.96.0)", "    cargo 1.90 is needed",
+                      "dpkg-reconfigure framepath-source", "TPMOD = blendtp",
                       "KINEMATICS = trivkins", "LinuxCNC itself is as it was", "each REMAP", "M6", "ON_ABORT_COMMAND = o<frame_abort>",
                       "USER_COMMAND_FILE", "operator.hal", "/usr/src/framepath/README.md"):
             self.assertIn(words, said)
