@@ -87,7 +87,12 @@ impl Interpreter<'_> {
             }
             5 | 50 => {
                 if code == 50 {
-                    self.control.note("G50", span);
+                    self.control.note_once(
+                        "G50",
+                        "G50 rounds corners as the control is set: it runs as G5, corners are rounded by at most \
+                         --tolerance",
+                        span,
+                    );
                 }
                 self.control.continuous_path(None, span)?;
                 3

@@ -269,3 +269,16 @@ fn the_language_is_guessed_and_said() {
     assert!(shown.contains("in which language"), "{shown}");
     assert!(shown.contains("1 error: nothing was written"), "{shown}");
 }
+
+/// It is not left out: corners are rounded from there on.
+#[test]
+fn the_note_of_g50_says_what_is_done() {
+    let shop = Shop::new(&[("part.pim", b"%X,MX--,\nG7 G1 X10 F100\nG50\nY10\nM30\n")]);
+    let output = accepted(&shop.run_in("fagor", "part.pim", &[]));
+    assert!(
+        output.contains("(MSG, line 3: G50 rounds corners"),
+        "{output}"
+    );
+    assert!(output.contains("G64 P0.01 (line 3)"), "{output}");
+    assert!(!output.contains("left out"), "{output}");
+}
