@@ -40,6 +40,8 @@ pub struct Details {
     pub label: String,
     /// What to write instead.
     pub help: Option<String>,
+    /// Whether it may only follow from an error before it.
+    follows: bool,
 }
 
 impl Deref for Diagnostic {
@@ -56,6 +58,14 @@ impl Diagnostic {
         Diagnostic::new(Severity::Error, span, message.into())
     }
 
+    /// An error at `span`, because it is not known ahead of time where something is. Behind another error it is
+    /// left out: where the axes are after a block that could not be carried out is not known either.
+    pub fn unknown_place(span: Span, message: impl Into<String>) -> Diagnostic {
+        let mut diagnostic = Diagnostic::error(span, message);
+        diagnostic.0.follows = true;
+        diagnostic
+    }
+
     /// A warning at `span`.
     pub fn warning(span: Span, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(Severity::Warning, span, message.into())
@@ -68,6 +78,7 @@ impl Diagnostic {
             message,
             label: String::new(),
             help: None,
+            follows: false,
         }))
     }
 
@@ -101,6 +112,9 @@ impl Diagnostics {
     /// Adds one, unless the same was said about the same place before (a block in a loop, or in a
     /// subprogram that is called twice).
     pub fn push(&mut self, diagnostic: Diagnostic) {
+        if diagnostic.follows && self.errors > 0 {
+            return;
+        }
         // Whoever gives a picture instead of a program must not wait for each of its bytes.
         if self.list.len() >= KEPT {
             self.errors += usize::from(diagnostic.severity == Severity::Error);

@@ -54,7 +54,7 @@ impl Control<'_> {
         let [first, second, _] = self.modal.plane.axes();
         let chord = self.chord(&path, span)?;
         let Some(tangent) = self.modal.tangent else {
-            return Err(Diagnostic::error(
+            return Err(Diagnostic::unknown_place(
                 span,
                 "a tangent arc, and the direction before it is not known ahead of time",
             )
@@ -86,7 +86,7 @@ impl Control<'_> {
 
     fn known_start(&self, path: &Move, axis: usize, span: Span) -> Result<f64, Diagnostic> {
         path.start[axis].ok_or_else(|| {
-            Diagnostic::error(span, "where this arc begins is not known ahead of time")
+            Diagnostic::unknown_place(span, "where this arc begins is not known ahead of time")
                 .help("program the axes of the plane absolute before the arc")
         })
     }

@@ -162,7 +162,7 @@ impl Control<'_> {
 /// G52 behind G92, while the tool is nobody knows where.
 fn unknown_preset(axis: usize, span: Span) -> Diagnostic {
     let letter = AXES[axis];
-    Diagnostic::error(
+    Diagnostic::unknown_place(
         span,
         format!("G52 behind G92, and where {letter} is, is not known ahead of time"),
     )

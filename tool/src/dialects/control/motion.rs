@@ -74,7 +74,7 @@ impl Control<'_> {
     /// A motion whose coordinates are worked out.
     pub fn add_move(&mut self, mut path: Move, span: Span) -> Done {
         if self.modal.compensation != Compensation::Off && path.depends_on_position() {
-            return Err(Diagnostic::error(
+            return Err(Diagnostic::unknown_place(
                 span,
                 "under cutter compensation, from a place that is not known ahead of time",
             )
@@ -199,7 +199,7 @@ fn increment_base(
                 );
                 Ok(Some(carried))
             }
-            None => Err(Diagnostic::error(
+            None => Err(Diagnostic::unknown_place(
                 span,
                 format!(
                     "increment in {letter} after {change}, \

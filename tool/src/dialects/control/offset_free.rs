@@ -113,7 +113,7 @@ impl Control<'_> {
         let letter = AXES[axis];
         let name = state.name;
         state.programmed[axis].map(|base| base + value).ok_or_else(|| {
-            Diagnostic::error(
+            Diagnostic::unknown_place(
                 word.span,
                 format!(
                     "an increment while the work offset is off ({name}), and where {letter} is there \

@@ -50,7 +50,7 @@ impl Control<'_> {
                 x.hypot(y).hypot(z) / [x, y, z][axis].abs()
             }
             _ => {
-                return Err(Diagnostic::error(
+                return Err(Diagnostic::unknown_place(
                     span,
                     "the slope of this thread is not known ahead of time",
                 )
@@ -82,7 +82,7 @@ impl Control<'_> {
             .any(|(named, _)| named != axis);
         match (axis == normal && !others, self.present(axis)) {
             (true, Some(place)) => Ok(place),
-            (true, None) => Err(Diagnostic::error(
+            (true, None) => Err(Diagnostic::unknown_place(
                 span,
                 "where the tap begins is not known ahead of time",
             )

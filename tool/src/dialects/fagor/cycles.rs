@@ -130,7 +130,7 @@ impl Interpreter<'_> {
         let start = match &old {
             Some(old) => old.start,
             None => self.control.modal.position.get(normal).ok_or_else(|| {
-                Diagnostic::error(
+                Diagnostic::unknown_place(
                         g.span,
                         "a canned cycle, and where the tool is above the plane is not known ahead of time",
                     )

@@ -25,7 +25,7 @@ impl Interpreter<'_> {
         };
         let places = [first, second, normal].map(|axis| self.control.present(axis));
         let ([Some(x), Some(y), Some(z)], None) = (places, motion.radius) else {
-            return Err(Diagnostic::error(
+            return Err(Diagnostic::unknown_place(
                     pitch.span,
                     "the pitch of a helix by its radius, or from a place that is not known ahead of time",
                 )

@@ -108,7 +108,7 @@ impl Interpreter<'_> {
         self.refuse_in_pocket_state(span)?;
         let [_, _, normal] = self.control.modal.plane.axes();
         let start = self.control.modal.position.get(normal).ok_or_else(|| {
-            Diagnostic::error(
+            Diagnostic::unknown_place(
                 span,
                 "a pocket, and where the tool is above the plane is not known ahead of time",
             )

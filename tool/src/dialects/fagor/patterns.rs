@@ -110,7 +110,7 @@ impl Interpreter<'_> {
         let way = parameters.way()?;
         let [first, second, _] = self.control.modal.plane.axes();
         let (Some(x), Some(y)) = (self.control.present(first), self.control.present(second)) else {
-            return Err(Diagnostic::error(
+            return Err(Diagnostic::unknown_place(
                 span,
                 "the first place of this pattern is not known ahead of time",
             )

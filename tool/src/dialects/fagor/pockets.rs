@@ -163,7 +163,7 @@ impl Interpreter<'_> {
         let [first, second, _] = self.control.modal.plane.axes();
         let places = [first, second].map(|axis| self.control.present(axis));
         let [Some(x), Some(y)] = places else {
-            return Err(Diagnostic::error(
+            return Err(Diagnostic::unknown_place(
                 span,
                 "where this pocket lies is not known ahead of time",
             )

@@ -40,7 +40,7 @@ impl Interpreter<'_> {
         let [first, second, _] = self.control.modal.plane.axes();
         match [first, second].map(|axis| self.control.present(axis)) {
             [Some(a), Some(b)] => Ok([a, b]),
-            _ => Err(Diagnostic::error(
+            _ => Err(Diagnostic::unknown_place(
                 span,
                 "polar coordinates from a place that is not known ahead of time",
             )

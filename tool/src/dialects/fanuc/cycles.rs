@@ -76,7 +76,7 @@ impl Interpreter<'_> {
             None => Cycle {
                 code,
                 initial: self.control.present(normal).ok_or_else(|| {
-                    Diagnostic::error(
+                    Diagnostic::unknown_place(
                             span,
                             "a canned cycle, and where the tool is above the part is not known ahead of time",
                         )

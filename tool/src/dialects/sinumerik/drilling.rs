@@ -155,10 +155,11 @@ impl Interpreter<'_> {
         };
         let [first, second, normal] = self.control.modal.plane.axes();
         let (Some(x), Some(y)) = (self.control.present(first), self.control.present(second)) else {
-            return Err(
-                Diagnostic::error(span, "where this hole is, is not known ahead of time")
-                    .help("program its place absolute before the cycle"),
-            );
+            return Err(Diagnostic::unknown_place(
+                span,
+                "where this hole is, is not known ahead of time",
+            )
+            .help("program its place absolute before the cycle"));
         };
         self.turn(spindle);
         self.plunge(hole.bottom, false, span)?;

@@ -234,7 +234,7 @@ impl Interpreter<'_> {
                     );
                     continue;
                 }
-                return Err(Diagnostic::error(
+                return Err(Diagnostic::unknown_place(
                     word.span,
                     "which way this axis turns is not known ahead of time",
                 )
