@@ -1,5 +1,6 @@
 //! Variables, jumps, loops, subprograms and macros.
 
+use crate::one_error::assert_one_error;
 use crate::path::{assert_pair, assert_same, plain, steps};
 use crate::rs274;
 use crate::shop::Shop;
@@ -302,4 +303,21 @@ fn comments_speak_for_no_dialect() {
     ] {
         assert_eq!(guessed(text), Some(dialect), "{text}");
     }
+}
+
+/// Behind an error the position is not known, which is no second error.
+#[test]
+fn one_error_is_not_followed_by_those_that_come_of_it() {
+    let program = "O1\nG90 G54 G0 X0 Y0 Z50.\nG76 X60. Z-5. R2. I0.2 J0 F50.\nG91 X5. L2\nG80 G90\nM3 S100\n\
+                   G81 X1. Y1. Z-1. R1. F100.\nG80\nM30\n";
+    let shown = Shop::with(Dialect::Fanuc, program).refused(&[]);
+    assert_one_error(&shown, program, "part.nc:3:1", "the spindle does not turn");
+}
+
+#[test]
+fn a_jump_behind_then_is_told_how_it_is_written() {
+    let program = "O1\nIF[1EQ1]THEN GOTO 10\nN10 M30\n";
+    let shown = Shop::with(Dialect::Fanuc, program).refused(&[]);
+    let words = "write IF[..]GOTO 10, without THEN";
+    assert_one_error(&shown, program, "part.nc:2:14", words);
 }

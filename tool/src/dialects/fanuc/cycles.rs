@@ -43,6 +43,8 @@ pub struct Cycle {
     pub step: Option<At<f64>>,
     /// P, seconds.
     pub dwell: f64,
+    /// Where P stands.
+    pub dwell_at: Option<Span>,
     /// Whether P was given for this cycle, and not for one before it.
     pub own_dwell: bool,
     /// I and J of G76, units of the program.
@@ -86,6 +88,7 @@ impl Interpreter<'_> {
                 bottom: None,
                 step: None,
                 dwell: 0.0,
+                dwell_at: None,
                 own_dwell: false,
                 shift: [0.0; 2],
                 span,
@@ -109,8 +112,10 @@ impl Interpreter<'_> {
         cycle.bottom = words.axes[normal].take().map(level).or(cycle.bottom);
         cycle.return_level = words.radius.take().map(level).or(cycle.return_level);
         cycle.step = words.q.take().or(cycle.step);
+        let dwell_at = words.p.map(|word| word.span);
         if let Some(dwell) = words.take_dwell()? {
             cycle.dwell = dwell;
+            cycle.dwell_at = dwell_at;
             cycle.own_dwell = true;
         }
         self.read_shift(words, &mut cycle)?;

@@ -144,8 +144,8 @@ impl Interpreter<'_> {
             }
         };
         if cycle.dwell > 0.0 {
-            self.control
-                .note("the dwell (P) of a rigid tap", cycle.span);
+            let span = cycle.dwell_at.unwrap_or(cycle.span);
+            self.control.note("the dwell (P) of a rigid tap", span);
         }
         let pitch = pitch / self.control.modal.length_factor;
         let tap = Tap {

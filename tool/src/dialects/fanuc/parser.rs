@@ -112,6 +112,12 @@ fn macro_statement(cursor: &mut Cursor, name: &str) -> Parsed<Statement> {
             cursor.advance();
             let condition = bracketed(cursor)?;
             if cursor.take_name("THEN") {
+                if !matches!(cursor.peek(), Some(TokenKind::Symbol('#'))) {
+                    return Err(cursor.error_with_help(
+                        "THEN assigns a value to a variable, and none is here",
+                        "write IF[..]GOTO 10, without THEN, or IF[..]THEN #1=5",
+                    ));
+                }
                 return Ok(Statement::If(condition, Then::Assign(assignment(cursor)?)));
             }
             Ok(Statement::If(condition, Then::Goto(jump(cursor)?)))
