@@ -1,5 +1,6 @@
 //! Canned cycles: what LinuxCNC does with them is what it does with its own.
 
+use crate::one_error::assert_one_error;
 use crate::path::assert_pair;
 use crate::shop::Shop;
 use framepath_tool::dialects::Dialect;
@@ -156,4 +157,60 @@ fn cycles_run_in_frames() {
         "G68 X0 Y0 R90.\nG99 G81 X10. Y0 Z-5. R2.\nX20. Y5.\nG80 G69",
         "G99 G81 X0 Y10 Z-5 R2\nX-5 Y20\nG80",
     );
+}
+
+#[test]
+fn nothing_counts_from_the_place_of_k0() {
+    let head = "G90 G0 X0 Y0 Z50.\nS500 M3\nF100.\n";
+    for (program, place, axis) in [
+        ("G81 X10. Y10. Z-5. R2. K0\nX20.\nG80\nM30\n", "5:1", "Y"),
+        (
+            "G81 X10. Y10. Z-5. R2. K0\nG91 X10. K2\nG80\nM30\n",
+            "5:1",
+            "X",
+        ),
+        ("G81 X10. Z-5. R2. K0\nR3.\nG80\nM30\n", "5:1", "X"),
+        ("G81 X10. Z-5. R2. K0\nG80\nG0 Z60.\nM30\n", "6:1", "X"),
+        (
+            "G81 X10. Y10. Z-5. R2. K0\nG80\nG2 X20. Y10. I5. J0\nM30\n",
+            "6:1",
+            "X",
+        ),
+        ("G81 X10. Z-5. R2. K0\nG80\nG92 X0\nM30\n", "6:1", "X"),
+        (
+            "G81 X10. Z-5. R2. K0\nG80\nG91 G28 X5. Z0\nM30\n",
+            "6:5",
+            "X",
+        ),
+    ] {
+        let program = format!("{head}{program}");
+        let shown = Shop::with(Dialect::Fanuc, &program).refused(&[]);
+        let words = format!("where {axis} is behind K0 beside a place");
+        assert_one_error(&shown, &program, &format!("part.nc:{place}"), &words);
+    }
+    for (program, linuxcnc) in [
+        (
+            "G99 G81 X10. Y10. Z-5. R2. K0\nX20. Y5.\nX30.\nG80",
+            "G99 G81 X20 Y5 Z-5 R2\nX30\nG80",
+        ),
+        // A retraction leaves the place alone.
+        (
+            "G81 X10. Z-5. R2. K0\nG80\nG91 G28 Z0\nG90 G0 X5.\nG91 X5.",
+            "G53 G0 Z0\nX5\nX10",
+        ),
+        (
+            "G81 X10. Z-5. R2. K0\nG80\nG91 G28 X0\nG90 G0 Z5.",
+            "G53 G0 X0\nZ5",
+        ),
+    ] {
+        pair(program, linuxcnc);
+    }
+}
+
+/// Where P stands, not the cycle in whose block it need not be.
+#[test]
+fn the_dwell_of_a_rigid_tap_is_left_out_where_it_stands() {
+    let program = "G90 G0 X0 Y0 Z50.\nM29 S500\nG84 X10. Z-10. R5. F500\nX20. P500\nG80\nM30\n";
+    let output = Shop::with(Dialect::Fanuc, program).accepted(&[]);
+    assert!(output.contains("(MSG, line 4: the dwell"), "{output}");
 }

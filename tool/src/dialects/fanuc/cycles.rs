@@ -152,8 +152,9 @@ impl Interpreter<'_> {
     fn run_cycle_at(&mut self, motion: &MotionWords, times: u32, block: Span) -> Done {
         // K0 keeps the data of the cycle and does nothing.
         if times == 0 {
-            return self.refuse_increments(motion, block);
+            return self.skip_place(motion, block);
         }
+        self.check_skipped(motion, block)?;
         self.control.refuse_compensation(block, "a canned cycle")?;
         self.control.begin_cycle();
         for _ in 0..times {
@@ -168,16 +169,6 @@ impl Interpreter<'_> {
         }
         self.control.end_cycle();
         Ok(())
-    }
-
-    /// Whether the tool goes to the place of K0 is not the same on all controls; what follows in G91
-    /// counts from there.
-    fn refuse_increments(&self, motion: &MotionWords, block: Span) -> Done {
-        match motion.names_an_axis() && self.control.modal.incremental {
-            false => Ok(()),
-            true => Err(Diagnostic::error(block, "K0 beside a place in G91")
-                .help("write the data of the cycle without the place, or the place in G90")),
-        }
     }
 
     /// To the place of a hole: rapid, whatever motion is in force.

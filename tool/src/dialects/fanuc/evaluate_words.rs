@@ -134,6 +134,7 @@ impl Interpreter<'_> {
             }),
             Some(Action::Move(path)),
         ) = (corner, self.control.actions.last_mut())
+        self.check_skipped(&motion, block)?;
         {
             if length <= 0.0 {
                 return Err(

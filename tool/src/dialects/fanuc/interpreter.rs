@@ -5,6 +5,7 @@ use super::calls::ModalMacro;
 use super::cycles::{Cycle, is_cycle};
 use super::lathe::ToolCalls;
 use super::routine::Routine;
+use super::skipped_places::SkippedAxes;
 use super::syntax::{Assignment, Block, Statement, Word};
 use super::tool_offsets::ToolOffsets;
 use super::transforms::Transforms;
@@ -28,6 +29,7 @@ pub struct Interpreter<'a> {
     pub(super) transforms: Transforms,
     pub(super) offsets: ToolOffsets,
     pub(super) cycle: Option<Cycle>,
+    pub(super) skipped: SkippedAxes,
     /// G99.
     pub(super) to_return_level: bool,
     /// M29: taps follow the spindle.
@@ -66,6 +68,7 @@ impl<'a> Interpreter<'a> {
             transforms: Transforms::default(),
             offsets: ToolOffsets::default(),
             cycle: None,
+            skipped: SkippedAxes::default(),
             to_return_level: false,
             rigid: false,
             surface_speed: false,
@@ -308,6 +311,7 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
             && (!self.point_explained
                 || self.control.settings.decimal_point != DecimalPoint::Calculator);
         self.cycle.is_none()
+            && self.skipped == SkippedAxes::default()
             && self.modal_macro.is_none()
             && !self.transforms.is_unsettled()
             && !whole

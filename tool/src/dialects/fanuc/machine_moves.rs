@@ -31,6 +31,10 @@ impl Interpreter<'_> {
         let mut motion = self.motion_words(words);
         let stays = self.control.modal.incremental
             && motion.axes.iter().flatten().all(|word| word.value.0 == 0.0);
+        if !stays && self.control.modal.incremental {
+            self.refuse_skipped(&motion, span)?;
+        }
+        self.leave_skipped(&motion);
         let before = self.control.modal.motion.replace(Motion::Rapid);
         let over = match stays {
             true => Ok(()),
@@ -58,6 +62,7 @@ impl Interpreter<'_> {
             .help("write G0 G53 Z0"));
         }
         let motion = self.motion_words(words);
+        self.leave_skipped(&motion);
         let before = self.control.modal.motion.replace(Motion::Rapid);
         let done = self.control.machine_move(&motion, span, false, false);
         self.control.modal.motion = before;
@@ -83,6 +88,7 @@ impl Interpreter<'_> {
         if !motion.is_motion() && self.speed_limit.is_some() {
             return Ok(());
         }
+        self.refuse_skipped(&motion, span)?;
         self.control.preset(&motion, span)
     }
 }

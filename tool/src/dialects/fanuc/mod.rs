@@ -19,6 +19,7 @@ mod look_ahead;
 mod machine_moves;
 pub mod parser;
 mod routine;
+mod skipped_places;
 mod spindle;
 pub mod syntax;
 mod system_variables;

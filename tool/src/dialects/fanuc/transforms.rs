@@ -385,8 +385,8 @@ impl Interpreter<'_> {
         if let Some(word) = words.axes[axis].take() {
             return Ok(word.value * factor);
         }
-        present.filter(|_| self.control.modal.frame.is_empty()).ok_or_else(|| {
-            Diagnostic::error(
+        present.filter(|_| self.control.modal.frame.is_empty() && !self.skipped[axis]).ok_or_else(|| {
+            Diagnostic::unknown_place(
                     span,
                     format!("the centre in {letter} is where the tool is, and that is not known ahead of time"),
                 )
