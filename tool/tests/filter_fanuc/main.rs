@@ -15,5 +15,6 @@ mod random;
 mod robustness;
 #[path = "../filter/rs274.rs"]
 mod rs274;
+mod shifts;
 #[path = "../filter_isg_mefi/shop.rs"]
 mod shop;

@@ -5,9 +5,9 @@ use super::motion::{length_factor, targets};
 use super::words::{AXES, Dimension, MotionWords};
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
-use crate::program::Action;
 use crate::program::frame::Frame;
 use crate::program::moves::{Coordinate, Move, MoveKind};
+use crate::program::{Action, Compensation};
 use crate::source::Span;
 
 impl Control<'_> {
@@ -82,6 +82,7 @@ impl Control<'_> {
         self.refuse_compensation(span, "the end of G92")?;
         self.modal.forget_position();
         self.modal.preset = [None; 9];
+        self.modal.preset_at = None;
         self.states.push(Action::PresetOff);
         Ok(())
     }
@@ -101,6 +102,7 @@ impl Control<'_> {
             let value = word.value.0 * length_factor(axis, &self.modal);
             let Some(before) = self.modal.preset[axis] else {
                 offsets[axis] = Some(value);
+                self.modal.shifted[axis] = value != 0.0;
                 self.modal.position.set(axis, None);
                 continue;
             };
@@ -151,11 +153,35 @@ impl Control<'_> {
             position.set(axis, values[axis]);
             // It ends G52 of its axes.
             self.modal.preset[axis] = Some(0.0);
+            self.modal.shifted[axis] = false;
         }
         position.change_frame(&Frame::default(), &frame);
         self.modal.position = position;
+        self.modal.preset_at = Some(span);
         self.actions.push(Action::Preset(values));
         Ok(())
+    }
+
+    /// The end of the program takes G52 back, which LinuxCNC would keep in force for the next program. What it
+    /// keeps of G92 is said: how long that is in force on the control is a setting there.
+    pub(super) fn end_shifts(&mut self) {
+        let shifted = std::mem::take(&mut self.modal.shifted);
+        if shifted != [false; 9] {
+            if self.modal.compensation != Compensation::Off {
+                // LinuxCNC ends it with the program, and shifts nothing before.
+                self.actions.push(Action::Compensation(Compensation::Off));
+            }
+            let zero = shifted.map(|shifted| shifted.then_some(0.0));
+            self.actions.push(Action::LocalOffset(zero));
+        }
+        if let Some(span) = self.modal.preset_at {
+            self.note_once(
+                "the end of G92",
+                "G92 stays in force in LinuxCNC behind the end of the program; G92.1, or DISABLE_G92_PERSISTENCE = 1 \
+                 in the section RS274NGC of the INI file, ends it",
+                span,
+            );
+        }
     }
 }
 

@@ -310,7 +310,7 @@ impl<'a> Control<'a> {
         self.actions.append(&mut states);
     }
 
-    /// The end of the program; frames end with it.
+    /// The end of the program; frames and shifts end with it.
     pub fn end_of_program(&mut self, rewind: bool) {
         if !self.modal.frame.is_empty() {
             self.actions.push(Action::Frame(FrameCommand::Cancel));
@@ -320,6 +320,7 @@ impl<'a> Control<'a> {
 
     /// The program or subprogram that runs has come to its last block without its end, which in a
     /// subprogram is `end_of_subprogram`.
+        self.end_shifts();
     pub fn end_is_missing(&mut self, last: &Place, end_of_subprogram: &str) {
         let main = self.is_in_main();
         let (kind, word) = match main {

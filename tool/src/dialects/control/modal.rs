@@ -64,6 +64,10 @@ pub struct Modal {
     pub position: Position,
     /// Of each axis that G92 has given a coordinate: how far G52 has shifted it since, machine units.
     pub preset: [Option<f64>; 9],
+    /// The axes whose zero G52 has shifted, and not back.
+    pub shifted: [bool; 9],
+    /// Where G92 stands, while it is in force.
+    pub preset_at: Option<Span>,
     /// Coordinates from before the first change of the frame, an offset or the tool, for axes that have not
     /// moved since.
     pub carried: [Option<Option<f64>>; 9],
@@ -101,6 +105,8 @@ impl Modal {
             axis_factors: [1.0; 9],
             position: Position::default(),
             preset: [None; 9],
+            shifted: [false; 9],
+            preset_at: None,
             carried: [None; 9],
             length_undecided: false,
             tangent: None,
