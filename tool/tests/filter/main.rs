@@ -1,5 +1,6 @@
 //! Tests of `framepath filter` as a user runs it.
 
+mod beside_motion;
 mod blanks;
 mod compensation;
 mod contour_exit;

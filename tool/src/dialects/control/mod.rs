@@ -5,6 +5,7 @@
 
 mod arc_fit;
 mod arc_forms;
+pub mod beside_motion;
 pub mod calls;
 mod end_of_compensation;
 pub mod frame;
@@ -29,6 +30,7 @@ use crate::program::corners::Corners;
 use crate::program::frame::FrameCommand;
 use crate::program::{self, Action, Compensation, FrameScope, Origin, PathControl, Sink};
 use crate::source::{SourceFile, Sources, Span};
+use beside_motion::Functions;
 use end_of_compensation::EndOfCompensation;
 use modal::Modal;
 use std::collections::BTreeSet;
@@ -102,6 +104,7 @@ pub struct Control<'a> {
     /// What blocks do instead of becoming a part of the program.
     recording: Option<Vec<Action>>,
     tools: ToolState,
+    functions: Functions,
 }
 
 impl<'a> Control<'a> {
@@ -131,6 +134,7 @@ impl<'a> Control<'a> {
             noted: BTreeSet::new(),
             recording: None,
             tools: ToolState::default(),
+            functions: Functions::default(),
         }
     }
 
@@ -202,6 +206,7 @@ impl<'a> Control<'a> {
     pub fn finish_block(&mut self, place: &Place) {
         let mut actions = std::mem::take(&mut self.actions);
         self.states.clear();
+        self.take_functions();
         // Loops and jumps do nothing by themselves: there would be very many of them.
         if actions.is_empty() && place.comment.is_none() {
             return;
@@ -315,12 +320,12 @@ impl<'a> Control<'a> {
         if !self.modal.frame.is_empty() {
             self.actions.push(Action::Frame(FrameCommand::Cancel));
         }
+        self.end_shifts();
         self.actions.push(Action::End { rewind });
     }
 
     /// The program or subprogram that runs has come to its last block without its end, which in a
     /// subprogram is `end_of_subprogram`.
-        self.end_shifts();
     pub fn end_is_missing(&mut self, last: &Place, end_of_subprogram: &str) {
         let main = self.is_in_main();
         let (kind, word) = match main {

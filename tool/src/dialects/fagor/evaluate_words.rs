@@ -105,6 +105,7 @@ impl Interpreter<'_> {
             ));
         }
         self.place(words, &once, form, block)?;
+        self.control.end_functions()?;
         for m in &words.m {
             if matches!(m.value, 0 | 1) {
                 self.control.actions.push(Action::Pause {

@@ -4,6 +4,7 @@ use super::block_words::BlockWords;
 use super::g_functions::OneShot;
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
+use crate::dialects::control::beside_motion::Waiting;
 use crate::dialects::control::words::At;
 use crate::dialects::control::{Control, Done};
 use crate::program::Compensation;
@@ -143,6 +144,9 @@ impl Interpreter<'_> {
         {
             rows_change = Some(offset.span);
         }
+        let has_offset = words.offset.is_some() || once.length.is_some();
+        self.control
+            .begin_functions(&words.m, Waiting::SwitchesOff, has_offset);
         for At { value, span } in Control::in_order(&words.m) {
             match value {
                 0 | 1 => {}
@@ -157,6 +161,7 @@ impl Interpreter<'_> {
                 _ => self.control.other_m(value, span)?,
             }
         }
+        self.control.hold_functions();
         if let Some(length) = once.length {
             self.tool.length_chosen = true;
             self.warn_of_tool_left(length.span);

@@ -6,6 +6,7 @@ use super::g_functions::OneShot;
 use super::interpreter::{Interpreter, Outcome};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
+use crate::dialects::control::beside_motion::Waiting;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, Dimension, MotionWords};
 use crate::program::moves::Corner;
@@ -34,7 +35,16 @@ impl Interpreter<'_> {
             self.control.tool(number, tool.span)?;
             self.tool = Some(number);
         }
+        // M functions of a canned cycle act while the tool goes to the first place. (Fanuc, Series 15i, Operator's
+        // Manual, "Canned cycle": "Miscellaneous function".)
+        let waiting = match self.cycle.is_some() || once.cycle.is_some() {
+            true => Waiting::Nothing,
+            false => Waiting::SwitchesOff,
+        };
+        let has_offset = once.length.is_some() || words.h.is_some() || words.d.is_some();
+        self.control.begin_functions(&words.m, waiting, has_offset);
         let end = self.m_functions(&words)?;
+        self.control.hold_functions();
         self.tool_offsets(&mut words, once.length, once.compensation)?;
         self.control.apply_states(compensated);
         let called = match end {
@@ -44,6 +54,7 @@ impl Interpreter<'_> {
         };
         self.place(&mut words, &once, block)?;
         words.refuse_rest()?;
+        self.control.end_functions()?;
         self.control.stops(&words.m);
         if let Some(At {
             value: end @ (2 | 30),
@@ -123,6 +134,7 @@ impl Interpreter<'_> {
             };
         }
         self.check_settled_motion(&motion, block)?;
+        self.check_skipped(&motion, block)?;
         self.check_arc(block)?;
         let corner = words.corner.take();
         self.control
@@ -134,7 +146,6 @@ impl Interpreter<'_> {
             }),
             Some(Action::Move(path)),
         ) = (corner, self.control.actions.last_mut())
-        self.check_skipped(&motion, block)?;
         {
             if length <= 0.0 {
                 return Err(

@@ -4,6 +4,7 @@
 use super::block_words::BlockWords;
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
+use crate::dialects::control::beside_motion::Waiting;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, Dimension};
 use crate::dialects::control::{Done, Place};
@@ -82,7 +83,11 @@ impl Interpreter<'_> {
         if let Some(tool) = words.tool {
             self.control.tool(tool.value, tool.span)?;
         }
+        let has_offset = words.offset.is_some();
+        self.control
+            .begin_functions(&words.m, Waiting::SwitchesOff, has_offset);
         let end = self.control.m_functions(&words.m, &[2, 17, 29, 30])?;
+        self.control.hold_functions();
         if words.m.iter().any(|m| m.value == 6) {
             self.offset_free.forget();
         }
@@ -95,6 +100,7 @@ impl Interpreter<'_> {
             self.shift_further_axes(&mut words);
             self.block_motion(&mut words, &once, place)?;
         }
+        self.control.end_functions()?;
         self.control.stops(&words.m);
         Ok(match end {
             None => next,

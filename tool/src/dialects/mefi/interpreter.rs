@@ -4,6 +4,7 @@ use super::block_words::BlockWords;
 use super::recalculation::Recalculation;
 use super::syntax::{Block, Routine};
 use crate::diagnostics::Diagnostic;
+use crate::dialects::control::beside_motion::Waiting;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::offset_free::OffsetFree;
 use crate::dialects::control::offset_row::OffsetRow;
@@ -186,7 +187,11 @@ impl<'a> Interpreter<'a> {
         if let Some(tool) = words.tool {
             self.control.tool(tool.value, tool.span)?;
         }
+        let has_offset = words.offset.is_some();
+        self.control
+            .begin_functions(&words.m, Waiting::SwitchesOff, has_offset);
         let ends = self.control.m_functions(&words.m, &[2, 30])?;
+        self.control.hold_functions();
         if words.m.iter().any(|m| m.value == 6) {
             self.offset_free.forget();
         }
@@ -195,6 +200,7 @@ impl<'a> Interpreter<'a> {
             Some(span) => self.preset(words, span)?,
             None => self.block_motion(words, place.span)?,
         }
+        self.control.end_functions()?;
         self.control.stops(&words.m);
         let Some(end) = ends else {
             return Ok(following);

@@ -5,6 +5,7 @@ use super::approach::shape_of;
 use super::block_words::{BlockWords, ToolWord};
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
+use crate::dialects::control::beside_motion::Waiting;
 use crate::dialects::control::words::{At, Dimension};
 use crate::dialects::control::{Control, Done};
 use crate::program::moves::{Corner, MoveKind};
@@ -118,6 +119,7 @@ impl Interpreter<'_> {
             self.motion(words, &once, block)?;
         }
         self.check_exit(at)?;
+        self.control.end_functions()?;
         self.stops(words);
         Ok(match end {
             Some(span) => BlockEnd::Ends(span),
@@ -158,6 +160,11 @@ impl Interpreter<'_> {
     /// M functions except the stops at the end of the block; returns the word that ends the routine.
     fn m_functions(&mut self, words: &BlockWords) -> Result<Option<Span>, Diagnostic> {
         let mut end = words.end_of_routine;
+        // M5 beside axes is carried out before they move. (Siemens, SINUMERIK 802D, "Spindle speed S, directions of
+        // rotation".)
+        let waiting = Waiting::AllButStop;
+        self.control
+            .begin_functions(&words.m, waiting, words.offset.is_some());
         for At { value, span } in Control::in_order(&words.m) {
             match value {
                 0 | 1 => {}
@@ -175,6 +182,7 @@ impl Interpreter<'_> {
                 _ => self.control.other_m(value, span)?,
             }
         }
+        self.control.hold_functions();
         Ok(end)
     }
 
