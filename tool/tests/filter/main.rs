@@ -43,6 +43,7 @@ mod sinumerik_save;
 mod sinumerik_values;
 mod sinumerik_words;
 mod spindle;
+mod spindle_ways;
 mod swivel;
 mod tools;
 mod turns;

@@ -240,7 +240,8 @@ fn check_pitch(pitch: f64, span: Span) -> Done {
     }
 }
 
-fn no_speed(span: Span) -> Diagnostic {
+/// A tap while the spindle has no speed.
+pub fn no_speed(span: Span) -> Diagnostic {
     Diagnostic::error(span, "a tap, and no spindle speed is programmed")
         .help("program S before or beside it")
 }

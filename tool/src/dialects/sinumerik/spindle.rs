@@ -7,8 +7,9 @@ use super::syntax::Way;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
-use crate::dialects::control::spindle_motion::Tap;
+use crate::dialects::control::spindle_motion::{Tap, no_speed};
 use crate::dialects::control::words::{AXES, At, Dimension};
+use crate::program::Action;
 use crate::source::Span;
 
 /// Places of the spindle axis that differ by less, in units of the program, are the same.
@@ -54,6 +55,8 @@ impl SpindleMotion {
 pub struct Tapping {
     start: f64,
     tap: Tap,
+    /// The speed in the block of G331.
+    speed: Option<f64>,
     span: Span,
 }
 
@@ -161,6 +164,7 @@ impl Interpreter<'_> {
                 pitch,
                 back: 1.0,
             },
+            speed: self.control.modal.spindle_speed,
             span,
         });
         Ok(())
@@ -168,10 +172,11 @@ impl Interpreter<'_> {
 
     /// `G332 Z5 K1.5`: the tap that LinuxCNC makes goes in and out in one.
     fn tap_out(&mut self, words: &BlockWords, span: Span) -> Done {
-        let Some(Tapping { start, tap, .. }) = self.tapping.take() else {
+        let Some(tapping) = self.tapping.take() else {
             return Err(Diagnostic::error(span, "G332 without a G331 before it")
                 .help("G331 Z-20 K1.5 taps, G332 Z5 K1.5 comes back"));
         };
+        let Tapping { start, tap, .. } = tapping;
         let (axis, pitch) = pitch(words, span)?;
         let value = words.motion.axes[axis].map(|at| at.value);
         let end = match value {
@@ -186,7 +191,30 @@ impl Interpreter<'_> {
                 )
                 .help("LinuxCNC taps back to the start: end G332 where G331 began, and move on with G0"));
         }
-        self.control.tap(&tap, span)
+        self.tap_at_both_speeds(&tapping, span)
+    }
+
+    /// S of G331 is the speed of the way in, S behind it that of the way out, which stays in force.
+    fn tap_at_both_speeds(&mut self, tapping: &Tapping, span: Span) -> Done {
+        let into = tapping.speed.filter(|speed| *speed > 0.0);
+        let into = into.ok_or_else(|| no_speed(tapping.span))?;
+        let out = self.control.modal.spindle_speed;
+        let Some(out) = out.filter(|out| *out > 0.0 && *out != into) else {
+            return self.control.tap(&tapping.tap, span);
+        };
+        // S beside G332 waits until the tap is out.
+        let actions = &mut self.control.actions;
+        actions.retain(|action| !matches!(action, Action::SpindleSpeed(_)));
+        self.control.speed(At { value: into, span })?;
+        let back = out / into;
+        self.control.tap(
+            &Tap {
+                back,
+                ..tapping.tap
+            },
+            span,
+        )?;
+        self.control.speed(At { value: out, span })
     }
 
     fn is_incremental(&self, dimension: Dimension) -> bool {
