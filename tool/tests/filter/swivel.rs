@@ -84,6 +84,56 @@ fn angles_of_zero_swivel_back() {
     }
 }
 
+/// A new plane and CYCLE800() end the frame of TRANS and its like with the plane of before; a plane is not
+/// turned on while there is one.
+#[test]
+fn frames_of_the_program_end_with_the_plane() {
+    let zero = "CYCLE800(0,\"TC\",0,57,0,0,0,0,0,0,0,0,0,0)";
+    let notes = |program: &str| {
+        translate(&format!("{program}\nM30\n"), &[])
+            .matches("left out")
+            .count()
+    };
+    for end in ["CYCLE800()", zero] {
+        for plane in ["", TILT] {
+            let program = format!("{plane}\nTRANS X7\n{end}\nG0 X1");
+            let found = lines(&program, &["--backend", "kinematics"]);
+            let end_of_frame = found.iter().rposition(|line| line == "o<frame_off> call");
+            let shift = found
+                .iter()
+                .rposition(|line| line.ends_with("trans> call [7] [0] [0]"));
+            assert!(
+                shift.is_some() && end_of_frame > shift,
+                "{program}\n{found:?}"
+            );
+            assert_eq!(notes(&program), 0, "{program}");
+        }
+        // There is nothing that it could end.
+        assert_eq!(notes(end), 1, "{end}");
+    }
+    let more = "CYCLE800(0,\"TC\",1,57,0,0,0,0,0,20,0,0,0,1)";
+    let turned = lines(&format!("{TILT}\nTRANS X7\nTRANS\n{more}"), &[]);
+    assert!(
+        turned.contains(&"o<arot> call [0] [0] [20]".to_string()),
+        "{turned:?}"
+    );
+    for frame in ["TRANS X7", "ATRANS X7\nAROT Z15", "G58 X7"] {
+        for plane in ["", TILT] {
+            let program = format!("{plane}\n{frame}\n{more}\nM30\n");
+            let shop = Shop::new(&[("part.mpf", program.as_bytes())]);
+            let shown = refused(&shop.run("part.mpf", &[]));
+            assert!(
+                shown.contains("CYCLE800 with ST = 1 while a frame of TRANS"),
+                "{shown}"
+            );
+            assert!(
+                shown.contains("give what is left of it as X0, Y0, Z0"),
+                "{shown}"
+            );
+        }
+    }
+}
+
 /// Without the frame kinematics only those axes turn that are not at zero: a machine need not have any.
 #[test]
 fn rotary_axes_that_are_not_at_zero_turn_back_on_any_machine() {

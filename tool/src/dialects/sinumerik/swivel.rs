@@ -1,7 +1,8 @@
 //! `CYCLE800(FR, TC, ST, MODE, X0, Y0, Z0, A, B, C, X1, Y1, Z1, DIR, ..)`: a plane turned in space, and the
 //! tool normal to it. (Siemens, SINUMERIK 840D sl, Programming Manual, "Swivelling - CYCLE800".)
 //!
-//! The frame of the cycle is one of its own: TRANS and its like act in it and do not clear it.
+//! The frame of the cycle is one of its own: TRANS and its like act in it and do not clear it. A new plane, and
+//! CYCLE800() as well, takes their frame away with the plane of before.
 
 use super::interpreter::Interpreter;
 use super::programmed_offset::ProgrammedOffset;
@@ -36,7 +37,7 @@ impl Interpreter<'_> {
     pub(super) fn swivel(&mut self, call: &Call) -> Done {
         let span = call.span;
         if call.arguments.iter().all(Option::is_none) {
-            if self.swivelled.is_empty() {
+            if self.control.modal.frame.is_empty() {
                 self.control.note("CYCLE800()", span);
                 return Ok(());
             }
@@ -69,22 +70,16 @@ impl Interpreter<'_> {
         ] = values;
         let operations =
             self.swivel_operations(mode, [x0, y0, z0], [a, b, c], [x1, y1, z1], span)?;
-        if operations.is_empty() && direction == 0.0 {
+        let additive = self.is_additive(state, span)?;
+        let keeps_frame = additive || self.control.modal.frame.is_empty();
+        if operations.is_empty() && keeps_frame && retraction == 0.0 && direction == 0.0 {
             self.control.note("CYCLE800 without angles", span);
         }
         self.retract(retraction, span)?;
-        // The units digit of ST: 1 is additive.
-        match state.rem_euclid(10.0) {
-            0.0 => self.swivelled = operations,
-            1.0 => self.swivelled.extend(operations),
-            _ => {
-                return Err(Diagnostic::error(
-                    span,
-                    format!("CYCLE800 with ST = {state} is not supported"),
-                )
-                .help("0 sets a new plane, 1 turns the one that is set"));
-            }
+        if !additive {
+            self.swivelled.clear();
         }
+        self.swivelled.extend(operations);
         let tilts = self.swivelled.iter().any(is_rotation);
         // DIR 0 sets the frame and leaves the axes where they are.
         let swivels = direction != 0.0;
@@ -101,6 +96,29 @@ impl Interpreter<'_> {
             self.control.actions.push(Action::ToolNormal);
         }
         Ok(())
+    }
+
+    /// The units digit of ST: 1 turns the plane that is set.
+    fn is_additive(&self, state: f64, span: Span) -> Result<bool, Diagnostic> {
+        match state.rem_euclid(10.0) {
+            0.0 => Ok(false),
+            1.0 if self.programmable_operations().is_empty() => Ok(true),
+            1.0 => Err(Diagnostic::error(
+                span,
+                format!(
+                    "CYCLE800 with ST = {state} while a frame of TRANS, ROT, SCALE or MIRROR is in force"
+                ),
+            )
+            .help(
+                "end that frame before, with TRANS alone, and give what is left of it as X0, Y0, Z0 and angles \
+                 of the cycle",
+            )),
+            _ => Err(Diagnostic::error(
+                span,
+                format!("CYCLE800 with ST = {state} is not supported"),
+            )
+            .help("0 sets a new plane, 1 turns the one that is set")),
+        }
     }
 
     /// FR: 1 retracts Z, to a place that on the control stands in the data of its swivel axes.
