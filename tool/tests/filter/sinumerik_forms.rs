@@ -248,6 +248,14 @@ fn subprograms_with_parameters() {
 DEF REAL RESULT
 DEF INT COUNT=2
 POCKET(10, COUNT, RESULT)
+    // A new pole and another plane take the angle away, the plane that is active anyway does not.
+    let begin = "G0 X0 Y0 Z0\nG1 AP=90 RP=10 F100\n";
+    for between in ["G111 X0 Y0", "G110 X1 Y1", "G18", "G18\nG17"] {
+        let shown = errors(&format!("{begin}{between}\nG1 RP=13\nM30\n"));
+        assert!(shown.contains("AP has no value yet"), "{between}\n{shown}");
+    }
+    let expected = Path::from([0.0; 3]).lines(&[(0., 10.), (0., 13.)]);
+    check(&format!("{begin}G17\nG1 RP=13\nM30\n"), &expected);
 G0 X=RESULT
 POCKET(1, , RESULT)
 G0 X=RESULT

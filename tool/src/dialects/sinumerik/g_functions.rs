@@ -99,7 +99,7 @@ impl Interpreter<'_> {
                     180 => Plane::Zx,
                     _ => Plane::Yz,
                 };
-                self.control.plane(plane, span)?;
+                self.choose_plane(plane, span)?;
                 6
             }
             400 | 410 | 420 => {

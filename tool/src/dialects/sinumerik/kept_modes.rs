@@ -77,7 +77,7 @@ impl Interpreter<'_> {
             self.control.compensation(Compensation::Off, span)?;
         }
         if self.control.modal.plane != kept.plane {
-            self.control.plane(kept.plane, span)?;
+            self.choose_plane(kept.plane, span)?;
         }
         self.restore_path_control(&kept, span)?;
         self.restore_work_offset(kept.system, span)?;

@@ -8,6 +8,7 @@ use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, Dimension, MotionWords};
+use crate::program::Plane;
 use crate::source::Span;
 use framepath::frame::angle::sin_cos_degrees;
 
@@ -19,7 +20,22 @@ pub struct Pole {
     radius: Option<f64>,
 }
 
+impl Pole {
+    /// AP stays until a pole is set or the plane changes.
+    fn forget_angle(&mut self) {
+        self.angle = None;
+    }
+}
+
 impl Interpreter<'_> {
+    /// G17 to G19.
+    pub(super) fn choose_plane(&mut self, plane: Plane, span: Span) -> Done {
+        if plane != self.control.modal.plane {
+            self.pole.forget_angle();
+        }
+        self.control.plane(plane, span)
+    }
+
     /// `G110 X5 Y5`: the pole from the present place; `G111` from the zero; `G112` from the last pole.
     pub(super) fn set_pole(&mut self, words: &BlockWords, g: At<u32>) -> Done {
         let [first, second, normal] = self.control.modal.plane.axes();
@@ -52,6 +68,7 @@ impl Interpreter<'_> {
             }
         };
         self.pole.at = [0, 1].map(|at| base[at] + offset[at] * factor);
+        self.pole.forget_angle();
         Ok(())
     }
 
@@ -112,7 +129,10 @@ fn merged(
 ) -> Result<f64, Diagnostic> {
     let missing = || {
         Diagnostic::error(span, format!("{name} has no value yet"))
-            .help("the first polar block names both: G1 AP=30 RP=50")
+            .help(
+                "the first polar block names both, G1 AP=30 RP=50; behind a new pole and another plane AP is \
+                 named again",
+            )
     };
     match word {
         Some(At {
