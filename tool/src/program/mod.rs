@@ -102,7 +102,7 @@ pub enum Action {
     /// Spindle on or off.
     Spindle(Spindle),
     /// The spindle stops at this angle, degrees.
-    Orient(f64),
+    Orient(f64, OrientWay),
     /// Whether the operator's feed and speed overrides act.
     Overrides(bool),
     /// The tool to be changed to next.
@@ -236,6 +236,17 @@ pub enum Spindle {
     Counterclockwise,
     /// M5.
     Stop,
+}
+
+/// How the spindle turns to an angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OrientWay {
+    /// The shorter way.
+    Shorter,
+    /// As with M3.
+    Clockwise,
+    /// As with M4.
+    Counterclockwise,
 }
 
 /// State of the coolant.

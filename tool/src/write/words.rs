@@ -6,7 +6,9 @@ use super::modes::Modes;
 use super::number::{coordinate, push_coordinate};
 use crate::diagnostics::Diagnostic;
 use crate::program::moves::{Centre, Coordinate, MoveKind};
-use crate::program::{Action, Compensation, Coolant, FeedMode, PathControl, Plane, Spindle};
+use crate::program::{
+    Action, Compensation, Coolant, FeedMode, OrientWay, PathControl, Plane, Spindle,
+};
 use crate::source::Span;
 
 /// The axes of LinuxCNC.
@@ -40,7 +42,15 @@ pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
             lines.add(Rank::Speed, format!("G96{limit} S{speed}"));
         }
         Action::SurfaceSpeed(None) => lines.add(Rank::FeedMode, "G97"),
-        Action::Orient(angle) => lines.add(Rank::Spindle, format!("M19 R{}", coordinate(*angle))),
+        Action::Orient(angle, way) => {
+            // Without P it is the shorter way.
+            let way = match way {
+                OrientWay::Shorter => "",
+                OrientWay::Clockwise => " P1",
+                OrientWay::Counterclockwise => " P2",
+            };
+            lines.add(Rank::Spindle, format!("M19 R{}{way}", coordinate(*angle)));
+        }
         Action::Overrides(on) => {
             // It must not wait for the motion beside it.
             lines.flush();

@@ -1,4 +1,4 @@
-//! How the spindle of the Sinumerik-like dialect turns: the speeds into a tap and out of it.
+//! How the spindle of the Sinumerik-like dialect turns: the way to its angle, the speeds into a tap and out of it.
 
 use crate::rs274;
 use crate::shop::{Shop, accepted, commands, refused, translate};
@@ -17,6 +17,33 @@ fn interpreted(program: &str) -> Vec<String> {
     let shop = Shop::new(&[("part.mpf", program.as_bytes())]);
     let output = accepted(&shop.run("part.mpf", &["--backend", "program"]));
     rs274::interpret(&shop.path(""), "T1 P1 D6\n", &output)
+}
+
+/// ACP turns as M3 does, ACN as M4; where no way is named it is the shorter one.
+#[test]
+fn the_spindle_turns_to_its_angle_the_way_that_is_meant() {
+    let program = "SPOS=ACP(10)\nSPOS[1]=ACN(370)\nSPOSA=DC(10)\nSPOS=AC(10)\nSPOS=10\nG64 SPOS=ACP(5)\nM30\n";
+    assert_eq!(
+        lines(program),
+        [
+            "M19 R10 P1",
+            "M19 R10 P2",
+            "M19 R10",
+            "M19 R10",
+            "M19 R10",
+            "M19 R5 P1",
+            "G64 P0.01",
+            "M30"
+        ]
+    );
+    let canon = interpreted(program);
+    let ways = canon.iter().filter(|call| call.contains("ORIENT_SPINDLE("));
+    assert_eq!(ways.count(), 6, "{canon:?}");
+    let shown = errors("SPOS=IC(90)\nM30\n");
+    assert!(
+        shown.contains("an angle from zero of the spindle"),
+        "{shown}"
+    );
 }
 
 /// S of G332, or before it, is the speed of the way out, and of all that follows.

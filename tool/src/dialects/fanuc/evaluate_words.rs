@@ -10,7 +10,7 @@ use crate::dialects::control::beside_motion::Waiting;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, Dimension, MotionWords};
 use crate::program::moves::Corner;
-use crate::program::{Action, Compensation, FeedMode};
+use crate::program::{Action, Compensation, FeedMode, OrientWay};
 use crate::source::Span;
 
 impl Interpreter<'_> {
@@ -81,7 +81,9 @@ impl Interpreter<'_> {
         for m in &words.m {
             match m.value {
                 19 => {
-                    self.control.actions.push(Action::Orient(0.0));
+                    self.control
+                        .actions
+                        .push(Action::Orient(0.0, OrientWay::Shorter));
                     self.control.note_once(
                         "M19",
                         "M19 stops the spindle at 0 degrees, where the control has an angle of its own",

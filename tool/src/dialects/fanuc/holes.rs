@@ -7,7 +7,7 @@ use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::spindle_motion::Tap;
 use crate::dialects::control::words::{At, Dimension, MotionWords};
-use crate::program::{Action, FeedMode, Spindle};
+use crate::program::{Action, FeedMode, OrientWay, Spindle};
 
 /// How far G73 lifts the tool, and before which depth G83 ends its rapid motion: that of LinuxCNC's own
 /// cycles, millimetres. The control has parameters for both.
@@ -176,7 +176,9 @@ impl Interpreter<'_> {
         self.to(hole.bottom, false, cycle)?;
         self.wait(cycle);
         self.control.modal.spindle = Some(Spindle::Stop);
-        self.control.actions.push(Action::Orient(0.0));
+        self.control
+            .actions
+            .push(Action::Orient(0.0, OrientWay::Shorter));
         self.sideways(cycle, 1.0)?;
         self.out(cycle, hole)?;
         self.sideways(cycle, -1.0)?;

@@ -61,6 +61,8 @@ pub struct BlockWords {
     pub ways: [Option<Way>; 9],
     /// SPOS, SPOSA: the angle of the spindle, degrees.
     pub spindle_angle: Option<At<f64>>,
+    /// The way of the spindle to that angle, where DC, ACP or ACN names one.
+    pub spindle_way: Option<Way>,
     /// LIMS: revolutions per minute.
     pub most_speed: Option<At<f64>>,
     /// DIAMON, DIAMOF, DIAM90.
@@ -169,7 +171,12 @@ impl BlockWords {
                 set(&mut self.corner, corner, span, "a rounding or chamfer")
             }
             "RNDM" => set(&mut self.rounding, number(word, variables)?, span, address),
-            "SPOS" | "SPOSA" => set(&mut self.spindle_angle, angle(word, variables)?, span, "SPOS"),
+            "SPOS" | "SPOSA" => {
+                if let WordValue::Angle(way, _) = &word.value {
+                    self.spindle_way = Some(*way);
+                }
+                set(&mut self.spindle_angle, angle(word, variables)?, span, "SPOS")
+            }
             "LIMS" => set(&mut self.most_speed, number(word, variables)?, span, address),
             "DIAMON" | "DIAMOF" | "DIAM90" => {
                 self.diameter = Some(match address {

@@ -10,7 +10,7 @@ use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, MotionWords};
-use crate::program::{Action, Compensation, Spindle};
+use crate::program::{Action, Compensation, OrientWay, Spindle};
 use crate::source::Span;
 
 /// A drilling cycle; coordinates along the normal of the plane, units of the program.
@@ -166,7 +166,9 @@ impl Interpreter<'_> {
         self.wait_at_bottom(cycle)?;
         self.control.modal.spindle = None;
         let angle = cycle.or_zero("POSS")?.rem_euclid(360.0);
-        self.control.actions.push(Action::Orient(angle));
+        self.control
+            .actions
+            .push(Action::Orient(angle, OrientWay::Shorter));
         let lifted = [x + off[0], y + off[1], hole.bottom + off[2]];
         let axes = [first, second, normal];
         self.rapid_to(&axes, &lifted, span)?;

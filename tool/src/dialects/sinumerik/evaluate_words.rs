@@ -9,7 +9,7 @@ use crate::dialects::control::beside_motion::Waiting;
 use crate::dialects::control::words::{At, Dimension};
 use crate::dialects::control::{Control, Done};
 use crate::program::moves::{Corner, MoveKind};
-use crate::program::{Action, Compensation};
+use crate::program::{Action, Compensation, OrientWay};
 use crate::source::Span;
 
 /// How a block ends.
@@ -176,7 +176,10 @@ impl Interpreter<'_> {
                     self.tool_left = None;
                     self.edge = Some(1.0);
                 }
-                19 => self.control.actions.push(Action::Orient(0.0)),
+                19 => self
+                    .control
+                    .actions
+                    .push(Action::Orient(0.0, OrientWay::Shorter)),
                 40..=45 => self.control.note(&format!("M{value}"), span),
                 _ if self.control.switch(value) => {}
                 _ => self.control.other_m(value, span)?,

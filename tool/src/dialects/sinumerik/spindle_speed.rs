@@ -3,10 +3,11 @@
 
 use super::block_words::BlockWords;
 use super::interpreter::Interpreter;
+use super::syntax::Way;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::words::At;
-use crate::program::Action;
+use crate::program::{Action, OrientWay};
 use crate::source::Span;
 
 /// Metres in a foot: with G70 and G700 cutting speeds are in feet per minute.
@@ -58,9 +59,13 @@ impl Interpreter<'_> {
         }
         if let Some(angle) = words.spindle_angle {
             self.control.modal.spindle = None;
-            self.control
-                .actions
-                .push(Action::Orient(angle.value.rem_euclid(360.0)));
+            let way = match words.spindle_way {
+                None | Some(Way::Shorter) => OrientWay::Shorter,
+                Some(Way::Positive) => OrientWay::Clockwise,
+                Some(Way::Negative) => OrientWay::Counterclockwise,
+            };
+            let angle = angle.value.rem_euclid(360.0);
+            self.control.actions.push(Action::Orient(angle, way));
         }
         Ok(())
     }

@@ -103,7 +103,7 @@ pub enum WordValue {
     None,
 }
 
-/// Which way a rotary axis turns to an angle.
+/// Which way a rotary axis or the spindle turns to an angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     /// DC: the shorter one.
