@@ -189,6 +189,8 @@ fn arcs_of_every_form() {
         "G91 G3 X-10 Y10 AR=90",
         "CIP X0 Y10 I1=6 J1=8",
         "CIP X0 Y10 I1=IC(-4) J1=8",
+        "CIP X0 Y10 Z0 I1=6 J1=8 K1=0",
+        "CIP X0 Y10 I1=6 J1=8 K1=IC(0)",
         "G111 X0 Y0\nG3 AP=90 RP=10",
         "G110 X-10 Y0\nG3 AP=90 RP=10",
     ] {
@@ -207,8 +209,16 @@ fn arcs_of_every_form() {
         ("G0 X0 Y0\nG1 X5 AR=40 F9\nM30\n", "AR belongs to arcs"),
         ("G0 X0 Y0\nCIP X5 I1=2 F9\nM30\n", "both coordinates"),
         (
+            "G0 X0 Y0 Z0\nCIP X5 I1=2 J1=2 K1=4 F9\nM30\n",
+            "an intermediate point outside of the plane",
+        ),
+        (
+            "G0 X0 Y0 Z0\nCIP X5 Z1 I1=2 J1=2 K1=0 F9\nM30\n",
+            "leaves the plane behind its intermediate point",
+        ),
+        (
             "G0 X0 Y0\nCIP X5 I1=2 J1=2 K1=4 F9\nM30\n",
-            "outside of the plane",
+            "where this arc begins along Z is not known",
         ),
         ("G0 X0 Y0\nCT X5 I2 F9\nM30\n", "neither centre nor radius"),
         ("G0 X0 Y0\nG1 X5 I1=2 F9\nM30\n", "belong to CIP"),
@@ -238,6 +248,14 @@ M30
         .line([5., 3., 2.]);
     check(program, &expected);
     assert!(errors("G1 AP=30 F9\nM30\n").contains("RP has no value yet"));
+    // A new pole and another plane take the angle away, the plane that is active anyway does not.
+    let begin = "G0 X0 Y0 Z0\nG1 AP=90 RP=10 F100\n";
+    for between in ["G111 X0 Y0", "G110 X1 Y1", "G18", "G18\nG17"] {
+        let shown = errors(&format!("{begin}{between}\nG1 RP=13\nM30\n"));
+        assert!(shown.contains("AP has no value yet"), "{between}\n{shown}");
+    }
+    let expected = Path::from([0.0; 3]).lines(&[(0., 10.), (0., 13.)]);
+    check(&format!("{begin}G17\nG1 RP=13\nM30\n"), &expected);
     assert!(errors("G1 AP=30 RP=5 X3 F9\nM30\n").contains("polar and rectangular"));
 }
 
@@ -248,14 +266,6 @@ fn subprograms_with_parameters() {
 DEF REAL RESULT
 DEF INT COUNT=2
 POCKET(10, COUNT, RESULT)
-    // A new pole and another plane take the angle away, the plane that is active anyway does not.
-    let begin = "G0 X0 Y0 Z0\nG1 AP=90 RP=10 F100\n";
-    for between in ["G111 X0 Y0", "G110 X1 Y1", "G18", "G18\nG17"] {
-        let shown = errors(&format!("{begin}{between}\nG1 RP=13\nM30\n"));
-        assert!(shown.contains("AP has no value yet"), "{between}\n{shown}");
-    }
-    let expected = Path::from([0.0; 3]).lines(&[(0., 10.), (0., 13.)]);
-    check(&format!("{begin}G17\nG1 RP=13\nM30\n"), &expected);
 G0 X=RESULT
 POCKET(1, , RESULT)
 G0 X=RESULT

@@ -7,9 +7,12 @@ use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
-use crate::dialects::control::words::{At, Dimension, MotionWords};
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
 use crate::source::Span;
 use framepath::frame::angle::sin_cos_degrees;
+
+/// Places along the normal of the plane that differ by less, in units of the program, are the same.
+const SAME_PLACE: f64 = 1e-6;
 
 /// The motions that are arcs of another form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,11 +104,7 @@ impl Interpreter<'_> {
     ) -> Done {
         let [first, second, normal] = self.control.modal.plane.axes();
         if let Some(middle) = words.middle[normal] {
-            return Err(Diagnostic::error(
-                middle.span,
-                "an intermediate point outside of the plane",
-            )
-            .help("CIP makes arcs in the plane that is active: turn the plane with ROT"));
+            self.check_stays_in_plane(middle, motion.axes[normal], normal)?;
         }
         let middle = [first, second].map(|axis| words.middle[axis]);
         if middle.iter().any(Option::is_none) {
@@ -116,6 +115,42 @@ impl Interpreter<'_> {
             .help("write CIP X20 Y0 I1=10 J1=10"));
         }
         self.control.arc_through(motion, middle, own_feed, span)
+    }
+
+    /// Refuses an arc over an intermediate point that is given along all axes, unless it stays in the plane.
+    /// `middle`, `end`: its places along the normal, axis `normal`.
+    fn check_stays_in_plane(
+        &self,
+        middle: At<(f64, Dimension)>,
+        end: Option<At<(f64, Dimension)>>,
+        normal: usize,
+    ) -> Done {
+        let start = self.control.present(normal);
+        let rise = |word: At<(f64, Dimension)>| match word.value {
+            (value, Dimension::Incremental) => Some(value),
+            (value, Dimension::Modal) if self.control.modal.incremental => Some(value),
+            (value, _) => start.map(|start| value - start),
+        };
+        let stays = |rise: f64| rise.abs() <= SAME_PLACE;
+        let message = match (rise(middle), end.map_or(Some(0.0), rise)) {
+            (Some(middle), Some(end)) if stays(middle) && stays(end) => return Ok(()),
+            (Some(middle), Some(_)) if stays(middle) => {
+                "this arc leaves the plane behind its intermediate point"
+            }
+            (Some(_), Some(_)) => "an intermediate point outside of the plane",
+            _ => {
+                let name = AXES[normal];
+                return Err(Diagnostic::error(
+                    middle.span,
+                    format!("where this arc begins along {name} is not known ahead of time"),
+                )
+                .help(format!(
+                    "program {name} absolute before, or leave the intermediate point along {name} out"
+                )));
+            }
+        };
+        Err(Diagnostic::error(middle.span, message)
+            .help("CIP makes arcs in the plane that is active: turn the plane with ROT"))
     }
 
     /// `AR=`: with the centre it gives the end, with the end the centre.
