@@ -166,7 +166,7 @@ fn interrupts(action: &Action) -> bool {
             | Action::SpindleSpeed(_)
             | Action::SurfaceSpeed(_)
             | Action::Spindle(_)
-            | Action::Orient(_)
+            | Action::Orient(..)
             | Action::Overrides(_)
             | Action::Coolant(_)
             | Action::Message(_)

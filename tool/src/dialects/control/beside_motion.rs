@@ -44,7 +44,7 @@ impl Functions {
     fn waits(&self, action: &Action) -> bool {
         match action {
             Action::Spindle(Spindle::Stop) => self.waiting == Waiting::SwitchesOff,
-            Action::Coolant(Coolant::Off) | Action::Orient(_) => self.waiting != Waiting::Nothing,
+            Action::Coolant(Coolant::Off) | Action::Orient(..) => self.waiting != Waiting::Nothing,
             _ => false,
         }
     }
