@@ -150,14 +150,15 @@ class WithoutY(Compared):
     def test_a_lathe(self):
         self.result = result = view([PREVIEW, RUN], program(
             "G18 G8 G0 X5 Z5", "G77.3 R30", "G1 X6 Z0", "G77", "G1 X1", "o<machine_move> call [8] [0] [3]", "G1 X2",
-            "G7 G79 X20", "G1 X10"), sample="framepath-lathe", joints=2, axes="xz")
+            "G7 G79 X20", "G1 X10", "G77.5 X2", "G1 X8"), sample="framepath-lathe", joints=2, axes="xz")
         self.assertIsNone(result.failure, result.log)
         self.assertEqual(result.errors, [], result.log)
         ends = [end for _, _, _, end, _ in result.answers["preview"]["moves"]]
         rows = result.columns("joint.0", "joint.1")
         for x, _, z in (end[:3] for end in ends):
             self.assertLess(min(math.dist((x, z), row) for row in rows), 1e-5, f"X {x} Z {z}")
-        self.assertAlmostEqual(ends[-1][0], 5, places=6)
+        # the diameter 8, twice as large
+        self.assertAlmostEqual(ends[-1][0], 8, places=6)
 
 
 class Unchanged(unittest.TestCase):
