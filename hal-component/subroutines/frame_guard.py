@@ -39,6 +39,8 @@ PERIOD = 0.005
 #: non-modal codes whose moves are meant in machine coordinates, ten times the G number
 MACHINE_MOVES = {530: "G53", 280: "G28", 300: "G30"}
 TOOL_CHANGE_MOTION = 4
+#: G38.2 to G38.5, none of which is meant in machine coordinates: the codes in force are those of the move before
+PROBING_MOTION = 5
 
 #: s that a frame may stay where it has to go and nothing moves, before the operator is told
 PATIENCE = 1.0
@@ -210,7 +212,7 @@ class Guard:
             return
         if not now.active or not now.moving or not now.coordinated or not now.steady:
             return
-        if now.non_modal in MACHINE_MOVES and now.under_way:
+        if now.non_modal in MACHINE_MOVES and now.under_way and now.motion_type != PROBING_MOTION:
             code = MACHINE_MOVES[now.non_modal]
             self.stop(f"{code} would run through the active frame: use o<machine_move> call, or put {code} between "
                       "o<frame_suspend> call and o<frame_resume> call")

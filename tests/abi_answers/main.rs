@@ -238,6 +238,11 @@ fn what_means_the_machine_is_refused_in_a_frame_only() {
         assert!(machine.reason().contains("G28, G30 and G53"));
         machine.follow_spindle(0, 0.0, 0);
         assert_eq!(machine.shared.tp().depth, 0);
+        // A probing move has the tag of the move before it.
+        assert_eq!(machine.line(1.0, 5, &coded(code)), 0);
+        machine.run();
+        assert_eq!(machine.line(0.0, 1, &tag()), 0);
+        machine.run();
         machine.set_map(false);
         assert_eq!(machine.line(1.0, 1, &coded(code)), 0);
         machine.run();

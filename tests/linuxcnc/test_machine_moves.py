@@ -69,7 +69,7 @@ class Modes(Case):
 
 class BackInTheFrame(Case):
     """The move behind one of the machine waits for the next, or for a spindle, while the codes in force are still those of the
-    move before: frame_guard takes it for no move of the machine."""
+    move before, which a probing move keeps to its end: neither blendtp nor frame_guard takes it for a move of the machine."""
 
     MOVES = ("G79 X1 Y2 Z3", "o<machine_move> call [1] [2] [3]", "o<retract> call [9]",
              "o<frame_suspend> call\nG28\no<frame_resume> call")
@@ -84,11 +84,13 @@ class BackInTheFrame(Case):
         lines = [f"G1 X{3 + turn % 3} Y2 Z1\n{move}\n" for turn in range(8) for move in self.MOVES]
         texts = {"many": f"{self.BEGIN}{''.join(lines)}G1 X3 Y2 Z1\nM66 E0 L0\n",
                  "spindle": f"{self.BEGIN}G1 X3 Y2 Z1\nG79 X1 Y2 Z3\nM3 S100\nG1 X3 Y2 Z1\nM66 E0 L0\n",
+                 "probe": f"G53 G0 X0 Y0 Z9\n{self.BEGIN}" + "\n".join(
+                     f"{move}\nG38.3 X20 Y20 Z20 F600\nG1 X3 Y2 Z1" for move in ("", *self.MOVES)) + "\n",
                  "wrong": f"{self.BEGIN}G1 X3 Y2 Z1\nG53 G0 X40\n"}
         for planner, (ini, edit) in self.PLANNERS.items():
             with self.subTest(planner):
                 result = harness.run(
-                    [["run", "PROGRAMS/many.ngc"], ["setp", "spindle.0.at-speed", 0], ["start", "PROGRAMS/spindle.ngc"],
+                    [["run", "PROGRAMS/many.ngc"], ["run", "PROGRAMS/probe.ngc"], ["setp", "spindle.0.at-speed", 0], ["start", "PROGRAMS/spindle.ngc"],
                      ["expect", "spindle.0.on", "TRUE"], ["sleep", 0.3], ["setp", "spindle.0.at-speed", 1], ["finish"],
                      ["recall", "right"], ["run", "PROGRAMS/wrong.ngc"], ["expect", "framekins.active", "FALSE"],
                      ["recall", "wrong"]],

@@ -21,21 +21,25 @@ use crate::planner::{AddError, Added, LEAST_ACCELERATION, LEAST_VELOCITY, MoveRe
 /// LinuxCNC's numbers of the codes that mean the machine itself: G28, G30, G53.
 const MACHINE_CODES: [c_int; 3] = [280, 300, 530];
 
-/// Whether a move was programmed in coordinates of the machine.
-fn means_the_machine(tag: &state_tag_t) -> bool {
+/// Whether a move was programmed in coordinates of the machine. A probing move (G38.2 to G38.5) never is: LinuxCNC takes none
+/// of these codes with it, and hands it over with the tag of the move before.
+fn means_the_machine(motion_type: MotionType, tag: &state_tag_t) -> bool {
+    if motion_type == MotionType::Probing {
+        return false;
+    }
     let field = tag.fields.get(StateField::GM_FIELD_G_MODE_0 as usize);
     field.is_some_and(|code| MACHINE_CODES.contains(code))
 }
 
 impl Handle {
     /// What can be said against a move before its shape is known.
-    fn objection(&self, tag: &state_tag_t) -> Option<&'static CStr> {
+    fn objection(&self, motion_type: MotionType, tag: &state_tag_t) -> Option<&'static CStr> {
         if !self.usable_map {
             return Some(
                 c"the frame in force scales by more than ten thousand or by what is no number, so that no limits can be kept: remove it first",
             );
         }
-        (self.framed && means_the_machine(tag)).then_some(
+        (self.framed && means_the_machine(motion_type, tag)).then_some(
             c"G28, G30 and G53 mean the machine without its frame, which is in force: use o<machine_move> call, or remove the frame first",
         )
     }
@@ -222,7 +226,7 @@ pub unsafe extern "C" fn framepath_planner_add_line(
         handle.refused = c"a line of a kind that is not known";
         return tp_err_t::TP_ERR_FAIL;
     };
-    if let Some(objection) = handle.objection(tag) {
+    if let Some(objection) = handle.objection(request.motion_type, tag) {
         handle.refused = objection;
         return tp_err_t::TP_ERR_FAIL;
     }
@@ -289,7 +293,7 @@ pub unsafe extern "C" fn framepath_planner_add_circle(
         normal: vector_of(normal),
         revolutions: turn,
     };
-    if let Some(objection) = handle.objection(tag) {
+    if let Some(objection) = handle.objection(request.motion_type, tag) {
         handle.refused = objection;
         return tp_err_t::TP_ERR_FAIL;
     }
@@ -328,7 +332,7 @@ pub unsafe extern "C" fn framepath_planner_add_rigid_tap(
     if handle.is_repeated() {
         return tp_err_t::TP_ERR_OK;
     }
-    if let Some(objection) = handle.objection(tag) {
+    if let Some(objection) = handle.objection(MotionType::Feed, tag) {
         handle.refused = objection;
         return tp_err_t::TP_ERR_FAIL;
     }
