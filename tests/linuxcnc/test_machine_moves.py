@@ -90,14 +90,17 @@ class BackInTheFrame(Case):
         for planner, (ini, edit) in self.PLANNERS.items():
             with self.subTest(planner):
                 result = harness.run(
-                    [["run", "PROGRAMS/many.ngc"], ["run", "PROGRAMS/probe.ngc"], ["setp", "spindle.0.at-speed", 0], ["start", "PROGRAMS/spindle.ngc"],
+                    [["run", "PROGRAMS/many.ngc"], ["setp", "spindle.0.at-speed", 0], ["start", "PROGRAMS/spindle.ngc"],
                      ["expect", "spindle.0.on", "TRUE"], ["sleep", 0.3], ["setp", "spindle.0.at-speed", 1], ["finish"],
-                     ["recall", "right"], ["run", "PROGRAMS/wrong.ngc"], ["expect", "framekins.active", "FALSE"],
+                     ["recall", "right"], ["forget"], ["run", "PROGRAMS/probe.ngc"], ["expect", "framekins.active", "FALSE"],
+                     ["recall", "probe"], ["forget"], ["run", "PROGRAMS/wrong.ngc"], ["expect", "framekins.active", "FALSE"],
                      ["recall", "wrong"]],
                     {f"{name}.ngc": f"{text}o<frame_off> call\nM2\n" for name, text in texts.items()}, ini={**QUICK, **ini},
                     edit_hal=edit, record=False)
                 self.good(result)
                 self.assertEqual(result.answers["right"], [])
+                # LinuxCNC's planner may end the program for another reason, see docs/promises.md
+                self.assertNotRegex("\n".join(result.answers["probe"]), "G53|G28")
                 self.assertIn("G53", "\n".join(result.answers["wrong"]))
 
 
