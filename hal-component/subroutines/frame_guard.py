@@ -362,6 +362,7 @@ def make_component(settings):
             ("analog-output", hal.HAL_S32, settings.analog_output),
             ("units-per-mm", hal.HAL_FLOAT, settings.units_per_mm),
             ("axes", hal.HAL_S32, settings.axes),
+            ("tool-change-moves", hal.HAL_BIT, settings.tool_change_moves),
             ("programs-ended", hal.HAL_S32, 0),
             ("type-output", hal.HAL_S32, settings.type_output),
             ("rots-convention", hal.HAL_S32, int(settings.rots_convention == "k2"))):

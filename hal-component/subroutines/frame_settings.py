@@ -104,7 +104,8 @@ KEYS = {
 class Settings:
     """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
 
-    units_per_mm: machine units in a millimetre; axes: which of X = 1, Y = 2 and Z = 4 there are, as a sum; task_cycle: period of LinuxCNC's task, s; screen_aborts_mdi: whether the
+    units_per_mm: machine units in a millimetre; axes: which of X = 1, Y = 2 and Z = 4 there are, as a sum;
+    tool_change_moves: whether M6 goes to a place of the machine; task_cycle: period of LinuxCNC's task, s; screen_aborts_mdi: whether the
     screen aborts what others do in MDI right behind a program.
     """
 
@@ -134,6 +135,7 @@ class Settings:
                 raise SettingsError(f"{path}:{line}: section [{where}]: write [{SECTION}], in capitals")
         self.units_per_mm = _linear_units(ini)
         self.axes = _linear_axes(ini)
+        self.tool_change_moves = _tool_change_moves(ini)
         self.task_cycle = _task_cycle(ini)
         self.screen_aborts_mdi = _aborts_mdi(ini)
         self._ini = ini
@@ -185,6 +187,13 @@ def _linear_axes(ini):
     """The sum of X = 1, Y = 2 and Z = 4 of the machine."""
     letters, _ = ini.find("TRAJ", "COORDINATES")
     return sum(1 << n for n, letter in enumerate("XYZ") if letters is None or letter in letters.upper())
+
+
+def _tool_change_moves(ini):
+    """Whether LinuxCNC moves axes at M6."""
+    position, _ = ini.find("EMCIO", "TOOL_CHANGE_POSITION")
+    others = (ini.find("EMCIO", key)[0] for key in ("TOOL_CHANGE_AT_G30", "TOOL_CHANGE_QUILL_UP"))
+    return bool(position) or any(text not in (None, "", "0") for text in others)
 
 
 def _joint_letters(ini):

@@ -133,6 +133,24 @@ class ToolCentre(Case):
             self.at(result, f"after {name}", *result.answers["before"]["joints"][:5])
         self.at(result, "end", *result.answers["level"]["joints"][:2], 100, 0, 0)
 
+    def test_a_tool_change_is_refused_where_it_would_go_elsewhere(self):
+        turned: list[list] = [["mdi", "G43.4 H1"], ["mdi", "G0 X10 Y5 Z30 A20 C30"]]
+        change: list[list] = [["note", "before"], ["forget"], ["mdi", "T2 M6"], ["sleep", 0.05], ["recall", "M6"], ["note", "after"]]
+        level: list[list] = [["mdi", "o<rotary_zero> call"], ["mdi", "T2 M6"], ["note", "end"]]
+        machine = {"sample": "framepath-xyzac", "joints": 5, "axes": "xyzac", "record": False}
+        place = {("EMCIO", "TOOL_CHANGE_POSITION"): "10 20 30"}
+        for frame in ([], [["mdi", "o<trans> call [1] [2] [3]"]]):
+            result = self.good(harness.run([*turned, *frame, *change, *level], ini=place, **machine))
+            text = "\n".join(result.answers["M6"])
+            for part in ("M6", "o<tool_centre_off> call", "o<rotary_zero> call"):
+                self.assertIn(part, text)
+            self.at(result, "after", *result.answers["before"]["joints"][:5])
+            self.at(result, "end", 10, 20, 30, 0, 0)
+        # nothing moves without such a place
+        result = self.good(harness.run([*turned, *change], **machine))
+        self.assertEqual(result.answers["M6"], [])
+        self.at(result, "after", *result.answers["before"]["joints"][:5])
+
 
 if __name__ == "__main__":
     unittest.main()
