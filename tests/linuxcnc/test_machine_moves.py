@@ -139,7 +139,8 @@ class ToolCentre(Case):
         level: list[list] = [["mdi", "o<rotary_zero> call"], ["mdi", "T2 M6"], ["note", "end"]]
         machine = {"sample": "framepath-xyzac", "joints": 5, "axes": "xyzac", "record": False}
         place = {("EMCIO", "TOOL_CHANGE_POSITION"): "10 20 30"}
-        for frame in ([], [["mdi", "o<trans> call [1] [2] [3]"]]):
+        frames: list[list] = [[], [["mdi", "o<trans> call [1] [2] [3]"]]]
+        for frame in frames:
             result = self.good(harness.run([*turned, *frame, *change, *level], ini=place, **machine))
             text = "\n".join(result.answers["M6"])
             for part in ("M6", "o<tool_centre_off> call", "o<rotary_zero> call"):
