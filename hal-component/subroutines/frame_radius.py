@@ -1,5 +1,5 @@
-"""Cutter compensation in a frame that scales: LinuxCNC works with the tool's radius in the coordinates of the frame, so that the
-scale takes it along. Mirrors and turns leave it what it is."""
+"""Cutter compensation in a frame that scales: LinuxCNC works with the tool's radius in the coordinates of the frame, so that
+the scale takes it along. Mirrors and turns leave it what it is."""
 
 import hal
 
@@ -45,5 +45,5 @@ class Radius:
             self.scaled = not keeps_lengths(linear_map(), *(now.axes[k] for k in PLANES[now.plane]))
         if not self.scaled:
             return None
-        return ("cutter compensation (G41, G42) in a frame that scales its plane: the tool's radius would be scaled as well. Write "
-                "G40 and the path of the tool's centre, or translate the program by framepath filter --backend program")
+        return ("cutter compensation (G41, G42) in a frame that scales its plane: the tool's radius would be scaled as well. "
+                "Write G40 and the path of the tool's centre, or translate the program by framepath filter --backend program")

@@ -105,8 +105,8 @@ class Settings:
     """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
 
     units_per_mm: machine units in a millimetre; axes: which of X = 1, Y = 2 and Z = 4 there are, as a sum;
-    tool_change_moves: whether M6 goes to a place of the machine; task_cycle: period of LinuxCNC's task, s; screen_aborts_mdi: whether the
-    screen aborts what others do in MDI right behind a program.
+    tool_change_moves: whether M6 goes to a place of the machine; task_cycle: period of LinuxCNC's task, s;
+    screen_aborts_mdi: whether the screen aborts what others do in MDI right behind a program.
     """
 
     #: one of the keys, which are set by their names; a type checker learns of it here

@@ -135,7 +135,8 @@ class ToolCentre(Case):
 
     def test_a_tool_change_is_refused_where_it_would_go_elsewhere(self):
         turned: list[list] = [["mdi", "G43.4 H1"], ["mdi", "G0 X10 Y5 Z30 A20 C30"]]
-        change: list[list] = [["note", "before"], ["forget"], ["mdi", "T2 M6"], ["sleep", 0.05], ["recall", "M6"], ["note", "after"]]
+        change: list[list] = [["note", "before"], ["forget"], ["mdi", "T2 M6"], ["sleep", 0.05], ["recall", "M6"],
+                              ["note", "after"]]
         level: list[list] = [["mdi", "o<rotary_zero> call"], ["mdi", "T2 M6"], ["note", "end"]]
         machine = {"sample": "framepath-xyzac", "joints": 5, "axes": "xyzac", "record": False}
         place = {("EMCIO", "TOOL_CHANGE_POSITION"): "10 20 30"}
