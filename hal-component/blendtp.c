@@ -15,6 +15,7 @@
 #include "hal.h"
 #include "kinematics.h"
 #include "framepath.h"
+#include "beside_motmod.h"
 #include "first_loaded.h"
 #include "ini_jerk.h"
 #include "linuxcnc_version.h"
@@ -70,6 +71,7 @@ static int (*tool_tilt_axis)(void);
 #include "pin_limits.h"
 #include "joint_pins.h"
 #include "joints_on_the_way.h"
+#include "unloaded_modules.h"
 
 /* With a greatest velocity of 0 in the INI a program would wait for ever without a word. */
 static int has_velocity(void)
@@ -85,7 +87,7 @@ static int has_velocity(void)
 static int prepare(void)
 {
     double map[9];
-    if (check_thread())
+    if (check_thread() || check_loaded())
         return -1;
     say_forgotten_jerk_limits();
     if (linear_map)
@@ -152,6 +154,7 @@ int tpCreate(TP_STRUCT * const tp, int queue_size, int id)
     /* motmod is loaded after the kinematics, so they can be looked up now; here, not in the servo thread. */
     *(void **)&linear_map = dlsym(RTLD_DEFAULT, "framekinsLinearMap");
     *(void **)&tool_tilt_axis = dlsym(RTLD_DEFAULT, "framekinsToolTiltAxis");
+    find_frames();
     find_kinematics();
     find_joint_jet();
     return 0;
@@ -211,7 +214,8 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     controller_plans(period);
     period_of_direction(tp);
 #ifdef FRAMEPATH_FAULT_INJECTION
-    inject_fault(tp);
+    if (!is_unloaded())
+        inject_fault(tp);
 #endif
     result = framepath_planner_run_cycle(planner, tp);
     report_path_motion(motion.status);
@@ -395,7 +399,9 @@ int tcqFull(TC_QUEUE_STRUCT const * const queue)
     int full = framepath_planner_queue_full(planner);
     (void)queue;
     controller_ends();
-    show_operator();
+    period_runs();
+    if (!is_unloaded())
+        show_operator();
     return full;
 }
 
@@ -434,7 +440,8 @@ int rtapi_app_main(void)
 {
     int error = 0;
     if (check_version("blendtp") || check_first("blendtp", "tpCreate", &pins, "write TPMOD = blendtp under [TRAJ] in the INI, "
-                                                "and no loadrt of a planner"))
+                                                "and no loadrt of a planner")
+        || check_before_motmod("blendtp", &pins))
         return -22; /* EINVAL */
     component = hal_init("blendtp");
     if (component < 0) {
@@ -479,5 +486,6 @@ int rtapi_app_main(void)
 
 void rtapi_app_exit(void)
 {
+    leave_motmod("blendtp", "the moves that are queued run, no further one is taken. End LinuxCNC and start it anew");
     hal_exit(component);
 }

@@ -8,6 +8,7 @@ int framekinsJet(const double *position, const double *derivatives, double *join
 int framekinsAxisOfJoint(int joint);
 int framekinsToolTiltAxis(void);
 const char *framekinsInner(void);
+int framekinsUnloaded(void);
 
 /* The linear part of the frame, three rows of three, and whether one is in force. */
 int framekinsLinearMap(double map[9])
@@ -36,7 +37,13 @@ int framekinsToolTiltAxis(void)
 /* The name of the kinematics behind the frame; NULL if they are ours. */
 const char *framekinsInner(void)
 {
-    return *inner ? inner : NULL;
+    return *behind ? behind : NULL;
+}
+
+/* Whether the module was unloaded while motmod calls it. */
+int framekinsUnloaded(void)
+{
+    return is_unloaded();
 }
 
 EXPORT_SYMBOL(framekinsLinearMap);
@@ -44,3 +51,4 @@ EXPORT_SYMBOL(framekinsJet);
 EXPORT_SYMBOL(framekinsAxisOfJoint);
 EXPORT_SYMBOL(framekinsToolTiltAxis);
 EXPORT_SYMBOL(framekinsInner);
+EXPORT_SYMBOL(framekinsUnloaded);

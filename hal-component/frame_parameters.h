@@ -28,6 +28,10 @@ RTAPI_MP_STRING(tool_types, "Types of the inner kinematics that turn the tool's 
 static char *tool_axes = "";
 RTAPI_MP_STRING(tool_axes, "Axes that turn the tool behind kinematics that cannot be asked, the first carries the second: tool_axes=C,B");
 
+/* The module behind the frames that was chosen, "" for a machine of ours. LinuxCNC writes the parameters of a loadrt into a module that
+ * is in memory still before it asks whether it can be loaded. */
+static const char *behind = "";
+
 /* Chooses the kinematics of another module, which lies beside the one that `here` is in; 0, or what is wrong has been said. */
 static int configure_inner(const void *here)
 {

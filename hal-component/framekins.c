@@ -13,6 +13,7 @@
 #include <math.h>
 
 #include "framepath.h"
+#include "beside_motmod.h"
 #include "external_offsets.h"
 #include "first_loaded.h"
 #include "frame_messages.h"
@@ -75,8 +76,8 @@ static void read_table_pins(struct framepath_frame_inputs *in)
         in->offset[i] = has_table ? *pins->offset[i] : 0.0;
     }
     for (int i = 0; i < 2; i++) {
-        in->tilt_range[i] = has_table || *inner ? *pins->tilt_range[i] : no_limits[i];
-        in->rotary_range[i] = has_table || *inner ? *pins->rotary_range[i] : no_limits[i];
+        in->tilt_range[i] = has_table || *behind ? *pins->tilt_range[i] : no_limits[i];
+        in->rotary_range[i] = has_table || *behind ? *pins->rotary_range[i] : no_limits[i];
     }
     in->table_tool_offset = has_table ? *pins->table_tool_offset : 0.0;
     in->conventional_directions = has_table && *pins->conventional_directions;
@@ -110,7 +111,7 @@ static struct framepath_frame_inputs read_pins(void)
     in.heartbeat = *pins->heartbeat;
     in.period = 0.0;
     in.clock = 0;
-    in.inner_type = *inner ? *pins->inner_type : 0.0;
+    in.inner_type = *behind ? *pins->inner_type : 0.0;
     in.unknown_offset = has_unknown_offset(pins->external_offset);
     return in;
 }
@@ -151,11 +152,11 @@ static void write_pins(const struct framepath_frame_outputs *out)
 /* What is behind the frame, and why not what the pin asks for; that is told once. */
 static void write_inner_pins(const struct framepath_frame_outputs *out)
 {
-    if (!*inner)
+    if (!*behind)
         return;
     if (out->inner_refusal && out->inner_refusal != *pins->inner_refusal) {
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: framekins.inner-type = %g is not taken by %s, and the machine is held: %s\n",
-                        *pins->inner_type, inner, framepath_kinematics_refusal_text(out->inner_refusal));
+                        *pins->inner_type, behind, framepath_kinematics_refusal_text(out->inner_refusal));
         tell_unknown_offset(pins->external_offset);
     }
     *pins->inner_refusal = out->inner_refusal;
@@ -187,6 +188,7 @@ static void update(void *argument, long period)
     in.period = period * 1e-9;
     in.clock = rtapi_get_time();
     struct framepath_frame_outputs out;
+    period_runs();
     framepath_kinematics_forget_switch();
     if (is_misplaced())
         return;
@@ -210,7 +212,7 @@ int kinematicsForward(const double *joints, struct EmcPose *world, const KINEMAT
 {
     int answer;
     this_is_the_servo_thread();
-    answer = *inner ? framepath_kinematics_inner_forward(joints, world, fflags, iflags) : framepath_kinematics_forward(joints, world);
+    answer = *behind ? framepath_kinematics_inner_forward(joints, world, fflags, iflags) : framepath_kinematics_forward(joints, world);
     if (is_place_of_planner) {
         is_place_of_planner = 0;
         take_external_offsets_off(world, pins->external_offset);
@@ -223,7 +225,7 @@ int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMAT
 {
     if (is_asked_in_another_thread() || is_another_place(world))
         return -1;
-    if (*inner)
+    if (*behind)
         return framepath_kinematics_inner_inverse(world, joints, iflags, fflags);
     return framepath_kinematics_inverse(world, joints);
 }
@@ -232,7 +234,7 @@ int kinematicsInverse(const struct EmcPose *world, double *joints, const KINEMAT
  * LinuxCNC does not start. */
 static int begin_inner(void)
 {
-    if (find_inner(inner, tool_types, &pins))
+    if (find_inner(behind, tool_types, &pins))
         return -1;
     hal_set_unready(component);
     if (hal_export_funct("framekins", update, 0, 1, 0, component))
@@ -244,10 +246,10 @@ static int begin_inner(void)
 /* motmod asks for it while it is loaded. Behind a frame that turns, axes are no joints any more. */
 KINEMATICS_TYPE kinematicsType(void)
 {
-    if (!*inner)
+    if (!*behind)
         return KINEMATICS_BOTH;
-    if (is_in_inner(inner, &pins, __builtin_return_address(0)))
-        return own_type_of_inner(inner, &pins);
+    if (is_in_inner(behind, &pins, __builtin_return_address(0)))
+        return own_type_of_inner(behind, &pins);
     if (!inner_found.module && (is_servo_thread_seen() || begin_inner()))
         return KINEMATICS_BOTH;
     return inner_found.type == KINEMATICS_IDENTITY ? KINEMATICS_BOTH : inner_found.type;
@@ -256,7 +258,7 @@ KINEMATICS_TYPE kinematicsType(void)
 /* motmod asks this in each period before it looks at motion.switchkins-type. */
 int kinematicsSwitchable(void)
 {
-    if (*inner && *pins->inner_type != *pins->inner_type_active) {
+    if (*behind && !is_unloaded() && *pins->inner_type != *pins->inner_type_active) {
         struct framepath_frame_inputs in = read_pins();
         *pins->switchkins_type = framepath_kinematics_take_inner_type(&in);
     }
@@ -269,8 +271,10 @@ int kinematicsSwitch(int type)
     struct framepath_frame_inputs in;
     int answer;
     /* Modules switch themselves to type 0 while they are loaded. */
-    if (*inner && !inner_found.module)
+    if (*behind && !inner_found.module)
         return 0;
+    if (is_unloaded())
+        return -1;
     in = read_pins();
     answer = framepath_kinematics_switch(type, &in);
     is_place_of_planner = !answer;
@@ -430,11 +434,13 @@ int rtapi_app_main(void)
                                   "before motmod"
                                 : "write KINEMATICS = framekins coordinates=.. under [KINS] in the INI, and no loadrt of "
                                   "kinematics; or load framekins before it, with inner=";
-    if (check_version("framekins") || check_first("framekins", "kinematicsForward", &pins, remedy))
+    if (check_version("framekins") || check_first("framekins", "kinematicsForward", &pins, remedy)
+        || check_before_motmod("framekins", &pins))
         return -22; /* EINVAL */
     error = *inner ? configure_inner(&pins) : configure_machine();
     if (error)
         return error;
+    behind = inner;
     has_table = framepath_kinematics_tilt_axis() != 0;
     component = hal_init("framekins");
     if (component < 0) {
@@ -442,8 +448,8 @@ int rtapi_app_main(void)
         return component;
     }
     pins = hal_malloc(sizeof *pins);
-    if (!pins || export_frame_pins() || (has_table && export_table_pins()) || (*inner && export_inner_pins())
-        || (!*inner && hal_export_funct("framekins", update, 0, 1, 0, component))) {
+    if (!pins || export_frame_pins() || (has_table && export_table_pins()) || (*behind && export_inner_pins())
+        || (!*behind && hal_export_funct("framekins", update, 0, 1, 0, component))) {
         rtapi_print_msg(RTAPI_MSG_ERR, "framekins: HAL has no room for the pins; raise HAL_SIZE or load fewer components\n");
         hal_exit(component);
         return -12; /* ENOMEM */
@@ -454,6 +460,10 @@ int rtapi_app_main(void)
 
 void rtapi_app_exit(void)
 {
+    leave_motmod("framekins", "a frame that is active stays, and nobody removes it any more; blendtp takes no further move. Stop the program, "
+                 "end LinuxCNC and start it anew");
     hal_exit(component);
-    forget_inner();
+    /* motmod goes on calling the kinematics behind the frame. */
+    if (!is_loaded("motmod", &pins))
+        forget_inner();
 }

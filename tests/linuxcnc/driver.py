@@ -250,6 +250,10 @@ class Operator:
     def halcmd(self, *arguments):
         subprocess.run(["halcmd", *arguments], check=True)
 
+    def halcmd_refuses(self, *arguments):
+        if subprocess.run(["halcmd", *arguments], check=False).returncode == 0:
+            raise Failure(f"halcmd takes {' '.join(arguments)}")
+
     def getp(self, name, pin):
         """Keeps the value of a pin under a name of the scenario's choice."""
         self.answers[name] = subprocess.run(["halcmd", "getp", pin], check=True, capture_output=True,
