@@ -71,6 +71,7 @@ static int (*tool_tilt_axis)(void);
 #include "pin_limits.h"
 #include "joint_pins.h"
 #include "joints_on_the_way.h"
+#include "not_a_number.h"
 #include "unloaded_modules.h"
 
 /* With a greatest velocity of 0 in the INI a program would wait for ever without a word. */
@@ -220,6 +221,7 @@ int tpRunCycle(TP_STRUCT * const tp, long period)
     result = framepath_planner_run_cycle(planner, tp);
     report_path_motion(motion.status);
     say_finding();
+    say_not_a_number(tp, motion.status);
     spindle = framepath_planner_spindle_error_text(planner, &asked, &greatest);
     if (spindle && asked > 0)
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the motion was stopped, since %s (%.4g units a second, %.4g at most)\n",

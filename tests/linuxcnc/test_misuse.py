@@ -117,6 +117,28 @@ class Jerk(Case):
         self.nothing_said(result)
 
 
+class Overrides(Case):
+    """What is not a number holds the machine, and is named once; a number lets it go on to the end."""
+
+    HELD = "blendtp: the machine is held, since "
+
+    def test_each_is_named_once(self):
+        nan = float("nan")
+        steps: list[list] = [["start", "PROGRAMS/moves.ngc"]]
+        for wrong, right in ((["setp", "motion.adaptive-feed", nan], ["setp", "motion.adaptive-feed", 1]),
+                             (["feed_override", nan], ["feed_override", 1.0]),
+                             (["max_velocity", nan], ["max_velocity", 100.0])):
+            steps += [["sleep", 0.2], wrong, ["sleep", 1.0], right]
+        result = harness.run([*steps, ["finish"], ["note", "end"]],
+                             {"moves.ngc": "M52 P1\n" + MOVES.replace("F6000", "F1500")}, record=False)
+        self.assertIsNone(result.failure)
+        self.assertEqual(result.errors, [
+            self.HELD + "motion.adaptive-feed is not a number: look at what sets it, or write M52 P0",
+            self.HELD + "the feed override is not a number: set it anew, or look at what sets it",
+            self.HELD + "the slider for the greatest velocity is not a number: set it anew, or look at what sets it"])
+        self.assertEqual(result.answers["end"]["position"][:2], [239 % 7, 239 % 5])
+
+
 class Planner(unittest.TestCase):
     def test_tpmod_missing_in_the_ini(self):
         with self.assertRaises(RuntimeError) as raised:
