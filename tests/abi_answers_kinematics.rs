@@ -75,3 +75,13 @@ fn each_refused_frame_has_its_words() {
     assert_eq!(text(0), "refused");
     assert_eq!(text(99), "refused");
 }
+
+/// Screens show 255 letters of a message; hal-component/framekins.c puts this before the words.
+#[test]
+fn the_words_of_a_refused_frame_are_shown_to_the_end() {
+    for number in 0..100 {
+        let text = words(framepath_kinematics_refusal_text(number));
+        let message = format!("framekins: frame refused: {text}");
+        assert!(message.len() <= 255, "{}: {message}", message.len());
+    }
+}

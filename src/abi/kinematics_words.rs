@@ -37,7 +37,7 @@ pub extern "C" fn framepath_kinematics_refusal_text(refusal: c_int) -> *const c_
         (FrameRefusal::UnknownType, c"motion.switchkins-type has to be 0, 1 or 2, with inner= 16 times that and the type of the inner kinematics"),
         (FrameRefusal::MissingAxis, c"the frame moves an axis that the machine does not have; see coordinates= of framekins, behind inner= the axes that its kinematics move"),
         (FrameRefusal::MachineParameters, c"a dimension of the machine is not a number or larger than a machine; see the pins framekins.x-rot-point and those beside it"),
-        (FrameRefusal::WrongCheck, c"the values that have arrived are not those that were sent: a net from an analog output to framekins is missing or wrong, for one the new net frame-check motion.analog-out-08 => framekins.check; compare with the HAL file of a sample"),
+        (FrameRefusal::WrongCheck, c"the values that have arrived are not those that were sent: a net from an analog output to framekins is missing or wrong, such as net frame-check motion.analog-out-08 => framekins.check; compare with the HAL file of a sample"),
         (FrameRefusal::Unguarded, c"frame_guard does not live, and nobody would remove the frame: load it in the HAL file, loadusr -Wn frame-guard .../frame_guard.py"),
         (FrameRefusal::UnknownInnerType, c"framekins.inner-type is no type of the kinematics of inner=; what is linked to it, M68 for one, has to say a whole number from 0 that they can be switched to"),
         (FrameRefusal::OtherJoints, c"the kinematics of inner= lead back from where the machine is to other joints, which would jump: go where they do not, an arm with its wrist bent, maxkins with B or C at 0, and give the command again"),
