@@ -3,7 +3,7 @@
 use super::finding::{Findings, advice};
 use crate::machine::configuration::is_rotary;
 use crate::machine::length_unit::INCH;
-use crate::wiring::blendtp::jerk_pin;
+use crate::wiring::blendtp::{is_refused_jerk, jerk_pin, least_jerk};
 use crate::wiring::subject::Subject;
 use serde::Serialize;
 
@@ -45,7 +45,7 @@ fn braking(velocity: f64, acceleration: f64, jerk: Option<f64>) -> (f64, f64) {
     (velocity * time / 2.0, time)
 }
 
-/// The stops of all axes whose limits are there.
+/// The stops of all axes whose limits are there and taken.
 pub fn stops(subject: &Subject) -> Vec<Stop> {
     let of = |letter: &char| -> Option<Stop> {
         let section = format!("AXIS_{letter}");
@@ -59,9 +59,14 @@ pub fn stops(subject: &Subject) -> Vec<Stop> {
         let velocity = positive("TRAJ", path).map_or(own, |path| own.min(path));
         let acceleration = positive(&section, "MAX_ACCELERATION")?;
         let set = subject.state.settings.get(&jerk_pin(*letter));
-        let jerk = set.and_then(|setting| setting.value.parse().ok());
-        let jerk =
-            jerk.filter(|jerk: &f64| jerk.is_finite() && *jerk > 0.0 && subject.has_planner());
+        let jerk: Option<f64> = set.and_then(|setting| setting.value.parse().ok());
+        // No move is taken, so there is none to stop.
+        if subject.has_planner()
+            && jerk.is_some_and(|jerk| is_refused_jerk(jerk, least_jerk(acceleration)))
+        {
+            return None;
+        }
+        let jerk = jerk.filter(|jerk| jerk.is_finite() && *jerk > 0.0 && subject.has_planner());
         let (distance, time) = braking(velocity, acceleration, jerk);
         Some(Stop {
             axis: *letter,

@@ -145,6 +145,11 @@ fn is_limit(name: &str) -> bool {
     LIMITS.contains(&limit) || limit.strip_prefix("axis.").is_some_and(of_axis)
 }
 
+/// Whether blendtp refuses every move with this limit of jerk of an axis, given the least one that it takes.
+pub fn is_refused_jerk(jerk: f64, least: f64) -> bool {
+    jerk.is_nan() || jerk < 0.0 || (jerk > 0.0 && jerk < least)
+}
+
 /// Less than this makes blendtp refuse every move: a fifth of the acceleration.
 pub fn least_jerk(acceleration: f64) -> f64 {
     acceleration / 5.0

@@ -59,6 +59,23 @@ fn without_errors_the_exit_code_is_0() {
 }
 
 #[test]
+fn an_axis_with_which_every_move_is_refused_has_no_stop() {
+    for jerk in ["-20000", "1", "nan"] {
+        let bench = Bench::new();
+        let ini = bench.read("framepath-xyzac", "ini");
+        let (before, axis) = ini.split_once("[AXIS_C]").expect("its section");
+        let axis = axis.replacen("MAX_JERK = 12000", &format!("MAX_JERK = {jerk}"), 1);
+        let changed = format!("{before}[AXIS_C]{axis}");
+        bench.write("framepath-xyzac", "ini", &changed);
+        let output = bench.check("framepath-xyzac", &[]);
+        let text = String::from_utf8(output.stdout).expect("a text");
+        assert!(text.contains("blendtp refuses every move"), "{text}");
+        assert!(text.contains("  A: "), "{text}");
+        assert!(!text.contains("  C: "), "{text}");
+    }
+}
+
+#[test]
 fn fields_of_the_json_are_documented() {
     let bench = Bench::new();
     let name = "framepath-sim";

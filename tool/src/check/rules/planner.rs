@@ -5,7 +5,8 @@ use crate::hal::{Fix, Setting};
 use crate::machine::length_unit::INCH;
 use crate::wiring::USUAL_JERK;
 use crate::wiring::blendtp::{
-    TOLERANCE_PIN, axis_of_pin, has_pin, inch_tolerance_line, jerk_line, jerk_pin, least_jerk,
+    TOLERANCE_PIN, axis_of_pin, has_pin, inch_tolerance_line, is_refused_jerk, jerk_line, jerk_pin,
+    least_jerk,
 };
 use crate::wiring::subject::Subject;
 
@@ -107,7 +108,7 @@ fn value(subject: &Subject, letter: char, setting: &Setting, findings: &mut Find
     if jerk == f64::INFINITY {
         return;
     }
-    if !jerk.is_finite() || jerk < 0.0 || (jerk > 0.0 && jerk < least) {
+    if is_refused_jerk(jerk, least) {
         let found = format!(
             "{pin} is {jerk}, and blendtp refuses every move: it has to be 0 (not limited) or at least {least}, a fifth of \
              the acceleration"
