@@ -7,6 +7,8 @@
 
 pub mod arc;
 pub mod contour;
+pub mod contour_end;
+pub mod contour_start;
 pub mod corners;
 pub mod fillet;
 pub mod frame;
@@ -15,8 +17,10 @@ pub mod position;
 pub mod trace;
 
 use crate::source::{Sources, Span};
+use contour_start::ContourStart;
 use frame::FrameCommand;
 use moves::Move;
+use nalgebra::Vector3;
 
 /// A program whose flow has been evaluated.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -122,6 +126,8 @@ pub enum Action {
     CutterDiameter(Option<f64>),
     /// Cutter radius compensation.
     Compensation(Compensation),
+    /// How the contour begins onto which the next motion leads, where LinuxCNC would begin it elsewhere.
+    ContourStart(Box<ContourStart>),
     /// How corners are passed.
     PathControl(PathControl),
     /// A pause in seconds.
@@ -193,6 +199,15 @@ impl Plane {
             Plane::Zx => [2, 0, 1],
             Plane::Yz => [1, 2, 0],
         }
+    }
+
+    /// A vector with these components along the first and the second axis.
+    pub fn vector(self, along: [f64; 2]) -> Vector3<f64> {
+        let [first, second, _] = self.axes();
+        let mut vector = Vector3::zeros();
+        vector[first] = along[0];
+        vector[second] = along[1];
+        vector
     }
 }
 

@@ -1,5 +1,10 @@
 //! One motion of a program.
 
+use super::Plane;
+
+/// Coordinates that differ by less are the same place.
+const SAME_PLACE: f64 = 1e-9;
+
 /// Where an axis goes in a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coordinate {
@@ -55,6 +60,19 @@ impl Move {
             _ => false,
         };
         centre || self.target.iter().any(step)
+    }
+
+    /// Whether it leads elsewhere in a plane, or may do so.
+    pub fn leads_in_plane(&self, plane: Plane) -> bool {
+        let leads = |axis: usize| match self.target[axis] {
+            Coordinate::Keep => false,
+            Coordinate::By(step) => step.abs() > SAME_PLACE,
+            Coordinate::At(end) => {
+                self.start[axis].is_none_or(|start| (end - start).abs() > SAME_PLACE)
+            }
+        };
+        let [first, second, _] = plane.axes();
+        matches!(self.kind, MoveKind::Arc(_)) || leads(first) || leads(second)
     }
 
     /// Whether it follows the spindle.

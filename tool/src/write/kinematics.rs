@@ -10,6 +10,7 @@
 //! coordinates, and set again before the next move that needs it.
 
 use super::blocks::{begin, end};
+use super::contour_start::Onto;
 use super::line::{Lines, Rank};
 use super::machine_move::add_machine_move;
 use super::modes::{Modes, Stop};
@@ -49,6 +50,8 @@ pub struct KinematicsWriter<'a> {
     scope: FrameScope,
     /// Whether the length of the tool has changed since the kinematics was told.
     length_changed: bool,
+    /// How the next motion leads onto a contour, if not as it was programmed.
+    onto: Option<Onto>,
 }
 
 impl<'a> KinematicsWriter<'a> {
@@ -68,6 +71,7 @@ impl<'a> KinematicsWriter<'a> {
             explicit: [false; 3],
             scope: FrameScope::default(),
             length_changed: false,
+            onto: None,
         }
     }
 }
@@ -115,6 +119,12 @@ impl KinematicsWriter<'_> {
             Action::Feed(feed) => self.set_feed(*feed),
             Action::Compensation(compensation) => self.compensation(*compensation, span),
             Action::Frame(command) => self.frame_command(*command, span),
+            Action::ContourStart(start) => {
+                match Onto::begin(start, self.modes.plane, &mut self.lines, span) {
+                    Ok(onto) => self.onto = Some(onto),
+                    Err(diagnostic) => self.diagnostics.push(diagnostic),
+                }
+            }
             Action::Move(motion) => self.motion(motion, span),
             Action::ToolNormal => {
                 self.resume();
@@ -321,17 +331,22 @@ impl KinematicsWriter<'_> {
             // LinuxCNC takes no other word that concerns the feed beside it.
             self.lines.flush();
         }
+        let code = match &motion.kind {
+            MoveKind::Rapid | MoveKind::Machine { .. } => "G0",
+            MoveKind::Line | MoveKind::Thread { .. } | MoveKind::Tap { .. } => "G1",
+            MoveKind::Arc(arc) if arc.clockwise => "G2",
+            MoveKind::Arc(_) => "G3",
+        };
+        let onto = self.onto.take();
         self.lines.add_with(Rank::Motion, |line| {
             if push_spindle_motion(line, &motion.kind, &targets) {
                 return;
             }
-            line.push_str(match &motion.kind {
-                MoveKind::Rapid | MoveKind::Machine { .. } => "G0",
-                MoveKind::Line | MoveKind::Thread { .. } | MoveKind::Tap { .. } => "G1",
-                MoveKind::Arc(arc) if arc.clockwise => "G2",
-                MoveKind::Arc(_) => "G3",
-            });
-            push_axis_words(line, &targets);
+            line.push_str(code);
+            match &onto {
+                Some(onto) => onto.push_axis_words(line, &targets),
+                None => push_axis_words(line, &targets),
+            }
             if let MoveKind::Arc(arc) = &motion.kind {
                 line.push(' ');
                 line.push_str(&centre_words(arc.centre, arc.extra_turns, plane));
@@ -341,6 +356,9 @@ impl KinematicsWriter<'_> {
                 push_coordinate(line, feed);
             }
         });
+        if let Some(onto) = onto {
+            onto.end(code, &mut self.lines);
+        }
     }
 
     /// The target of an axis with coordinates that the program left out and that must be explicit.

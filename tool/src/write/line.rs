@@ -44,6 +44,8 @@ pub struct Lines<'a> {
     /// Where they end in it.
     words: Vec<(Rank, usize)>,
     number: Option<u32>,
+    /// How many conditions are written.
+    conditions: u32,
     /// The remark of the block, with its parentheses; empty when it has been written.
     remark: String,
 }
@@ -58,8 +60,15 @@ impl<'a> Lines<'a> {
             line: String::new(),
             words: Vec::new(),
             number: None,
+            conditions: 0,
             remark: String::new(),
         }
+    }
+
+    /// The number of the next condition: each needs one of its own.
+    pub fn condition(&mut self) -> u32 {
+        self.conditions += 1;
+        self.conditions
     }
 
     /// A block of the source begins: its number and the line it stands in go to the next line, with

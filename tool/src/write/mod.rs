@@ -2,6 +2,7 @@
 
 mod blocks;
 mod comment;
+mod contour_start;
 mod kinematics;
 mod line;
 mod machine_move;

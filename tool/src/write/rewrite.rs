@@ -6,6 +6,7 @@
 //! tilted arcs and a tilted tool length: that is for the frame kinematics.
 
 use super::blocks::{begin, end};
+use super::contour_start::Onto;
 use super::line::{Lines, Rank};
 use super::machine_move::add_machine_move;
 use super::modes::{Modes, Stop};
@@ -17,6 +18,7 @@ use super::words::{
 };
 use super::{WriteSettings, Writer};
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::program::contour_start::ContourStart;
 use crate::program::frame::Frame;
 use crate::program::moves::{Arc, Centre, Coordinate, Move, MoveKind};
 use crate::program::position::apply_partly;
@@ -42,8 +44,8 @@ pub struct RewriteWriter<'a> {
     frame: Frame,
     modes: Modes,
     scope: FrameScope,
-    /// How many conditions are written; each needs a number of its own.
-    conditions: u32,
+    /// How the next motion leads onto a contour, if not as it was programmed.
+    onto: Option<Onto>,
 }
 
 impl<'a> RewriteWriter<'a> {
@@ -56,7 +58,7 @@ impl<'a> RewriteWriter<'a> {
             frame: Frame::default(),
             modes: Modes::new(settings.path_mode),
             scope: FrameScope::default(),
-            conditions: 0,
+            onto: None,
         }
     }
 }
@@ -107,6 +109,7 @@ impl RewriteWriter<'_> {
                 }
                 self.check_tilt(span)?;
             }
+            Action::ContourStart(start) => self.contour_start(start, span)?,
             Action::Move(motion) => self.motion(motion, span)?,
             Action::ToolNormal => {
                 return Err(
@@ -131,8 +134,7 @@ impl RewriteWriter<'_> {
     fn rotary_zero(&mut self) {
         self.lines.flush();
         for (axis, letter) in ["A", "B", "C"].into_iter().enumerate() {
-            self.conditions += 1;
-            let label = self.conditions;
+            let label = self.lines.condition();
             // In coordinates of the program, and what work offset, G92 and tool offset add to them.
             let [position, offset, preset, tool] = [5423, 5204, 5214, 5404].map(|row| row + axis);
             let place = format!("#{position}+#[{offset}+20*#5220]+#5210*#{preset}+#{tool}");
@@ -242,6 +244,14 @@ impl RewriteWriter<'_> {
         Ok(())
     }
 
+    fn contour_start(&mut self, start: &ContourStart, span: Span) -> Result<(), Diagnostic> {
+        let left = start.left != self.mirrors_plane();
+        let plane = self.modes.plane;
+        let start = start.seen_from(self.frame.map(), plane, left);
+        self.onto = Some(Onto::begin(&start, plane, &mut self.lines, span)?);
+        Ok(())
+    }
+
     fn motion(&mut self, motion: &Move, span: Span) -> Result<(), Diagnostic> {
         if add_machine_move(&mut self.lines, motion, &self.modes) {
             return Ok(());
@@ -313,14 +323,21 @@ impl RewriteWriter<'_> {
 
     /// Adds a motion; `centre`: the words of an arc.
     fn add_motion(&mut self, code: &str, targets: &[Coordinate; 9], centre: &str) {
+        let onto = self.onto.take();
         self.lines.add_with(Rank::Motion, |line| {
             line.push_str(code);
-            push_axis_words(line, targets);
+            match &onto {
+                Some(onto) => onto.push_axis_words(line, targets),
+                None => push_axis_words(line, targets),
+            }
             if !centre.is_empty() {
                 line.push(' ');
                 line.push_str(centre);
             }
         });
+        if let Some(onto) = onto {
+            onto.end(code, &mut self.lines);
+        }
     }
 
     fn work_targets(&self, motion: &Move, span: Span) -> Result<[Coordinate; 3], Diagnostic> {
@@ -384,10 +401,10 @@ impl RewriteWriter<'_> {
         let [first, second, _] = self.modes.plane.axes();
         let (map, plane) = (*map, self.modes.plane);
         let turned = |a: f64, b: f64| {
-            let image = map.apply_to_vector(&in_plane(plane, [a, b]));
+            let image = map.apply_to_vector(&plane.vector([a, b]));
             [image[first], image[second]]
         };
-        self.feed_along(&in_plane(self.modes.plane, [1.0, 0.0]));
+        self.feed_along(&self.modes.plane.vector([1.0, 0.0]));
         let centre = match arc.centre {
             Centre::Offset([a, b]) => Centre::Offset(turned(a, b)),
             Centre::Radius(radius) => Centre::Radius(radius * scale),
@@ -479,13 +496,4 @@ impl RewriteWriter<'_> {
         }
         Ok(())
     }
-}
-
-/// A vector with these components along the first and the second axis of a plane.
-fn in_plane(plane: Plane, along: [f64; 2]) -> Vector3<f64> {
-    let [first, second, _] = plane.axes();
-    let mut vector = Vector3::zeros();
-    vector[first] = along[0];
-    vector[second] = along[1];
-    vector
 }

@@ -117,6 +117,7 @@ pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
         | Action::RotaryZero
         | Action::Retract(_)
         | Action::Frame(_)
+        | Action::ContourStart(_)
         | Action::Move(_)
         | Action::Enter { .. }
         | Action::Leave { .. }

@@ -3,7 +3,9 @@
 mod beside_motion;
 mod blanks;
 mod compensation;
+mod contour_end;
 mod contour_exit;
+mod contour_start;
 mod contours;
 mod contradictions;
 mod diameters;

@@ -211,8 +211,8 @@ fn the_feed_is_that_on_the_part_whatever_the_scale() {
 fn mirrors_exchange_directions_and_sides() {
     let program = "\
 MIRROR X0
-G0 X50 Y0 Z5
-G41 G1 X40 F200
+G0 X40 Y10 Z5
+G41 G1 Y0 F200
 G2 X20 Y0 I-10 J0
 G40 G1 X0
 M30
@@ -220,8 +220,8 @@ M30
     assert_eq!(
         commands(&translate(program, &["--backend", "program"])),
         [
-            "G0 X-50 Y0 Z5",
-            "G42 G1 X-40 F200",
+            "G0 X-40 Y10 Z5",
+            "G42 G1 Y0 F200",
             "G3 X-20 Y0 I10 J0",
             "G40 G1 X0",
             "M30",

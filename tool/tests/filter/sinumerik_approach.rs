@@ -87,12 +87,12 @@ fn the_tool_leaves_on_its_side() {
 #[test]
 fn compensation_counts_the_radius_of_the_tool() {
     same(
-        "G1 G41 G247 DISR=5 X20 Y10\nX40\nY30\nG40 G248 DISR=5 X0 Y40",
-        "G41 G1 X12 Y18\nG3 X20 Y10 I8 J0\nG1 X40\nY30\nG3 X32 Y38 I-8 J0\nG40 G1 X0 Y40",
+        "G0 X12 Y40\nG1 G41 G247 DISR=5 X20 Y10\nX40\nY30\nG40 G248 DISR=5 X0 Y40",
+        "G0 X12 Y40\nG41 G1 X12 Y18\nG3 X20 Y10 I8 J0\nG1 X40\nY30\nG3 X32 Y38 I-8 J0\nG40 G1 X0 Y40",
     );
     same(
-        "G1 G42 KONT G147 DISR=5 X20 Y10\nX40\nY-30\nG40 G148 DISR=5 X0 Y-40",
-        "G42 G1 X12 Y10\nG1 X20 Y10\nG1 X40\nY-30\nG1 X40 Y-38\nG40 G1 X0 Y-40",
+        "G0 X-20 Y10\nG1 G42 KONT G147 DISR=5 X20 Y10\nX40\nY-30\nG40 G148 DISR=5 X0 Y-40",
+        "G0 X-20 Y10\nG42 G1 X12 Y10\nG1 X20 Y10\nG1 X40\nY-30\nG1 X40 Y-38\nG40 G1 X0 Y-40",
     );
 }
 

@@ -26,6 +26,8 @@ pub mod words;
 use super::blocks::{Block, Blocks};
 use super::settings::Settings;
 use crate::diagnostics::{Diagnostic, Diagnostics};
+use crate::program::contour_end::ContourEnds;
+use crate::program::contour_start::ContourStarts;
 use crate::program::corners::Corners;
 use crate::program::frame::FrameCommand;
 use crate::program::{self, Action, Compensation, FrameScope, Origin, PathControl, Sink};
@@ -93,6 +95,8 @@ pub struct Control<'a> {
     /// How corners are passed in the output while cutter compensation is on.
     path_of_compensation: PathControl,
     corners: Corners,
+    contour_starts: ContourStarts,
+    contour_ends: ContourEnds,
     end_of_compensation: EndOfCompensation,
     finished: usize,
     running: Vec<String>,
@@ -124,6 +128,8 @@ impl<'a> Control<'a> {
             has_modal_cycle: false,
             path_of_compensation: settings.path_mode,
             corners: Corners::default(),
+            contour_starts: ContourStarts::default(),
+            contour_ends: ContourEnds::default(),
             end_of_compensation: EndOfCompensation::default(),
             finished: 0,
             running: Vec::new(),
@@ -265,8 +271,26 @@ impl<'a> Control<'a> {
         let is_long = || self.sources.iter().any(SourceFile::is_windowed);
         if waiting >= MOST_WAITING || waiting >= BATCH && is_long() {
             let blocks = self.corners.take_finished(self.diagnostics);
+            let blocks = self.begin_and_end_contours(blocks);
             self.hand_on(blocks);
         }
+    }
+
+    /// Lets cutter compensation begin and end where the other controls do.
+    fn begin_and_end_contours(&mut self, mut blocks: Vec<program::Block>) -> Vec<program::Block> {
+        let mut starts = std::mem::take(&mut self.contour_starts);
+        let mut found = Diagnostics::default();
+        for block in &mut blocks {
+            self.contour_ends.change(block, &mut found);
+        }
+        let mut diameter = |row, span| {
+            let found = self.tool_diameter("the way onto this contour", Some(row), span)?;
+            Ok(found.map(|(_, diameter)| diameter))
+        };
+        let blocks = starts.take(blocks, &mut diameter, &mut found);
+        self.contour_starts = starts;
+        self.diagnostics.append(found);
+        blocks
     }
 
     fn hand_on(&mut self, blocks: Vec<program::Block>) {
@@ -346,6 +370,8 @@ impl<'a> Control<'a> {
     pub fn finish(&mut self) {
         if self.diagnostics.errors() == 0 {
             let blocks = self.corners.take_rest(self.diagnostics);
+            let mut blocks = self.begin_and_end_contours(blocks);
+            blocks.append(&mut self.contour_starts.take_rest());
             self.hand_on(blocks);
         }
     }

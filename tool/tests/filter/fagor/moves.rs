@@ -354,7 +354,11 @@ fn compensation_under_mirror_and_scale() {
         super::translate(program, &["--backend", "program"]),
         [
             "G0 X0 Y0 Z0",
-            "G42 G1 X-20 F100",
+            "F100",
+            "o1 if [#5410 GE 20]",
+            "o1 endif",
+            "#<back>=[#5410*10/[SQRT[400-#5410*20]]]",
+            "G42 G1 X-20 Y[0-#<back>]",
             "G1 Y40",
             "G40 G1 X0",
             "M30"
@@ -369,7 +373,7 @@ fn compensation_under_mirror_and_scale() {
     let kinematics = super::translate(after, &[]);
     assert!(kinematics.contains(&"o<scale> call [2] [1] [1]".to_string()));
     assert!(
-        kinematics.contains(&"G41 G1 X10 Y0 Z0 F100".to_string()),
+        kinematics.contains(&"G41 G1 X10 Y[0-#<back>] Z0".to_string()),
         "{kinematics:?}"
     );
 }

@@ -48,7 +48,7 @@ fn d0_is_no_radius() {
 
 #[test]
 fn a_radius_is_that_of_the_row_whatever_the_length_is() {
-    let path = "G90 G0 X0 Y0 Z50\nG42 G1 X10 Y10 F100\nX20\nG40 X30\nM30\n";
+    let path = "G90 G0 X0 Y0 Z50\nG42 G1 X10 Y10 F100\nY20\nG40 X30\nM30\n";
     for (tool, begin) in [
         ("T5 D5", "G42 D5 G1 X10 Y10 F100"),
         ("T5 D7 M6", "G42 D7 G1 X10 Y10 F100"),
