@@ -138,6 +138,7 @@ impl BlendSettings {
     pub fn with_tilt(self, tilt: usize, tolerance: f64) -> Self {
         Self {
             orientation: Some(Orientation { tilt, tolerance }),
+            turns_tool: true,
             ..self
         }
     }

@@ -69,7 +69,7 @@ fn deviation_where(path: &BlendedPath, counts: impl Fn(u64) -> bool) -> f64 {
 }
 
 /// How far path and program are from each other at `s`: at equal path distance, and where that is more than is allowed on a line
-/// in XYZ alone, from the nearest place.
+/// in XYZ, from the nearest place.
 fn deviation_at(path: &BlendedPath, s: f64, allowed: f64) -> f64 {
     let deviation = norm(&(path.point(s).position - path.programmed_point(s).position));
     if deviation > allowed && leads_along_a_line(path, s) {
@@ -79,11 +79,12 @@ fn deviation_at(path: &BlendedPath, s: f64, allowed: f64) -> f64 {
     }
 }
 
-/// Whether the program moves X, Y and Z alone there, on a line.
+/// Whether the program moves X, Y and Z there, on a line, and A, B and C little beside them.
 fn leads_along_a_line(path: &BlendedPath, s: f64) -> bool {
     let point = path.programmed_point(s);
-    let others = point.first.iter().skip(3);
-    point.second == Axes::zeros() && others.copied().all(|rate| rate == 0.0)
+    let linear = point.first.fixed_rows::<3>(0).norm();
+    let parallel = point.first.fixed_rows::<3>(6).norm();
+    point.second == Axes::zeros() && parallel == 0.0 && linear > 0.8
 }
 
 /// How far the path at `s` is from the program at most, and the program from the path, where both are looked for nearby.

@@ -144,7 +144,7 @@ fn beside_contour(action: &Action) -> bool {
         | Action::SpindleSpeed(_)
         | Action::SurfaceSpeed(_)
         | Action::Spindle(_)
-        | Action::Orient(_)
+        | Action::Orient(..)
         | Action::Tool(_)
         | Action::RadiusRow(_)
         | Action::CutterDiameter(_)

@@ -118,6 +118,10 @@ fn what_is_missing_is_named() {
             "FAD in a retraction with G340",
         ),
         (
+            "G1 G41 G147 DISR=5 X20 Y10\nX40",
+            "does not come to from its side",
+        ),
+        (
             "G93\nG0 G41 G247 DISR=10 X20 Y10\nG1 X40 F2",
             "a smooth approach with feed in inverse time",
         ),

@@ -14,10 +14,8 @@ use crate::dialects::control::Done;
 use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, Dimension};
 use crate::program::moves::{Arc, Centre, Coordinate, Move, MoveKind};
-use crate::program::trace::frame_arc;
 use crate::program::{Action, Compensation};
 use crate::source::Span;
-use nalgebra::Vector3;
 
 /// On what the tool comes and goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +40,7 @@ pub struct Smooth {
     /// along the shape.
     slow: Option<At<f64>>,
     /// Whether the tool comes from the left of the contour.
-    left: bool,
+    pub(super) left: bool,
     /// G341: down before the way in the plane, not along it.
     flat: bool,
     /// Whether the ways to and from it are rapid.
@@ -51,7 +49,9 @@ pub struct Smooth {
     depth: Option<f64>,
     /// Where the contour begins, along both axes of the plane.
     target: Option<[f64; 2]>,
-    span: Span,
+    /// Whether compensation begins with it.
+    begins: bool,
+    pub(super) span: Span,
 }
 
 /// The shape of a G number times ten, and whether it approaches.
@@ -81,6 +81,7 @@ impl Interpreter<'_> {
         words.check_of_approach()?;
         let mut smooth = self.smooth(words, true)?;
         smooth.target = self.place_in_plane(words, smooth.span)?;
+        smooth.begins = self.begins_compensation();
         self.approach = Some(smooth);
         Ok(())
     }
@@ -145,6 +146,10 @@ impl Interpreter<'_> {
             .refuse_inverse_time(smooth.span, "a smooth approach")?;
         let axes = self.control.modal.plane.axes();
         let (from, centre) = smooth.far_end(target, tangent, -1.0);
+        if smooth.begins {
+            let [first, second, _] = axes;
+            smooth.check_side([before[first], before[second]], from, tangent)?;
+        }
         let exact_stop = self.control.stops_under_compensation();
         let mut at = before;
         let mut way = Vec::new();
@@ -373,6 +378,7 @@ impl Interpreter<'_> {
                 || words.approach_feed.is_some(),
             depth,
             target: None,
+            begins: false,
             span,
         })
     }
@@ -402,30 +408,6 @@ impl Interpreter<'_> {
             .help("write both axes of the plane, with the place of the tool known before")),
         }
     }
-
-    /// The direction of a motion at its start in the plane, length 1.
-    pub(super) fn start_direction(&self, path: &Move) -> Option<[f64; 2]> {
-        let plane = self.control.modal.plane;
-        let [first, second, _] = plane.axes();
-        let point = |ends: bool| -> Option<Vector3<f64>> {
-            let at = |axis: usize| match ends {
-                true => path.end(axis),
-                false => path.start[axis],
-            };
-            Some(Vector3::new(at(0)?, at(1)?, at(2)?))
-        };
-        let (start, end) = (point(false)?, point(true)?);
-        let direction = match &path.kind {
-            MoveKind::Arc(arc) => {
-                let tolerance = &self.control.settings.arc_tolerance;
-                let shape = frame_arc(arc, start, end, plane, tolerance).ok()?;
-                shape.start_direction()
-            }
-            _ => end - start,
-        };
-        let direction = [direction[first], direction[second]];
-        (direction != [0.0; 2]).then(|| unit(direction))
-    }
 }
 
 impl Smooth {
@@ -441,6 +423,7 @@ impl Smooth {
             rapid: false,
             depth: None,
             target: None,
+            begins: false,
             span: Span::start_of(0),
         }
     }

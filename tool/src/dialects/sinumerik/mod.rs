@@ -4,6 +4,7 @@
 //! ([`interpreter`]) into the form that all dialects share ([`crate::program`]).
 
 mod approach;
+mod approach_side;
 mod arc_plane;
 mod arc_words;
 mod block_words;
