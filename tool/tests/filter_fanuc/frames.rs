@@ -134,8 +134,8 @@ fn plain_code_cuts_the_same() {
     for (program, linuxcnc) in [
         // A mirror of one axis exchanges the arcs and the side of the compensation.
         (
-            "G0 X-10. Y0 Z0\nG51.1 X0\nG41 D1 G1 X20. Y0 F100.\nG2 X30. Y10. R10.\nG40 G1 X50.\nG50.1 X0\nM30\n",
-            "G0 X-10 Y0 Z0\nG42 D1 G1 X-20 Y0 F100\nG3 X-30 Y10 R10\nG40 G1 X-50\nM30\n",
+            "G0 X-10. Y0 Z0\nG51.1 X0\nG41 D1 G1 X20. Y0 F100.\nG3 X30. Y10. R10.\nG40 G1 X50.\nG50.1 X0\nM30\n",
+            "G0 X-10 Y0 Z0\nG42 D1 G1 X-20 Y0 F100\nG2 X-30 Y10 R10\nG40 G1 X-50\nM30\n",
         ),
         // Scaling leaves the radius of the tool as it is.
         (
