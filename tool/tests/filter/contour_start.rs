@@ -29,10 +29,10 @@ fn feeds(dialect: &str, program: &str, backend: &str) -> Vec<[f64; 3]> {
 }
 
 fn assert_begins(found: &[[f64; 3]], expected: &[[f64; 3]], what: &str) {
-    let near = found.iter().zip(expected);
+    let mut near = found.iter().zip(expected);
     let same = |(a, b): (&[f64; 3], &[f64; 3])| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 2e-3);
     assert!(
-        found.len() >= expected.len() && near.map(same).all(|near| near),
+        found.len() >= expected.len() && near.all(same),
         "{what}\n{found:?}\n{expected:?}"
     );
 }
