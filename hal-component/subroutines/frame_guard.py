@@ -28,7 +28,6 @@ from frame_held import Held
 from frame_look import Look
 from frame_nets import missing_nets
 from frame_offsets import SAME, differ
-from frame_radius import Radius
 from frame_settings import Settings, SettingsError
 from frame_stays import complaint, late_start, work_offset_changed
 
@@ -110,7 +109,6 @@ class Guard:
         # what the one before has not done is done by whoever switches the machine on again
         pins["releases-seen"] = self.pins["releases"]
         inner = "framekins.inner-type" in {pin["NAME"] for pin in hal.get_info_pins()}
-        self.radius = Radius()
         self.held = Held(SETTLING + 3 * settings.task_cycle, inner)
         #: the HAL file has been looked at
         self.checked = False
@@ -228,11 +226,6 @@ class Guard:
         elif now.tool_length_matters and differ(now.tool_offset, now.tool_made):
             self.stop("the tool offset has changed while a frame with a scale or a mirror is active, or one that tilts or "
                       "turns where the tool's length stays along the machine's axes: call o<frame_refresh> behind the change")
-
-        elif now.under_way and now.motion_type != PROBING_MOTION:
-            scaled = self.radius.reason(now)
-            if scaled:
-                self.stop(scaled)
 
     def stop(self, reason):
         self.stopped = True

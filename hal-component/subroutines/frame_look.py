@@ -35,7 +35,7 @@ class Look:
         jogging = self.teleop and any(axis["velocity"] for axis in status.axis)
         self.moving = not status.inpos or status.queue > 0 or jogging
         self.coordinated = status.motion_mode == linuxcnc.TRAJ_MODE_COORD
-        self.non_modal, self.plane, self.compensation = status.gcodes[2:5]
+        self.non_modal = status.gcodes[2]
         #: a move has begun: while one waits, the codes in force may be those of the one before
         self.under_way = status.current_vel != 0
         self.motion_type = status.motion_type
@@ -44,8 +44,6 @@ class Look:
         #: it is not one of rotary axes alone, which neither the work offset nor a frame leads elsewhere
         self.runs = any(to_go[:3] + to_go[6:])
         self.tool_offset = tuple(status.tool_offset[:3])
-        #: where X, Y and Z of the program point, without a frame
-        self.axes = tuple(turn(status.rotation_xy, way) for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
         # G92 turns with the work offset; the same sum as in frame_send.ngc, of X Y Z
         turned = turn(status.rotation_xy, status.g92_offset)
         self.work_offset = (*(a + b for a, b in zip(status.g5x_offset[:3], turned, strict=True)), status.rotation_xy)
