@@ -12,7 +12,7 @@ use framepath::frame::AffineMap;
 use nalgebra::Vector3;
 
 /// Directions with a smaller sine of the angle between them are the same.
-const SAME_DIRECTION: f64 = 1e-3;
+pub const SAME_DIRECTION: f64 = 1e-3;
 
 /// The place of an action: its block and its index there.
 type Place = [usize; 2];
@@ -183,9 +183,7 @@ impl ContourStarts {
             return Ok(false);
         };
         let left = self.side == Compensation::Left;
-        let turn = comes[0] * along[1] - comes[1] * along[0];
-        let towards_tool = if left { turn } else { -turn };
-        if towards_tool < SAME_DIRECTION {
+        if turn_to_tool(comes, along, left) < SAME_DIRECTION {
             return Ok(false);
         }
         let straight = !matches!(first.kind, MoveKind::Arc(_));
@@ -262,6 +260,13 @@ impl Cutter {
             (None, None) => Ok(None),
         }
     }
+}
+
+/// The sine of the angle by which the tool turns to the side on which it runs, from one direction in the plane to the next,
+/// both of length 1.
+pub fn turn_to_tool(comes: [f64; 2], goes: [f64; 2], left: bool) -> f64 {
+    let turn = comes[0] * goes[1] - comes[1] * goes[0];
+    if left { turn } else { -turn }
 }
 
 /// Both ends of a motion in the plane, if they are known.

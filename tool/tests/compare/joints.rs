@@ -86,7 +86,7 @@ fn a_module_finds_kinematics_and_limits() {
     assert_eq!(limited["state"], "refused");
     assert_eq!(
         limited["detail"],
-        "the move of line 2, code -9: at -50.000 50.000, along -1.000 0.000, back 0.000, axis 5, type 4, joints 5, \
+        "the move of line 2, code -9: at -50.000 50.000, along -1.000 0.000, back 0.000, axis 5, tilt 3, type 4, joints 5, \
          limits 40 1000 20000"
     );
     let plain = ["turn.ngc", "--with", &module, "--json"];
@@ -94,7 +94,7 @@ fn a_module_finds_kinematics_and_limits() {
     let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!(
         report["programs"][0]["runs"][0]["detail"],
-        "the move of line 2, code -9: at 0.000 0.000, along 0.000 0.000, back 0.000, axis -1, type 1, joints 9, \
+        "the move of line 2, code -9: at 0.000 0.000, along 0.000 0.000, back 0.000, axis -1, tilt -1, type 1, joints 9, \
          limits 0 0 0"
     );
 }

@@ -95,11 +95,12 @@ static int say_joints(const EmcPose *end)
     EmcPose back;
     int (*jet)(const double *, const double *, double *) = dlsym(RTLD_DEFAULT, "framekinsJet");
     int (*axis)(int) = dlsym(RTLD_DEFAULT, "framekinsAxisOfJoint");
+    int (*tilt)(void) = dlsym(RTLD_DEFAULT, "framekinsToolTiltAxis");
     kinematicsInverse(end, joints, &inverse, &forward);
     kinematicsForward(joints, &back, &forward, &inverse);
     jet(at, along, moved);
-    rtapi_print_msg(RTAPI_MSG_ERR, "at %.3f %.3f, along %.3f %.3f, back %.3f, axis %d, type %d, joints %d, limits %g %g %g\n",
-                    joints[0], joints[1], moved[0], moved[1], back.tran.x, axis(4), config->kinType, config->numJoints,
+    rtapi_print_msg(RTAPI_MSG_ERR, "at %.3f %.3f, along %.3f %.3f, back %.3f, axis %d, tilt %d, type %d, joints %d, limits %g %g %g\n",
+                    joints[0], joints[1], moved[0], moved[1], back.tran.x, axis(4), tilt(), config->kinType, config->numJoints,
                     *pins->joint[0], *pins->joint[1], *pins->joint[2]);
     return -9;
 }

@@ -7,13 +7,11 @@
 use super::approach::{Smooth, unit};
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
+use crate::program::contour_start::{SAME_DIRECTION, turn_to_tool};
 use crate::program::moves::{Move, MoveKind};
 use crate::program::trace::frame_arc;
 use crate::program::{Action, Compensation};
 use nalgebra::Vector3;
-
-/// Directions with a smaller sine of the angle between them are the same.
-const SAME_DIRECTION: f64 = 1e-3;
 
 impl Interpreter<'_> {
     /// Whether G41 or G42 stands in the block under way.
@@ -64,13 +62,15 @@ impl Smooth {
             return Ok(());
         };
         let way = [from[0] - x, from[1] - y];
-        let outward = self.outward(tangent, -1.0);
-        let turn = (way[1] * outward[0] - way[0] * outward[1]) / way[0].hypot(way[1]);
-        let towards_tool = if self.left { turn } else { -turn };
-        if towards_tool >= -SAME_DIRECTION {
+        if way == [0.0; 2] {
             return Ok(());
         }
-        let [x, y] = unit(way);
+        let comes = unit(way);
+        let goes = self.outward(tangent, -1.0).map(|part| -part);
+        if turn_to_tool(comes, goes, self.left) >= -SAME_DIRECTION {
+            return Ok(());
+        }
+        let [x, y] = comes;
         Err(Diagnostic::error(
             self.span,
             "G41 or G42 with an approach that the tool does not come to from its side: LinuxCNC would lead it elsewhere",
