@@ -36,12 +36,14 @@ fn files(folder: &Path, found: &mut Vec<String>) {
 }
 
 fn documents() -> Vec<PathBuf> {
-    let pages = root().join("docs").read_dir().expect("docs");
-    let pages = pages.map(|entry| entry.expect("an entry").path());
+    let mut pages = Vec::new();
+    files(&root().join("docs"), &mut pages);
+    pages.retain(|name| name.ends_with(".md"));
     ["README.md", "DESIGN.md", "CONTRIBUTING.md"]
-        .map(|name| root().join(name))
+        .map(String::from)
         .into_iter()
-        .chain(pages.filter(|path| path.extension().is_some_and(|ending| ending == "md")))
+        .chain(pages)
+        .map(|name| root().join(name))
         .collect()
 }
 
@@ -83,26 +85,108 @@ fn files_that_are_named_exist() {
     );
 }
 
-/// DESIGN and CONTRIBUTING are pages of the book, too, as if they were in docs.
+/// The links that a text defines for the names in it, `[name]: target`.
+fn definitions(text: &str) -> Vec<(&str, &str)> {
+    text.lines()
+        .filter_map(|line| line.strip_prefix('[')?.split_once("]: "))
+        .collect()
+}
+
+/// The names of headings in links.
+fn anchors(text: &str) -> Vec<String> {
+    let headings = text.lines().filter(|line| line.starts_with('#'));
+    headings
+        .map(|line| {
+            let name = line.trim_start_matches('#').trim().to_lowercase();
+            let kept = name
+                .chars()
+                .filter(|c| c.is_alphanumeric() || "-_ ".contains(*c));
+            kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+        })
+        .collect()
+}
+
+/// Whether a link leads from a page in this folder to a file that is there and, where it names one, to a heading of it.
+/// DESIGN and CONTRIBUTING are pages of the book by files that include them.
+fn leads_somewhere(folder: &Path, own_text: &str, link: &str) -> bool {
+    let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+    let text = match file.rsplit('/').next() {
+        Some("") => return anchors(own_text).iter().any(|name| name == anchor),
+        Some("design.md") => root().join("DESIGN.md"),
+        Some("contributing.md") => root().join("CONTRIBUTING.md"),
+        _ => folder.join(file),
+    };
+    if !folder.join(file).exists() {
+        return false;
+    }
+    let is_named = |text: String| anchors(&text).iter().any(|name| name == anchor);
+    anchor.is_empty() || std::fs::read_to_string(text).is_ok_and(is_named)
+}
+
+/// CONTRIBUTING is a page of the book, too, as if it was in docs. DESIGN has its links from the root.
 #[test]
-fn links_of_the_book_lead_to_its_pages() {
+fn links_lead_to_pages_and_their_headings() {
     let mut dead = Vec::new();
+    let mut count = 0;
     for document in documents() {
         let text = std::fs::read_to_string(&document).expect("a text");
-        if document.ends_with("README.md") {
-            continue;
-        }
-        let links = text.split("](").skip(1);
-        for link in links.filter_map(|behind| behind.split([')', '#']).next()) {
-            if !link.is_empty()
-                && !link.starts_with("http")
-                && !root().join("docs").join(link).exists()
-            {
+        let folder = if document.ends_with("CONTRIBUTING.md") {
+            root().join("docs")
+        } else {
+            document.parent().expect("a folder").to_owned()
+        };
+        let inside = text.split("](").skip(1);
+        let inside = inside.filter_map(|behind| behind.split(')').next());
+        let defined = definitions(&text).into_iter().map(|(_, link)| link);
+        for link in inside.chain(defined) {
+            count += 1;
+            if !link.starts_with("http") && !leads_somewhere(&folder, &text, link) {
                 dead.push(format!("{}: {link}", document.display()));
             }
         }
     }
     assert!(dead.is_empty(), "{dead:#?}");
+    assert!(count > 100, "{count} links: are they found at all?");
+}
+
+/// In the book the links of DESIGN are those that docs/design.md defines before it includes it: the first definition holds.
+#[test]
+fn design_has_the_same_links_in_the_book() {
+    let [design, page] = ["DESIGN.md", "docs/design.md"]
+        .map(|name| std::fs::read_to_string(root().join(name)).expect("a text"));
+    let defined = definitions(&design);
+    let from_docs: Vec<_> = defined
+        .iter()
+        .map(|(name, link)| (*name, link.strip_prefix("docs/").expect("a page of docs")))
+        .collect();
+    assert_eq!(from_docs, definitions(&page));
+    let used = design.split("][").skip(1);
+    let used: Vec<_> = used.filter_map(|behind| behind.split(']').next()).collect();
+    for (name, _) in &defined {
+        assert!(used.contains(name), "{name} is defined and not used");
+    }
+    for name in used {
+        assert!(
+            defined.iter().any(|(there, _)| *there == name),
+            "{name} is not defined"
+        );
+    }
+}
+
+/// Every page of docs is in the book.
+#[test]
+fn the_book_has_every_page() {
+    let summary = std::fs::read_to_string(root().join("docs/SUMMARY.md")).expect("a summary");
+    let mut pages = Vec::new();
+    files(&root().join("docs"), &mut pages);
+    for page in pages.iter().filter(|page| page.ends_with(".md")) {
+        let name = page.trim_start_matches("docs/");
+        let is_there = summary.contains(&format!("]({name})"));
+        assert!(
+            is_there || name == "SUMMARY.md",
+            "{name} is not in docs/SUMMARY.md"
+        );
+    }
 }
 
 /// The value that a file of the core gives a constant.

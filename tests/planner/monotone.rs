@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1.01;
 /// Servo periods that it may cost besides: those of its beginning and end are whole ones.
 const PERIODS: f64 = 2.0;
 
-/// What more costs at most: the look-ahead finds a local optimum only at some sharp corners (DESIGN) ..
+/// What more costs at most: the look-ahead finds a local optimum only at some sharp corners (docs/experiments/path.md) ..
 const GREATEST: f64 = 1.12;
 
 /// .. and how many pairs are listed, at most: one, and of many this share. 4 were of 2400.
