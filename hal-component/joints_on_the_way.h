@@ -8,6 +8,14 @@
 #include "rtapi.h"
 #include "framepath.h"
 
+/* Whether an external offset is added behind the planner. */
+static int has_external_offset(const emcmot_status_t *status)
+{
+    const EmcPose *offset = &status->eoffset_pose;
+    return offset->tran.x || offset->tran.y || offset->tran.z || offset->a || offset->b || offset->c || offset->u || offset->v ||
+           offset->w;
+}
+
 /* Says what a look along the way of the queued moves has found. Screens show 255 letters of a message. */
 static void say_finding(void)
 {
@@ -18,7 +26,8 @@ static void say_finding(void)
     switch (framepath_planner_range_finding(planner, &line, &joint, &position, &limit)) {
     case FRAMEPATH_LEAVES_RANGE:
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: the move would take joint %d to %f on its way, beyond its soft limit %f "
-                        "(line %d)\n", joint, position, limit, line);
+                        "(line %d%s)\n", joint, position, limit, line,
+                        motion.status && has_external_offset(motion.status) ? ", with the external offsets as they stand" : "");
         break;
     case FRAMEPATH_JOINT_JUMPS:
         rtapi_print_msg(RTAPI_MSG_ERR, "blendtp: joint %d, which has limits, would jump by %.4g at G53 X%.4f Y%.4f Z%.4f A%.4f B%.4f "

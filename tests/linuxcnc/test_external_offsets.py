@@ -61,5 +61,31 @@ class ExternalOffsets(unittest.TestCase):
             self.assertAlmostEqual(result.answers["on"]["joints"][joint], 1, places=6)
 
 
+class SoftLimits(unittest.TestCase):
+    """What is between the ends of a move is looked at where the offset leads it."""
+
+    #: the top of the arc is at Y 85, the soft limit at 80
+    ARC = "G21 G17 G90 G64 P.05 F6000\nG1 Y75\nG2 X20 I10 J0\nG1 X0 Y0\nM2\n"
+
+    def run_arc(self, counts):
+        result = harness.run([["halcmd", "setp", "axis.y.eoffset-counts", str(counts)], ["sleep", 2.5],
+                              ["start", "PROGRAMS/arc.ngc"], ["finish"], ["recall", "said"]], {"arc.ngc": self.ARC},
+                             {**INI, ("JOINT_1", "MAX_LIMIT"): "80", ("AXIS_Y", "MAX_LIMIT"): "80"}, hal=HAL + NET)
+        self.assertIsNone(result.failure, result.log[-3000:])
+        return "".join(result.answers["said"]), max(result.column("joint.1"))
+
+    def test_an_offset_leads_back_within_the_limit(self):
+        said, greatest = self.run_arc(-2000)
+        self.assertNotIn("soft limit", said)
+        self.assertAlmostEqual(greatest, 65, delta=0.01)
+
+    def test_an_offset_leads_beyond_the_limit(self):
+        self.ARC = self.ARC.replace("Y75", "Y65")
+        said, greatest = self.run_arc(1000)
+        self.assertIn("the move would take joint 1 to 85.000000 on its way, beyond its soft limit 80.000000 (line 3, with the "
+                      "external offsets as they stand)", said)
+        self.assertLess(greatest, 75.01)
+
+
 if __name__ == "__main__":
     unittest.main()

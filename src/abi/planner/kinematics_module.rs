@@ -1,11 +1,12 @@
 //! The kinematics module as the planner asks it.
 
 use libc::{c_uint, c_ulong};
+use nalgebra::ArrayStorage;
 
 use crate::abi::inner::{Forward, Inverse};
 use crate::abi::linuxcnc::KINEMATICS_TYPE;
 use crate::abi::pose::pose_of;
-use crate::axes::Axes;
+use crate::axes::{AXIS_COUNT, Axes};
 use crate::planner::range::{JointSolver, Joints};
 
 /// Positions that are asked for in a servo period.
@@ -24,6 +25,8 @@ const NUDGE: f64 = 1e-3;
 /// How close to a place its joints lead, machine units: far less than what is out of reach, and far more than rounding.
 const REACHED: f64 = 1e-4;
 
+const NO_OFFSET: Axes = Axes::from_array_storage(ArrayStorage([[0.0; AXIS_COUNT]]));
+
 /// The kinematics module.
 #[derive(Clone, Copy, Debug)]
 pub struct KinematicsModule {
@@ -33,6 +36,12 @@ pub struct KinematicsModule {
     kind: c_uint,
     /// Joints that are looked at.
     pub count: usize,
+    /// What motion adds to a position before it asks for the joints, shape (9): external offsets, in the last servo period, ..
+    last_offset: Axes,
+    /// .. as they last stood still ..
+    standing_offset: Axes,
+    /// .. and as they are for the move that is looked at.
+    offset: Axes,
     /// Whether the forward kinematics choose the arm that the inverse kinematics take.
     chooses_arm: bool,
     /// Whether the inverse kinematics go on from the joints they are given.
@@ -48,6 +57,9 @@ impl KinematicsModule {
         forward: None,
         kind: KINEMATICS_TYPE::KINEMATICS_IDENTITY,
         count: 0,
+        last_offset: NO_OFFSET,
+        standing_offset: NO_OFFSET,
+        offset: NO_OFFSET,
         chooses_arm: false,
         iterates: false,
         tells_place: false,
@@ -61,6 +73,15 @@ impl KinematicsModule {
             kind,
             ..Self::NONE
         }
+    }
+
+    /// What external offsets add to a position in this servo period, shape (9). Where one that moves will be, as that of a height
+    /// control, nobody knows: it counts as it last stood.
+    pub fn note_offset(&mut self, offset: &Axes) {
+        if *offset == self.last_offset {
+            self.standing_offset = *offset;
+        }
+        self.last_offset = *offset;
     }
 
     /// Whether the joints are the axes.
@@ -134,10 +155,12 @@ impl KinematicsModule {
 
 impl JointSolver for KinematicsModule {
     fn begin(&mut self, position: &Axes, joints: &Joints) {
+        self.renew();
+        let behind = position + self.offset;
         // Motion calls the forward kinematics of such a module only.
         self.chooses_arm = self.kind == KINEMATICS_TYPE::KINEMATICS_BOTH
-            && (self.flags(position, joints, 0) != 0
-                || self.flags(position, joints, c_ulong::MAX) != c_ulong::MAX);
+            && (self.flags(&behind, joints, 0) != 0
+                || self.flags(&behind, joints, c_ulong::MAX) != c_ulong::MAX);
         let nudged = joints.map(|joint| joint + NUDGE);
         let answers = [joints, &nudged].map(|near| self.solve(position, near));
         self.iterates = match answers {
@@ -150,18 +173,26 @@ impl JointSolver for KinematicsModule {
         };
         let [answer, _] = answers;
         self.tells_place = self.kind == KINEMATICS_TYPE::KINEMATICS_BOTH
-            && answer.is_some_and(|answer| self.leads_back(position, &answer));
+            && answer.is_some_and(|answer| self.leads_back(&behind, &answer));
+    }
+
+    fn renew(&mut self) -> bool {
+        let changed = self.offset != self.standing_offset;
+        self.offset = self.standing_offset;
+        changed
     }
 
     fn solve(&mut self, position: &Axes, near: &Joints) -> Option<Joints> {
-        self.joints(position, near, self.arm(position, near))
+        let position = position + self.offset;
+        self.joints(&position, near, self.arm(&position, near))
     }
 
     fn reaches(&mut self, position: &Axes, joints: &Joints) -> bool {
+        let position = position + self.offset;
         !self.tells_place
             || self
-                .place(joints, position, 0)
-                .is_none_or(|place| is_at(&place, position))
+                .place(joints, &position, 0)
+                .is_none_or(|place| is_at(&place, &position))
     }
 
     fn precision(&self) -> f64 {

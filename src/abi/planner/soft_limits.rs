@@ -8,6 +8,7 @@ use super::handle::{Handle, module};
 use super::joint_kinematics;
 use super::kinematics_module::KinematicsModule;
 use crate::abi::linuxcnc::{EmcPose, emcmot_config_t, emcmot_status_t};
+use crate::abi::pose::axes_of;
 use crate::axes::AXIS_COUNT;
 use crate::machine::JOINT_COUNT;
 use crate::planner::range::{Finding, JointRange, Joints, Jump};
@@ -36,7 +37,7 @@ pub(super) fn commanded_joints(status: &emcmot_status_t) -> Joints {
 }
 
 impl Handle {
-    /// Looks at more of what is queued, and stops for a move that leaves the soft limits, or that joints with limits of their own
+    /// Looks at more of what is queued, with the external offsets as they stand, and stops for a move that leaves the soft limits, or that joints with limits of their own
     /// cannot follow.
     pub(super) fn check_range(&mut self) {
         self.finding = None;
@@ -54,6 +55,7 @@ impl Handle {
         range.may_not_jump = self.joints_limited && !joint_kinematics::kinematics().is_exact();
         let machine = commanded_joints(status);
         self.kinematics.count = range.count;
+        self.kinematics.note_offset(&axes_of(&status.eoffset_pose));
         self.finding = self
             .planner
             .check_range(&range, &machine, &mut self.kinematics);

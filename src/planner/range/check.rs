@@ -86,6 +86,9 @@ impl RangeCheck {
                 self.origin = Some(queue.cleared());
                 self.beside = Beside::UNKNOWN;
             }
+            if self.sweep.is_none() && solver.renew() {
+                self.at_start = false;
+            }
             let deviation = deviation(queued);
             let Some(margins) = self.margins(&queued.shape, &deviation, &mut calls, solver) else {
                 break;

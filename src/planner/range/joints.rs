@@ -106,6 +106,12 @@ pub trait JointSolver {
     /// The machine stands at `position`, shape (9), with these joints; what follows begins here.
     fn begin(&mut self, position: &Axes, joints: &Joints);
 
+    /// Before a move is looked at: takes on what the joints of a position depend on besides it, as an external offset. Whether that
+    /// has changed.
+    fn renew(&mut self) -> bool {
+        false
+    }
+
     /// The joints for a position, shape (9), that the machine reaches from `near`, the joints at a
     /// place not far away. `None` where there are none.
     fn solve(&mut self, position: &Axes, near: &Joints) -> Option<Joints>;
