@@ -4,6 +4,9 @@
 //! it better: chords use the tolerance on both sides and are [moved](super::fairing) as those of any curve are. As an arc it has two
 //! jumps of its curvature, and the [easements](super::easement) of those use little of the tolerance.
 //!
+//! That pays where jerk limits the speed. What acceleration limits takes as long on an arc, or less, unless the arc is no more than a
+//! few tolerances.
+//!
 //! The chords leave the arc by a small part of the tolerance, which is taken off theirs.
 
 use super::leg::Leg;
@@ -12,6 +15,15 @@ use crate::moves::shape::{Arc9, Line9, Shape};
 
 /// The radius of a small arc, tolerances: a larger one is run as it is, which takes as long.
 const SMALL: f64 = 20.0;
+
+/// And of one that is run as its chords whatever limits its speed.
+const TINY: f64 = 4.5;
+
+/// How many times the third derivative that jerk allows at its speed an arc has whose chords take no longer than itself.
+const HELD_UP: f64 = 5.7;
+
+/// That speed is the feed, but no more than the square root of so many times acceleration and radius.
+const OF_RADIUS: f64 = 8.0;
 
 /// The share of its way that an arc at least makes around its axis: chords of a steep helix take longer than itself.
 const FLAT: f64 = 0.9;
@@ -47,7 +59,9 @@ impl<'a> Chords<'a> {
         }
         let radius = arc.point(0.0).second.norm() / (leg.turning * leg.turning);
         let is_flat = radius * leg.turning >= FLAT;
-        if !is_flat || radius > SMALL * tolerance {
+        let is_tiny = radius <= TINY * tolerance;
+        let gains = is_tiny || jerk_holds_up(arc, leg, settings);
+        if !is_flat || radius > SMALL * tolerance || !gains {
             return None;
         }
         let by_tolerance = (sagitta(arc, leg.length) / (SAGITTA * tolerance)).sqrt();
@@ -107,6 +121,21 @@ impl<'a> Chords<'a> {
         };
         Line9::new(&self.arc.position(place(number)), &end).ok()
     }
+}
+
+/// Whether it is jerk that an arc is slow for, and not its acceleration: its easements are too narrow then, and there is something
+/// to be gained.
+fn jerk_holds_up(arc: &Arc9, leg: &Leg, settings: &BlendSettings) -> bool {
+    let start = arc.point(0.0);
+    let across = start.second / start.second.norm();
+    let shares = start
+        .first
+        .zip_map(&across, |along, across| along.hypot(across));
+    let acceleration = settings.acceleration_of(&shares);
+    let per_square = (leg.speed * leg.speed).recip() + leg.turning / (OF_RADIUS * acceleration);
+    let speed = per_square.sqrt().recip();
+    let even = settings.jerk_of(&shares, leg.speed) * per_square / speed;
+    leg.turning * leg.turning > HELD_UP * even
 }
 
 /// How far an arc is from any chord of this length at most.

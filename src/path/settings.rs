@@ -171,9 +171,14 @@ impl BlendSettings {
 
     /// The jerk that the path is smoothed for where it is run at `speed`, machine units per second.
     fn jerk_at(&self, speed: f64) -> f64 {
+        self.linear_jerk.min(self.greatest_jerk_at(speed))
+    }
+
+    /// The most that a path is smoothed for at this speed.
+    fn greatest_jerk_at(&self, speed: f64) -> f64 {
         let acceleration = self.linear_acceleration;
         let built_up = acceleration * acceleration / (SHORTEST_BUILD_UP * speed);
-        self.linear_jerk.min(built_up)
+        built_up.min(GREATEST_JERK * self.millimetre)
     }
 
     /// From this width on the kernels of dense code hardly limit a `speed` of so many machine units
@@ -196,6 +201,17 @@ impl BlendSettings {
         let acceleration = self.per_acceleration.fixed_rows::<3>(0).max().recip();
         let by_acceleration = acceleration / square;
         by_jerk.min(by_acceleration * by_acceleration)
+    }
+
+    /// The acceleration of a motion in which each axis has at most a share of it, shape (9); infinite without a limit.
+    pub(super) fn acceleration_of(&self, shares: &Axes) -> f64 {
+        shares.component_mul(&self.per_acceleration).max().recip()
+    }
+
+    /// The same of its jerk, and no more than a path is smoothed for at this `speed`.
+    pub(super) fn jerk_of(&self, shares: &Axes, speed: f64) -> f64 {
+        let jerk = shares.component_mul(&self.per_jerk).max().recip();
+        jerk.min(self.greatest_jerk_at(speed))
     }
 
     /// Whether rotary axes turn the tool about its tip.

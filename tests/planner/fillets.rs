@@ -75,9 +75,11 @@ fn short_arcs_between_wide_easements_keep_the_limits() {
     checked(result);
 }
 
-/// Two lines of 20 mm that an arc joins without a corner.
+/// Two lines that an arc joins without a corner.
 #[derive(Clone, Copy, Debug)]
 struct RoundedCorner {
+    /// Of each line, mm.
+    length: f64,
     radius: f64,
     /// Radians.
     angle: f64,
@@ -88,9 +90,10 @@ struct RoundedCorner {
 }
 
 impl RoundedCorner {
-    /// At F6000, 1000 mm/s2 and 20000 mm/s3.
+    /// With lines of 20 mm, at F6000, 1000 mm/s2 and 20000 mm/s3.
     fn new(radius: f64, angle: f64, tolerance: f64) -> Self {
         Self {
+            length: 20.0,
             radius,
             angle,
             tolerance,
@@ -116,21 +119,21 @@ impl RoundedCorner {
                 acceleration: Axes::repeat(self.acceleration),
                 ..equal_limits(self.jerk)
             });
-            let (radius, tolerance) = (self.radius, self.tolerance);
+            let (length, radius, tolerance) = (self.length, self.radius, self.tolerance);
             let continuous = TerminationCondition::Continuous { tolerance };
             machine.planner.set_termination(continuous);
             let request = feed_move(self.feed);
-            machine.line(at(20.0, 0.0), &request).expect("a line");
+            machine.line(at(length, 0.0), &request).expect("a line");
             let circle = Circle {
-                center: at(20.0, radius).fixed_rows::<3>(0).into(),
+                center: at(length, radius).fixed_rows::<3>(0).into(),
                 normal: [0.0, 0.0, 1.0].into(),
                 revolutions: 0,
             };
             let (sine, cosine) = self.angle.sin_cos();
-            let end = at(20.0 + radius * sine, radius - radius * cosine);
+            let end = at(length + radius * sine, radius - radius * cosine);
             machine.circle(end, &circle, &request).expect("an arc");
             machine
-                .line(end + at(cosine, sine) * 20.0, &request)
+                .line(end + at(cosine, sine) * length, &request)
                 .expect("a line");
             periods = machine.run(20_000);
         });
@@ -162,6 +165,24 @@ fn more_tolerance_of_a_rounded_corner_costs_no_time() {
             }),
             1.01,
         );
+    }
+}
+
+/// Nor where the radius becomes small for it: arcs that are slow for their acceleration took up to 1.16 times as long as chords.
+#[test]
+fn more_tolerance_for_a_radius_costs_no_time() {
+    for radius in [0.5, 1.0, 2.0, 4.0] {
+        for (length, jerk) in [(1.0, 1e4), (2.0, 2e4), (5.0, 2e4), (2.0, 1e5)] {
+            let tolerances = [21.0, 19.8, 19.0, 15.0, 10.0, 7.0, 4.6, 4.4, 4.0].into_iter();
+            costs_no_time(
+                tolerances.map(|share| RoundedCorner {
+                    length: length * radius,
+                    jerk,
+                    ..RoundedCorner::new(radius, FRAC_PI_2, radius / share)
+                }),
+                1.01,
+            );
+        }
     }
 }
 

@@ -20,6 +20,11 @@ const SILENCE: f64 = 3.0;
 /// And at most, seconds.
 const LONGEST_SILENCE: f64 = 0.5;
 
+/// So many moves in a row came when the machine rested at the end of the one before: the next one is not waited for longer than this,
+/// seconds, when such a move has come.
+const LONE_MOVES: u32 = 3;
+const LONE_SILENCE: f64 = 2e-3;
+
 /// Where moves come slowly, the next one is not waited for if so many like those before would not make final what is not.
 const IN_VAIN: f64 = 50.0;
 
@@ -39,6 +44,8 @@ pub(super) struct MoveFeeder {
     single: bool,
     /// Whether the path has to end before the next move.
     barred: bool,
+    /// How many paths of a single move were before this one, without any other in between.
+    lone_moves: u32,
     /// Seconds since the last move came.
     silence: f64,
     /// Seconds between two moves, in the mean.
@@ -115,6 +122,7 @@ impl MoveFeeder {
             next: 0,
             single: false,
             barred: false,
+            lone_moves: 0,
             silence: 0.0,
             interval: 0.0,
             own_interval: 0.0,
@@ -142,6 +150,11 @@ impl MoveFeeder {
             first,
             next: first,
             single,
+            lone_moves: if self.has_one_move() {
+                self.lone_moves.saturating_add(1)
+            } else {
+                0
+            },
             interval: self.interval,
             depth,
             ..Self::new()
@@ -200,8 +213,18 @@ impl MoveFeeder {
 
     /// Whether that has been so for `seconds`.
     pub fn is_silent_beyond(&self, seconds: f64) -> bool {
-        let silence = (SILENCE * self.interval).min(LONGEST_SILENCE);
-        self.silence >= silence.max(SHORTEST_SILENCE) + seconds
+        let silence = if self.lone_moves >= LONE_MOVES && self.has_one_move() {
+            LONE_SILENCE
+        } else {
+            let silence = (SILENCE * self.interval).min(LONGEST_SILENCE);
+            silence.max(SHORTEST_SILENCE)
+        };
+        self.silence >= silence + seconds
+    }
+
+    /// Whether there is one move on the path.
+    fn has_one_move(&self) -> bool {
+        self.next == self.first + 1
     }
 
     /// Whether what comes next is in time for a machine that is held, however late it is. A thread or a tap is ready when its
