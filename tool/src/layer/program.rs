@@ -148,10 +148,19 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// Where the program ends.
+    /// Where the program ends; a rigid tap comes back to where it began.
     pub(crate) fn end(&self) -> Position {
-        self.handed
-            .last()
-            .map_or([0.0; 9], |piece| piece.segment.end)
+        let Some(piece) = self.handed.last() else {
+            return [0.0; 9];
+        };
+        let mut backwards = self.operations.iter().rev();
+        let last = backwards.find_map(|operation| match operation {
+            Operation::Move(a_move) => Some(a_move.shape),
+            _ => None,
+        });
+        match last {
+            Some(Shape::Tap) => piece.segment.start,
+            _ => piece.segment.end,
+        }
     }
 }

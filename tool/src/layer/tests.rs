@@ -269,4 +269,8 @@ fn tapping_goes_down_and_back() {
     assert_eq!(program.ranges, [(0, 1), (2, 2)]);
     assert_eq!(moves(&program)[0].shape, Shape::Tap);
     assert!(distance(&program.handed[1].segment.start, &[0.0; 9]) < 1e-12);
+    assert_eq!(program.end()[0], 1.0);
+
+    let at_the_end = plain("RATE 60\nFEED 1 1 0 2 0 0 0 0 0 0\nTAP 2 1 0 -10 0 0 0 0 0 0");
+    assert_eq!(at_the_end.end()[..3], [1.0, 0.0, 2.0]);
 }
