@@ -213,7 +213,6 @@ impl Figures {
         recording: &Recording,
     ) -> Figures {
         let state = State::of(outcome, recording, job.period);
-        let jerk_limits = job.jerk_limits(recording.takes_jerk);
         let motion = Motion::of(recording, job);
         let samples = recording.samples.as_slice();
         let aborted = samples
@@ -249,14 +248,7 @@ impl Figures {
             module: module.to_owned(),
             jerk,
             takes_jerk: recording.takes_jerk,
-            rests: rests(
-                recording,
-                program,
-                &job.limits,
-                &jerk_limits,
-                job.period,
-                motion.range,
-            ),
+            rests: rests(recording, program, job, motion.range),
             #[cfg(not(feature = "optimum"))]
             holds: Holds::default(),
             #[cfg(feature = "optimum")]

@@ -8,6 +8,7 @@
 //! figures [`against_optimum`]; [`figures`] holds all of it; [`mod@table`], [`mod@ratios`], [`s_curve`] and [`summary`] show it.
 
 mod against_optimum;
+mod asked;
 mod conditions;
 mod cost;
 mod distance;

@@ -1,8 +1,10 @@
 //! Rests in the middle of a program that neither the program nor the operator nor the supply of moves
 //! explains.
 
+use super::asked::{Asked, Coupling, asked};
 use crate::canon::call::PathMode;
-use crate::host::recording::{ABORTED, DONE, HELD, Recording, STARVED, WAITING, step};
+use crate::host::job::Job;
+use crate::host::recording::{ABORTED, DONE, HELD, Recording, STARVED, Sample, WAITING, step};
 use crate::layer::program::{Piece, Program};
 use crate::machine::limits::Limits;
 use crate::path::segment::{Segment, largest_difference};
@@ -31,19 +33,22 @@ pub(crate) struct Rests {
 /// How many places are kept.
 const MOST_PLACES: usize = 20;
 
+/// Slower than this share of the speed that is asked for counts as a rest. One of a whole period that begins
+/// and ends within periods takes half of the travel from one of them at least.
+const REST: f64 = 0.5;
+
 /// Counts the rests between the first and the last motion (`range`).
 ///
 /// A rest is where no axis travels more in a cycle than it does from a standstill, with its full
-/// acceleration or, where `jerk` limits it (0 = none), its full jerk. The program explains one at an
-/// exact stop, before a move that waits for the spindle, at a corner into or out of exact path mode,
-/// where it goes back nearly the way it came, and where a corner is so sharp for its tolerance that no
-/// axis could take it faster than that.
+/// acceleration or, where `jerk` limits it, its full jerk, and none half as fast as the slowest of the moves
+/// there asks for: a slow feed is no rest. The program explains one at an exact stop, before a move that waits
+/// for the spindle, in a tap, which turns back where the spindle does, at a corner into or out of exact path
+/// mode or a thread, where it goes back nearly the way it came, and where a corner is so sharp for its
+/// tolerance that no axis could take it faster than that.
 pub(crate) fn rests(
     recording: &Recording,
     program: &Program,
-    limits: &Limits,
-    jerk: &[f64; 9],
-    period: f64,
+    job: &Job,
     range: Option<(usize, usize)>,
 ) -> Rests {
     let mut rests = Rests::default();
@@ -51,13 +56,14 @@ pub(crate) fn rests(
         return rests;
     };
     let samples = &recording.samples;
-    let slow = |k: usize| {
-        let travel = step(samples, k);
-        let most = |jerk: f64| jerk * period.powi(3) / 6.0;
-        let mut axes = travel.iter().zip(jerk);
-        is_slow(&travel, limits, period)
-            && axes.all(|(travel, &jerk)| jerk <= 0.0 || travel.abs() <= most(jerk))
+    let period = job.period;
+    let run = Run {
+        program,
+        job,
+        jerk: job.jerk_limits(recording.takes_jerk),
+        asked: asked(job),
     };
+    let slow = |k: usize| run.rests(&step(samples, k), &samples[k]);
     // Where the motion begins and ends it is slow for a reason.
     let mut k = start;
     while k <= end && slow(k) {
@@ -76,15 +82,11 @@ pub(crate) fn rests(
             break;
         }
         let reasons = HELD | DONE | WAITING | STARVED | ABORTED;
-        let around = from.saturating_sub(1)..(k + 1).min(samples.len());
-        let given = samples[around.clone()]
-            .iter()
-            .any(|sample| sample.flags & reasons != 0);
         // A rest with a pause in its beginning or end belongs to the pause.
-        let explained = given
-            || samples[around]
-                .iter()
-                .any(|sample| program_stops(program, limits, period, sample.id, &sample.position));
+        let around = &samples[from.saturating_sub(1)..(k + 1).min(samples.len())];
+        let explained = around
+            .iter()
+            .any(|sample| sample.flags & reasons != 0 || run.program_stops(sample));
         if !explained {
             rests.count += 1;
             rests.cycles += k - from;
@@ -135,55 +137,101 @@ fn place(program: &Program, id: i32) -> (i32, i32) {
     (id, piece.map_or(0, |piece| piece.line))
 }
 
-/// Whether one of the junctions near this position makes the machine stop.
-fn program_stops(
-    program: &Program,
-    limits: &Limits,
-    period: f64,
-    id: i32,
-    position: &[f64; 9],
-) -> bool {
-    junctions_near(program, id).any(|(one, next)| {
-        let far = largest_difference(&one.segment.end, position);
-        let tolerance = one.tolerance.max(next.tolerance);
-        // Without a tolerance the corner may be cut from the middle of the shorter move.
-        let reach = if tolerance > 0.0 {
-            2.0 * tolerance
-        } else {
-            0.5 * size(one).min(size(next))
-        };
-        far <= reach + 0.01 && junction_stops(one, next, limits, period)
-    })
+/// What a run is judged by.
+struct Run<'a> {
+    program: &'a Program,
+    job: &'a Job,
+    /// Limits of the axes, 0 = none.
+    jerk: [f64; 9],
+    /// Of each move.
+    asked: Vec<Asked>,
 }
 
-fn junction_stops(one: &Piece, next: &Piece, limits: &Limits, period: f64) -> bool {
-    if one.stops || one.mode == PathMode::ExactStop {
-        return true;
+impl Run<'_> {
+    /// Whether the machine rests, with this travel in the cycle that ends here.
+    fn rests(&self, travel: &[f64; 9], sample: &Sample) -> bool {
+        let period = self.job.period;
+        let by_jerk = |(travel, &jerk): (&f64, &f64)| {
+            jerk <= 0.0 || travel.abs() <= jerk * period.powi(3) / 6.0
+        };
+        let by_feed = REST * self.speed_near(sample) * period;
+        is_slow(travel, &self.job.limits, period)
+            && travel.iter().zip(&self.jerk).all(by_jerk)
+            && travel.iter().all(|travel| travel.abs() <= by_feed)
     }
-    let turn = turn(one, next);
-    // A move that is to be followed exactly, and to stop at its end, is so from its start on.
-    let is_exact = next.mode == PathMode::ExactPath || next.mode == PathMode::ExactStop;
-    if one.mode == PathMode::ExactPath || is_exact {
-        return turn > TANGENT;
+
+    /// The slowest that the running move and its neighbours ask for, with the override, mm/s or degrees per
+    /// second: a planner brakes for the next one, and a blend has parts of two.
+    fn speed_near(&self, sample: &Sample) -> f64 {
+        let next = usize::try_from(sample.id).unwrap_or(0);
+        let near = self
+            .asked
+            .iter()
+            .take(next + 1)
+            .skip(next.saturating_sub(2));
+        let slowest = near.map(|asked| asked.speed).fold(f64::INFINITY, f64::min);
+        slowest * sample.scale
     }
-    if turn > REVERSAL {
-        return true;
+
+    /// The coupling of the move with this index.
+    fn coupling(&self, index: usize) -> Coupling {
+        self.asked
+            .get(index)
+            .map_or(Coupling::None, |asked| asked.coupling)
     }
-    // The radius of the circle in the corner that the tolerance allows, and half of the shorter move.
-    let half = (turn / 2.0).cos();
-    let by_length = 0.5 * size(one).min(size(next)) / (turn / 2.0).tan().max(1e-9);
-    let by_tolerance = one.tolerance * half / (1.0 - half).max(1e-12);
-    let radius = if one.tolerance > 0.0 {
-        by_length.min(by_tolerance)
-    } else {
-        by_length
-    };
-    let acceleration = limits
-        .acceleration
-        .iter()
-        .copied()
-        .fold(f64::INFINITY, f64::min);
-    (acceleration * radius).sqrt() < acceleration * period
+
+    /// Whether the machine stops here in a tap, or for one of the junctions near this position.
+    fn program_stops(&self, sample: &Sample) -> bool {
+        let index = usize::try_from(sample.id)
+            .ok()
+            .and_then(|id| id.checked_sub(1));
+        if index.is_some_and(|index| self.coupling(index) == Coupling::Tap) {
+            return true;
+        }
+        junctions_near(self.program, sample.id).any(|(one, next)| {
+            let far = largest_difference(&one.segment.end, &sample.position);
+            let tolerance = one.tolerance.max(next.tolerance);
+            // Without a tolerance the corner may be cut from the middle of the shorter move.
+            let reach = if tolerance > 0.0 {
+                2.0 * tolerance
+            } else {
+                0.5 * size(one).min(size(next))
+            };
+            far <= reach + 0.01 && self.junction_stops(one, next)
+        })
+    }
+
+    fn junction_stops(&self, one: &Piece, next: &Piece) -> bool {
+        if one.stops || one.mode == PathMode::ExactStop {
+            return true;
+        }
+        let couplings = [one, next].map(|piece| self.coupling(piece.move_index));
+        // It waits for the index at rest; a thread behind another one goes on with its count.
+        if couplings == [Coupling::None, Coupling::Thread] {
+            return true;
+        }
+        let turn = turn(one, next);
+        // A move that is to be followed exactly, and to stop at its end, is so from its start on.
+        let exact = |piece: &Piece| piece.mode != PathMode::Continuous;
+        if exact(one) || exact(next) || couplings.contains(&Coupling::Thread) {
+            return turn > TANGENT;
+        }
+        if turn > REVERSAL {
+            return true;
+        }
+        // The radius of the circle in the corner that the tolerance allows, and half of the shorter move.
+        let half = (turn / 2.0).cos();
+        let by_length = 0.5 * size(one).min(size(next)) / (turn / 2.0).tan().max(1e-9);
+        let by_tolerance = one.tolerance * half / (1.0 - half).max(1e-12);
+        let radius = if one.tolerance > 0.0 {
+            by_length.min(by_tolerance)
+        } else {
+            by_length
+        };
+        let accelerations = self.job.limits.acceleration.iter().copied();
+        let acceleration = accelerations.fold(f64::INFINITY, f64::min);
+        (acceleration * radius).sqrt() < acceleration * self.job.period
+    }
 }
 
 /// Length of a move, or its travel in the other axes where that is more.
@@ -207,20 +255,25 @@ fn direction(segment: &Segment, u: f64) -> SVector<f64, 9> {
 mod tests {
     use super::*;
     use crate::canon::Call;
-    use crate::host::recording::Sample;
+    use crate::host::job::tests::job;
     use crate::layer::{LayerSettings, lay};
+
+    fn laid(text: &str) -> Program {
+        let calls: Vec<Call> = text.lines().filter_map(Call::parse).collect();
+        lay(&calls, &LayerSettings::default())
+    }
 
     /// Goes to X1 in 10 ms, stands for 5 ms, and goes on to the second point in 10 ms.
     fn stop_between(mode: &str, second: [f64; 9]) -> (Recording, Program) {
         let [x, y, _, a, ..] = second;
-        let text =
-            format!("{mode}\nRATE 6000\nFEED 1 1 0 0 0 0 0 0 0 0\nFEED 2 {x} {y} 0 {a} 0 0 0 0 0");
-        let calls: Vec<Call> = text.lines().filter_map(Call::parse).collect();
-        let program = lay(&calls, &LayerSettings::default());
+        let program = laid(&format!(
+            "{mode}\nRATE 6000\nFEED 1 1 0 0 0 0 0 0 0 0\nFEED 2 {x} {y} 0 {a} 0 0 0 0 0"
+        ));
         let mut recording = Recording::default();
         for k in 1..=25 {
             let mut sample = Sample {
                 id: if k <= 15 { 1 } else { 2 },
+                scale: 1.0,
                 ..Sample::default()
             };
             let share = f64::from((k - 15).max(0)) / 10.0;
@@ -238,16 +291,37 @@ mod tests {
         (recording, program)
     }
 
+    /// Along X with these travels, mm, in a cycle each; the moves that run.
+    fn along_x(travels: &[(i32, f64)]) -> Recording {
+        let mut recording = Recording::default();
+        let mut position = [0.0; 9];
+        for &(id, travel) in travels {
+            position[0] += travel;
+            recording.samples.push(Sample {
+                position,
+                id,
+                scale: 1.0,
+                ..Sample::default()
+            });
+        }
+        recording
+    }
+
+    /// With a period of 1 ms and 1000 mm/s2.
+    fn found(recording: &Recording, program: &Program, jerk: [f64; 9]) -> Rests {
+        let job = Job {
+            jerk,
+            events: Vec::new(),
+            operations: program.operations.clone(),
+            ..job()
+        };
+        let last = recording.samples.len() - 1;
+        rests(recording, program, &job, Some((0, last)))
+    }
+
     fn count(mode: &str, second: [f64; 9]) -> (usize, usize) {
         let (recording, program) = stop_between(mode, second);
-        let rests = rests(
-            &recording,
-            &program,
-            &Limits::default(),
-            &[0.0; 9],
-            0.001,
-            Some((0, 24)),
-        );
+        let rests = found(&recording, &program, [0.0; 9]);
         (rests.count, rests.cycles)
     }
 
@@ -274,18 +348,81 @@ mod tests {
     fn slow_is_not_at_rest_where_jerk_is_limited() {
         let rests = |creep: f64, jerk: f64| {
             let (mut recording, program) = stop_between("TERM 3 0.1", to(1.0, 1.0, 0.0));
+            recording.takes_jerk = true;
             for (k, sample) in recording.samples.iter_mut().enumerate().skip(10) {
                 sample.position[1] += creep * (k as f64 - 9.0).min(5.0);
             }
-            let jerk = [jerk; 9];
-            let limits = Limits::default();
-            rests(&recording, &program, &limits, &jerk, 0.001, Some((0, 24))).count
+            found(&recording, &program, [jerk; 9]).count
         };
         // .4 mm/s: less than an acceleration of 1000 mm/s2 makes of a standstill in a period, more than
         // a jerk of 20,000 mm/s3 does.
         assert_eq!(rests(4e-4, 0.0), 1);
         assert_eq!(rests(4e-4, 20_000.0), 0);
         assert_eq!(rests(3e-6, 20_000.0), 1);
+    }
+
+    /// F20, a third of a mm/s: what the axes do in a period from a standstill is more.
+    #[test]
+    fn a_slow_feed_is_no_rest() {
+        let program = laid(
+            "TERM 3 0.1\nRATE 600\nFEED 1 1 0 0 0 0 0 0 0 0\nRATE 20\nFEED 2 2 0 0 0 0 0 0 0 0\n\
+             RATE 600\nFEED 3 3 0 0 0 0 0 0 0 0",
+        );
+        let feed = 20.0 / 60.0 * 1e-3;
+        let count = |middle: &[(i32, f64)]| {
+            let fast = [1e-3, 2e-3, 1e-3].map(|travel| (1, travel));
+            let on = [1e-3, 2e-3, 1e-3].map(|travel| (3, travel));
+            let travels = [&fast, middle, &on].concat();
+            let rests = found(&along_x(&travels), &program, [0.0; 9]);
+            (rests.count, rests.cycles)
+        };
+        // the module may say a while that the move before it runs still
+        let slow = [(1, feed), (1, feed), (2, feed), (2, feed), (2, feed)];
+        assert_eq!(count(&slow), (0, 0));
+        let stands = [(2, feed), (2, 0.0), (2, feed)];
+        assert_eq!(count(&stands), (1, 1));
+        let between_periods = [(2, feed), (2, 0.4 * feed), (2, 0.4 * feed), (2, feed)];
+        assert_eq!(count(&between_periods), (1, 2));
+    }
+
+    /// At 1000 mm/s2 it stands for an instant on the border of two periods.
+    #[test]
+    fn a_stop_for_an_instant_is_a_rest() {
+        let program = laid("TERM 3 0.1\nRATE 600\nFEED 1 9 0 0 0 0 0 0 0 0");
+        let travels = [
+            3.49e-3, 2.49e-3, 1.49e-3, 0.49e-3, 0.49e-3, 1.49e-3, 2.49e-3,
+        ];
+        let rests = found(&along_x(&travels.map(|t| (1, t))), &program, [0.0; 9]);
+        assert_eq!((rests.count, rests.cycles), (1, 2));
+    }
+
+    #[test]
+    fn a_thread_waits_for_the_index_and_a_tap_for_the_spindle() {
+        let travels: Vec<(i32, f64)> = (1..=25)
+            .map(|k| match k {
+                1..=10 => (1, 0.1),
+                11..=15 => (1, 0.0),
+                _ => (2, 0.01),
+            })
+            .collect();
+        let on = |between: &str, end: f64| {
+            let program = laid(&format!(
+                "SPINDLE 600 1\nTERM 3 0.1\nRATE 6000\nFEED 1 1 0 0 0 0 0 0 0 0\n{between}\n\
+                 FEED 2 {end} 0 0 0 0 0 0 0 0"
+            ));
+            let rests = found(&along_x(&travels), &program, [0.0; 9]);
+            (rests.count, rests.cycles)
+        };
+        assert_eq!(on("SYNC 1 0", 2.0), (0, 0), "into a thread");
+        assert_eq!(on("SYNC 1 1", 2.0), (1, 5), "into a feed per turn");
+        assert_eq!(on("SYNC 0 0", 2.0), (1, 5));
+
+        let tap = laid("SPINDLE 600 1\nTERM 3 0.1\nSYNC 1 0\nTAP 1 1 0 0 0 0 0 0 0 0");
+        let beyond: Vec<(i32, f64)> = [1e-2, 2e-2, 1e-2, 0.0, -1e-2, -2e-2]
+            .into_iter()
+            .map(|travel| (1, 10.0 * travel))
+            .collect();
+        assert_eq!(found(&along_x(&beyond), &tap, [0.0; 9]).count, 0);
     }
 
     #[test]
@@ -302,15 +439,12 @@ mod tests {
             "back the same way"
         );
         for mode in ["TERM 2 0", "TERM 1 0"] {
-            let text = format!(
+            let program = laid(&format!(
                 "TERM 3 0.1\nRATE 6000\nFEED 1 1 0 0 0 0 0 0 0 0\n{mode}\nFEED 2 1 1 0 0 0 0 0 0 0"
-            );
-            let calls: Vec<Call> = text.lines().filter_map(Call::parse).collect();
-            let program = lay(&calls, &LayerSettings::default());
+            ));
             let (recording, _) = stop_between("TERM 3 0.1", to(1.0, 1.0, 0.0));
-            let (limits, range) = (Limits::default(), Some((0, 24)));
             assert_eq!(
-                rests(&recording, &program, &limits, &[0.0; 9], 0.001, range).count,
+                found(&recording, &program, [0.0; 9]).count,
                 0,
                 "into a move with {mode}"
             );
@@ -322,14 +456,7 @@ mod tests {
         for flag in [HELD, STARVED, WAITING] {
             let (mut recording, program) = stop_between("TERM 3 0.1", to(1.0, 1.0, 0.0));
             recording.samples[12].flags = flag;
-            let rests = rests(
-                &recording,
-                &program,
-                &Limits::default(),
-                &[0.0; 9],
-                0.001,
-                Some((0, 24)),
-            );
+            let rests = found(&recording, &program, [0.0; 9]);
             assert_eq!(rests, Rests::default());
         }
     }

@@ -107,13 +107,14 @@ impl Job {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::canon::call::{PathMode, Tag};
     use crate::layer::program::{MotionType, Move, Shape};
     use crate::layer::spindle::{SpindleCommand, Surface};
 
-    fn job() -> Job {
+    /// One of each kind of operation.
+    pub(crate) fn job() -> Job {
         let a_move = Move {
             index: 3,
             line: -1,

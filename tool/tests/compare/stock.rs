@@ -61,6 +61,33 @@ fn a_tap_is_on_the_path() {
     assert_eq!(figures["deviation"]["exceeds"], false, "{figures}");
 }
 
+/// It comes back to where it began, and what it waits for there are no rests.
+#[test]
+fn a_program_may_end_with_a_tap() {
+    let program =
+        "G21 G90 G64 P0.02\nG97 S600 M3\nG0 X0 Z2\nG33.1 Z-6 K1\nG0 X10\nG33.1 Z-6 K1\nM2\n";
+    let figures = stock(program, &[]);
+    assert_eq!(figures["state"], "complete");
+    assert_near(&figures["final_error"], 0.0, 1e-6);
+    assert_eq!(figures["rests"]["count"], 0, "{figures}");
+}
+
+#[test]
+fn a_thread_waits_for_its_index() {
+    let program = "G21 G90 G18 G95 G64 P0.02\nG97 S600 M3\nG0 X10 Z2\nG33 Z-15 K1.5\nG0 X14\nG0 Z2\n\
+                   G0 X9.7\nG33 Z-15 K1.5\nG0 X14\nM2\n";
+    let figures = stock(program, &[]);
+    assert_eq!(figures["state"], "complete");
+    assert_eq!(figures["rests"]["count"], 0, "{figures}");
+}
+
+#[test]
+fn a_slow_feed_is_no_rest() {
+    let program = "G21 G90 G64 P0.02\nG1 X10 F600\nG1 X11 F20\nG1 X20 F600\nM2\n";
+    let figures = stock(program, &[]);
+    assert_eq!(figures["rests"]["count"], 0, "{figures}");
+}
+
 #[test]
 fn corners_stay_within_the_tolerance() {
     let bench = Bench::new();
