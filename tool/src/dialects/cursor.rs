@@ -13,12 +13,19 @@ pub struct Cursor<'a, S, P> {
     tokens: &'a [Token<S, P>],
     at: usize,
     end: Span,
+    /// How many operators of its arithmetic were taken so far.
+    pub operators: u32,
 }
 
 impl<'a, S: Copy + PartialEq, P> Cursor<'a, S, P> {
     /// At the first of `tokens`; `end` is where the block ends, for messages.
     pub fn new(tokens: &'a [Token<S, P>], end: Span) -> Cursor<'a, S, P> {
-        Cursor { tokens, at: 0, end }
+        Cursor {
+            tokens,
+            at: 0,
+            end,
+            operators: 0,
+        }
     }
 
     /// The next token.

@@ -3,9 +3,14 @@
 use super::cursor::{Cursor, Parsed};
 use super::expression::{Binary, Expression, ExpressionKind};
 use super::token::TokenKind;
+use crate::diagnostics::Diagnostic;
 
 /// How deep parentheses and signs may be nested.
 pub const DEPTH_LIMIT: u32 = 64;
+
+/// How many operators a block may have: a tree of them is as deep as its chain of operators is long, and whoever walks
+/// through it or drops it takes stack for each.
+const OPERATOR_LIMIT: u32 = 1000;
 
 /// Reads a token as an operator of one level.
 pub type OperatorOfLevel<S, P> = fn(Option<&TokenKind<S, P>>, usize) -> Option<Binary>;
@@ -30,6 +35,12 @@ pub trait Arithmetic {
     /// Takes an operator of this level if it comes next.
     fn take_operator(&mut self, level: usize) -> Option<Binary>;
 
+    /// How many operators of the block were taken so far.
+    fn taken_operators(&mut self) -> &mut u32;
+
+    /// An error where the next operand begins.
+    fn error_with_help(&self, message: String, help: &str) -> Diagnostic;
+
     /// Refuses operands that the operator does not take.
     fn check(&self, operator: Binary, left: &Expression, right: &Expression) -> Parsed<()>;
 
@@ -44,6 +55,7 @@ pub fn climb(source: &mut impl Arithmetic, level: usize) -> Parsed<Expression> {
     }
     let mut left = climb(source, level + 1)?;
     while let Some(binary) = source.take_operator(level) {
+        count_operator(source)?;
         let right = climb(source, level + 1)?;
         source.check(binary, &left, &right)?;
         left = Expression {
@@ -52,6 +64,17 @@ pub fn climb(source: &mut impl Arithmetic, level: usize) -> Parsed<Expression> {
         };
     }
     Ok(left)
+}
+
+fn count_operator(source: &mut impl Arithmetic) -> Parsed<()> {
+    *source.taken_operators() += 1;
+    match *source.taken_operators() > OPERATOR_LIMIT {
+        false => Ok(()),
+        true => Err(source.error_with_help(
+            format!("a block with more than {OPERATOR_LIMIT} operators"),
+            "set variables to parts of it in blocks before",
+        )),
+    }
 }
 
 impl<S: Copy + PartialEq, P> Grammar<S, P> {
@@ -86,6 +109,14 @@ impl<S: Copy + PartialEq, P> Arithmetic for Tokens<'_, '_, '_, S, P> {
         let operator = (self.grammar.operator)(self.cursor.peek(), level)?;
         self.cursor.advance();
         Some(operator)
+    }
+
+    fn taken_operators(&mut self) -> &mut u32 {
+        &mut self.cursor.operators
+    }
+
+    fn error_with_help(&self, message: String, help: &str) -> Diagnostic {
+        self.cursor.error_with_help(message, help)
     }
 
     fn check(&self, operator: Binary, left: &Expression, right: &Expression) -> Parsed<()> {

@@ -153,3 +153,29 @@ fn utf_16_is_read_without_a_mark() {
         }
     }
 }
+
+/// What walks through a sum goes as deep as it is long.
+#[test]
+fn a_long_sum_is_refused() {
+    for (dialect, begins, ends) in [
+        ("sinumerik", "G90 G54\nR1=", ""),
+        ("fagor", "(P1=", ")"),
+        ("fanuc", "O1\n#1=", ""),
+        ("isg", "N10 P1=", ""),
+    ] {
+        let sum = |count: usize| format!("{begins}1{}{ends}\nG0 X1\nM30\n", "+1".repeat(count));
+        let text = sum(50_000);
+        let shop = Shop::new(&[("part.nc", text.as_bytes())]);
+        let shown = refused(&shop.run_in(dialect, "part.nc", &[]));
+        assert!(
+            shown.contains("a block with more than 1000 operators"),
+            "{dialect}: {shown}"
+        );
+        let lines = begins.lines().count();
+        let column = begins.lines().last().map_or(0, str::len) + 2003;
+        let place = format!("part.nc:{lines}:{column}");
+        assert!(shown.contains(&place), "{dialect}: {place}: {shown}");
+        let shop = Shop::new(&[("part.nc", sum(1000).as_bytes())]);
+        accepted(&shop.run_in(dialect, "part.nc", &[]));
+    }
+}

@@ -99,6 +99,14 @@ impl Arithmetic for Reader<'_> {
         (its_level == level && self.take(symbol)).then_some(binary)
     }
 
+    fn taken_operators(&mut self) -> &mut u32 {
+        &mut self.operators
+    }
+
+    fn error_with_help(&self, message: String, help: &str) -> Diagnostic {
+        Reader::error_with_help(self, message, help)
+    }
+
     fn check(&self, operator: Binary, left: &Expression, _: &Expression) -> Parsed<()> {
         let signed = matches!(left.kind, ExpressionKind::Unary(Unary::Negate, _));
         match operator == Binary::Power && signed {

@@ -13,6 +13,8 @@ pub struct Reader<'a> {
     scanner: Scanner<'a>,
     /// How deep brackets are nested where the reader is.
     pub depth: u32,
+    /// How many operators of the block's arithmetic were taken so far.
+    pub operators: u32,
 }
 
 impl<'a> Reader<'a> {
@@ -21,6 +23,7 @@ impl<'a> Reader<'a> {
         Reader {
             scanner: Scanner::new(text),
             depth: 0,
+            operators: 0,
         }
     }
 
