@@ -95,15 +95,7 @@ fn behind_colon(line: u32) -> String {
 /// A file that cannot be opened, a program that the interpreter refuses (with its line and
 /// message), an interpreter that cannot be run.
 pub fn read_program(file: &Path, start: &Position) -> Result<Vec<Call>, CanonError> {
-    stream_program(file, &standing_at(start))?.collect()
-}
-
-/// Nothing but a machine that stands there.
-fn standing_at(start: &Position) -> Surroundings {
-    Surroundings {
-        start: *start,
-        ..Surroundings::default()
-    }
+    stream_program(file, &Surroundings::standing_at(start))?.collect()
 }
 
 /// The canonical calls of a program one by one, while the interpreter goes on.
@@ -137,7 +129,7 @@ pub fn read_text(name: &str, text: &str, start: &Position) -> Result<Vec<Call>, 
         file: file.to_owned(),
         source,
     })?;
-    CallStream::start(file, &written, home, &standing_at(start))?.collect()
+    CallStream::start(file, &written, home, &Surroundings::standing_at(start))?.collect()
 }
 
 fn home(file: &Path) -> Result<Home, CanonError> {

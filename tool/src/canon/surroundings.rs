@@ -48,6 +48,14 @@ impl Default for Surroundings {
 }
 
 impl Surroundings {
+    /// Nothing but a machine that stands there, mm and degrees.
+    pub fn standing_at(start: &Position) -> Surroundings {
+        Surroundings {
+            start: *start,
+            ..Surroundings::default()
+        }
+    }
+
     /// Writes what the interpreter program reads; an error comes with its file.
     pub(super) fn write(
         &self,

@@ -43,6 +43,12 @@ pub enum CompareError {
     /// The program cannot be read.
     #[error(transparent)]
     Canon(#[from] CanonError),
+    /// Signals cannot be waited for.
+    #[error("Ctrl-C cannot be waited for: {0}")]
+    Unheard(io::Error),
+    /// The process was asked to stop.
+    #[error("ended before it was done")]
+    Stopped,
     /// The program does not move.
     #[error("{0}: the program has no moves")]
     NoMoves(String),

@@ -158,6 +158,9 @@ pub struct CompareArguments {
     /// Seconds that a module may take for a single call before it counts as hanging
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     pub patience: f64,
+    /// How long LinuxCNC's interpreter may take to read a program, seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    pub most_seconds: u64,
     /// End with exit status 1 where a module exceeds a limit or a tolerance or does not bring a program to its end, and
     /// say which; of several modules the first, which the others are compared with, is not judged
     #[arg(long)]

@@ -5,12 +5,17 @@ use super::error::CompareError;
 use super::excerpt::{Excerpt, excerpt};
 use crate::arguments::file_name;
 use crate::canon::call::Call;
-use crate::canon::{read_program, read_text, seen_from};
+use crate::canon::{Surroundings, read_text, seen_from, stream_program};
 use crate::generated;
 use crate::layer::program::Program;
 use crate::layer::{LayerSettings, lay};
 use crate::machine::limits::Limits;
 use crate::path::Position;
+use crate::signals::StopForAWhile;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 /// A program that is run.
 pub(super) struct Subject {
@@ -57,6 +62,18 @@ impl Subject {
     }
 }
 
+/// The calls of a program that may take `most_time`, read until `stop` is set.
+fn calls(
+    file: &Path,
+    start: &Position,
+    most_time: Duration,
+    stop: &Arc<AtomicBool>,
+) -> Result<Vec<Call>, CompareError> {
+    let stream = stream_program(file, &Surroundings::standing_at(start))?;
+    let stream = stream.within(most_time).until(Arc::clone(stop));
+    Ok(stream.collect::<Result<_, _>>()?)
+}
+
 /// Reads all programs, with the machine at `start`, mm and degrees, so that one that cannot be read is known before anything runs.
 pub(super) fn subjects(
     arguments: &CompareArguments,
@@ -77,14 +94,21 @@ pub(super) fn subjects(
         lay(&calls.collect::<Vec<_>>(), &settings)
     };
     let mut programs = Vec::new();
+    // The interpreter has a folder of its own while it runs, which a signal would leave behind.
+    let signals = StopForAWhile::new().map_err(CompareError::Unheard)?;
+    let most_time = Duration::from_secs(arguments.most_seconds);
     for file in &arguments.files {
         let name = file_name(file);
-        programs.push((name, program(read_program(file, start)?)));
+        let calls = calls(file, start, most_time, signals.stop())?;
+        programs.push((name, program(calls)));
     }
     for name in names {
         let text = generated::program(&name).unwrap_or_default();
         let calls = read_text(&name, &text, start)?;
         programs.push((name, program(calls)));
+    }
+    if signals.end() {
+        return Err(CompareError::Stopped);
     }
     for (name, program) in &programs {
         if program.handed.is_empty() {

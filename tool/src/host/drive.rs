@@ -48,6 +48,8 @@ pub(crate) fn serve() -> ExitCode {
 }
 
 fn try_serve() -> io::Result<()> {
+    // Nobody reads the recording of one whose parent has ended; a module that hangs would hang for ever.
+    rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL))?;
     let output = take_standard_output()?;
     let mut bytes = Vec::new();
     io::stdin().lock().read_to_end(&mut bytes)?;

@@ -13,7 +13,10 @@ mod measuring;
 mod operator;
 mod optimum;
 mod other_linuxcnc;
+#[path = "../common/processes.rs"]
+mod processes;
 mod programs;
+mod signals;
 mod stock;
 mod support;
 #[path = "../common/table.rs"]

@@ -19,6 +19,8 @@ mod overwriting;
 mod page;
 #[path = "../common/pages.rs"]
 mod pages;
+#[path = "../common/processes.rs"]
+mod processes;
 mod signals;
 mod soft_limits;
 mod start;

@@ -1,5 +1,6 @@
 //! A plan that is not wanted any more leaves nothing behind.
 
+use crate::processes::{ENDLESS, await_that, interpreters, signal, start};
 use crate::support::Bench;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -42,4 +43,16 @@ fn a_plan_that_is_ended_leaves_nothing() {
         assert_eq!(entries(), 2, "{signal}");
         assert_eq!(std::fs::read_dir(&room).expect("a folder").count(), 0);
     }
+}
+
+/// Nobody can clean up behind that; but LinuxCNC's interpreter would run through a loop for ever.
+#[test]
+fn the_interpreter_ends_with_a_plan_that_is_killed() {
+    let bench = Bench::new();
+    bench.write("part.ngc", ENDLESS);
+    let mut plan = start(bench.path(), &["plan", "part.ngc"]);
+    await_that("it reads", || interpreters(bench.path()) == 1);
+    signal(&plan, "-KILL");
+    assert_eq!(plan.wait().expect("an end").code(), None);
+    await_that("the interpreter ends", || interpreters(bench.path()) == 0);
 }

@@ -13,11 +13,14 @@
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <poll.h>
 #include <set>
 #include <string>
+#include <sys/prctl.h>
 #include <unistd.h>
 #include "interp_base.hh"
 #include "interp_return.hh"
@@ -215,12 +218,23 @@ static int interpret(InterpBase &interpreter, const char *file)
 
 int main(int count, char **arguments)
 {
+/* The end of whoever reads the calls is the end of this, in the middle of a loop of the program, too. */
+static void end_with_reader()
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    /* It may have ended before. */
+    pollfd reader = {STDOUT_FILENO, 0, 0};
+    if (poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR))
+        _Exit(2);
+}
+
     if (count < 2) {
         fputs("usage: interpreter FILE [PARAMETERS [SETTINGS]]\n", stderr);
         return 2;
     }
     /* Programs may print, too: (PRINT, ..) goes to where errors go. */
     output = fdopen(dup(STDOUT_FILENO), "w");
+    end_with_reader();
     if (!output || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
         perror("interpreter");
         return 2;
