@@ -128,9 +128,10 @@ fn compile_interpreter(include: &[String], output: &Path) {
             folder.join("answers.cc"),
             folder.join("hal_pins.cc"),
             folder.join("inputs.cc"),
+            folder.join("python.cc"),
             folder.join("settings.cc"),
         ])
-        .args(["-rdynamic", "-lrs274", "-lpyplugin"])
+        .args(["-rdynamic", "-lrs274", "-lpyplugin", "-ldl"])
         // What librs274 needs itself is found when it is loaded.
         .arg("-Wl,--allow-shlib-undefined")
         .arg("-o")

@@ -67,3 +67,17 @@ fn a_program_without_an_end_is_told() {
         "{error}"
     );
 }
+
+#[test]
+fn python_in_a_program_is_refused() {
+    let bench = Bench::new();
+    let made = bench.path().join("made");
+    let python = format!(";py,open('{}','w')", made.display());
+    bench.write("part.ngc", &format!("G21\n{python}\nG0 X1\nM2\n"));
+    let error = bench.refused(&["part.ngc", "--with", STOCK]);
+    assert!(
+        error.starts_with("part.ngc:2: Python in a program"),
+        "{error}"
+    );
+    assert!(!made.exists());
+}

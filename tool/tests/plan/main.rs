@@ -21,6 +21,7 @@ mod page;
 mod pages;
 #[path = "../common/processes.rs"]
 mod processes;
+mod read_only;
 mod signals;
 mod soft_limits;
 mod start;

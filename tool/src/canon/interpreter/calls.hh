@@ -25,3 +25,6 @@ const char *unsupported_call();
 
 /* Names one that is none of the interpreter's calls. */
 void refuse_call(const char *what);
+
+/* From here on Python that stands in a program is refused (python.cc). */
+void refuse_python();

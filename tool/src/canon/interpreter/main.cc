@@ -161,9 +161,9 @@ static bool sends_frame(InterpBase &interpreter)
     return caller != "frame_off.ngc" && caller != "frame_suspend.ngc" && caller != "frame_resume.ngc";
 }
 
-static int unsupported(InterpBase &interpreter, const char *what)
+static int unsupported(InterpBase &interpreter, const char *what, std::string place = "")
 {
-    std::string file = subroutine_file(interpreter), place;
+    std::string file = subroutine_file(interpreter);
     if (!file.empty())
         place = "in " + file + ", line " + std::to_string(interpreter.sequence_number()) + ": ";
     return print_refusal(interpreter, program_line, place + what + " is not supported here");
@@ -179,6 +179,8 @@ static int interpret(InterpBase &interpreter, const char *file)
         status = interpreter.execute(machine.startup.c_str());
         if (failed(status))
             return refuse(interpreter, status, "[RS274NGC]RS274NGC_STARTUP_CODE: ");
+        if (unsupported_call())
+            return unsupported(interpreter, unsupported_call(), "[RS274NGC]RS274NGC_STARTUP_CODE: ");
     }
     opened = true;
     status = interpreter.open(file);
@@ -216,8 +218,6 @@ static int interpret(InterpBase &interpreter, const char *file)
     return 0;
 }
 
-int main(int count, char **arguments)
-{
 /* The end of whoever reads the calls is the end of this, in the middle of a loop of the program, too. */
 static void end_with_reader()
 {
@@ -228,13 +228,15 @@ static void end_with_reader()
         _Exit(2);
 }
 
+int main(int count, char **arguments)
+{
     if (count < 2) {
         fputs("usage: interpreter FILE [PARAMETERS [SETTINGS]]\n", stderr);
         return 2;
     }
+    end_with_reader();
     /* Programs may print, too: (PRINT, ..) goes to where errors go. */
     output = fdopen(dup(STDOUT_FILENO), "w");
-    end_with_reader();
     if (!output || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
         perror("interpreter");
         return 2;
@@ -249,6 +251,7 @@ static void end_with_reader()
     }
     fprintf(output, "UNIT %.17g\n", now.unit);
     InterpBase *interpreter = makeInterp();
+    refuse_python();
     int result = interpret(*interpreter, arguments[1]);
     if (result == 0)
         fputs("END\n", output);
