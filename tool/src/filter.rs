@@ -11,6 +11,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::control::About;
 use crate::dialects::run_program;
 use crate::dialects::settings::Settings;
+use crate::output::in_temporary_folder;
 use crate::part_program::{Opened, Refused, open, refusal};
 use crate::program::{Block, FrameScope, Sink};
 use crate::source::{Sources, Span};
@@ -187,6 +188,7 @@ impl Job<'_> {
             return Err(refusal(&diagnostics, &sources));
         }
         let refused = written.map_err(|error| {
+            let error = in_temporary_folder(error);
             Refused(format!(
                 "error: no room for the translated program: {error}\n"
             ))

@@ -13,6 +13,16 @@ pub fn tell(text: impl Display) {
     let _ = writeln!(io::stderr(), "{text}");
 }
 
+/// The error of a temporary file, with the folder that it was to be in.
+pub(crate) fn in_temporary_folder(error: io::Error) -> io::Error {
+    let folder = std::env::temp_dir();
+    let told = format!(
+        "{}: {error}; temporary files go there: set TMPDIR to a folder that is there and has room",
+        folder.display()
+    );
+    io::Error::new(error.kind(), told)
+}
+
 /// The first of these files that is named twice; devices take what comes as often as it comes.
 #[cfg(feature = "linuxcnc")]
 pub(crate) fn named_twice<'a>(files: &[&'a Option<PathBuf>]) -> Option<&'a Path> {

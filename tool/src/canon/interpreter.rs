@@ -1,10 +1,12 @@
 //! Runs a program through LinuxCNC's interpreter, in a process of its own.
 
 use super::call::Call;
+use super::parameters::{self, ParameterError};
 use super::refusal;
 use super::surroundings::Surroundings;
 use super::timed::Timed;
 use crate::memory_file::MemoryFile;
+use crate::output::in_temporary_folder;
 use crate::path::Position;
 use crate::wiring::same_series::{OtherSeries, check_installed};
 use std::borrow::Cow;
@@ -65,6 +67,9 @@ pub enum CanonError {
         /// How long was waited, s.
         seconds: u64,
     },
+    /// The file of numbered parameters has a line that the interpreter cannot take.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
     /// LinuxCNC is another one than when this command was built.
     #[error(transparent)]
     OtherSeries(#[from] OtherSeries),
@@ -133,7 +138,7 @@ pub fn read_text(name: &str, text: &str, start: &Position) -> Result<Vec<Call>, 
 }
 
 fn home(file: &Path) -> Result<Home, CanonError> {
-    Home::new().map_err(|error| failure(file, error.to_string()))
+    Home::new().map_err(|error| failure(file, in_temporary_folder(error).to_string()))
 }
 
 fn failure(file: &Path, problem: String) -> CanonError {
@@ -159,6 +164,8 @@ pub struct CallStream {
     read: BTreeSet<PathBuf>,
     /// Whether there is an INI file.
     has_ini: bool,
+    /// The file of numbered parameters, if there is one.
+    parameters: Option<PathBuf>,
     /// The interpreter's files, there as long as it runs; after `child`, which ends first.
     _home: Home,
 }
@@ -172,6 +179,9 @@ impl CallStream {
         surroundings: &Surroundings,
     ) -> Result<CallStream, CanonError> {
         check_installed()?;
+        if let Some(file) = &surroundings.parameters {
+            parameters::check(file)?;
+        }
         let unusable = |error: io::Error| failure(file, error.to_string());
         surroundings
             .write(&home.parameters(), &home.settings())
@@ -217,6 +227,7 @@ impl CallStream {
             ended: false,
             read: BTreeSet::new(),
             has_ini: surroundings.ini.is_some(),
+            parameters: surroundings.parameters.clone(),
             _home: home,
         })
     }
@@ -271,27 +282,40 @@ impl CallStream {
             self.read.insert(PathBuf::from(file));
             return self.next_call();
         }
-        let Some(refused) = line.strip_prefix("REFUSED ") else {
-            return Err(self.broken(&line));
-        };
+        match line.strip_prefix("REFUSED ") {
+            Some(refused) => Err(self.refused(refused)),
+            None => Err(self.broken(&line)),
+        }
+    }
+
+    /// What is behind the number of a line and a message of the interpreter.
+    fn refused(&mut self, refused: &str) -> CanonError {
         let (number, message) = refused.split_once(' ').unwrap_or((refused, ""));
         let source = match self.read_line() {
             Ok(Some(source)) => source.into_owned(),
             _ => String::new(),
         };
         let text = source.strip_prefix("SOURCE ").unwrap_or_default();
+        let line = number.parse().unwrap_or(0);
+        if line == 0
+            && message == refusal::NO_SUCH_PARAMETER
+            && let Some(error) = self.parameters.as_deref().and_then(parameters::too_high)
+        {
+            return error.into();
+        }
         let mut message = message.to_owned();
-        if message.contains(GIVES_UP) {
+        // The program is there: it is another file that cannot be opened then.
+        if message.contains(GIVES_UP) || (line == 0 && message == refusal::NO_FILE) {
             message += &self.reasons();
         }
         message += refusal::behind(&message, self.has_ini);
-        Err(CanonError::Refused {
+        CanonError::Refused {
             file: self.file.clone(),
-            line: number.parse().unwrap_or(0),
+            line,
             message,
             text: text.trim_end().to_owned(),
             help: refusal::of_another_control(&self.file),
-        })
+        }
     }
 
     /// Why the interpreter gave up, as it has said beside its refusal, and what to do.
@@ -305,7 +329,7 @@ impl CallStream {
             .iter()
             .map(|line| format!("\n    {}", line.trim_end()))
             .collect();
-        let help = refusal::behind_python(&said);
+        let help = refusal::behind_words(&said);
         match last.is_empty() {
             true => String::new(),
             false => format!(", having said:{last}{help}"),

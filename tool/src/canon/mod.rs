@@ -9,11 +9,12 @@
 //! a tool without length and radius.
 //!
 //! [`call`] are the calls, [`interpreter`] runs a program, and [`refusal`] explains what it refuses;
-//! [`surroundings`] are what it finds around it: INI file, parameters, [`tool_table`]. [`seen_from`] moves the
+//! [`surroundings`] are what it finds around it: INI file, [`parameters`], [`tool_table`]. [`seen_from`] moves the
 //! calls to another zero.
 
 pub mod call;
 pub mod interpreter;
+pub mod parameters;
 mod refusal;
 mod seen_from;
 pub mod surroundings;

@@ -11,6 +11,15 @@ const HEAD: u64 = 1 << 16;
 /// Modules that only LinuxCNC's task controller has for the Python of remaps.
 const OF_TASK: [&str; 2] = ["emccanon", "emctask"];
 
+/// What the interpreter says of a number in the file of parameters, and of one in a program.
+pub const NO_SUCH_PARAMETER: &str = "Parameter number out of range";
+
+/// What it says where it finds none of the files that it is to open.
+pub const NO_FILE: &str = "File not open";
+
+/// What it says beside that of a remapped code.
+const NO_REMAP: &str = "INTERP_REMAP: NGC file not found: ngc=";
+
 /// What is to be said behind a message, which may be nothing.
 pub fn behind(message: &str, has_ini: bool) -> &'static str {
     if message.starts_with("File ended with no percent sign") {
@@ -35,8 +44,22 @@ pub fn behind(message: &str, has_ini: bool) -> &'static str {
     }
 }
 
+/// The same behind what was said beside a message.
+pub fn behind_words(said: &str) -> String {
+    match said.split_once(NO_REMAP) {
+        Some((_, name)) => {
+            let name = name.lines().next().unwrap_or_default().trim();
+            format!(
+                "\n  help: put {name}.ngc into a folder of [DISPLAY]PROGRAM_PREFIX or [RS274NGC]SUBROUTINE_PATH (they count from \
+                 the folder of the INI file); LinuxCNC finds nothing in a folder whose path has a blank"
+            )
+        }
+        None => behind_python(said),
+    }
+}
+
 /// The same behind what Python has said.
-pub fn behind_python(said: &str) -> String {
+fn behind_python(said: &str) -> String {
     let without = "plan with a copy of the INI file without [PYTHON] and the lines REMAP with python=, py=, prolog= or epilog=";
     let missing = said.rsplit_once("No module named '").map(|(_, name)| name);
     let missing = missing.and_then(|name| name.split('\'').next());

@@ -2,6 +2,7 @@
 
 use super::Sources;
 use crate::encoding::{Encoding, Pieces, Words, decode_as};
+use crate::output::in_temporary_folder;
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::Path;
@@ -212,7 +213,8 @@ fn for_each_piece(
 /// The same text in UTF-8.
 fn transcoded(file: &mut File, encoding: Encoding) -> io::Result<File> {
     let mut decoder = encoding.decoder();
-    let mut written = io::BufWriter::new(tempfile::tempfile()?);
+    let made = tempfile::tempfile().map_err(in_temporary_folder)?;
+    let mut written = io::BufWriter::new(made);
     file.seek(SeekFrom::Start(0))?;
     let mut bytes = vec![0; 1 << 16];
     loop {
@@ -235,7 +237,7 @@ fn copied(path: &Path, reading: &Reading) -> Result<File, OpenError> {
     // Already to open a pipe may take for ever. The thread ends with the process.
     std::thread::spawn(move || {
         let copy = || -> io::Result<(File, u64)> {
-            let mut file = tempfile::tempfile()?;
+            let mut file = tempfile::tempfile().map_err(in_temporary_folder)?;
             let mut from = File::open(path)?.take(most.saturating_add(1));
             let length = io::copy(&mut from, &mut file)?;
             Ok((file, length))

@@ -179,3 +179,20 @@ fn a_long_sum_is_refused() {
         accepted(&shop.run_in(dialect, "part.nc", &[]));
     }
 }
+
+#[test]
+fn a_folder_for_temporary_files_that_is_not_there_is_named() {
+    let shop = Shop::new(&[("part.mpf", b"G0 X7\nM30\n")]);
+    let tool = env!("CARGO_BIN_EXE_framepath");
+    let piped = format!("{tool} filter --dialect sinumerik <(cat part.mpf)");
+    let output = Command::new("bash")
+        .args(["-c", &piped])
+        .env("TMPDIR", "/nothing/here")
+        .current_dir(shop.path(""))
+        .output();
+    let shown = refused(&output.expect("bash runs"));
+    assert!(
+        shown.contains("/nothing/here: ") && shown.contains("set TMPDIR"),
+        "{shown}"
+    );
+}

@@ -40,3 +40,68 @@ fn python_in_a_program_is_refused_and_not_run() {
         "{error}"
     );
 }
+
+#[test]
+fn a_line_of_the_parameter_file_is_named() {
+    let bench = Bench::new();
+    let ini = MILL.replace("[RS274NGC]\n", "[RS274NGC]\nPARAMETER_FILE = mill.var\n");
+    bench.write("mill.ini", &ini);
+    bench.write("part.ngc", "G21\nG0 X1\nM2\n");
+    for (parameters, said) in [
+        (
+            "5221\t1\n5161\t2\n",
+            "mill.var:2: parameter 5161 stands behind parameter 5221",
+        ),
+        ("5221\tnan\n", "mill.var:1: parameter 5221 is NaN"),
+        (
+            "5161\t1\n99999\t2\n",
+            "mill.var:2: LinuxCNC has no parameter 99999",
+        ),
+    ] {
+        bench.write("mill.var", parameters);
+        let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+        assert!(error.contains(said), "{error}");
+    }
+    // In a program the same words are of its own line.
+    bench.write("mill.var", "5161\t1\n");
+    bench.write("part.ngc", "G21\n#99999=1\nG0 X1\nM2\n");
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(error.starts_with("part.ngc:2: "), "{error}");
+}
+
+#[test]
+fn a_remap_without_its_file_is_named() {
+    let bench = Bench::new();
+    std::fs::create_dir_all(bench.path().join("with blank/subs")).expect("a folder");
+    bench.write(
+        "with blank/subs/change.ngc",
+        "o<change> sub\no<change> endsub\nM2\n",
+    );
+    bench.write("part.ngc", "G21\nG0 X1\nM2\n");
+    let remap = "[RS274NGC]\nSUBROUTINE_PATH = subs\nREMAP = M6 modalgroup=6 ngc=change\n";
+    bench.write("with blank/mill.ini", &MILL.replace("[RS274NGC]\n", remap));
+    let error = bench.refused(&["part.ngc", "--ini", "with blank/mill.ini"]);
+    assert!(
+        error.contains("NGC file not found: ngc=change")
+            && error.contains("help: put change.ngc into a folder of")
+            && error.contains("whose path has a blank"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_folder_for_temporary_files_that_is_not_there_is_named() {
+    let bench = Bench::new();
+    bench.write("part.ngc", "G21\nG0 X1\nM2\n");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_framepath"))
+        .current_dir(bench.path())
+        .env("TMPDIR", "/nothing/here")
+        .args(["plan", "part.ngc"])
+        .output()
+        .expect("the program runs");
+    let error = crate::bench::refusal(output);
+    assert!(
+        error.contains("/nothing/here: ") && error.contains("set TMPDIR"),
+        "{error}"
+    );
+}
