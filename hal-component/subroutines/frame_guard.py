@@ -23,6 +23,7 @@ import time
 import hal
 import linuxcnc
 
+from frame_gone import GIVE_AGAIN, REMOVED, outputs_taken
 from frame_heart import Heart
 from frame_held import Held
 from frame_look import Look
@@ -30,6 +31,7 @@ from frame_nets import missing_nets
 from frame_offsets import SAME, differ
 from frame_settings import Settings, SettingsError
 from frame_stays import complaint, late_start, work_offset_changed
+from frame_touched import HELD, LEFT, Touched
 
 NAME = "frame-guard"
 
@@ -90,14 +92,22 @@ class Guard:
         self.last = None
         #: why the frame has to go, None if it may stay
         self.due = None
+        #: that of the frame that goes now; None where framekins has removed it before the guard could ask
+        self.reason = None
         #: since when the interpreter has been idle behind a program
         self.ended = None
         #: a frame command came since start-up: before that somebody set the pins by hand
         self.commanded = False
         #: an abort has left a frame suspended, and that was told
         self.told_suspended = False
+        #: what nobody could be told yet
+        self.unsaid = []
         #: the run that is being stopped, so that it is told only once
         self.stopped = False
+        #: the program that runs has written to the outputs of the frames
+        self.overwritten = False
+        #: what was touched off in frames
+        self.touched = Touched()
         #: the offsets when the frame had to go, None while it may stay
         self.offsets = None
         #: since when the frame should have gone, None if it need not; and whether that was told
@@ -128,9 +138,11 @@ class Guard:
             # now somebody is there to read it
             self.check_nets()
             self.checked = True
+        self.speak()
         self.count_programs(now, last)
         self.follow_commands(now, last)
         self.find_due(now, last)
+        self.follow_touch_off(now, last)
         if self.due and not now.has_frame:
             self.due = None
         if now.idle and not now.moving:
@@ -149,6 +161,7 @@ class Guard:
             self.told = False
         else:
             self.offsets = self.offsets or now.offsets
+        self.reason = self.due
         if going:
             self.remove(now)
         if self.pins["releases"] != self.pins["releases-seen"]:
@@ -158,17 +171,30 @@ class Guard:
         self.last = now if now.idle and not later.idle else later
 
     def count_programs(self, now, last):
-        """Counts ends of programs: what subroutines keep for the next block is not for the next program. Only while none runs, or
-        a program would see its own beginning."""
+        """Counts ends of programs: what subroutines keep for the next block is not for the next program. Only while none runs,
+        or a program would see its own beginning."""
         # a short one may come and go between two looks, and leaves the number of the command that started it
         changed = not last.idle or now.serial != last.serial or now.mode != last.mode
         if now.idle and changed and (now.auto or last.auto):
             self.pins["programs-ended"] += 1
 
     def follow_commands(self, now, last):
-        """Whether frames come by commands."""
+        """Whether frames come by commands, and whether a program that runs has written over one."""
         if now.acknowledged != last.acknowledged:
             self.commanded = True
+        runs = not now.idle and not last.idle and now.serial == last.serial
+        if runs and now.command == 0 != last.command and last.has_frame and self.settings.clear_on_abort:
+            # behind an abort nothing runs, and a start is a command
+            self.overwritten = True
+
+    def follow_touch_off(self, now, last):
+        """Tells of offsets that were touched off in a frame when that goes, and stops a program that starts with one, once:
+        where the same numbers are touched off again nothing tells of it."""
+        if self.commanded and self.touched.follow(now):
+            self.tell(LEFT)
+        if self.touched.wrong and now.auto and not now.idle and has_begun(now, last) and not self.stopped:
+            self.touched.wrong = False
+            self.stop(HELD)
 
     def find_due(self, now, last):
         """Whether the frame has to be removed."""
@@ -194,7 +220,7 @@ class Guard:
             if aborted and not setting.clear_on_abort:
                 self.ended = None
             elif time.monotonic() - self.ended >= patience:
-                self.due, self.ended = "end", None
+                self.due, self.ended = self.due or "end", None
 
     def tell_suspended(self, left):
         """Tells once of a frame that an abort has left suspended."""
@@ -233,7 +259,19 @@ class Guard:
         self.tell(reason)
 
     def tell(self, text):
-        self.command.error_msg(f"framepath: {text}")
+        """Of an error."""
+        self.say(self.command.error_msg, text)
+
+    def say(self, send, text):
+        """By error_msg or text_msg. LinuxCNC takes neither while the machine is off: it is said when that is on again."""
+        self.unsaid.append((send, f"framepath: {text}"))
+        self.speak()
+
+    def speak(self):
+        """Says what there is to say."""
+        while self.unsaid and self.status.task_state == linuxcnc.STATE_ON:
+            send, text = self.unsaid.pop(0)
+            send(text)
 
     def wait(self, condition, seconds):
         """Whether the condition came true in time."""
@@ -249,6 +287,10 @@ class Guard:
         """Whether LinuxCNC is in this mode now. Somebody else may choose another one at any moment."""
         self.command.mode(mode)
         return self.wait(lambda: self.look().mode == mode, 0.2)
+
+    def is_last_to_speak(self):
+        """Whether nobody has given LinuxCNC a command behind the guard's last one."""
+        return self.look().serial == self.command.serial
 
     def settle(self):
         """Waits until the position without the frame is in task's own status, where the interpreter reads it."""
@@ -269,17 +311,18 @@ class Guard:
         one that is suspended at once."""
         gone = self.wait(self.is_gone, 0.02)
         if not gone and before.on and before.teleop and not before.moving and self.may_try():
-            # a change in teleop would make the joints jump: leave it for a moment
-            self.mode(linuxcnc.MODE_MDI)
+            # a change in teleop would make the joints jump: leave it for a moment, in the mode that the operator has chosen
+            self.command.teleop_enable(0)
             gone = self.wait(self.is_gone, 0.2)
             if gone:
                 self.read_anew()
-            if self.look().mode == linuxcnc.MODE_MDI:
-                self.mode(linuxcnc.MODE_MANUAL)
+            now = self.look()
+            if now.mode == linuxcnc.MODE_MANUAL and not now.teleop:
+                self.command.teleop_enable(1)
         if gone:
             self.pins["release"] = False
             if self.due == "start":
-                self.command.text_msg("framepath: the frame is removed, programs start without one")
+                self.say(self.command.text_msg, "the frame is removed, programs start without one")
             self.due = None
         elif not before.moving:
             self.complain(complaint())
@@ -302,29 +345,40 @@ class Guard:
     def read_anew(self):
         """Makes the interpreter read its position without the frame. Until then framekins holds the machine."""
         releases = self.pins["releases"]
+        if self.reason in {None, "abort"} and not self.overwritten:
+            self.say(self.command.text_msg, REMOVED)
         self.settle()
         # held as the machine is, what has begun can wait; an abort may still be on its way to the status
+        why = outputs_taken(self.settings.analog_output) if self.overwritten else GIVE_AGAIN
         if not self.wait(lambda: self.look().idle, SETTLING + 3 * self.settings.task_cycle):
-            self.stop("a command was given while the frame was being removed: give it again, start the program again")
+            self.stop(why)
             self.wait(lambda: self.look().idle, 1.0)
+        elif self.overwritten:
+            self.tell(why)
+        self.overwritten = False
         now = self.look()
         if now.on and now.auto:
-            # in AUTO LinuxCNC accepts nothing but a start; in another mode no program can start meanwhile
-            between = linuxcnc.MODE_MANUAL if self.settings.screen_aborts_mdi else linuxcnc.MODE_MDI
-            if not self.mode(between):
-                # a program was started since that look, and LinuxCNC refuses the change: the next step stops it
-                self.complain("the frame is gone, and LinuxCNC does not leave AUTO so that its position can be read "
-                              "anew: the machine is held until then; choose MDI mode, then AUTO again")
-                return
-            self.put_offsets_back()
-            # unless a screen has chosen another mode meanwhile; going to AUTO reads the position, too
-            if self.look().mode == between:
-                self.mode(linuxcnc.MODE_AUTO)
+            # to go to AUTO once more reads it, too: in any other mode what somebody gives in MDI meanwhile would be lost by
+            # going back
+            self.command.mode(linuxcnc.MODE_AUTO)
         else:
             self.command.task_plan_synch()
-            self.wait(lambda: self.command.wait_complete(0.02) != -1, 1.0)
-            self.put_offsets_back()
+        ours = self.command.serial
+        self.wait(lambda: self.command.wait_complete(0.02) != -1, 1.0)
+        if ours != now.serial + 1:
+            self.tell_overtaken()
+        self.put_offsets_back()
         self.pins["releases-seen"] = releases
+
+    def tell_overtaken(self):
+        """Of a command by somebody else that came between the last look and the guard's own: what still runs was planned from
+        the position in the frame, and to go to AUTO has ended it."""
+        now = self.look()
+        if not now.idle:
+            self.stop(GIVE_AGAIN)
+            self.wait(lambda: self.look().idle, 1.0)
+        elif now.auto:
+            self.tell(GIVE_AGAIN)
 
     def put_offsets_back(self):
         """Offsets that were set while the frame had to go belong to positions in it."""
@@ -335,12 +389,13 @@ class Guard:
             self.tell("G92 or G52 was set while a frame had to go, from a position in the frame: set it again")
         if now.offsets.was_set_since(before):
             words = before.command(self.status, self.settings.units_per_mm)
-            if now.on and now.mode != linuxcnc.MODE_AUTO:
+            if now.on:
                 back = now.mode
                 if back == linuxcnc.MODE_MDI or self.mode(linuxcnc.MODE_MDI):
                     self.command.mdi(words)
                     self.wait(lambda: not self.look().offsets.was_set_since(before), 1.0)
-                    if back != linuxcnc.MODE_MDI:
+                    # unless somebody has given a command meanwhile, which another mode would end
+                    if back != linuxcnc.MODE_MDI and self.is_last_to_speak():
                         self.mode(back)
             done = not self.look().offsets.was_set_since(before)
             self.tell("a work offset was set while a frame had to go, from a position in the frame: "

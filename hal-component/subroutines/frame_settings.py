@@ -105,8 +105,7 @@ class Settings:
     """What the INI file says, checked. Attributes: the keys of [FRAMEPATH] in lower case, and
 
     units_per_mm: machine units in a millimetre; axes: which of X = 1, Y = 2 and Z = 4 there are, as a sum;
-    tool_change_moves: whether M6 goes to a place of the machine; task_cycle: period of LinuxCNC's task, s;
-    screen_aborts_mdi: whether the screen aborts what others do in MDI right behind a program.
+    tool_change_moves: whether M6 goes to a place of the machine; task_cycle: period of LinuxCNC's task, s.
     """
 
     #: one of the keys, which are set by their names; a type checker learns of it here
@@ -137,7 +136,6 @@ class Settings:
         self.axes = _linear_axes(ini)
         self.tool_change_moves = _tool_change_moves(ini)
         self.task_cycle = _task_cycle(ini)
-        self.screen_aborts_mdi = _aborts_mdi(ini)
         self._ini = ini
         _require(ini, "OWORD_NARGS", "1", "without it the subroutines cannot tell a missing value from 0")
         if self.clear_on_abort:
@@ -209,12 +207,6 @@ def _task_cycle(ini):
         return min(1.0, max(0.001, float(text)))
     except (TypeError, ValueError):
         return 0.1  # LinuxCNC's own default
-
-
-def _aborts_mdi(ini):
-    """gmoccapy aborts MDI and complains where it has not seen yet that the program has ended."""
-    display, _ = ini.find("DISPLAY", "DISPLAY")
-    return "gmoccapy" in (display or "")
 
 
 def _require(ini, key, wanted, why):

@@ -307,8 +307,8 @@ class Operator:
         self.wait_for("the jog", lambda: abs(self.status.position[axis] - before - distance) < 1e-4, 20)
         self.sleep(0.1)
 
-    def run_as_a_screen(self, program):
-        """Runs a program as AXIS does: the moment it has ended, manual mode is asked for."""
+    def run_to_idle(self, program):
+        """Runs a program, and returns the moment its interpreter is idle."""
         self.start(program)
         limit = time.monotonic() + TIMEOUT
         while self.status.interp_state != linuxcnc.INTERP_IDLE:
@@ -316,7 +316,33 @@ class Operator:
                 raise Failure("timed out waiting for the end of the program")
             time.sleep(0.0005)
             self.poll()
+
+    def run_as_a_screen(self, program):
+        """Runs a program as AXIS does: the moment it has ended, manual mode is asked for."""
+        self.run_to_idle(program)
         self.command.mode(linuxcnc.MODE_MANUAL)
+
+    def mdi_behind(self, program, seconds, line):
+        """Gives a line of MDI so many seconds behind a program's end, once, and waits until that is over or lost."""
+        self.run_to_idle(program)
+        time.sleep(seconds)
+        self.command.mode(linuxcnc.MODE_MDI)
+        self.command.wait_complete()
+        self.command.mdi(line)
+        self.command.wait_complete(5)
+        self.sleep(0.4)
+        self.finish()
+
+    def jog_behind(self, program, seconds, axis, velocity, distance):
+        """Jogs an axis so many seconds behind a program's end, once."""
+        self.run_to_idle(program)
+        time.sleep(seconds)
+        self.command.mode(linuxcnc.MODE_MANUAL)
+        self.command.wait_complete()
+        self.command.teleop_enable(1)
+        self.command.wait_complete()
+        self.jog(axis, velocity, distance)
+        self.sleep(0.4)
 
     def touch_off(self, words):
         """Touch Off as a screen does it: G10 L20 for the work offset in force, and manual mode again."""

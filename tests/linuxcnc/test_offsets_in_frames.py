@@ -147,13 +147,37 @@ class TouchingOff(Case):
         steps = []
         texts = {"g10": "G10 L20 P1 X0 Y0 Z0\n", "g92": "G92 X0 Y0 Z0\n"}
         for name in texts:
-            steps += [["forget"], run(name), OFF, KNOWN, ["recall", name]]
+            steps += [["forget"], run(name), OFF, KNOWN, ["sleep", 0.1], ["recall", name], ["mdi", "G92.1"],
+                      ["mdi", "G10 L2 P1 X0 Y0 Z0"]]
         result = harness.run(steps, programs(**{name: f"{self.FRAME}{words}G1 X-60\nM2\n" for name, words in texts.items()}))
         self.fine(result)
         for name in texts:
             said = "\n".join(result.answers[name])
             self.assertIn("work offset has changed", said, name)
             self.assertIn("o<frame_suspend> before it and o<frame_resume> behind it", said, name)
+
+    def test_what_outlives_its_frame_is_told_and_holds_a_program_once(self):
+        frame = [["mdi", "G53 G0 X10 Y20"], ["mdi", "o<rot> call [0] [0] [90]"], ["forget"]]
+        touched = [["touch_off", "X0 Y0"], ["sleep", 0.1]]
+        start = [["forget"], ["start", "PROGRAMS/part.ngc"], ["sleep", 0.5], ["finish"]]
+        back = [["mdi", "G10 L2 P1 X0 Y0 Z0"]]
+        result = harness.run([
+            *frame, *touched, ["switch_mode", "auto"], OFF, KNOWN, ["sleep", 0.1], ["recall", "gone"], *start,
+            ["recall", "held"], ["note", "held place"], *start, ["recall", "meant"], *back,
+            *frame, *touched, ["abort"], OFF, KNOWN, ["sleep", 0.1], ["recall", "aborted"], *back, *start, ["recall", "anew"],
+            # taken over, or put back as it was
+            *frame, *touched, ["mdi", "o<frame_refresh> call"], ["switch_mode", "auto"], OFF, KNOWN, *start,
+            ["recall", "refreshed"],
+            *back, *frame, *touched, *back, ["switch_mode", "auto"], OFF, KNOWN, *start, ["recall", "back"],
+        ], programs(part="G1 X15 Y0 F600\nM2\n"))
+        self.fine(result)
+        for name in ("gone", "aborted"):
+            self.assertIn("was set in a frame that is gone now", "\n".join(result.answers[name]), name)
+        self.assertIn("was touched off in a frame that is gone", "\n".join(result.answers["held"]))
+        # G10 L20 has set the zero to X20 Y-10: it has hardly begun to go there
+        self.assertGreater(result.answers["held place"]["joints"][1], 15)
+        for name in ("meant", "anew", "refreshed", "back"):
+            self.assertEqual(result.answers[name], [], name)
 
     def steps(self, touched, follower, *between):
         """A name, and steps in MDI: a frame, what is set in it, a command for frames."""

@@ -166,6 +166,36 @@ class EndOfAFrame(Case):
         self.assertLess(max(y) - min(y), 1e-9)
 
 
+class BehindAProgram(Case):
+    """What is given right behind the end of a program with a frame: it is done, or the operator is told that it was not."""
+
+    PROGRAM: ClassVar = {"part": "o<rot> call [0] [0] [0]\nG0 X1 Z0\nG1 X2 F3000\nM2\n"}
+    #: s behind the end
+    DELAYS = tuple(0.004 * n for n in range(20))
+
+    def lost(self, step, joint, place):
+        """Of how many nothing came, of which none may be lost without a word."""
+        steps: list[list] = []
+        for delay in self.DELAYS:
+            name = f"{delay:.3f}"
+            steps += [["forget"], [step[0], "PROGRAMS/part.ngc", delay, *step[1:]], ["recall", f"{name} said"], ["note", name]]
+        result = watched(steps, self.PROGRAM)
+        self.fine(result)
+        lost = 0
+        for delay in self.DELAYS:
+            name = f"{delay:.3f}"
+            if abs(result.answers[name]["joints"][joint] - place) > 1e-3:
+                lost += 1
+                self.assertIn("give it again", "\n".join(result.answers[f"{name} said"]), name)
+        return lost
+
+    def test_a_line_of_mdi(self):
+        self.assertLessEqual(self.lost(["mdi_behind", "G0 X20"], 0, 20), 4)
+
+    def test_a_jog(self):
+        self.assertLessEqual(self.lost(["jog_behind", 2, 50, 5], 2, 5), 4)
+
+
 class WorkOffsets(Case):
     def test_one_that_is_set_while_a_frame_has_to_go_is_put_back(self):
         # without the net motion is never seen to stand, and the frame cannot go
