@@ -24,8 +24,12 @@ KNOWN_TO_MOTION = (2, 10)
 def missing_nets():
     """What to tell of each that is missing."""
     nets = [*NETS, *nets_of_external_offsets()]
-    return [f"{pin} is not linked, and so {loss}: write into the HAL file: {net}"
-            for pin, net, loss in nets if not hal.pin_has_writer(pin)]
+    return [told(*net) for net in nets if not hal.pin_has_writer(net[0])]
+
+
+def told(pin, net, loss):
+    """What to tell of one that is missing."""
+    return f"{pin} is not linked, and so {loss}: write into the HAL file: {net}"
 
 
 def nets_of_external_offsets():

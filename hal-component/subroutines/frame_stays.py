@@ -5,8 +5,8 @@ import hal
 #: framekins.refusal: the kinematics of inner= would let the joints jump
 OTHER_JOINTS = 19
 
-JUMP = ("the kinematics of inner= would let the joints jump where the machine is: go where they do not, in MDI (an arm: bend "
-        "its wrist; maxkins: G0 B0 or G0 C0), and it goes")
+JUMP = ("the joints of inner= would jump where the machine is: go where they do not, in MDI (an arm: bend its wrist; maxkins: "
+        "G0 B0 or G0 C0)")
 
 #: and external offsets move the axes, or a pin for them says what they are not
 OFFSETS_MOVE, UNKNOWN_OFFSET = 21, 22
@@ -28,7 +28,7 @@ def would_jump():
 
 def complaint():
     """Of a frame that framekins does not remove."""
-    return ("the frame has to go, and framekins does not remove it: neither touch off nor start a program; "
+    return ("the frame has to go, and framekins does not remove it: do not touch off nor start a program; "
             + REASONS.get(hal.get_value("framekins.refusal"), NETS))
 
 

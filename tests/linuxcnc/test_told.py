@@ -1,5 +1,8 @@
-"""What frame_guard tells the operator: of every frame that goes before its program ends."""
+"""What frame_guard tells the operator: of every frame that goes before its program ends, and in words that arrive whole."""
 
+import ast
+import glob
+import os
 import unittest
 
 import harness
@@ -8,7 +11,58 @@ from test_operation import KNOWN, OFF, ON, Case, programs, run
 
 # isort: split
 # test_operation has put its folder into the path
-from frame_gone import REMOVED
+import frame_nets
+import frame_stays
+from frame_gone import REMOVED, outputs_taken
+
+#: letters of a message that LinuxCNC passes on
+LETTERS = 254
+
+#: what frame_guard writes in front of each
+PREFIX = "framepath: "
+
+#: letters that a value in a text has; those with longer ones are put together below
+VALUE = 10
+
+
+def literals(path):
+    """The texts in a file, without those that explain it."""
+    with open(path, encoding="utf-8") as file:
+        tree = ast.parse(file.read())
+    explained = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in explained:
+            yield node.value
+        elif isinstance(node, ast.JoinedStr):
+            yield "".join(part.value if isinstance(part, ast.Constant) else "#" * VALUE for part in node.values)
+
+
+class Words(unittest.TestCase):
+    def fits(self, text):
+        self.assertLessEqual(len(PREFIX + text), LETTERS, text)
+
+    def test_each_text_arrives_whole(self):
+        files = glob.glob(os.path.join(harness.SAMPLES, "subroutines", "frame_*.py"))
+        texts = [text for path in files if not path.endswith("frame_settings.py") for text in literals(path)]
+        self.assertGreater(len(texts), 50)
+        for text in [*texts, outputs_taken(55)]:
+            self.fits(text)
+
+    def test_those_that_are_put_together_too(self):
+        value = frame_stays.hal.get_value
+        try:
+            for refusal in (0, *frame_stays.REASONS):
+                frame_stays.hal.get_value = lambda _, refusal=refusal: refusal
+                self.fits(frame_stays.complaint())
+                for one in (False, True):
+                    self.fits(frame_stays.work_offset_changed(one))
+                    for other in (False, True):
+                        self.fits(frame_stays.late_start(one, other))
+        finally:
+            frame_stays.hal.get_value = value
+        for pin, net, loss in frame_nets.NETS:
+            self.fits(frame_nets.told(pin, net, loss))
+
 
 class Removed(Case):
     def test_by_whatever_but_the_end_of_its_program(self):
