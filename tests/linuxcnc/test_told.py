@@ -91,5 +91,14 @@ class Removed(Case):
         self.assertLess(result.answers["m68 place"]["joints"][1], 15)
 
 
+class ToolChange(Case):
+    def test_with_cutter_compensation_on(self):
+        result = harness.run([["forget"], run("part"), OFF, KNOWN, ["recall", "said"]],
+                             programs(part="o<rot> call [0] [0] [90]\nG41.1 D1\nG1 X10 Y5\nT1 M6\nM2\n"), ini=QUICK,
+                             record=False)
+        self.fine(result)
+        self.assertIn("M6 takes the frame off for the tool change", "\n".join(result.answers["said"]))
+
+
 if __name__ == "__main__":
     unittest.main()
