@@ -3,7 +3,7 @@
 
 use super::ConfigureArguments;
 use super::edits::Edits;
-use super::{inner, subroutines, unread};
+use super::{inner, subroutines, twopass, unread};
 use crate::hal::Stock;
 use crate::wiring::codes::{CODES, Remap};
 use crate::wiring::framekins::{
@@ -58,14 +58,7 @@ pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edit
 /// What is linked and loaded has to be known.
 fn readable(subject: &Subject, edits: &mut Edits) {
     unread::refuse(subject, edits);
-    if subject.text("HAL", "TWOPASS").is_some() {
-        let place = subject.place_of("HAL", "TWOPASS");
-        edits.refuse(
-            &place,
-            "with TWOPASS HAL files run in another order",
-            "remove TWOPASS, or do without --frames",
-        );
-    }
+    twopass::refuse(subject, edits);
     if !subject.has_linear_units() {
         let place = subject.place_of("TRAJ", "LINEAR_UNITS");
         edits.refuse(

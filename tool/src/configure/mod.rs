@@ -9,6 +9,7 @@ mod frames;
 mod inner;
 mod planner;
 mod subroutines;
+mod twopass;
 mod unread;
 
 pub use error::{ConfigureError, Refusal};

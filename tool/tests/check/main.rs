@@ -4,6 +4,7 @@ mod above_joints;
 mod bench;
 mod configure;
 mod configure_refusals;
+mod configure_twopass;
 #[path = "../common/fields.rs"]
 mod fields;
 mod findings;
