@@ -4,6 +4,7 @@ use super::error::{ConfigureError, Refusal};
 use crate::machine::IniError;
 use crate::machine::ini::{Entry, Ini};
 use crate::machine::place::Place;
+use crate::machine::text_file;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -46,8 +47,9 @@ pub struct Edits<'a> {
     /// Of a HAL file that comes before all others.
     first_hal: Vec<String>,
     refusals: Vec<Refusal>,
-    /// What comes from included files: the first place of each file, and the names.
-    included: Vec<(Place, Vec<String>)>,
+    warnings: Vec<String>,
+    /// Whether a line that comes from an included file would change.
+    changes_included: bool,
 }
 
 /// What is to be written.
@@ -58,6 +60,8 @@ pub struct Written {
     pub hal: String,
     /// The one before the others.
     pub first_hal: Option<String>,
+    /// What the user is told.
+    pub warnings: Vec<String>,
 }
 
 impl<'a> Edits<'a> {
@@ -73,7 +77,8 @@ impl<'a> Edits<'a> {
             hal: Vec::new(),
             first_hal: Vec::new(),
             refusals: Vec::new(),
-            included: Vec::new(),
+            warnings: Vec::new(),
+            changes_included: false,
         }
     }
 
@@ -86,14 +91,9 @@ impl<'a> Edits<'a> {
         });
     }
 
-    /// A section, or a key, of an included file would change: one refusal for each file says all of them.
-    fn refuse_included(&mut self, place: &Place, name: String) {
-        let mut files = self.included.iter_mut();
-        match files.find(|(first, _)| first.file == place.file) {
-            Some((_, names)) if names.contains(&name) => {}
-            Some((_, names)) => names.push(name),
-            None => self.included.push((place.clone(), vec![name])),
-        }
+    /// Something is taken that the configuration does not say.
+    pub fn warn(&mut self, text: String) {
+        self.warnings.push(text);
     }
 
     /// A line of the HAL file.
@@ -132,19 +132,25 @@ impl<'a> Edits<'a> {
 
     fn replace(&mut self, entry: &Entry, line: &str) {
         let place = &entry.place;
-        let goes_on = self
-            .lines
-            .get(place.line - 1)
-            .is_some_and(|line| line.trim_end().ends_with('\\'));
-        if &*place.file != self.ini.file() {
-            let name = format!("[{}]{}", entry.section, entry.key);
-            self.refuse_included(place, name);
-        } else if goes_on {
+        if self.goes_on(place) {
             let found = format!("{} goes on in the next line", entry.key);
             self.refuse(place, found, "write it in one line");
+        } else if &*place.file != self.ini.file() {
+            self.changes_included = true;
         } else {
             self.replaced.insert(place.line, line.to_owned());
         }
+    }
+
+    /// Whether the line at this place ends in a backslash.
+    fn goes_on(&self, place: &Place) -> bool {
+        let index = place.line.saturating_sub(1);
+        let ends = |line: &str| line.trim_end().ends_with('\\');
+        if &*place.file == self.ini.file() {
+            return self.lines.get(index).is_some_and(|line| ends(line));
+        }
+        let text = text_file::read(&place.file).unwrap_or_default();
+        text.lines().nth(index).is_some_and(ends)
     }
 
     /// Adds a key behind the last one of this name, else at the end of the section.
@@ -175,7 +181,8 @@ impl<'a> Edits<'a> {
         let last = named.or(entries.next_back());
         let place = last.map_or(&heading.place, |entry| &entry.place).clone();
         if &*place.file != self.ini.file() {
-            return self.refuse_included(&place, format!("[{section}]"));
+            self.changes_included = true;
+            return;
         }
         let goes_on = |line: &usize| {
             self.lines
@@ -191,22 +198,13 @@ impl<'a> Edits<'a> {
     /// The new files.
     ///
     /// # Errors
-    /// What is in the way.
-    pub fn finish(mut self) -> Result<Written, ConfigureError> {
-        for (place, names) in std::mem::take(&mut self.included) {
-            let (come, them) = match names.len() {
-                1 => ("comes", "it"),
-                _ => ("come", "them"),
-            };
-            let found = format!(
-                "{} {come} from an included file, which is not changed",
-                names.join(", ")
-            );
-            let help = format!("move {them} to {}", self.ini.file().display());
-            self.refuse(&place, found, help);
-        }
+    /// What is in the way, and [`ConfigureError::Included`] where nothing else is.
+    pub fn finish(self) -> Result<Written, ConfigureError> {
         if !self.refusals.is_empty() {
             return Err(ConfigureError::Refused(self.refusals));
+        }
+        if self.changes_included {
+            return Err(ConfigureError::Included);
         }
         let mut text = String::new();
         for (index, line) in self.lines.iter().enumerate() {
@@ -231,6 +229,7 @@ impl<'a> Edits<'a> {
             ini: text,
             hal: format!("{HEAD}{}\n", self.hal.join("\n")),
             first_hal: is_needed.then(|| format!("{FIRST_HEAD}{}\n", self.first_hal.join("\n"))),
+            warnings: self.warnings,
         })
     }
 }

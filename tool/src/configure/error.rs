@@ -35,6 +35,9 @@ pub enum ConfigureError {
     /// All that is in the way.
     #[error("{}", lines(.0))]
     Refused(Vec<Refusal>),
+    /// Lines of included files would change, which first have to be in the INI file.
+    #[error("lines of included files would change")]
+    Included,
     /// A file of this name is there.
     #[error("{}: error: this file is there already\n  help: --force replaces it", .0.display())]
     Exists(PathBuf),

@@ -6,6 +6,7 @@
 mod edits;
 mod error;
 mod frames;
+mod included;
 mod inner;
 mod planner;
 mod subroutines;
@@ -21,7 +22,7 @@ use crate::machine::jerk::Jerk;
 use crate::output::{OutputFile, overwrites};
 use crate::wiring::own_files;
 use crate::wiring::subject::Subject;
-use edits::Edits;
+use edits::{Edits, Written};
 use similar::TextDiff;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -60,14 +61,15 @@ pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
     let subject = Subject::new(ini, problems, script);
     let [ini_file, hal_file, first_file] =
         [".ini", ".hal", "-first.hal"].map(|ending| beside(&arguments.ini, ending));
-    let mut edits = Edits::new(&subject.ini, &text);
-    planner::write(&subject, arguments, &mut edits);
-    if arguments.frames {
-        frames::write(&subject, arguments, &mut edits);
-    }
-    edits.name_first_hal(&name_of(&first_file));
-    edits.add_last("HAL", "HALFILE", &name_of(&hal_file));
-    let written = edits.finish()?;
+    let edited =
+        |subject: &Subject, text: &str| edited(subject, text, arguments, &[&first_file, &hal_file]);
+    let written = match edited(&subject, &text) {
+        Err(ConfigureError::Included) => {
+            let whole = included::put_in(&subject)?;
+            edited(&whole, subject.ini.expanded().unwrap_or_default())?
+        }
+        written => written?,
+    };
     let mut files = vec![(&ini_file, &written.ini), (&hal_file, &written.hal)];
     files.extend(written.first_hal.as_ref().map(|text| (&first_file, text)));
     let there = files.iter().find(|(file, _)| file.exists());
@@ -89,6 +91,7 @@ pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
     let begun = begun?;
     let new = files.iter().skip(1);
     crate::machine::warn_of(&above_joints(&subject));
+    crate::machine::warn_of(&written.warnings);
     let difference = difference(&arguments.ini, &text, &ini_file, &written.ini)
         + &new
             .map(|(file, text)| difference(Path::new("/dev/null"), "", file, text))
@@ -104,6 +107,23 @@ pub fn run(arguments: &ConfigureArguments) -> Result<(), ConfigureError> {
         finished.map_err(|source| ConfigureError::Write { file: name, source })?;
     }
     Ok(())
+}
+
+/// What is to be written, with the HAL files before and behind the others.
+fn edited(
+    subject: &Subject,
+    text: &str,
+    arguments: &ConfigureArguments,
+    [first, last]: &[&Path; 2],
+) -> Result<Written, ConfigureError> {
+    let mut edits = Edits::new(&subject.ini, text);
+    planner::write(subject, arguments, &mut edits);
+    if arguments.frames {
+        frames::write(subject, arguments, &mut edits);
+    }
+    edits.name_first_hal(&name_of(first));
+    edits.add_last("HAL", "HALFILE", &name_of(last));
+    edits.finish()
 }
 
 /// Limits of axes above those of their joints, which the new configuration has as well: `check` says the same of it.

@@ -3,6 +3,8 @@
 use super::ConfigureArguments;
 use super::edits::Edits;
 use crate::machine::angles;
+use crate::machine::configuration::{DEFAULT_LIMIT, taken_instead, unit_of};
+use crate::machine::jerk::Jerk;
 use crate::machine::numbers;
 use crate::machine::place::Place;
 use crate::wiring::USUAL_JERK;
@@ -101,41 +103,53 @@ fn jerk(subject: &Subject, letter: char, arguments: &ConfigureArguments, edits: 
     if subject.state.settings.contains_key(&pin) || subject.state.signal_of(&pin).is_some() {
         return;
     }
-    edits.add_hal(jerk_line(letter));
     if subject.text(&section, "MAX_JERK").is_some() {
+        edits.add_hal(jerk_line(letter));
         return own_jerk(subject, &section, edits);
     }
-    match subject
-        .number(&section, "MAX_ACCELERATION")
-        .filter(|acceleration| *acceleration > 0.0)
-    {
-        Some(acceleration) => {
-            let jerk = arguments.jerk.of_axis(acceleration);
-            if jerk > 0.0 && jerk < least_jerk(acceleration) {
-                let found = format!(
-                    "--jerk {} lets nothing move: {}",
-                    arguments.jerk,
-                    needed(&section, acceleration)
-                );
-                let place = subject.place_of(&section, "MAX_ACCELERATION");
-                edits.refuse(
-                    &place,
-                    found,
-                    "--jerk 20A, which is usual, or --jerk unlimited",
-                );
-            }
+    let Some(acceleration) = acceleration(subject, letter, arguments.jerk, edits) else {
+        return;
+    };
+    let jerk = arguments.jerk.of_axis(acceleration);
+    if jerk > 0.0 && jerk < least_jerk(acceleration) {
+        let found = format!(
+            "--jerk {} lets nothing move: {}",
+            arguments.jerk,
+            needed(&section, acceleration)
+        );
+        let place = subject.place_of(&section, "MAX_ACCELERATION");
+        let help = "--jerk 20A, which is usual, or --jerk unlimited";
+        edits.refuse(&place, found, help);
+    }
+    // LinuxCNC checks the limits of axes that have a section against those of their joints, and does not start where a new one has none.
+    match subject.ini.has_section(&section) {
+        true => {
+            edits.add_hal(jerk_line(letter));
             edits.add_last(&section, "MAX_JERK", &jerk.to_string());
         }
-        None => {
-            let place = subject.place_of(&section, "MAX_ACCELERATION");
-            let found = format!("[{section}]MAX_ACCELERATION is missing or no number above 0");
-            edits.refuse(
-                &place,
-                found,
-                format!("write it under [{section}], machine units per second squared"),
-            );
-        }
+        false => edits.add_hal(format!("setp {pin} {jerk}")),
     }
+}
+
+/// The acceleration of an axis: where the INI file gives none, what LinuxCNC takes, with a warning if the jerk comes from it. One that
+/// is no number above 0 is refused: LinuxCNC does not start, or nothing moves.
+fn acceleration(subject: &Subject, letter: char, jerk: Jerk, edits: &mut Edits) -> Option<f64> {
+    let (section, key) = (format!("AXIS_{letter}"), "MAX_ACCELERATION");
+    let Some(entry) = subject.ini.entry(&section, key) else {
+        if matches!(jerk, Jerk::Accelerations(_)) {
+            let unit = unit_of(letter, subject.length_unit().unwrap_or("machine units"));
+            let unit = format!("{unit}/s2");
+            edits.warn(taken_instead(&subject.ini, &section, key, &unit, "1000"));
+        }
+        return Some(DEFAULT_LIMIT);
+    };
+    let acceleration = numbers::number(entry).filter(|number| *number > 0.0);
+    if acceleration.is_none() {
+        let found = format!("[{section}]{key} = {} is no number above 0", entry.raw);
+        let help = format!("{key} = a number alone, machine units per second squared");
+        edits.refuse(&entry.place, found, help);
+    }
+    acceleration
 }
 
 /// The limit of jerk that the configuration has already, which nothing has used so far.

@@ -143,7 +143,8 @@ pub(crate) fn is_rotary(letter: char) -> bool {
     matches!(letter, 'A' | 'B' | 'C')
 }
 
-fn unit_of(letter: char, length_unit: &'static str) -> &'static str {
+/// The unit of an axis: degrees, or that of lengths.
+pub(crate) fn unit_of(letter: char, length_unit: &'static str) -> &'static str {
     if is_rotary(letter) {
         "deg"
     } else {
@@ -177,7 +178,7 @@ fn joint(
 }
 
 /// What LinuxCNC takes for a velocity or acceleration of an axis or a joint that the INI file does not give.
-const DEFAULT_LIMIT: f64 = 1.0;
+pub(crate) const DEFAULT_LIMIT: f64 = 1.0;
 
 /// Stands for a velocity or acceleration that is infinite, which LinuxCNC takes as well: no machine reaches it.
 pub const UNLIMITED: f64 = 1e9;
@@ -193,10 +194,8 @@ fn limits(
     let mut limit = |key: &str, seconds: &str, example: &str| match ini.text(section, key) {
         Some(_) => ini.required_positive(section, key, ""),
         None => {
-            let remedy = format!(
-                "LinuxCNC takes {DEFAULT_LIMIT} {unit}/{seconds} then, and so does this: write for example {key} = {example}"
-            );
-            assumed.push(ini.missing(section, key, &remedy).to_string());
+            let unit = format!("{unit}/{seconds}");
+            assumed.push(taken_instead(ini, section, key, &unit, example));
             Ok(DEFAULT_LIMIT)
         }
     };
@@ -206,6 +205,20 @@ fn limits(
         jerk: ini.optional_limit(section, "MAX_JERK")?.or(other_jerk),
     };
     Ok((limits, assumed))
+}
+
+/// What is said of a velocity or an acceleration that is missing, which LinuxCNC has all the same.
+pub(crate) fn taken_instead(
+    ini: &Ini,
+    section: &str,
+    key: &str,
+    unit: &str,
+    example: &str,
+) -> String {
+    let remedy = format!(
+        "LinuxCNC takes {DEFAULT_LIMIT} {unit} then, and so does this: write for example {key} = {example}"
+    );
+    ini.missing(section, key, &remedy).to_string()
 }
 
 #[cfg(test)]

@@ -10,6 +10,33 @@ pub(super) fn included(line: &str) -> Option<&str> {
     is_word.then(|| rest.trim())
 }
 
+/// The text of an INI file with the files that it includes in it, whose folder is that of `ini`: what an included file includes is
+/// a comment, as is a file that is not there; `None` if it includes none.
+pub(super) fn put_in(ini: &Path, text: &str) -> Option<String> {
+    let is_include = |line: &str| included(line.trim()).is_some();
+    if !text.lines().any(is_include) {
+        return None;
+    }
+    let comment = |line: &str| match is_include(line) {
+        true => format!("# {line}\n"),
+        false => format!("{line}\n"),
+    };
+    let mut expanded = String::new();
+    for line in text.split_terminator('\n') {
+        match included(line.trim()).map(|name| read(ini, name)) {
+            None => expanded.push_str(&format!("{line}\n")),
+            Some(Err(_)) => expanded.push_str(&comment(line)),
+            Some(Ok((path, content))) => {
+                let name = path.display();
+                expanded.push_str(&format!("#*** Begin #INCLUDE file: {name}\n"));
+                expanded.extend(content.split_terminator('\n').map(comment));
+                expanded.push_str(&format!("#*** End   #INCLUDE file: {name}\n"));
+            }
+        }
+    }
+    Some(expanded)
+}
+
 /// Why a file is not there.
 pub(super) enum NotIncluded {
     /// For LinuxCNC neither.

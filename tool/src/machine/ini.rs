@@ -48,6 +48,7 @@ pub struct Ini {
     entries: Vec<Entry>,
     headings: Vec<Heading>,
     passed_over: Vec<String>,
+    expanded: Option<String>,
 }
 
 impl Ini {
@@ -99,6 +100,7 @@ impl Ini {
                 entries: Vec::new(),
                 headings: Vec::new(),
                 passed_over: Vec::new(),
+                expanded: include::put_in(file, text),
             },
             problems: Vec::new(),
             section: None,
@@ -115,6 +117,12 @@ impl Ini {
     /// The lines that LinuxCNC passes over: for the user to be told.
     pub fn passed_over(&self) -> &[String] {
         &self.passed_over
+    }
+
+    /// The text with that of the files that it includes, which LinuxCNC's programs get in place of the file; `None` if it includes
+    /// none, and they get the file itself.
+    pub fn expanded(&self) -> Option<&str> {
+        self.expanded.as_deref()
     }
 
     /// All keys, also those that LinuxCNC does not read.

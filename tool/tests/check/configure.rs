@@ -380,7 +380,7 @@ fn files_that_are_there_are_replaced_by_force_only() {
 
 /// A change of axis_mm, options, and the line that refuses it.
 /// From, to, options, and what is said: LINE is that of the first line of what was written, another one in each LinuxCNC.
-const REFUSED: [(&str, &str, &[&str], &str); 9] = [
+const REFUSED: [(&str, &str, &[&str], &str); 8] = [
     (
         "KINEMATICS = trivkins",
         "KINEMATICS =",
@@ -424,12 +424,6 @@ const REFUSED: [(&str, &str, &[&str], &str); 9] = [
         "axis_mm.ini:LINE:1: error: this configuration has blendtp already",
     ),
     (
-        "COORDINATES = X Y Z",
-        "COORDINATES = X Y Z C",
-        &[],
-        "axis_mm.ini: error: [AXIS_C]MAX_ACCELERATION is missing",
-    ),
-    (
         "VERSION = 1.1",
         "VERSION = 1.0",
         &[],
@@ -455,20 +449,6 @@ fn what_cannot_be_configured_is_refused_by_name() {
         assert!(output.stdout.is_empty());
         assert!(!folder.path().join("axis_mm-framepath.ini").exists());
     }
-}
-
-#[test]
-fn sections_of_included_files_are_not_changed() {
-    let folder = stock();
-    let file = folder.path().join("axis_mm.ini");
-    let ini = fs::read_to_string(&file).expect("a text");
-    let (before, axes) = ini.split_once("[AXIS_X]").expect("there");
-    fs::write(&file, format!("{before}#INCLUDE axes.inc\n")).expect("written");
-    fs::write(folder.path().join("axes.inc"), format!("[AXIS_X]{axes}")).expect("written");
-    let output = framepath(folder.path(), &["configure", "axis_mm.ini"]);
-    let refusal = "axes.inc:5:1: error: [AXIS_X], [AXIS_Y], [AXIS_Z] come from an included file, which is not changed\n  \
-                   help: move them to axis_mm.ini\n";
-    assert_eq!(text(&output.stderr), refusal);
 }
 
 #[test]

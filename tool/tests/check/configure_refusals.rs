@@ -65,7 +65,7 @@ fn limits_with_which_linuxcnc_does_not_start() {
     let output = framepath(folder.path(), &["configure", "mill.ini"]);
     let said = refused(folder.path(), &output);
     assert!(
-        said.contains("[AXIS_X]MAX_ACCELERATION is missing or no number"),
+        said.contains("error: [AXIS_X]MAX_ACCELERATION = 508 # mm is no number above 0"),
         "{said}"
     );
     let changed = format!("{before}[AXIS_X]\nMAX_JERK = 20000 # c{axis}");

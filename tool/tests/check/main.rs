@@ -3,6 +3,8 @@
 mod above_joints;
 mod bench;
 mod configure;
+mod configure_includes;
+mod configure_limits;
 mod configure_refusals;
 mod configure_twopass;
 #[path = "../common/fields.rs"]
