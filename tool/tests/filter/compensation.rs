@@ -183,3 +183,29 @@ fn corners_with_feed_in_inverse_time_are_refused() {
         assert!(shown.contains("part:3:1"), "{text}\n{shown}");
     }
 }
+
+/// LinuxCNC ends the compensated path before a stop, as if nothing followed.
+#[test]
+fn stops_are_refused() {
+    for (dialect, stop, place) in [
+        ("sinumerik", "Y20 M0", "part:5:5"),
+        ("sinumerik", "M1", "part:5:1"),
+        ("fagor", "Y20 M0", "part:8:5"),
+        ("fagor", "M1", "part:8:1"),
+        ("fanuc", "M0", "part:7:1"),
+        ("fanuc", "Y20. M01", "part:7:6"),
+        ("fanuc", "#3006=1(TURN)", "part:7:1"),
+        ("isg", "Y20 M0", "part:6:5"),
+    ] {
+        let text = program(dialect, "", stop);
+        let shop = Shop::new(&[("part", text.as_bytes())]);
+        let shown = refused(&shop.run_in(dialect, "part", &[]));
+        let words = "while cutter compensation is on: LinuxCNC ends the compensated path there";
+        assert!(shown.contains(words), "{dialect} {stop}\n{shown}");
+        assert!(shown.contains(place), "{dialect} {stop}\n{shown}");
+    }
+    // What LinuxCNC keeps in the order of the path.
+    for beside in ["M8", "M3", "S600", "G4 P100"] {
+        written("fanuc", "", &format!("Y20.\n{beside}\nX20."));
+    }
+}

@@ -277,6 +277,28 @@ impl Control<'_> {
         Ok(())
     }
 
+    /// `what` waits for the operator; where it is `optional`, only with the optional stop on. LinuxCNC finishes the
+    /// compensated path before it, although the next element is not known yet: the tool would go to beside the end
+    /// of the last one, in an inside corner into the wall.
+    ///
+    /// # Errors
+    ///
+    /// Under cutter compensation.
+    pub fn pause(&mut self, optional: bool, span: Span, what: &str) -> Done {
+        if self.modal.compensation != Compensation::Off {
+            return Err(Diagnostic::error(
+                span,
+                format!(
+                    "{what} while cutter compensation is on: LinuxCNC ends the compensated path there, and the tool \
+                     would go into an inside corner"
+                ),
+            )
+            .help("lead the tool off the contour and end the compensation with G40 before it"));
+        }
+        self.actions.push(Action::Pause { optional });
+        Ok(())
+    }
+
     /// F of G93 is the time of its whole block: it is that of no motion which is put before or behind it.
     pub fn refuse_inverse_time(&self, span: Span, what: &str) -> Done {
         if self.modal.feed_mode != FeedMode::InverseTime {

@@ -3,7 +3,7 @@
 use super::words::At;
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
-use crate::program::{Action, Compensation};
+use crate::program::Compensation;
 
 /// The row that D selected, and whether it has been said what D becomes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -91,10 +91,14 @@ impl Control<'_> {
     }
 
     /// M0 and M1 act when the motion is over.
-    pub fn stops(&mut self, list: &[At<u32>]) {
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Control::pause`].
+    pub fn stops(&mut self, list: &[At<u32>]) -> Done {
         for m in list.iter().filter(|m| matches!(m.value, 0 | 1)) {
-            let optional = m.value == 1;
-            self.actions.push(Action::Pause { optional });
+            self.pause(m.value == 1, m.span, &format!("M{}", m.value))?;
         }
+        Ok(())
     }
 }

@@ -106,13 +106,7 @@ impl Interpreter<'_> {
         }
         self.place(words, &once, form, block)?;
         self.control.end_functions()?;
-        for m in &words.m {
-            if matches!(m.value, 0 | 1) {
-                self.control.actions.push(Action::Pause {
-                    optional: m.value == 1,
-                });
-            }
-        }
+        self.control.stops(&words.m)?;
         if let Some(m) = end {
             self.control.end_of_program(m == 30);
         }

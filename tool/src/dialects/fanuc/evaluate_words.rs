@@ -55,7 +55,7 @@ impl Interpreter<'_> {
         self.place(&mut words, &once, block)?;
         words.refuse_rest()?;
         self.control.end_functions()?;
-        self.control.stops(&words.m);
+        self.control.stops(&words.m)?;
         if let Some(At {
             value: end @ (2 | 30),
             ..

@@ -106,8 +106,7 @@ impl Interpreter<'_> {
                 if !text.is_empty() {
                     self.control.actions.push(Action::Message(text.to_string()));
                 }
-                self.control.actions.push(Action::Pause { optional: false });
-                Ok(())
+                self.control.pause(false, span, "#3006")
             }
             3003 | 3004 => {
                 self.control.note(&format!("#{number}"), span);

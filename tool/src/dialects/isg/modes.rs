@@ -101,7 +101,7 @@ impl Interpreter<'_> {
             self.block_motion(&mut words, &once, place)?;
         }
         self.control.end_functions()?;
-        self.control.stops(&words.m);
+        self.control.stops(&words.m)?;
         Ok(match end {
             None => next,
             Some(17 | 29) => Next::Return,

@@ -201,7 +201,7 @@ impl<'a> Interpreter<'a> {
             None => self.block_motion(words, place.span)?,
         }
         self.control.end_functions()?;
-        self.control.stops(&words.m);
+        self.control.stops(&words.m)?;
         let Some(end) = ends else {
             return Ok(following);
         };

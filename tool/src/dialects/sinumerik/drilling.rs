@@ -99,8 +99,7 @@ impl Interpreter<'_> {
             self.wait_at_bottom(cycle)?;
         }
         self.control.set_spindle(Spindle::Stop);
-        self.control.actions.push(Action::Pause { optional: false });
-        Ok(())
+        self.control.pause(false, cycle.span, cycle.name)
     }
 
     /// Switches the spindle if it does not turn that way already.

@@ -120,7 +120,7 @@ impl Interpreter<'_> {
         }
         self.check_exit(at)?;
         self.control.end_functions()?;
-        self.stops(words);
+        self.control.stops(&words.m)?;
         Ok(match end {
             Some(span) => BlockEnd::Ends(span),
             None => BlockEnd::Continue,
@@ -391,16 +391,5 @@ impl Interpreter<'_> {
                 .help("clear the frame with TRANS before, and set it again after"));
         }
         self.control.preset(&words.motion, span)
-    }
-
-    /// M0 and M1 act when the motion is over.
-    fn stops(&mut self, words: &BlockWords) {
-        for m in &words.m {
-            if matches!(m.value, 0 | 1) {
-                self.control.actions.push(Action::Pause {
-                    optional: m.value == 1,
-                });
-            }
-        }
     }
 }
