@@ -8,6 +8,7 @@
 pub mod arc;
 pub mod contour;
 pub mod contour_end;
+pub mod contour_entry;
 pub mod contour_start;
 pub mod corners;
 pub mod fillet;

@@ -4,6 +4,7 @@ mod beside_motion;
 mod blanks;
 mod compensation;
 mod contour_end;
+mod contour_entry;
 mod contour_exit;
 mod contour_start;
 mod contours;

@@ -27,6 +27,7 @@ use super::blocks::{Block, Blocks};
 use super::settings::Settings;
 use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::program::contour_end::ContourEnds;
+use crate::program::contour_entry::{ContourEntries, Standing};
 use crate::program::contour_start::ContourStarts;
 use crate::program::corners::Corners;
 use crate::program::frame::FrameCommand;
@@ -97,6 +98,7 @@ pub struct Control<'a> {
     corners: Corners,
     contour_starts: ContourStarts,
     contour_ends: ContourEnds,
+    contour_entries: ContourEntries,
     end_of_compensation: EndOfCompensation,
     finished: usize,
     running: Vec<String>,
@@ -130,6 +132,7 @@ impl<'a> Control<'a> {
             corners: Corners::default(),
             contour_starts: ContourStarts::default(),
             contour_ends: ContourEnds::default(),
+            contour_entries: ContourEntries::default(),
             end_of_compensation: EndOfCompensation::default(),
             finished: 0,
             running: Vec::new(),
@@ -149,6 +152,11 @@ impl<'a> Control<'a> {
         let late = self.scope != scope && self.frames_handed_on;
         self.scope = scope;
         !late
+    }
+
+    /// How the control begins cutter compensation without a motion in the plane.
+    pub fn set_standing_entry(&mut self, standing: Standing) {
+        self.contour_entries.set_standing(standing);
     }
 
     /// Counts a block, or a step of a cycle, that is about to run; `false` when the program must not go on, because it does
@@ -275,6 +283,7 @@ impl<'a> Control<'a> {
             self.hand_on(blocks);
         }
     }
+            self.contour_entries.change(block, &mut found);
 
     /// Lets cutter compensation begin and end where the other controls do.
     fn begin_and_end_contours(&mut self, mut blocks: Vec<program::Block>) -> Vec<program::Block> {

@@ -16,6 +16,7 @@ use crate::dialects::control::{About, Control};
 use crate::dialects::library::Library;
 use crate::dialects::run::{Interpret, Next, Reached, jump_out_of_repetition, reach};
 use crate::dialects::settings::Settings;
+use crate::program::contour_entry::Standing;
 use crate::program::{Action, FrameScope};
 use crate::source::Span;
 use std::rc::Rc;
@@ -50,8 +51,10 @@ impl<'a> Interpreter<'a> {
         library: Library<Routine>,
         about: About<'a>,
     ) -> Interpreter<'a> {
+        let mut control = Control::new(settings, about, FrameScope::Block);
+        control.set_standing_entry(Standing::Steps);
         Interpreter {
-            control: Control::new(settings, about, FrameScope::Block),
+            control,
             library,
             parameters: Parameters::new(&settings.variables),
             transforms: Transforms::default(),
