@@ -43,6 +43,10 @@ pub struct Lines<'a> {
     line: String,
     /// Where they end in it.
     words: Vec<(Rank, usize)>,
+    /// Whether F has to stand with its motion (G93): else LinuxCNC stops at the motion.
+    feed_with_motion: bool,
+    /// F of the block that has not found its motion yet.
+    held_feed: Option<String>,
     number: Option<u32>,
     /// How many conditions are written.
     conditions: u32,
@@ -59,6 +63,8 @@ impl<'a> Lines<'a> {
             text: String::with_capacity(2 * PORTION),
             line: String::new(),
             words: Vec::new(),
+            feed_with_motion: false,
+            held_feed: None,
             number: None,
             conditions: 0,
             remark: String::new(),
@@ -71,10 +77,15 @@ impl<'a> Lines<'a> {
         self.conditions
     }
 
+    /// Whether F from here on is the time of the motion in its line (G93).
+    pub fn feed_goes_with_motion(&mut self, with_motion: bool) {
+        self.feed_with_motion = with_motion;
+    }
+
     /// A block of the source begins: its number and the line it stands in go to the next line, with
     /// what `remark` says about it.
     pub fn begin_block(&mut self, number: Option<u32>, line: u32, remark: &str) {
-        self.flush();
+        self.end_words();
         self.number = number.filter(|number| *number <= HIGHEST_NUMBER);
         self.remark.clear();
         if remark.is_empty() {
@@ -89,7 +100,7 @@ impl<'a> Lines<'a> {
 
     /// The block ends. A remark that found no line gets its own.
     pub fn end_block(&mut self) {
-        self.flush();
+        self.end_words();
         if !self.remark.is_empty() {
             self.line("");
         }
@@ -115,6 +126,39 @@ impl<'a> Lines<'a> {
             self.line.push_str(&later);
         }
         self.words.push((rank, self.line.len()));
+        if rank == Rank::Motion {
+            self.take_held_feed();
+        }
+    }
+
+    fn take_held_feed(&mut self) {
+        if let Some(feed) = self.held_feed.take() {
+            self.line.push_str(&feed);
+            self.words.push((Rank::Motion, self.line.len()));
+        }
+    }
+
+    /// Takes F out of a line without motion, where it has to stand with one.
+    fn hold_feed(&mut self) {
+        let is = |wanted: Rank| move |(rank, _): &(Rank, usize)| *rank == wanted;
+        if !self.feed_with_motion || self.words.iter().any(is(Rank::Motion)) {
+            return;
+        }
+        let Some(at) = self.words.iter().position(is(Rank::Feed)) else {
+            return;
+        };
+        let (_, end) = self.words.remove(at);
+        let start = at.checked_sub(1).map_or(0, |before| self.words[before].1);
+        self.held_feed = Some(self.line.drain(start..end).collect());
+        for (_, later) in &mut self.words[at..] {
+            *later -= end - start;
+        }
+    }
+
+    /// Ends the line that is being made, and the block with it: F that has found no motion stays in it.
+    fn end_words(&mut self) {
+        self.take_held_feed();
+        self.write_words();
     }
 
     /// Whether LinuxCNC would give numbers of the words from `start` on to others of the line, or the
@@ -144,8 +188,13 @@ impl<'a> Lines<'a> {
         self.words.iter().any(changes) && later.contains('#')
     }
 
-    /// Ends the line that is being made.
+    /// Ends the line that is being made. The words of the block that follow get another.
     pub fn flush(&mut self) {
+        self.hold_feed();
+        self.write_words();
+    }
+
+    fn write_words(&mut self) {
         if self.words.is_empty() {
             return;
         }
@@ -235,7 +284,7 @@ impl<'a> Lines<'a> {
     ///
     /// The first that occurred while the lines were written.
     pub fn finish(mut self) -> io::Result<()> {
-        self.flush();
+        self.end_words();
         self.write_out();
         self.error.map_or(Ok(()), Err)
     }

@@ -24,7 +24,10 @@ fn present_position(axis: usize) -> String {
 pub fn common_action(action: &Action, lines: &mut Lines) -> bool {
     match action {
         Action::Plane(plane) => lines.add(Rank::Plane, plane_word(*plane)),
-        Action::FeedMode(mode) => lines.add(Rank::FeedMode, feed_mode_word(*mode)),
+        Action::FeedMode(mode) => {
+            lines.add(Rank::FeedMode, feed_mode_word(*mode));
+            lines.feed_goes_with_motion(*mode == FeedMode::InverseTime);
+        }
         Action::SpindleSpeed(speed) => lines.add(Rank::Speed, format!("S{}", coordinate(*speed))),
         Action::Spindle(spindle) => lines.add(
             Rank::Spindle,

@@ -88,3 +88,44 @@ fn functions_of_the_user_get_no_numbers_of_others() {
         assert_eq!(alone, 3, "{output}");
     }
 }
+
+/// LinuxCNC wants F of G93 in the line of its motion.
+#[test]
+fn the_feed_of_inverse_time_stays_with_its_motion() {
+    for (dialect, block, expected) in [
+        (
+            "sinumerik",
+            "G64 G2 X30 I5 J0 F5",
+            &["G64 P0.01", "G2 X30 I5 J0 F5"][..],
+        ),
+        (
+            "fanuc",
+            "G64 G2 X30. I5. F5.",
+            &["G64 P0.01", "G2 X30 I5 J0 F5"],
+        ),
+        (
+            "fanuc",
+            "G91 G55 G1 X10. F5.",
+            &["G55", "G1 X[#5420+10] F5"],
+        ),
+        ("fanuc", "M49 G1 X30. F5.", &["M49", "G1 X30 F5"]),
+    ] {
+        let program = format!("G54 G90 G0 X0 Y0\nG93\nG1 X20. F5.\n{block}\nM30\n");
+        let shop = Shop::new(&[("part", program.as_bytes())]);
+        let output = accepted(&shop.run_in(dialect, "part", &["--backend", "program"]));
+        rs274::interpret(&shop.path(""), "", &output);
+        let lines = commands(&output);
+        let begin = lines.iter().position(|line| line == expected[0]);
+        let found = begin.map(|begin| &lines[begin..begin + expected.len()]);
+        assert_eq!(
+            found,
+            Some(
+                &expected
+                    .iter()
+                    .map(|line| line.to_string())
+                    .collect::<Vec<_>>()[..]
+            ),
+            "{output}"
+        );
+    }
+}
