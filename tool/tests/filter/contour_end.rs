@@ -90,3 +90,16 @@ fn an_arc_behind_the_way_up_is_refused() {
         "{shown}"
     );
 }
+
+/// LinuxCNC reads no place while it leaves the path.
+#[test]
+fn an_increment_from_an_unknown_place_is_refused_with_g40() {
+    for exit in ["G91 G40 X10. Z5.", "G40\nG91 Z5.\nX10."] {
+        let program =
+            format!("O1\nT1 M6\nG90 G54 G0 X0 Y0\nG41 D1 G1 X20. F100.\nY50.\n{exit}\nM30\n");
+        let shop = Shop::new(&[("part", program.as_bytes())]);
+        let shown = refused(&shop.run_in("fanuc", "part", &["--machine-in-inch"]));
+        let words = "where cutter compensation ends, from a place that is not known";
+        assert!(shown.contains(words), "{exit}\n{shown}");
+    }
+}

@@ -1,7 +1,38 @@
 //! What follows the end of cutter compensation: LinuxCNC leaves the compensated path on a straight line only.
 
-use crate::program::moves::MoveKind;
+use crate::diagnostics::Diagnostic;
+use crate::program::moves::{Move, MoveKind};
 use crate::program::{Action, Compensation, Plane};
+use crate::source::Span;
+
+/// Why LinuxCNC cannot leave the compensated path with a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoWayOff {
+    /// It is an arc.
+    Arc,
+    /// It is an increment from a place that LinuxCNC would have to read, while the compensation is still on.
+    UnknownPlace,
+}
+
+impl NoWayOff {
+    /// Says so at the block of the motion.
+    pub fn error(self, span: Span) -> Diagnostic {
+        match self {
+            NoWayOff::Arc => Diagnostic::error(
+                span,
+                "an arc is the first motion behind the end of cutter compensation",
+            )
+            .help("LinuxCNC leaves the compensated path on a straight line: write G40 with a G1 before the arc"),
+            NoWayOff::UnknownPlace => Diagnostic::unknown_place(
+                span,
+                "where cutter compensation ends, from a place that is not known ahead of time",
+            )
+            .help(
+                "write this motion in G90, or program its axes absolute before G41 or G42",
+            ),
+        }
+    }
+}
 
 /// How far the end of cutter compensation has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,9 +55,10 @@ impl Default for EndOfCompensation {
 }
 
 impl EndOfCompensation {
-    /// Follows the actions of a block; `true` where the first motion behind the compensation is an arc.
-    pub fn meets_arc(&mut self, actions: &[Action]) -> bool {
-        let mut met = false;
+    /// Follows the actions of a block, and gives the first motion behind the compensation that LinuxCNC cannot leave
+    /// the path with.
+    pub fn meets(&mut self, actions: &[Action]) -> Option<NoWayOff> {
+        let mut met = None;
         for action in actions {
             match action {
                 Action::Compensation(Compensation::Off) => {
@@ -35,13 +67,21 @@ impl EndOfCompensation {
                 }
                 Action::Compensation(_) => self.on = true,
                 Action::Plane(plane) => self.plane = *plane,
-                Action::Move(path) if path.leads_in_plane(self.plane) => {
-                    met = met || self.open && matches!(path.kind, MoveKind::Arc(_));
-                    self.open = false;
+                Action::Move(path) => {
+                    met = met.or_else(|| self.no_way_off(path));
+                    self.open = self.open && !path.leads_in_plane(self.plane);
                 }
                 _ => {}
             }
         }
         met
+    }
+
+    fn no_way_off(&self, path: &Move) -> Option<NoWayOff> {
+        match path.kind {
+            _ if !self.open => None,
+            MoveKind::Arc(_) => Some(NoWayOff::Arc),
+            _ => path.depends_on_position().then_some(NoWayOff::UnknownPlace),
+        }
     }
 }

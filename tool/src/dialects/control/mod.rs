@@ -259,14 +259,8 @@ impl<'a> Control<'a> {
             return;
         }
         self.finished += 1;
-        if self.end_of_compensation.meets_arc(&block.actions) {
-            self.diagnostics.push(
-                Diagnostic::error(
-                    block.origin.span,
-                    "an arc is the first motion behind the end of cutter compensation",
-                )
-                .help("LinuxCNC leaves the compensated path on a straight line: write G40 with a G1 before the arc"),
-            );
+        if let Some(no_way_off) = self.end_of_compensation.meets(&block.actions) {
+            self.diagnostics.push(no_way_off.error(block.origin.span));
         }
         if self.diagnostics.errors() > 0 {
             // What follows an error may not be where it belongs, and is not written anyway.
@@ -283,13 +277,13 @@ impl<'a> Control<'a> {
             self.hand_on(blocks);
         }
     }
-            self.contour_entries.change(block, &mut found);
 
     /// Lets cutter compensation begin and end where the other controls do.
     fn begin_and_end_contours(&mut self, mut blocks: Vec<program::Block>) -> Vec<program::Block> {
         let mut starts = std::mem::take(&mut self.contour_starts);
         let mut found = Diagnostics::default();
         for block in &mut blocks {
+            self.contour_entries.change(block, &mut found);
             self.contour_ends.change(block, &mut found);
         }
         let mut diameter = |row, span| {
