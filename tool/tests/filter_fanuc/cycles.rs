@@ -214,3 +214,33 @@ fn the_dwell_of_a_rigid_tap_is_left_out_where_it_stands() {
     let output = Shop::with(Dialect::Fanuc, program).accepted(&[]);
     assert!(output.contains("(MSG, line 4: the dwell"), "{output}");
 }
+
+/// The initial level is asked for only where it is used.
+#[test]
+fn the_same_holes_at_several_work_offsets() {
+    for (program, linuxcnc) in [
+        (
+            "G54 G0 Z50.\nG99 G81 X10. Y10. Z-5. R2.\nX20.\nG80\nG55 G0 X0\nG99 G81 X10. Y10. Z-5. R2.\nG80 G0 Z50.",
+            "G54 G0 Z50\nG99 G81 X10 Y10 Z-5 R2\nX20\nG80\nG55 G0 X0\nG0 X10 Y10\nZ2\nG1 Z-5\nG0 Z2\nZ50",
+        ),
+        // G54 again moves nothing.
+        (
+            "G54 G0 Z50.\nG98 G81 X10. Z-5. R2.\nG80\nG54 G0 X5.\nG98 G81 X6. Z-5. R2.\nG80",
+            "G54 G0 Z50\nG98 G81 X10 Z-5 R2\nG80\nG54 G0 X5\nG98 G81 X6 Z-5 R2\nG80",
+        ),
+    ] {
+        pair(program, linuxcnc);
+    }
+    let text = "where the tool is above the part is not known";
+    for (cycle, place) in [
+        ("G55\nG98 G81 X10. Z-5. R2.", "4:5"),
+        ("G55\nG91 G99 G81 X10. Z-7. R-48.", "4:9"),
+        ("G98 G81 X10. Z-5. R2.\nG55 X20.", "3:5"),
+        // G92 has moved the zero points of all.
+        ("G54 G92 Z9.\nG54\nG98 G81 X10. Z-5. R2.", "5:5"),
+    ] {
+        let program = format!("G54 G0 X0 Y0 Z50.\nF100.\n{cycle}\nG80\nM30\n");
+        let shown = Shop::with(Dialect::Fanuc, &program).refused(&[]);
+        assert_one_error(&shown, &program, &format!("part.nc:{place}"), text);
+    }
+}

@@ -68,6 +68,8 @@ pub struct Modal {
     pub shifted: [bool; 9],
     /// Where G92 stands, while it is in force.
     pub preset_at: Option<Span>,
+    /// The work offset that is in force with the values it was selected with, 1 to 9; `None` where that is not known.
+    pub work_offset: Option<u8>,
     /// Coordinates from before the first change of the frame, an offset or the tool, for axes that have not
     /// moved since.
     pub carried: [Option<Option<f64>>; 9],
@@ -107,6 +109,7 @@ impl Modal {
             preset: [None; 9],
             shifted: [false; 9],
             preset_at: None,
+            work_offset: None,
             carried: [None; 9],
             length_undecided: false,
             tangent: None,
@@ -132,6 +135,15 @@ impl Modal {
         self.position.forget();
         self.carried = [None; 9];
         self.tangent = None;
+        self.work_offset = None;
+    }
+
+    /// Work offset 1 to 9. That which is in force already moves nothing, unless G52 or G92 has shifted it.
+    pub fn select_work_offset(&mut self, system: u8) {
+        let shifted = self.preset_at.is_some() || self.shifted != [false; 9];
+        if self.work_offset.replace(system) != Some(system) || shifted {
+            self.change_offset();
+        }
     }
 
     /// The tool or an offset changed: where the axes are is not known any more. What was programmed last is,

@@ -263,7 +263,7 @@ impl Control<'_> {
     /// Work offset 1 to 9: G54 to G59.3 of LinuxCNC.
     pub fn work_offset(&mut self, system: u8, span: Span) -> Done {
         self.refuse_compensation(span, "the work offset changes")?;
-        self.modal.change_offset();
+        self.modal.select_work_offset(system);
         self.states.push(Action::WorkOffset(system));
         Ok(())
     }

@@ -28,8 +28,8 @@ const CLEARANCE: f64 = 1.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
     code: u32,
-    /// Where the tool was when the cycle was defined.
-    start: f64,
+    /// Where the tool was when the cycle was defined; `None` where that is not known ahead of time.
+    start: Option<f64>,
     /// The reference plane.
     reference: f64,
     /// The bottom; of G83, that of the first step.
@@ -129,22 +129,19 @@ impl Interpreter<'_> {
         let code = old.as_ref().map_or(g.value, |old| old.code);
         let start = match &old {
             Some(old) => old.start,
-            None => self.control.modal.position.get(normal).ok_or_else(|| {
-                Diagnostic::unknown_place(
-                        g.span,
-                        "a canned cycle, and where the tool is above the plane is not known ahead of time",
-                    )
-                    .help("program the axis of the tool absolute before the cycle")
-            })?,
+            None => self.control.modal.position.get(normal),
         };
         let incremental = self.control.modal.incremental;
         let reference = match (words.axes[normal], &old) {
             (Some(word), _) => {
                 let value = word.value.unwrap_or(0.0) * factor;
-                if incremental { start + value } else { value }
+                match incremental {
+                    true => known_start(start, g.span)? + value,
+                    false => value,
+                }
             }
             (None, Some(old)) => old.reference,
-            (None, None) => start,
+            (None, None) => known_start(start, g.span)?,
         };
         let bottom = match (words.centre[0], &old) {
             // The steps of G83 are increments whatever G90 says.
@@ -189,7 +186,11 @@ impl Interpreter<'_> {
             )
             .help("Z, I, J, K and the place are supported"));
         }
-        let direction = start - reference;
+        let direction = match start {
+            None if bottom < reference => 0.0,
+            // The tool would come from below.
+            start => known_start(start, g.span)? - reference,
+        };
         if (bottom - reference) * direction > 0.0 || bottom == reference {
             return Err(Diagnostic::error(
                 g.span,
@@ -295,7 +296,8 @@ impl Interpreter<'_> {
         };
         self.to(cycle.reference, &back, &cycle)?;
         if self.to_start {
-            self.to(cycle.start, &MoveKind::Rapid, &cycle)?;
+            let start = known_start(cycle.start, cycle.span)?;
+            self.to(start, &MoveKind::Rapid, &cycle)?;
         }
         if cycle.code == 86 {
             self.control.actions.push(Action::Spindle(spindle));
@@ -403,6 +405,20 @@ impl Interpreter<'_> {
             self.control.actions.push(Action::Dwell(cycle.dwell));
         }
     }
+}
+
+/// The starting plane: G98 returns to it, and with G91 the reference plane counts from it.
+fn known_start(start: Option<f64>, span: Span) -> Result<f64, Diagnostic> {
+    start.ok_or_else(|| {
+        Diagnostic::unknown_place(
+            span,
+            "a canned cycle, and where the tool is above the plane is not known ahead of time",
+        )
+        .help(
+            "program the axis of the tool absolute before the cycle, behind the last change of tool or offset, or \
+             write G99 with Z in G90",
+        )
+    })
 }
 
 /// Whether R of G84 has the spindle followed. In both ways that do, G33.1 waits for the index of the

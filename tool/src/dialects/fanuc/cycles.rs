@@ -35,8 +35,9 @@ pub struct Level {
 pub struct Cycle {
     /// The G function, times ten.
     pub code: u32,
-    /// Where the tool was when the first cycle began, units of the program.
-    pub initial: f64,
+    /// Where the tool was when the first cycle began, units of the program; `None` where that is not known ahead of
+    /// time.
+    initial: Option<f64>,
     return_level: Option<Level>,
     bottom: Option<Level>,
     /// Q, units of the program.
@@ -62,6 +63,31 @@ pub struct Hole {
     pub bottom: f64,
 }
 
+impl Cycle {
+    /// The initial level, units of the program: G98 returns to it, and R of G91 counts from it.
+    ///
+    /// # Errors
+    ///
+    /// Where it is not known ahead of time.
+    pub fn initial(&self) -> Result<f64, Diagnostic> {
+        self.initial.ok_or_else(|| {
+            Diagnostic::unknown_place(
+                self.span,
+                "a canned cycle, and where the tool is above the part is not known ahead of time",
+            )
+            .help(
+                "program the axis of the tool absolute before the cycle (G43 H1 Z50.), behind the last change of tool \
+                 or offset, or write G99 with R in G90",
+            )
+        })
+    }
+
+    /// The zero point is another, and what the initial level is there is not known.
+    pub fn forget_initial(&mut self) {
+        self.initial = None;
+    }
+}
+
 impl Interpreter<'_> {
     /// A block with the G function of a cycle.
     pub(super) fn define_cycle(&mut self, words: &mut BlockWords, g: At<u32>, block: Span) -> Done {
@@ -77,13 +103,7 @@ impl Interpreter<'_> {
             },
             None => Cycle {
                 code,
-                initial: self.control.present(normal).ok_or_else(|| {
-                    Diagnostic::unknown_place(
-                            span,
-                            "a canned cycle, and where the tool is above the part is not known ahead of time",
-                        )
-                        .help("program the axis of the tool absolute before the cycle: G43 H1 Z50.")
-                })?,
+                initial: self.control.present(normal),
                 return_level: None,
                 bottom: None,
                 step: None,
@@ -190,7 +210,7 @@ impl Interpreter<'_> {
             .return_level
             .ok_or_else(|| missing("the return level R"))?;
         let top = match top.incremental {
-            true => cycle.initial + top.value,
+            true => cycle.initial()? + top.value,
             false => top.value,
         };
         let bottom = cycle.bottom.ok_or_else(|| missing("the bottom Z"))?;

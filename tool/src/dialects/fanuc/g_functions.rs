@@ -264,7 +264,11 @@ impl Interpreter<'_> {
                 .help("G54.1 P1 to P3 are G59.1 to G59.3 there: use those, or G54 to G59"));
             }
         };
+        let other = self.control.modal.work_offset != Some(system);
         self.control.work_offset(system, span)?;
+        if let Some(cycle) = self.cycle.as_mut().filter(|_| other) {
+            cycle.forget_initial();
+        }
         // G54 with P is G54.1.
         let named = if system > 6 { 541 } else { code };
         self.work_offset = Some(f64::from(named) / 10.0);

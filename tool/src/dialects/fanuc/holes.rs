@@ -43,7 +43,7 @@ impl Interpreter<'_> {
     fn out(&mut self, cycle: &Cycle, hole: Hole) -> Done {
         let level = match self.to_return_level {
             true => hole.top,
-            false => cycle.initial,
+            false => cycle.initial()?,
         };
         self.to(level, true, cycle)
     }

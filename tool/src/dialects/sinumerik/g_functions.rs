@@ -215,6 +215,8 @@ impl Interpreter<'_> {
             self.control.states.push(Action::WorkOffset(system));
             return Ok(());
         }
+        // Its values may be others than before.
+        self.control.modal.work_offset = None;
         self.control.work_offset(system, span)
     }
 
@@ -223,6 +225,7 @@ impl Interpreter<'_> {
         self.control
             .refuse_compensation(span, "the work offset changes")?;
         self.control.modal.change_offset();
+        self.control.modal.work_offset = None;
         self.system = Some(0);
         self.set_offsets();
         self.offset_free.begin("G500");

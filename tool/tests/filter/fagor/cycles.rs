@@ -475,3 +475,21 @@ fn patterns_that_are_no_patterns() {
         assert!(shown.contains(text), "{program}\n{shown}");
     }
 }
+
+/// With G99 the starting plane is not needed, and G54 again moves nothing.
+#[test]
+fn work_offsets_before_a_cycle() {
+    let program = "G54 G90 G0 X0 Y0 Z20\nG54\nG98 G81 X10 Y0 Z2 I-8 F100\nG80\nM30\n";
+    let hole = |path: Path| {
+        path.rapid([10., 0., 20.])
+            .rapid([10., 0., 2.])
+            .line([10., 0., -8.])
+            .rapid([10., 0., 2.])
+    };
+    check(
+        program,
+        &hole(Path::from([0., 0., 20.])).rapid([10., 0., 20.]),
+    );
+    let program = "G54 G90 G0 X0 Y0 Z20\nG55\nG99 G81 X10 Y0 Z2 I-8 F100\nG80\nM30\n";
+    check(program, &hole(Path::from([0., 0., 20.])));
+}
