@@ -163,6 +163,7 @@ impl Interpreter<'_> {
     ) -> Done {
         if let Some(span) = once.preset {
             refuse_beside_axes(92, words, once)?;
+            self.refuse_shift_in_cycle(&words.g, At { value: 92, span })?;
             return self.preset(words, span);
         }
         if let Some(span) = once.machine_coordinates {
@@ -214,6 +215,19 @@ impl Interpreter<'_> {
             .help("end the cycle with G80 before")),
             None => Ok(()),
         }
+    }
+
+    /// The planes of a cycle are those of the zero point with which it was defined: under another the tool would go
+    /// from hole to hole inside the part. `list`: the G functions of the block.
+    pub(super) fn refuse_shift_in_cycle(&self, list: &[At<u32>], shift: At<u32>) -> Done {
+        let another = |g: &At<u32>| matches!(g.value, 69 | 80..=89);
+        if self.cycle.is_none() || list.iter().any(another) {
+            return Ok(());
+        }
+        Err(
+            Diagnostic::error(shift.span, format!("G{} in a canned cycle", shift.value))
+                .help("end the cycle with G80 before"),
+        )
     }
 
     /// A motion with the corner at its end.

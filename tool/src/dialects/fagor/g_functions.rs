@@ -54,6 +54,11 @@ impl Interpreter<'_> {
         let mut once = OneShot::default();
         let mut groups = Groups::default();
         for At { value: code, span } in in_order_of_compensation(&words.g, 1) {
+            let other_offset = matches!(code, 54..=57)
+                && (self.preset || self.control.modal.work_offset != Some((code - 53) as u8));
+            if other_offset {
+                self.refuse_shift_in_cycle(&words.g, At { value: code, span })?;
+            }
             let group = self.g_function(code, span, &mut once)?;
             // Several mirrors may stand together.
             if group != 0 {

@@ -255,6 +255,17 @@ impl Interpreter<'_> {
         if transforms == self.transforms {
             return Ok(());
         }
+        let [_, _, normal] = self.control.modal.plane.axes();
+        let along = |transforms: &Transforms| {
+            transforms.sign(normal) * transforms.scale * transforms.stretch[normal]
+        };
+        if self.cycle.is_some() && along(&transforms) != along(&self.transforms) {
+            return Err(Diagnostic::error(
+                span,
+                "a mirror or a scale of the tool's axis changes in a canned cycle",
+            )
+            .help("end the cycle with G80 before"));
+        }
         self.control
             .refuse_compensation(span, "the frame changes")?;
         self.control.set_frame(&transforms.operations(), span)?;

@@ -380,3 +380,27 @@ fn words_that_would_be_lost() {
         one_error(&program, "3:1", "while a canned cycle is in force");
     }
 }
+
+/// The planes of a cycle belong to the zero point, mirrors and scales with which it was defined.
+#[test]
+fn nothing_moves_the_planes_of_a_cycle() {
+    let head = "G54 G90 G0 X0 Y0 Z20 F100 S100 M3\nG99 G81 X10 Y0 Z2 I-5\n";
+    let frame = "a mirror or a scale of the tool's axis changes in a canned cycle";
+    for (block, text) in [
+        ("G92 Z10", "G92 in a canned cycle"),
+        ("G55 X20", "G55 in a canned cycle"),
+        ("G72 S2", frame),
+        ("G13", frame),
+    ] {
+        let program = format!("{head}{block}\nX15\nG80\nM30\n");
+        one_error(&program, "3:1", text);
+    }
+    for (block, place) in [
+        ("G55\nG98 G81 X10 Z2 I-5", "3:5"),
+        ("G55\nG91 G99 G81 X10 Z-8 I-5", "3:9"),
+        ("G55\nG99 G81 X10 Z2 I5", "3:5"),
+    ] {
+        let program = format!("G54 G90 G0 X0 Y0 Z20 F100 S100 M3\n{block}\nG80\nM30\n");
+        one_error(&program, place, "above the plane is not known");
+    }
+}
