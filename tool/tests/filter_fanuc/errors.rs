@@ -46,6 +46,7 @@ fn words_and_blocks() {
         ),
         ("G1 X1.\nM30\n", "1:4", "no F is in force"),
         ("M77\nM30\n", "1:1", "M77 is not defined"),
+        ("M198 P5\nM30\n", "1:1", "write M98 P and its number"),
         (
             "M97 P100\nM30\n",
             "1:1",

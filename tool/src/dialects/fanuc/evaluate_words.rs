@@ -98,6 +98,12 @@ impl Interpreter<'_> {
                          a number to M99, and call it with M98 P and that number",
                     ));
                 }
+                198 if !self.control.settings.passed_m.contains(&198) => {
+                    return Err(Diagnostic::error(m.span, "M198 is not supported").help(
+                        "it calls a subprogram from outside of the memory: write M98 P and its number, and give its folder \
+                         with --subprograms unless it lies beside the program",
+                    ));
+                }
                 _ => others.push(*m),
             }
         }
