@@ -1,6 +1,6 @@
 //! Where cutter compensation takes effect. On most controls that is the first motion that leads elsewhere in the plane.
-//! LinuxCNC takes the first motion whatsoever, and stops at one along the axis of the tool: it is no longer in the plane
-//! than the radius of the tool. G41 and G42 are therefore written with the motion in the plane.
+//! LinuxCNC takes the first motion whatsoever, and stops where it is not longer in the plane than the radius of the
+//! tool, as a plunge is not. G41 and G42 are therefore written with the motion in the plane.
 
 use super::{Action, Block, Compensation, Plane};
 use crate::diagnostics::{Diagnostic, Diagnostics};
