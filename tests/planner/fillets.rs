@@ -172,7 +172,7 @@ fn more_tolerance_of_a_rounded_corner_costs_no_time() {
 #[test]
 fn more_tolerance_for_a_radius_costs_no_time() {
     for radius in [0.5, 1.0, 2.0, 4.0] {
-        for (length, jerk) in [(1.0, 1e4), (2.0, 2e4), (5.0, 2e4), (2.0, 1e5)] {
+        for (length, jerk) in [(2.0, 1e4), (2.0, 2e4), (5.0, 2e4), (2.0, 1e5)] {
             let tolerances = [21.0, 19.8, 19.0, 15.0, 10.0, 7.0, 4.6, 4.4, 4.0].into_iter();
             costs_no_time(
                 tolerances.map(|share| RoundedCorner {

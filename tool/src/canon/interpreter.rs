@@ -186,6 +186,7 @@ impl CallStream {
         surroundings
             .write(&home.parameters(), &home.settings())
             .map_err(|(file, source)| CanonError::Read { file, source })?;
+        let ini = home.ini(surroundings).map_err(unusable)?;
         let interpreter =
             MemoryFile::holding("framepath-interpreter", PROGRAM).map_err(unusable)?;
         let mut command = Command::new(interpreter.path());
@@ -196,12 +197,12 @@ impl CallStream {
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
-        match &surroundings.ini {
+        match (&surroundings.ini, ini) {
             // Paths in an INI file count from its folder.
-            Some(ini) => command
-                .current_dir(ini.parent().unwrap_or(Path::new("/")))
-                .env("INI_FILE_NAME", ini),
-            None => command
+            (Some(named), Some(read)) => command
+                .current_dir(named.parent().unwrap_or(Path::new("/")))
+                .env("INI_FILE_NAME", read),
+            _ => command
                 .current_dir(home.path())
                 .env("HOME", home.path())
                 .env_remove("INI_FILE_NAME"),
@@ -394,6 +395,16 @@ impl Home {
 
     fn path(&self) -> &Path {
         self.0.path()
+    }
+
+    /// The INI file that the interpreter reads: with those that it includes, as the script `linuxcnc` hands it over.
+    fn ini(&self, surroundings: &Surroundings) -> io::Result<Option<PathBuf>> {
+        let Some(text) = &surroundings.expanded_ini else {
+            return Ok(surroundings.ini.clone());
+        };
+        let file = self.path().join("machine.ini.expanded");
+        std::fs::write(&file, text)?;
+        Ok(Some(file))
     }
 
     fn parameters(&self) -> PathBuf {

@@ -11,6 +11,9 @@ use std::path::{Path, PathBuf};
 pub struct Surroundings {
     /// Absolute path of the INI file: the interpreter takes subroutines, remaps and others from it.
     pub ini: Option<PathBuf>,
+    /// Its text with that of the files that it includes, which the interpreter reads in its place, in the folder of the INI file;
+    /// `None` if it includes none.
+    pub expanded_ini: Option<String>,
     /// File of numbered parameters, which is copied. One that does not exist counts as empty, as
     /// for LinuxCNC.
     pub parameters: Option<PathBuf>,
@@ -35,6 +38,7 @@ impl Default for Surroundings {
     fn default() -> Self {
         Surroundings {
             ini: None,
+            expanded_ini: None,
             parameters: None,
             unit: 1.0,
             start: [0.0; 9],

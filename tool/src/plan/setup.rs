@@ -396,5 +396,6 @@ fn surroundings(
         user_codes: user_codes(ini),
         tools,
         ini: Some(absolute),
+        expanded_ini: ini.expanded().map(str::to_owned),
     })
 }

@@ -104,7 +104,20 @@ impl Corners {
 
     fn look_at(&mut self, block: usize, diagnostics: &mut Diagnostics) {
         let mut index = 0;
-        while let Some(action) = self.waiting[block].actions.get(index) {
+        while let Some(action) = self.waiting[block].actions.get_mut(index) {
+            // A place that is said again is no corner of a modal rounding.
+            if let Action::Move(motion) = action
+                && goes_nowhere(motion)
+                && motion.corner.is_none_or(is_within)
+            {
+                motion.corner = None;
+                if self.rounds_within() {
+                    // The joint of the corner comes in its place.
+                    self.waiting[block].actions.remove(index);
+                    continue;
+                }
+            }
+            let action = &self.waiting[block].actions[index];
             // The contour ends with the plane and with the program.
             let ends_contour = match action {
                 Action::Plane(next) => std::mem::replace(&mut self.plane, *next) != *next,
@@ -262,6 +275,21 @@ fn leaves_plane(motion: &Move, plane: Plane) -> bool {
     };
     let with_feed = matches!(motion.kind, MoveKind::Line | MoveKind::Arc(_));
     !with_feed || moves(normal) || (3..9).any(moves)
+}
+
+/// Whether a corner is made within a contour only.
+fn is_within(corner: Corner) -> bool {
+    matches!(corner, Corner::RoundWithin(_))
+}
+
+/// Whether a move is known to be a line without length.
+fn goes_nowhere(motion: &Move) -> bool {
+    let stays = |(axis, target): (usize, &Coordinate)| match *target {
+        Coordinate::Keep => true,
+        Coordinate::By(step) => step == 0.0,
+        Coordinate::At(end) => motion.start[axis] == Some(end),
+    };
+    motion.kind == MoveKind::Line && motion.target.iter().enumerate().all(stays)
 }
 
 /// Why a motion has no part in a corner.

@@ -49,12 +49,14 @@ impl Onto {
         let behind = -(apart[0] * along + apart[1] * across);
         let square = beside.powi(2) + behind.powi(2);
         // The move has to come from behind the tool beside the start, or from more than its diameter beside the contour.
-        let most = if behind > 0.0 {
-            square / beside
-        } else {
-            beside
-        };
+        // From further behind than beside, what is left of the way must still be longer than the radius: LinuxCNC
+        // refuses it else.
         let further = if start.straight { 0.0 } else { BEFORE_ARC };
+        let most = match behind > 0.0 {
+            true if behind > beside => longest_diameter(beside, behind) - 2.0 * further,
+            true => square / beside,
+            false => beside,
+        };
         let back = match start.diameter {
             Some(diameter) if diameter >= most => return Err(too_near(most, diameter, span)),
             Some(diameter) => {
@@ -103,6 +105,27 @@ impl Onto {
             lines.add(Rank::Motion, format!("{code}{then}"));
         }
     }
+}
+
+/// The diameter of the tool whose way from (-`behind`, `beside`) to where the element begins is as long as its radius;
+/// `behind` > `beside`, machine units.
+///
+/// With t the tangent of half the angle between that way and the element, the radius is b t + h (1 - t²) / 2. The way
+/// is longer where h (t³ + t² - t + 1) > 2 b t². In what is divided by h, from t = b / h, the tool with which the way
+/// just leads there, to the t of no tool, the difference of both sides is convex and changes its sign once.
+fn longest_diameter(beside: f64, behind: f64) -> f64 {
+    let ratio = behind / beside;
+    let is_longer = |t: f64| ((t + 1.0 - 2.0 * ratio) * t - 1.0) * t + 1.0 > 0.0;
+    let (mut short, mut long) = (ratio, ratio + ratio.hypot(1.0));
+    for _ in 0..60 {
+        let middle = f64::midpoint(short, long);
+        if is_longer(middle) {
+            long = middle;
+        } else {
+            short = middle;
+        }
+    }
+    2.0 * behind * long + beside * (1.0 - long * long)
 }
 
 /// How far back the first element begins.

@@ -195,6 +195,34 @@ fn a_way_from_too_near_is_an_error_of_the_program() {
     }
 }
 
+/// What is left of a flat way must be longer than the radius, which is 4: LinuxCNC would stop in the middle of the
+/// program.
+#[test]
+fn a_way_whose_rest_is_shorter_than_the_radius_is_one_from_too_near() {
+    let way = |from: &str| format!("T1 M6 D1\nF300 G0 {from}\nG1 G41 X0 Y0\nY20\nG40 X-60\nM30\n");
+    let arc = |from: &str| way(from).replace("\nY20", "\nG3 X-40 Y0 I-20 J0\nG1 Y-20");
+    let mut refusals = 0;
+    for behind in [1.0, 3.0, 5.0, 8.0, 10.0, 14.0, 20.0] {
+        for beside in [0.5, 1.0, 1.9, 3.0, 4.5, 6.0, 9.0] {
+            for program in [
+                way(&format!("X-{beside} Y-{behind}")),
+                arc(&format!("X-{beside} Y-{behind}")),
+            ] {
+                let shop = Shop::new(&[("part", program.as_bytes())]);
+                let output =
+                    accepted(&shop.run("part", &["--machine-in-inch", "--backend", "program"]));
+                rs274::run(&shop.path(""), TOOLS, &output);
+                let said = std::fs::read_to_string(shop.path("errors.txt")).unwrap_or_default();
+                // rs274 by itself goes on behind an error.
+                let refused = said.contains("begins too near");
+                refusals += usize::from(refused);
+                assert!(refused || !said.contains("entry move"), "{program}{said}");
+            }
+        }
+    }
+    assert!((1..98).contains(&refusals), "{refusals}");
+}
+
 #[test]
 fn what_cannot_be_written_is_refused() {
     let head = "O1\nG21 G90 G17 T1 M6\nG0 G54 X-10. Y-10. F100.\nZ5.\n";

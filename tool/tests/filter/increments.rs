@@ -74,6 +74,7 @@ fn changes_of_offset_and_tool_follow_the_setting() {
         ("G54\nG91 X1", "G0 X7"),
         ("G55\nG90 X8\nG91 X1", "G0 X9"),
         ("G0 SUPA Z0\nG91 X1", "G0 X7"),
+        ("TRANS X1 Y1 Z1\nG0 X5 Y5 Z5\nSUPA Z0\nG91 X1", "G0 X7"),
         ("G0 SUPA Z0\nG91 Z1", "G0 Z[#5422+1]"),
     ] {
         let (lines, warns) = written(blocks, &[]);

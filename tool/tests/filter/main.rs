@@ -37,6 +37,7 @@ mod silence;
 mod simulator;
 mod sinumerik_approach;
 mod sinumerik_arcs;
+mod sinumerik_corners;
 mod sinumerik_cycles;
 mod sinumerik_forms;
 mod sinumerik_header;

@@ -333,6 +333,7 @@ fn inches_are_converted() {
     assert_eq!(
         commands(&translate(program, &["--backend", "program"])),
         [
+            "(MSG, line 4: G70 is for lengths only: F stays in millimetres, the unit of this machine; G700 is for both)",
             "G0 X50.8 Y50.8 Z0 A90",
             "G1 X25.4 F100",
             "G1 X25.4",

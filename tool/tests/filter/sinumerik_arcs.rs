@@ -197,3 +197,46 @@ fn tangent_arcs_and_arcs_over_a_point_hold() {
         );
     }
 }
+
+/// Behind DC, ACP or ACN an angle lies in the turn in which the axis is: nothing is unwound.
+#[test]
+fn angles_stay_in_the_turn_of_the_axis() {
+    let written = |program: &str| commands(&translate(program, &["--backend", "program"]));
+    let program = "G0 X0 C350\nG1 X10 C=DC(10) F9\nX20 C20\nC=AC(0)\nC=ACN(350)\nC20\nC=IC(5)\nC=ACP(0)\nC7\nM30\n";
+    assert_eq!(
+        written(program),
+        [
+            "G0 X0 C350",
+            "G1 X10 C370 F9",
+            "G1 X20 C380",
+            "G1 C360",
+            "G1 C350",
+            "G1 C20",
+            "G1 C25",
+            "G1 C360",
+            "G1 C367",
+            "M30",
+        ]
+    );
+    // An axis that has not been programmed so keeps what is written, and so does a shift.
+    assert_eq!(
+        written("G0 A350 C350\nC=DC(10)\nA20\nG52 C20\nC=AC(30)\nM30\n")[..5],
+        [
+            "(MSG, line 5: where C is, is not known ahead of time: it goes to 30 as LinuxCNC counts its turns)",
+            "G0 A350 C350",
+            "G0 C370",
+            "G0 A20",
+            "G52 C20"
+        ]
+    );
+    for (block, words) in [
+        ("C-10", "counts within one turn"),
+        ("C=AC(400)", "counts within one turn"),
+        ("T1 M6\nG1 C20 F9", "which way this axis turns is not known"),
+    ] {
+        let program = format!("G0 C350\nC=DC(10)\n{block}\nM30\n");
+        let shop = Shop::new(&[("part.mpf", program.as_bytes())]);
+        let shown = refused(&shop.run("part.mpf", &[]));
+        assert!(shown.contains(words), "{block}\n{shown}");
+    }
+}

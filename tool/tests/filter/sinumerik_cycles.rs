@@ -191,3 +191,36 @@ fn tapping_with_a_chuck_that_gives_way() {
         assert!(shown.contains(text), "{program}\n{shown}");
     }
 }
+
+/// The pitch of a tap is in the unit of G70 and G71, its feed in that of the machine.
+#[test]
+fn the_feed_of_a_tap_is_in_the_unit_of_the_machine() {
+    for (unit, place, feed, machine) in [
+        ("G71", "1,0,1,-8,,0,4,3,0,,1.27", "F635", ""),
+        ("G70", "1,0,.1,-.8,,0,4,3,0,,.05", "F635", ""),
+        ("G700", "1,0,.1,-.8,,0,4,3,0,,.05", "F635", ""),
+        ("G70", "1,0,.1,-.8,,0,4,3,0,8,0", "F625", ""),
+        ("G71", "1,0,1,-8,,0,4,3,0,,1.27", "F25", "--machine-in-inch"),
+        (
+            "G710",
+            "1,0,1,-8,,0,4,3,0,,1.27",
+            "F25",
+            "--machine-in-inch",
+        ),
+        (
+            "G70",
+            "1,0,.1,-.8,,0,4,3,0,,.05",
+            "F25",
+            "--machine-in-inch",
+        ),
+    ] {
+        let program = format!("{unit}\nS500 M3\nG0 X0 Y0 Z1\nCYCLE840({place})\nM30\n");
+        let arguments: Vec<&str> = [machine]
+            .into_iter()
+            .filter(|word| !word.is_empty())
+            .collect();
+        let written = commands(&translate(&program, &arguments));
+        let has = |line: &String| line.split(' ').any(|word| word == feed);
+        assert!(written.iter().any(has), "{unit} {machine} {written:?}");
+    }
+}

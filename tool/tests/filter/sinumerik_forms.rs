@@ -412,3 +412,63 @@ M30
     assert!(!other.contains("tool_normal"));
     assert!(errors("CYCLE800(0,,0,192,0,0,0,10,0,0)\nM30\n").contains("MODE = 192"));
 }
+
+/// The values of a modal call are those of its MCALL, whatever becomes of its variables, and whoever moves.
+#[test]
+fn modal_calls_keep_their_values() {
+    let program = "\
+%_N_PART_MPF
+DEF REAL DEPTH=5
+DEF STRING[8] NAME
+R1=2
+F100
+G0 X0 Y0 Z10
+MCALL CYCLE81(10,0,R1,-DEPTH)
+PLACES
+R1=7 DEPTH=9
+G0 X30
+MCALL HOLE(R1) P=R1-5
+R1=1
+X40
+MCALL
+M30
+%_N_PLACES_SPF
+PROC PLACES
+DEF REAL DEPTH=20
+G0 X10
+M17
+%_N_HOLE_SPF
+PROC HOLE(REAL DEPTH)
+G1 Z=-DEPTH
+M17
+";
+    let program = program
+        .replace("DEF STRING[8] NAME\n", "")
+        .replace(" P=R1-5", "");
+    assert_eq!(
+        commands(&translate(&program, &["--backend", "program"])),
+        [
+            "F100",
+            "G0 X0 Y0 Z10",
+            "G0 X10",
+            "G0 Z2",
+            "G1 Z-5",
+            "G0 Z10",
+            "G0 X30",
+            "G0 Z2",
+            "G1 Z-5",
+            "G0 Z10",
+            "G0 X40",
+            "G1 Z-7",
+            "M30"
+        ]
+    );
+    let returns = program
+        .replace("PROC HOLE(REAL", "PROC HOLE(VAR REAL")
+        .replace("HOLE(R1)", "HOLE(DEPTH)");
+    let shown = errors(&returns);
+    assert!(
+        shown.contains("a modal call, and DEPTH returns a value"),
+        "{shown}"
+    );
+}

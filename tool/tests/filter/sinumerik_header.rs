@@ -114,3 +114,32 @@ fn heads_of_subprograms_have_names() {
         assert!(shown.contains(words), "{head}\n{shown}");
     }
 }
+
+/// G70 and G71 leave F in the unit of the machine, which is said where that is another one.
+#[test]
+fn the_unit_of_f_is_said_where_it_is_not_that_of_lengths() {
+    for (program, machine, said) in [
+        (
+            "G71",
+            "--machine-in-inch",
+            Some("G71 is for lengths only: F stays in inches"),
+        ),
+        (
+            "G70",
+            "--skip-blocks",
+            Some("G70 is for lengths only: F stays in millimetres"),
+        ),
+        ("G710", "--machine-in-inch", None),
+        ("G70", "--machine-in-inch", None),
+        ("G71", "--skip-blocks", None),
+        ("G70 G93", "--skip-blocks", None),
+    ] {
+        let program = format!("G54 {program}\nG0 X0 Y0\nG1 X1 F60\nX2 F30\nM30\n");
+        let shop = Shop::new(&[("part.mpf", program.as_bytes())]);
+        let output = shop.run("part.mpf", &[machine]);
+        let written = accepted(&output);
+        let count = written.matches("is for lengths only").count();
+        assert_eq!(count, usize::from(said.is_some()), "{written}");
+        assert!(said.is_none_or(|said| written.contains(said)), "{written}");
+    }
+}

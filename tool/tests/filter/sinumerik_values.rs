@@ -35,6 +35,10 @@ fn lines_by_their_angle() {
         &start().lines(&[(10., 10.), (20., 0.), (30., 0.)]),
     );
     check(
+        "G91 G1 ANG=0\nX=AC(10) Y=AC(5) ANG=90",
+        &start().lines(&[(10., 0.), (10., 5.)]),
+    );
+    check(
         "G1 ANG=0 RND=2\nX10 Y5 ANG=90",
         &start()
             .lines(&[(8., 0.)])
@@ -57,6 +61,8 @@ fn lines_by_their_angle() {
         ("G1 ANG=45\nX10", "has no end"),
         ("G1 ANG=45\nM30", "has no end"),
         ("G1 ANG=45\nX10 Y10 ANG=45", "do not meet"),
+        ("G1 ANG=0\nX=IC(20) Y10 ANG=45", "an increment as the end"),
+        ("G91 G1 ANG=0\nX20 Y10 ANG=45", "an increment as the end"),
         (
             "G1 ANG=0\nX10 Y5 ANG=90 F50",
             "a feed for the second line only",

@@ -63,6 +63,26 @@ fn words_that_act_beside_the_path_are_named() {
     }
 }
 
+/// IC counts from a place of the work offset, which has no coordinate of the machine.
+#[test]
+fn increments_are_none_in_machine_coordinates() {
+    for block in [
+        "G0 SUPA Z=IC(50)",
+        "G0 G53 Z=IC(-5)",
+        "G0 G153 X5 Z=IC(5)",
+        "G1 SUPA Z=IC(5)",
+        "DIAMON G0 SUPA Z=IC(5)",
+        "G91 G0 SUPA Z5",
+        "G91 G0 G53 X=AC(5) Z5",
+    ] {
+        let column = block.find('Z').expect("Z") + 1;
+        one_error(block, column, "an increment in machine coordinates");
+    }
+    let absolute = "G91 G0 SUPA Z=AC(5)\nDIAMON G53 X=AC(8)\nM30\n";
+    let written = commands(&translate(absolute, &["--backend", "program"]));
+    assert_eq!(written, ["G53 G0 Z[5+#5403]", "G53 G0 X[4+#5401]", "M30"]);
+}
+
 #[test]
 fn spindles_are_those_of_the_first() {
     let text = translate(

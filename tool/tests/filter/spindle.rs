@@ -144,7 +144,7 @@ fn rigid_taps_go_in_and_out() {
             "does not come out next",
         ),
         (
-            "G0 X0 Y0 Z2\nG331 Z-15 K1 S400\nG332 Z5 K1\nM30\n",
+            "G0 X0 Y0 Z2\nG331 Z-15 K1 S400\nG332 Z1 K1\nM30\n",
             "does not come back to where it began",
         ),
         ("G0 X0 Y0 Z2\nG332 Z5 K1\nM30\n", "G332 without a G331"),

@@ -84,3 +84,32 @@ fn taps_come_out_at_a_speed_of_their_own() {
     assert!(shown.contains("no spindle speed"), "{shown}");
     assert!(shown.contains("part.mpf:2:1"), "{shown}");
 }
+
+/// LinuxCNC taps back to where G331 began; what is further out is a motion of its own.
+#[test]
+fn a_tap_may_come_further_out_than_it_began() {
+    for (plane, out, back, on) in [
+        (
+            "G17\nG0 X0 Y0 Z2\nG331 Z-50 K-4 S200",
+            "G332 Z3 K-4",
+            "G33.1 Z-50 K4",
+            "G0 Z3 M5",
+        ),
+        (
+            "G17\nG0 X0 Y0 Z-2\nG331 Z50 K4 S200",
+            "G332 Z=IC(-53) K4",
+            "G33.1 Z50 K4",
+            "G0 Z-3 M5",
+        ),
+    ] {
+        let program = format!("{plane}\n{out}\nM30\n");
+        let written = lines(&program);
+        let tap = written.iter().position(|line| line == back).expect("a tap");
+        assert_eq!(written[tap + 1..], [on, "M30"], "{written:?}");
+        interpreted(&program);
+    }
+    for out in ["G332 Z1.9 K4", "G332 Z-55 K4", "G332 Z3 K3"] {
+        let shown = errors(&format!("G0 X0 Y0 Z2\nG331 Z-50 K4 S200\n{out}\nM30\n"));
+        assert!(shown.contains("does not come back"), "{out}\n{shown}");
+    }
+}

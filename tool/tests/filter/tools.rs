@@ -157,3 +157,46 @@ fn without_an_edge_there_is_no_radius() {
         ["G41.1 D0 G1 X10 Y10 F100", "G41 G1 X50", "G41 G1 X50 Y10"]
     );
 }
+
+/// T turns the turret of most lathes: what cuts with the tool of before is refused.
+#[test]
+fn a_lathe_cuts_with_no_tool_that_was_not_changed_to() {
+    let run = |program: &str, ini: &str| {
+        let head = "G18 G54 DIAMON\nT1 D1 M6\nS500 M4 F100\nG0 X50 Z5\nG1 Z-20\nG0 X99 Z99\n";
+        let program = format!("{head}{program}\nM30\n");
+        let shop = Shop::new(&[
+            ("part.mpf", program.as_bytes()),
+            ("shop.ini", ini.as_bytes()),
+        ]);
+        shop.run("part.mpf", &["--ini", "shop.ini"])
+    };
+    let (lathe, mill) = (
+        "[TRAJ]\nCOORDINATES = X Z\n",
+        "[TRAJ]\nCOORDINATES = X Y Z\n",
+    );
+    for (program, place) in [
+        ("T2\nG0 X48 Z5\nG1 Z-20\nZ-30", "part.mpf:9:1"),
+        ("T2 D1\nG0 X48 Z5\nG1 Z-20", "part.mpf:9:1"),
+        ("T2\nG1 Z-20 F50", "part.mpf:8:1"),
+        ("T2\nG1 SUPA Z-20", "part.mpf:8:1"),
+        ("T2\nG33 Z-20 K1", "part.mpf:8:1"),
+        ("G1\nT2 Z-20", "part.mpf:8:1"),
+    ] {
+        let shown = refused(&run(program, lathe));
+        assert!(
+            shown.contains(place) && shown.contains("T2 M6"),
+            "{program}\n{shown}"
+        );
+        assert_eq!(shown.matches("error: ").count(), 2, "and how many: {shown}");
+        accepted(&run(program, mill));
+    }
+    for program in [
+        "T2\nG0 X90\nM6\nG1 Z-20",
+        "T2 M6\nG1 Z-20",
+        "T1\nG1 Z-20",
+        "T2\nG0 X90\nT0",
+        "M6 T2\nG1 Z-20",
+    ] {
+        accepted(&run(program, lathe));
+    }
+}

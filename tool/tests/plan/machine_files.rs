@@ -56,6 +56,25 @@ fn an_include_that_only_a_shell_understands_is_refused() {
     );
 }
 
+/// LinuxCNC gives its interpreter the INI file with those that it includes.
+#[test]
+fn subroutines_of_an_included_file_are_found() {
+    let bench = Bench::new();
+    let (keys, include) = (
+        "[RS274NGC]\nSUBROUTINE_PATH = subs\n",
+        "#INCLUDE more.inc\n",
+    );
+    bench.write("mill.ini", &MILL.replace("[RS274NGC]\n", include));
+    bench.write("more.inc", keys);
+    std::fs::create_dir(bench.path().join("subs")).expect("a folder");
+    bench.write(
+        "subs/far.ngc",
+        "o<far> sub\nG1 X100 F6000\no<far> endsub\nM2\n",
+    );
+    let figures = bench.figures("G21\no<far> call\nM2\n", &["--ini", "mill.ini"]);
+    assert_eq!(figures["path_length"], 100.0);
+}
+
 /// Moves of a file of subroutines have lines of that file, which are none of the program.
 #[test]
 fn lines_of_subroutines_are_not_those_of_the_program() {

@@ -2,11 +2,12 @@
 
 use super::modal::Motion;
 use super::motion::{length_factor, targets};
-use super::words::{AXES, Dimension, MotionWords};
+use super::words::{AXES, At, Dimension, MotionWords};
 use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
 use crate::program::frame::Frame;
 use crate::program::moves::{Coordinate, Move, MoveKind};
+use crate::program::position::apply_partly;
 use crate::program::{Action, Compensation};
 use crate::source::Span;
 
@@ -22,13 +23,8 @@ impl Control<'_> {
         own_feed: bool,
     ) -> Done {
         self.refuse_compensation(span, "a motion in machine coordinates")?;
-        if self.modal.incremental
-            && words
-                .axes
-                .iter()
-                .flatten()
-                .any(|axis| axis.value.1 != Dimension::Absolute)
-        {
+        let increment = |axis: &At<(f64, Dimension)>| self.modal.is_incremental(axis.value.1);
+        if words.axes.iter().flatten().any(increment) {
             return Err(
                 Diagnostic::error(span, "an increment in machine coordinates")
                     .help("write G90 in this block"),
@@ -50,17 +46,17 @@ impl Control<'_> {
         };
         let target = targets(words, &self.modal, self.settings, self.diagnostics)?;
         let start = self.modal.position.coordinates();
+        let displaced = displaced(&target, &self.modal.frame);
         for (axis, target) in target.iter().enumerate() {
-            let framed = axis < 3 && !self.modal.frame.is_empty();
             let moves = *target != Coordinate::Keep;
             self.modal.length_undecided &= !(moves && axis == 2);
-            if moves || framed {
+            if displaced[axis] {
                 self.modal.position.set(axis, None);
             }
             // What has changed for an axis that stays is still to be travelled, from a place that the motion
             // of the others may have changed in a frame.
             let carried = &mut self.modal.carried[axis];
-            *carried = match framed {
+            *carried = match axis < 3 && !self.modal.frame.is_empty() {
                 _ if moves => None,
                 true => carried.map(|_| None),
                 false => *carried,
@@ -183,6 +179,25 @@ impl Control<'_> {
             );
         }
     }
+}
+
+/// The coordinates in the frame that a motion of the machine's axes changes: those of its own axes, and those that
+/// the frame mixes with them.
+fn displaced(target: &[Coordinate; 9], frame: &Frame) -> [bool; 9] {
+    let moves = |axis: usize| target[axis] != Coordinate::Keep;
+    let mut displaced = std::array::from_fn(moves);
+    if frame.is_empty() {
+        return displaced;
+    }
+    let stays = [0, 1, 2].map(|axis| (!moves(axis)).then_some(0.0));
+    let in_frame = match frame.map().inverse() {
+        Ok(inverse) => apply_partly(&inverse, stays),
+        Err(_) => [None; 3],
+    };
+    for (axis, place) in in_frame.into_iter().enumerate() {
+        displaced[axis] |= place.is_none();
+    }
+    displaced
 }
 
 /// G52 behind G92, while the tool is nobody knows where.

@@ -1,5 +1,6 @@
 //! What stays in force from block to block.
 
+use super::words::Dimension;
 use crate::dialects::settings::Settings;
 use crate::program::frame::Frame;
 use crate::program::position::Position;
@@ -128,6 +129,15 @@ impl Modal {
         };
         self.length_factor = factor;
         self.feed_factor = if feed_too { factor } else { 1.0 };
+    }
+
+    /// Whether a coordinate counts from where its axis is.
+    pub fn is_incremental(&self, dimension: Dimension) -> bool {
+        match dimension {
+            Dimension::Modal => self.incremental,
+            Dimension::Absolute => false,
+            Dimension::Incremental => true,
+        }
     }
 
     /// Nothing is known about the coordinates any more.

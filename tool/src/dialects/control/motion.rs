@@ -105,13 +105,8 @@ pub(super) fn targets(
             continue;
         };
         let factor = length_factor(axis, modal) * written_factor(axis, modal);
-        let incremental = match dimension {
-            Dimension::Modal => modal.incremental,
-            Dimension::Absolute => false,
-            Dimension::Incremental => true,
-        };
         let value = value * factor;
-        targets[axis] = if !incremental {
+        targets[axis] = if !modal.is_incremental(dimension) {
             Coordinate::At(value)
         } else {
             match increment_base(axis, span, modal, settings, diagnostics)? {

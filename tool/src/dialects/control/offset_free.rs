@@ -102,12 +102,7 @@ impl Control<'_> {
         state: &OffsetFree,
     ) -> Result<f64, Diagnostic> {
         let (value, dimension) = word.value;
-        let incremental = match dimension {
-            Dimension::Modal => self.modal.incremental,
-            Dimension::Absolute => false,
-            Dimension::Incremental => true,
-        };
-        if !incremental {
+        if !self.modal.is_incremental(dimension) {
             return Ok(value);
         }
         let letter = AXES[axis];

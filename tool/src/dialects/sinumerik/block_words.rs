@@ -44,7 +44,7 @@ pub struct BlockWords {
     /// AP and RP: polar coordinates.
     pub polar_angle: Option<At<(f64, Dimension)>>,
     pub polar_radius: Option<At<(f64, Dimension)>>,
-    /// RND, CHF, CHR: lengths in units of the program.
+    /// RND, CHF, CHR: lengths in units of the program, 0 for a corner that stays as it is.
     pub corner: Option<At<Corner>>,
     /// RNDM.
     pub rounding: Option<At<f64>>,
@@ -160,8 +160,8 @@ impl BlockWords {
             "RP" => set(&mut self.polar_radius, dimensioned(word, variables)?, span, address),
             "RND" | "CHF" | "CHR" => {
                 let length = number(word, variables)?;
-                if length <= 0.0 {
-                    return Err(error(span, "a rounding or chamfer must be above 0"));
+                if length < 0.0 {
+                    return Err(error(span, "a rounding or chamfer cannot be negative"));
                 }
                 let corner = match address {
                     "RND" => Corner::Round(length),

@@ -105,7 +105,15 @@ impl Interpreter<'_> {
 
     /// Cycles of the control. `false` for any other name.
     fn control_cycle(&mut self, call: &Call, block: &Block) -> Result<bool, Diagnostic> {
-        match call.name.as_str() {
+        let name = call.name.as_str();
+        let mills = matches!(
+            name,
+            "CYCLE72" | "POCKET3" | "POCKET4" | "SLOT1" | "LONGHOLE"
+        );
+        if mills || is_drilling(name) {
+            self.refuse_tool_of_before(call.span)?;
+        }
+        match name {
             "CYCLE832" => self.high_speed_settings(call)?,
             "CYCLE800" => self.swivel(call)?,
             name if is_drilling(name) => {

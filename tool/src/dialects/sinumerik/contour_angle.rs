@@ -73,6 +73,7 @@ impl Interpreter<'_> {
                 Ok(false)
             }
             (Some(open), [Some(_), Some(_)]) => {
+                self.refuse_increments(&given)?;
                 let end = [0, 1].map(|at| self.target(given[at], start[at]));
                 let corner =
                     intersection(start, open.angle, end, angle.value).ok_or_else(|| {
@@ -111,13 +112,26 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Refuses an end of two lines that does not say whether it counts from their start or from where they meet.
+    fn refuse_increments(&self, given: &[Option<At<(f64, Dimension)>>; 2]) -> Done {
+        let mut words = given.iter().flatten();
+        match words.find(|word| self.is_incremental(word.value.1)) {
+            None => Ok(()),
+            Some(word) => Err(Diagnostic::error(
+                word.span,
+                "an increment as the end of two lines with ANG",
+            )
+            .help("write both coordinates absolute: X=AC(50) Y=AC(20) ANG=90")),
+        }
+    }
+
     fn target(&self, word: Option<At<(f64, Dimension)>>, start: f64) -> f64 {
         let Some((value, dimension)) = word.map(|word| word.value) else {
             return start;
         };
-        match (dimension, self.control.modal.incremental) {
-            (Dimension::Incremental, _) | (Dimension::Modal, true) => start + value,
-            _ => value,
+        match self.is_incremental(dimension) {
+            true => start + value,
+            false => value,
         }
     }
 

@@ -6,10 +6,11 @@ use super::block_words::{BlockWords, ToolWord};
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::beside_motion::Waiting;
+use crate::dialects::control::modal::Motion;
 use crate::dialects::control::words::{At, Dimension};
 use crate::dialects::control::{Control, Done};
 use crate::program::moves::{Corner, MoveKind};
-use crate::program::{Action, Compensation, OrientWay};
+use crate::program::{Action, Compensation, FeedMode, OrientWay};
 use crate::source::Span;
 
 /// How a block ends.
@@ -83,6 +84,9 @@ impl Interpreter<'_> {
             return Ok(BlockEnd::Continue);
         }
         self.resolve_axes(&mut words)?;
+        if !once.takes_axes() {
+            self.resolve_turns(&mut words)?;
+        }
         let words = &words;
         if let Some(span) = once.dwell {
             self.control.apply_states(compensated);
@@ -90,6 +94,7 @@ impl Interpreter<'_> {
             return Ok(BlockEnd::Continue);
         }
         if let Some(feed) = words.feed {
+            self.note_unit_of_feed(feed.span);
             self.control.feed(feed)?;
         }
         self.spindle_words(words)?;
@@ -113,6 +118,9 @@ impl Interpreter<'_> {
         self.control.apply_states(compensated);
         if words.motion.names_an_axis() {
             self.note_tool_left(block);
+        }
+        if self.cuts(words, &once) {
+            self.refuse_tool_of_before(block)?;
         }
         let at = self.control.actions.len();
         if !self.move_with_spindle(words, &once, block)? {
@@ -224,6 +232,52 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Whether the block moves otherwise than rapidly.
+    fn cuts(&self, words: &BlockWords, once: &OneShot) -> bool {
+        let with_spindle = self.spindle_motion.is_some() || words.g.iter().any(|g| g.value == 630);
+        let rapid = self.control.modal.motion == Some(Motion::Rapid) && !with_spindle;
+        words.is_motion() && !rapid && (!once.takes_axes() || once.machine_coordinates.is_some())
+    }
+
+    /// On a lathe, where T turns the turret on most controls: what cuts now would cut with the tool of before.
+    pub(super) fn refuse_tool_of_before(&mut self, span: Span) -> Done {
+        let Some(tool) = self.tool_of_turret() else {
+            return Ok(());
+        };
+        // Said once; the blocks after it have the same fault.
+        self.selected = self.tool;
+        Err(Diagnostic::error(
+            span,
+            format!("T{tool} is selected and not changed to, on a lathe: LinuxCNC would cut with the tool of before"),
+        )
+        .help(format!(
+            "write M6 where the tool is to be changed: T{tool} M6; a tool that is only to be ready is selected where \
+             nothing is cut before its M6"
+        )))
+    }
+
+    /// The tool that T has selected on a lathe and M6 has not changed to.
+    pub(super) fn tool_of_turret(&self) -> Option<u32> {
+        let selected = self.selected.filter(|tool| *tool > 0);
+        selected.filter(|_| self.control.settings.lathe && selected != self.tool)
+    }
+
+    /// F where G70 or G71 have chosen another unit for lengths.
+    fn note_unit_of_feed(&mut self, span: Span) {
+        let modal = &self.control.modal;
+        if modal.length_factor == modal.feed_factor || modal.feed_mode == FeedMode::InverseTime {
+            return;
+        }
+        let (lengths, unit, both) = match self.control.settings.machine_in_inch {
+            true => ("G71", "inches", "G710"),
+            false => ("G70", "millimetres", "G700"),
+        };
+        let message = format!(
+            "{lengths} is for lengths only: F stays in {unit}, the unit of this machine; {both} is for both"
+        );
+        self.control.note_once("the unit of F", &message, span);
+    }
+
     fn choose_edge(&mut self, offset: At<f64>) -> Done {
         let on = match offset.value {
             0.0 => false,
@@ -328,6 +382,12 @@ impl Interpreter<'_> {
     /// Asks for the corner at the end of the motion of the block.
     pub(super) fn corner_after(&mut self, corner: Option<At<Corner>>) -> Done {
         let factor = self.control.modal.length_factor;
+        // A parameter of 0, where a program leaves this corner as it is.
+        if let Some(Corner::Round(0.0) | Corner::ChamferOf(0.0) | Corner::ChamferFrom(0.0)) =
+            corner.map(|corner| corner.value)
+        {
+            return Ok(());
+        }
         let asked = corner;
         let corner = match corner {
             Some(corner) => match corner.value {
@@ -373,11 +433,10 @@ impl Interpreter<'_> {
             // SUPA D0 alone only suppresses what a motion in this block would use.
             return Ok(());
         }
-        let increments = |axis: &At<(f64, Dimension)>| axis.value.1 != Dimension::Absolute;
-        let mut axes = words.motion.axes.iter().flatten();
-        if self.control.modal.incremental && axes.any(increments) {
+        let increment = |axis: &&At<(f64, Dimension)>| self.is_incremental(axis.value.1);
+        if let Some(axis) = words.motion.axes.iter().flatten().find(increment) {
             return Err(
-                Diagnostic::error(span, "an increment in machine coordinates")
+                Diagnostic::error(axis.span, "an increment in machine coordinates")
                     .help("write G90, or X=AC(..), in this block"),
             );
         }

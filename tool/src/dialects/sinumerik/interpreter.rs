@@ -73,6 +73,8 @@ pub struct Interpreter<'a> {
     pub(super) approach_side: Option<bool>,
     /// G341.
     pub(super) approach_flat: bool,
+    /// The axes that DC, ACP or ACN have shown to count their angles within one turn.
+    pub(super) modulo: [bool; 9],
     /// The first of two lines with ANG.
     pub(super) open_line: Option<OpenLine>,
     /// The work offset in force, 1 for G54 and 0 for G500, once the program has named one.
@@ -117,6 +119,7 @@ impl<'a> Interpreter<'a> {
             approach: None,
             approach_side: None,
             approach_flat: false,
+            modulo: [false; 9],
             open_line: None,
             system: None,
             waiting_offsets: Vec::new(),
@@ -405,8 +408,12 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
         Interpreter::end_is_missing(self, last);
     }
 
-    fn takes(&self, _: &PlainBlock) -> bool {
-        self.arc_form.is_none()
+    fn takes(&self, block: &PlainBlock) -> bool {
+        let modal = &self.control.modal;
+        // What G70 and G71 do to F is said.
+        let feed_as_lengths = block.feed.is_none() || modal.length_factor == modal.feed_factor;
+        feed_as_lengths
+            && self.arc_form.is_none()
             && self.spindle_motion.is_none()
             && self.rounding.is_none()
             && self.modal_call.is_none()
@@ -416,7 +423,9 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
             && self.approach.is_none()
             && self.diameter == Diameter::default()
             && !self.offset_free.active
-            && self.control.modal.kept_speed.is_none()
+            && modal.kept_speed.is_none()
             && self.tool_left.is_none()
+            && self.tool_of_turret().is_none()
+            && self.modulo == [false; 9]
     }
 }

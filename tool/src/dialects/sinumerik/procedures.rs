@@ -167,11 +167,58 @@ impl Interpreter<'_> {
         }
         let drills = call.is_some_and(|call| is_drilling(&call.name));
         self.control.modal_cycle(drills);
-        self.modal_call = call.map(|call| ModalCall {
-            call: call.clone(),
-            running: false,
-        });
+        self.modal_call = None;
+        if let Some(call) = call {
+            self.modal_call = Some(ModalCall {
+                call: self.call_with_values(call)?,
+                running: false,
+            });
+        }
         Ok(())
+    }
+
+    /// A modal call with its arguments worked out where MCALL stands: variables that change later, and those of a
+    /// subprogram that moves, are others.
+    fn call_with_values(&mut self, call: &Call) -> Result<Call, Diagnostic> {
+        if !is_drilling(&call.name) {
+            self.refuse_returned(call)?;
+        }
+        let value = |given: &Expression| {
+            let kind = match given.evaluate(&self.variables)? {
+                Value::Number(number) => ExpressionKind::Number(number),
+                Value::Text(text) => ExpressionKind::Text(text),
+            };
+            let span = given.span;
+            Ok(Expression { kind, span })
+        };
+        let mut valued = call.clone();
+        for given in valued.arguments.iter_mut().chain([&mut valued.passes]) {
+            *given = given.as_ref().map(value).transpose()?;
+        }
+        Ok(valued)
+    }
+
+    /// Refuses VAR parameters in a modal call: their variable may not be there where the subprogram runs.
+    fn refuse_returned(&mut self, call: &Call) -> Done {
+        let (sources, diagnostics) = (&mut *self.control.sources, &mut *self.control.diagnostics);
+        let Some(routine) = self.library.find(&call.name, sources, diagnostics) else {
+            return Ok(());
+        };
+        let parameters = self.head(&routine).parameters;
+        let mut returned = parameters.iter().filter(|parameter| parameter.returns);
+        match returned.next() {
+            None => Ok(()),
+            Some(parameter) => Err(Diagnostic::error(
+                call.span,
+                format!(
+                    "a modal call, and {} returns a value (VAR)",
+                    parameter.definition.name
+                ),
+            )
+            .help(
+                "return it in an R parameter, or call the subprogram at each place without MCALL",
+            )),
+        }
     }
 
     /// Runs the modal subprogram after a motion. What it moves itself does not call it again.

@@ -15,6 +15,9 @@ use crate::source::Span;
 /// Places of the spindle axis that differ by less, in units of the program, are the same.
 const SAME_PLACE: f64 = 1e-6;
 
+/// Degrees.
+const TURN: f64 = 360.0;
+
 /// Whether X is programmed as a diameter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Diameter {
@@ -184,14 +187,20 @@ impl Interpreter<'_> {
             Some((value, _)) => value,
             None => tap.bottom,
         };
-        if (end - start).abs() > SAME_PLACE || pitch != tap.pitch {
+        let beyond = (end - start) * (start - tap.bottom).signum();
+        if beyond < -SAME_PLACE || pitch != tap.pitch {
             return Err(Diagnostic::error(
                     span,
                     "this tap does not come back to where it began with the pitch with which it went in",
                 )
                 .help("LinuxCNC taps back to the start: end G332 where G331 began, and move on with G0"));
         }
-        self.tap_at_both_speeds(&tapping, span)
+        self.tap_at_both_speeds(&tapping, span)?;
+        // The tool is out of the hole there: the rest of the way needs no spindle.
+        if beyond > SAME_PLACE {
+            self.control.move_axis(axis, end, true, span)?;
+        }
+        Ok(())
     }
 
     /// S of G331 is the speed of the way in, S behind it that of the way out, which stays in force.
@@ -217,12 +226,8 @@ impl Interpreter<'_> {
         self.control.speed(At { value: out, span })
     }
 
-    fn is_incremental(&self, dimension: Dimension) -> bool {
-        match dimension {
-            Dimension::Modal => self.control.modal.incremental,
-            Dimension::Absolute => false,
-            Dimension::Incremental => true,
-        }
+    pub(super) fn is_incremental(&self, dimension: Dimension) -> bool {
+        self.control.modal.is_incremental(dimension)
     }
 
     /// Diameters become radii, and ways of rotary axes coordinates.
@@ -246,30 +251,15 @@ impl Interpreter<'_> {
             let (Some(way), Some(word)) = (way, &mut words.motion.axes[axis]) else {
                 continue;
             };
+            self.modulo[axis] = true;
             let Some(present) = self.control.present(axis) else {
                 let rapid = self.control.modal.motion == Some(Motion::Rapid);
                 if rapid && *way == Way::Shorter {
-                    self.control.diagnostics.push(
-                        Diagnostic::warning(
-                            word.span,
-                            format!(
-                                "where {} is, is not known ahead of time: it goes to {} as LinuxCNC \
-                                 counts its turns",
-                                AXES[axis], word.value.0
-                            ),
-                        )
-                        .help("the angle is the same; the way there may be the longer one"),
-                    );
+                    let word = *word;
+                    self.warn_of_turns(axis, word);
                     continue;
                 }
-                return Err(Diagnostic::unknown_place(
-                    word.span,
-                    "which way this axis turns is not known ahead of time",
-                )
-                .help(format!(
-                    "program {} absolute with AC(..) before",
-                    AXES[axis]
-                )));
+                return Err(unknown_turn(axis, word.span));
             };
             let forward = (word.value.0 - present).rem_euclid(360.0);
             let step = match way {
@@ -282,6 +272,54 @@ impl Interpreter<'_> {
             word.value.0 = present + step;
         }
         Ok(())
+    }
+
+    /// Absolute angles of an axis that counts within one turn lie in the turn in which it is: the control does not
+    /// cross 0 on the way to them, and LinuxCNC would unwind the turns that DC, ACP and ACN have added.
+    pub(super) fn resolve_turns(&mut self, words: &mut BlockWords) -> Done {
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            let plain = self.modulo[axis] && words.ways[axis].is_none();
+            let Some(word) = words.motion.axes[axis].as_mut().filter(|_| plain) else {
+                continue;
+            };
+            let (angle, dimension) = word.value;
+            if self.is_incremental(dimension) {
+                continue;
+            }
+            if !(0.0..=TURN).contains(&angle) {
+                return Err(Diagnostic::error(
+                    word.span,
+                    format!("{letter} counts within one turn since DC, ACP or ACN, and {angle} is outside of it"),
+                )
+                .help(format!("write an angle from 0 to 360, or {letter}=DC(..), ACP(..) or ACN(..)")));
+            }
+            match self.control.present(axis) {
+                Some(present) => {
+                    // An angle that was reckoned may fall short of the turn by rounding.
+                    let turns = (present / TURN + SAME_PLACE).floor();
+                    word.value = (angle + turns * TURN, Dimension::Absolute);
+                }
+                None if self.control.modal.motion == Some(Motion::Rapid) => {
+                    self.warn_of_turns(axis, *word);
+                }
+                None => return Err(unknown_turn(axis, word.span)),
+            }
+        }
+        Ok(())
+    }
+
+    /// A rapid motion to an angle from nobody knows which turn.
+    fn warn_of_turns(&mut self, axis: usize, word: At<(f64, Dimension)>) {
+        let (letter, angle) = (AXES[axis], word.value.0);
+        self.control.diagnostics.push(
+            Diagnostic::warning(
+                word.span,
+                format!(
+                    "where {letter} is, is not known ahead of time: it goes to {angle} as LinuxCNC counts its turns"
+                ),
+            )
+            .help("the angle is the same; the way there may be the longer one"),
+        );
     }
 
     /// Absolute places on the way of an arc are diameters as its end is; what counts from the start of the arc
@@ -310,6 +348,13 @@ impl Interpreter<'_> {
         }
         Ok(())
     }
+}
+
+/// A rotary axis that turns from a place that is not known.
+fn unknown_turn(axis: usize, span: Span) -> Diagnostic {
+    Diagnostic::unknown_place(span, "which way this axis turns is not known ahead of time").help(
+        format!("program {} absolute with G0 and AC(..) before", AXES[axis]),
+    )
 }
 
 /// G331 and G332 hold, and only axes with a pitch are a tap.

@@ -158,12 +158,12 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Units of the program a minute.
+    /// F of the program: G70 and G71 change the unit of lengths, and so of the pitch, and not that of F.
     fn feed_of_pitch(&self, cycle: &Cycle, pitch: Option<f64>) -> Result<f64, Diagnostic> {
         let modal = &self.control.modal;
         match (pitch, modal.spindle_speed, modal.feed_mode) {
             (Some(pitch), Some(speed), FeedMode::PerMinute) if speed > 0.0 => {
-                Ok(pitch.abs() * speed)
+                Ok(pitch.abs() * speed * modal.length_factor / modal.feed_factor)
             }
             _ => Err(Diagnostic::error(
                 cycle.span,
