@@ -228,6 +228,35 @@ fn a_machine_that_was_held_for_long_begins_at_once() {
     }
 }
 
+/// As dashes between M3 and M5, or holes with dwells: another one is waited for before each of the first, not of those behind them,
+/// until two come together.
+#[test]
+fn moves_that_come_one_by_one_at_rest_begin_at_once() {
+    with_machine(|machine| {
+        let tolerance = TerminationCondition::Continuous { tolerance: 0.05 };
+        machine.planner.set_termination(tolerance);
+        let mut x = 0.0;
+        let mut standing = |machine: &mut Machine, lines: usize| {
+            let from = machine.planner.status().position;
+            for _ in 0..lines {
+                x += 1.0;
+                machine
+                    .line(at(x, 0.01 * x * x), &feed_move(50.0))
+                    .expect("a line");
+            }
+            let stands = |machine: &mut Machine| machine.cycle().position == from;
+            let cycles = (0..30).take_while(|_| stands(machine)).count();
+            machine.run(1000);
+            cycles
+        };
+        let alone = [(); 8].map(|()| standing(machine, 1));
+        assert!(alone[..3].iter().all(|cycles| *cycles > 6), "{alone:?}");
+        assert!(alone[4..].iter().all(|cycles| *cycles <= 5), "{alone:?}");
+        standing(machine, 2);
+        assert!(standing(machine, 1) > 6);
+    });
+}
+
 /// However much of the path is still open when the operator aborts.
 #[test]
 fn an_abort_while_the_machine_is_held_leaves_nothing_behind() {
