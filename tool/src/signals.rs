@@ -3,7 +3,9 @@
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
+#[cfg(feature = "linuxcnc")]
+use std::sync::atomic::Ordering;
 
 /// The signals that ask for it.
 const SIGNALS: &[i32] = &[
@@ -23,12 +25,14 @@ pub(crate) fn stop_on_signals() -> io::Result<Arc<AtomicBool>> {
 }
 
 /// The same for a while, in which something would be left behind.
+#[cfg(feature = "linuxcnc")]
 #[derive(Debug)]
 pub(crate) struct StopForAWhile {
     stop: Arc<AtomicBool>,
     over: Arc<AtomicBool>,
 }
 
+#[cfg(feature = "linuxcnc")]
 impl StopForAWhile {
     /// From now on.
     pub(crate) fn new() -> io::Result<StopForAWhile> {
