@@ -58,7 +58,12 @@ pub fn stops(subject: &Subject) -> Vec<Stop> {
         let own = positive(&section, "MAX_VELOCITY")?;
         let velocity = positive("TRAJ", path).map_or(own, |path| own.min(path));
         let acceleration = positive(&section, "MAX_ACCELERATION")?;
-        let set = subject.state.settings.get(&jerk_pin(*letter));
+        let pin = jerk_pin(*letter);
+        let set = subject.state.settings.get(&pin);
+        // What another component says on its signal is not known.
+        if set.is_none() && subject.state.signal_of(&pin).is_some() {
+            return None;
+        }
         let jerk: Option<f64> = set.and_then(|setting| setting.value.parse().ok());
         // No move is taken, so there is none to stop.
         if subject.has_planner()

@@ -67,12 +67,14 @@ pub struct State {
     pub programs: Vec<Program>,
     /// In the order in which their threads run them.
     pub functions: Vec<Added>,
-    /// The last value of each pin.
+    /// The last value of each pin, by itself or by its signal.
     pub settings: BTreeMap<String, Setting>,
     /// The pins of each signal, with the places where they were linked.
     pub signals: BTreeMap<String, Vec<(String, Place)>>,
     /// What halcmd refuses.
     pub problems: Vec<Problem>,
+    /// The last value of each signal that is given one.
+    values: BTreeMap<String, Setting>,
     /// Other names of pins.
     aliases: BTreeMap<String, String>,
 }
@@ -118,7 +120,7 @@ impl State {
                 self.functions.retain(|added| !named(added));
             }
             "setp" => self.set(statement, word(1), 2),
-            "sets" if statement.words.len() == 3 => self.judge_value(statement),
+            "sets" if statement.words.len() == 3 => self.set_signal(statement),
             _ if word(1) == "=" => self.set(statement, word(0), 2),
             "net" | "linksp" => {
                 let pins = statement.words.iter().skip(2).map(|word| &word.text);
@@ -265,6 +267,19 @@ impl State {
         self.settings.insert(self.named(pin), setting);
     }
 
+    fn set_signal(&mut self, statement: &Statement) {
+        self.judge_value(statement);
+        let signal = statement.word(1);
+        let setting = Setting {
+            value: statement.word(2).to_owned(),
+            statement: statement.clone(),
+        };
+        for (pin, _) in self.signals.get(signal).into_iter().flatten() {
+            self.settings.insert(pin.clone(), setting.clone());
+        }
+        self.values.insert(signal.to_owned(), setting);
+    }
+
     /// The third word of a statement that sets something.
     fn judge_value(&mut self, statement: &Statement) {
         let value = statement.word(2);
@@ -291,6 +306,9 @@ impl State {
             }
             Some(_) => {}
             None => {
+                if let Some(value) = self.values.get(signal) {
+                    self.settings.insert(pin.clone(), value.clone());
+                }
                 let pins = self.signals.entry(signal.to_owned()).or_default();
                 pins.push((pin, statement.place.clone()));
             }
@@ -319,6 +337,13 @@ mod tests {
         let order = state.functions.iter().filter(|added| added.thread == "t");
         let order: Vec<&str> = order.map(|added| added.function.as_str()).collect();
         assert_eq!(order, ["a", "b", "bc", "c", "far"]);
+    }
+
+    #[test]
+    fn a_value_of_a_signal_is_one_of_its_pins() {
+        let state = run("net s a b\nsets s 5\nlinkps c => s\nsetp d 1\nnet t d\n");
+        let values = ["a", "b", "c", "d"].map(|pin| state.settings[pin].value.as_str());
+        assert_eq!(values, ["5", "5", "5", "1"]);
     }
 
     #[test]

@@ -63,3 +63,22 @@ fn what_halcmd_takes_is_none() {
                  sets estop-loop FALSE\nsetp joint.0.jog-scale 0x10\nsetp mux2.0.sel 2";
     assert_eq!(found(taken), before);
 }
+
+/// A limit of jerk that a signal gives its pins is one as if it were set itself.
+#[test]
+fn a_limit_of_jerk_may_come_by_a_signal() {
+    let bench = Bench::new();
+    let hal = bench.read("framepath-sim", "hal");
+    let own = "setp blendtp.axis.x.max-jerk [AXIS_X]MAX_JERK\n";
+    assert!(hal.contains(own), "{hal}");
+    let by_signal = hal.replace(own, "net jerk blendtp.axis.x.max-jerk\nsets jerk 100\n");
+    bench.write("framepath-sim", "hal", &by_signal);
+    let findings = bench.findings("framepath-sim");
+    let words = "blendtp.axis.x.max-jerk is 100, and blendtp refuses every move";
+    let said = |finding: &&Value| {
+        finding["found"]
+            .as_str()
+            .is_some_and(|found| found.contains(words))
+    };
+    assert_eq!(findings.iter().filter(said).count(), 1, "{findings:#?}");
+}
