@@ -23,7 +23,7 @@ import time
 import hal
 import linuxcnc
 
-from frame_gone import GIVE_AGAIN, REMOVED, outputs_taken
+from frame_gone import GIVE_AGAIN, REMOVED, Overwritten, outputs_taken
 from frame_heart import Heart
 from frame_held import Held
 from frame_look import Look
@@ -104,8 +104,7 @@ class Guard:
         self.unsaid = []
         #: the run that is being stopped, so that it is told only once
         self.stopped = False
-        #: the program that runs has written to the outputs of the frames
-        self.overwritten = False
+        self.overwritten = Overwritten(settings.task_cycle)
         #: what was touched off in frames
         self.touched = Touched()
         #: the offsets when the frame had to go, None while it may stay
@@ -183,9 +182,8 @@ class Guard:
         if now.acknowledged != last.acknowledged:
             self.commanded = True
         runs = not now.idle and not last.idle and now.serial == last.serial
-        if runs and now.command == 0 != last.command and last.has_frame and self.settings.clear_on_abort:
-            # behind an abort nothing runs, and a start is a command
-            self.overwritten = True
+        zeroed = now.command == 0 != last.command and last.has_frame and self.settings.clear_on_abort
+        self.overwritten.follow(runs, zeroed)
 
     def follow_touch_off(self, now, last):
         """Tells of offsets that were touched off in a frame when that goes, and stops a program that starts with one, once:
@@ -345,17 +343,18 @@ class Guard:
     def read_anew(self):
         """Makes the interpreter read its position without the frame. Until then framekins holds the machine."""
         releases = self.pins["releases"]
-        if self.reason in {None, "abort"} and not self.overwritten:
-            self.say(self.command.text_msg, REMOVED)
         self.settle()
         # held as the machine is, what has begun can wait; an abort may still be on its way to the status
-        why = outputs_taken(self.settings.analog_output) if self.overwritten else GIVE_AGAIN
-        if not self.wait(lambda: self.look().idle, SETTLING + 3 * self.settings.task_cycle):
+        ended = self.wait(lambda: self.look().idle, SETTLING + 3 * self.settings.task_cycle)
+        overwritten = self.overwritten.take(ended)
+        why = outputs_taken(self.settings.analog_output) if overwritten else GIVE_AGAIN
+        if self.reason in {None, "abort"} and not overwritten:
+            self.say(self.command.text_msg, REMOVED)
+        if not ended:
             self.stop(why)
             self.wait(lambda: self.look().idle, 1.0)
-        elif self.overwritten:
+        elif overwritten:
             self.tell(why)
-        self.overwritten = False
         now = self.look()
         if now.on and now.auto:
             # to go to AUTO once more reads it, too: in any other mode what somebody gives in MDI meanwhile would be lost by

@@ -84,7 +84,7 @@ class Removed(Case):
         for name in ("m67", "m68"):
             steps += [["forget"], run(name), OFF, KNOWN, ["recall", name], ["note", f"{name} place"], ["mdi", "G0 X0 Y0"]]
         result = harness.run(steps, programs(m68=f"{frame}M68 E0 Q0\nG4 P0.1\nG1 X20\nM2\n",
-                                             m67=f"{frame}M67 E0 Q0\nG1 X12\nM67 E0 Q80\nG1 X20\nM2\n"))
+                                             m67=f"{frame}M67 E0 Q0\nG1 X12\nM67 E0 Q80\nG1 X40 F2000\nM2\n"))
         self.fine(result)
         for name in ("m67", "m68"):
             self.assertIn("motion.analog-out-00 to 0", "\n".join(result.answers[name]), name)
