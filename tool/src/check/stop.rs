@@ -3,6 +3,7 @@
 use super::finding::{Findings, advice};
 use crate::machine::configuration::is_rotary;
 use crate::machine::length_unit::INCH;
+use crate::machine::place::Place;
 use crate::wiring::blendtp::{is_refused_jerk, jerk_pin, least_jerk};
 use crate::wiring::subject::Subject;
 use serde::Serialize;
@@ -58,12 +59,10 @@ pub fn stops(subject: &Subject) -> Vec<Stop> {
         let own = positive(&section, "MAX_VELOCITY")?;
         let velocity = positive("TRAJ", path).map_or(own, |path| own.min(path));
         let acceleration = positive(&section, "MAX_ACCELERATION")?;
-        let pin = jerk_pin(*letter);
-        let set = subject.state.settings.get(&pin);
-        // What another component says on its signal is not known.
-        if set.is_none() && subject.state.signal_of(&pin).is_some() {
+        if jerk_comes_from(subject, *letter).is_some() {
             return None;
         }
+        let set = subject.state.settings.get(&jerk_pin(*letter));
         let jerk: Option<f64> = set.and_then(|setting| setting.value.parse().ok());
         // No move is taken, so there is none to stop.
         if subject.has_planner()
@@ -87,6 +86,14 @@ pub fn stops(subject: &Subject) -> Vec<Stop> {
     subject.axes.iter().filter_map(of).collect()
 }
 
+/// Where the pin of the jerk of an axis is linked to a signal whose value another component says: it is not known.
+fn jerk_comes_from(subject: &Subject, letter: char) -> Option<&Place> {
+    let (state, pin) = (&subject.state, jerk_pin(letter));
+    let pins = state.signals.get(state.signal_of(&pin)?)?;
+    let (_, place) = pins.iter().find(|(other, _)| *other == pin)?;
+    (!state.settings.contains_key(&pin)).then_some(place)
+}
+
 fn unit(subject: &Subject, letter: char) -> &'static str {
     match (is_rotary(letter), subject.is_in_inches()) {
         (true, _) => "deg",
@@ -95,8 +102,17 @@ fn unit(subject: &Subject, letter: char) -> &'static str {
     }
 }
 
-/// Tells of those that the jerk makes much longer.
+/// Tells of those that the jerk makes much longer, and of axes whose jerk is not known.
 pub fn look(subject: &Subject, stops: &[Stop], findings: &mut Findings) {
+    for letter in &subject.axes {
+        if let Some(place) = jerk_comes_from(subject, *letter) {
+            let pin = jerk_pin(*letter);
+            let found = format!(
+                "how far {letter} runs on is not known: {pin} gets its value when the machine runs"
+            );
+            findings.note(place, found, advice(format!("halcmd getp {pin} shows it")));
+        }
+    }
     for stop in stops {
         let much = if stop.unit == "in" {
             MUCH_LONGER / INCH

@@ -71,10 +71,23 @@ fn a_limit_of_jerk_may_come_by_a_signal() {
     let hal = bench.read("framepath-sim", "hal");
     let own = "setp blendtp.axis.x.max-jerk [AXIS_X]MAX_JERK\n";
     assert!(hal.contains(own), "{hal}");
-    let by_signal = hal.replace(own, "net jerk blendtp.axis.x.max-jerk\nsets jerk 100\n");
-    bench.write("framepath-sim", "hal", &by_signal);
-    let findings = bench.findings("framepath-sim");
-    let words = "blendtp.axis.x.max-jerk is 100, and blendtp refuses every move";
+    let net = "net jerk blendtp.axis.x.max-jerk\n";
+    for (lines, words) in [
+        (
+            format!("{net}sets jerk 100\n"),
+            "blendtp.axis.x.max-jerk is 100, and blendtp refuses every move",
+        ),
+        (
+            net.replace("jerk ", "jerk near.out => "),
+            "how far X runs on is not known",
+        ),
+    ] {
+        bench.write("framepath-sim", "hal", &hal.replace(own, &lines));
+        assert_said_once(&bench.findings("framepath-sim"), words);
+    }
+}
+
+fn assert_said_once(findings: &[Value], words: &str) {
     let said = |finding: &&Value| {
         finding["found"]
             .as_str()
