@@ -67,7 +67,9 @@ export FRAMEPATH_TOOL = $(TOOL)
 
 help:
 	@echo 'make demo       install what is missing, build, run the main job in a headless LinuxCNC, show a report'
-	@echo 'make test       install what is missing, build, run every test'
+	@echo 'make test       install what is missing, build, run the tests: a quarter of an hour on two processors'
+	@echo 'make thorough   the tests that make test leaves out since they take long: as much again'
+	@echo 'make lint       the style of the Rust, and what clippy and mypy find'
 	@echo 'make linuxcnc-test  only those of the tests that run a real LinuxCNC'
 	@echo 'make modules    build framekins.so and blendtp.so into $(MODULES)'
 	@echo '                LINUXCNC_SOURCE=/path/to/linuxcnc: with the headers of this source of LinuxCNC, whose packages may lack them'
@@ -148,32 +150,48 @@ deny:
 
 # Many at a time, each in a LinuxCNC of its own that mostly waits; fewer of what is busy by itself, when all the others are done.
 LINUXCNC_TESTS = $(PYTHON) -B -m pytest tests/linuxcnc
-RUN_LINUXCNC_TESTS = failed=0; $(LINUXCNC_TESTS) -n 12 -m "not busy" || failed=1; $(LINUXCNC_TESTS) -n 6 -m busy || failed=1; exit $$failed
+# $(call run_linuxcnc_tests,and ...): only those with such marks (tests/linuxcnc/pytest.ini).
+run_linuxcnc_tests = failed=0; $(LINUXCNC_TESTS) -n 12 -m "not busy $(1)" || failed=1; \
+    $(LINUXCNC_TESTS) -n 6 -m "busy $(1)" || failed=1; exit $$failed
 
 # The same random cases each time, so that what fails can be had again; make soak takes others.
-test: export PROPTEST_RNG_SEED ?= 1
+test thorough: export PROPTEST_RNG_SEED ?= 1
 # A text that differs from its snapshot, or has none, fails and writes nothing.
-test: export INSTA_UPDATE = no
-test: export TOOL_PROFILE = dev
-test:
-	@./prerequisites lint browser screen sanitize package test
+test thorough: export INSTA_UPDATE = no
+test thorough: export TOOL_PROFILE = dev
+
+# The tests of cargo and, for them, the tool in their profile.
+cargo-tests: buildable prerequisites
+	$(CARGO) test --locked --workspace --no-run
+
 # Two profiles of cargo: neither waits for the other, and what links on one processor leaves the other to what compiles.
-	$(MAKE) --jobs=2 --output-sync=target lint fault-modules
+BUILD_WHAT_IS_TESTED = $(MAKE) --jobs=2 --output-sync=target fault-modules cargo-tests
+
+# A quarter of an hour on two processors.
+test:
+	@./prerequisites browser screen sanitize package test
+	$(BUILD_WHAT_IS_TESTED)
 	$(CARGO) test --locked --workspace --no-fail-fast
-# The tool is there: its own tests run it.
-	$(RUN_LINUXCNC_TESTS)
+	$(call run_linuxcnc_tests,and not thorough)
+
+# The rest, which takes longer: more random programs, every screen, packages, all examples of the manuals, soak.
+thorough:
+	@./prerequisites browser screen sanitize package test
+	$(BUILD_WHAT_IS_TESTED)
+	FRAMEPATH_CASES=10000 $(CARGO) test --locked --test planner short_programs::
+	$(call run_linuxcnc_tests,and thorough)
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.
 linuxcnc-test: modules fault-modules tool
 	@./prerequisites screen test
-	$(RUN_LINUXCNC_TESTS)
+	$(call run_linuxcnc_tests)
 
 # The C of the modules with sanitizers, the modules under valgrind; a part of make test.
 sanitize: modules
 	@./prerequisites sanitize
 	$(PYTHON) -B tests/linuxcnc/test_sanitizers.py -v
 
-# What comes last in make test: the table of promises, two minutes of soak, plan against LinuxCNC.
+# What comes last in make test and make thorough: the table of promises, two minutes of soak, plan against LinuxCNC.
 contract: modules tool
 	@./prerequisites test
 	$(LINUXCNC_TESTS) -m busy
@@ -444,6 +462,6 @@ debian-12 debian-13:
 clean:
 	$(CARGO) clean
 
-.PHONY: help prerequisites buildable modules fault-modules tool demo lint ruff deny test linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
+.PHONY: help prerequisites buildable modules fault-modules tool demo lint ruff deny test cargo-tests thorough linuxcnc-test sanitize contract faults machines suites no-source short soak bench \
     fuzz fuzz-filter mutants compare figures five-axes tuning book screens header completions installable no-package install uninstall deb deb-source \
     debian-12 debian-13 clean

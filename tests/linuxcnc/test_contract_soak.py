@@ -2,7 +2,11 @@
 
 import unittest
 
+import pytest
+
 import soak
+
+pytestmark = pytest.mark.thorough
 
 
 class Soak(unittest.TestCase):

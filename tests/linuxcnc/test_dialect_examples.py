@@ -7,6 +7,8 @@ what LinuxCNC's interpreter makes of the translation is compared with the same p
 
 import unittest
 
+import pytest
+
 from canon import canonical_shapes, compare
 from manuals import fagor, fanuc, isg, linuxcnc, mefi, sinumerik
 from part_programs import convert, deviations, filtered, quick, run
@@ -84,10 +86,15 @@ class Examples(unittest.TestCase):
                     self.assertIsNone(compare(canonical_shapes(example.before + output), example.shapes))
 
 
+def joints_of(axes):
+    """The test of the examples for a machine with these axes."""
+    return pytest.mark.thorough(lambda self: self.run_table(axes))
+
+
 def of(dialect):
     """The class with the tests of a control."""
     axes = sorted({example.axes for example in TABLES[dialect][0].EXAMPLES})
-    joints = {f"test_joints_of_{len(letters)}_axes": lambda self, letters=letters: self.run_table(letters) for letters in axes}
+    joints = {f"test_joints_of_{len(letters)}_axes": joints_of(letters) for letters in axes}
     return type(dialect.capitalize(), (Examples,), {
         "__module__": __name__, "dialect": dialect, "test_refused": Examples.refuse,
         "test_read_again": Examples.understood, **joints})

@@ -4,10 +4,14 @@ import os
 import sys
 import unittest
 
+import pytest
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "faults"))
 
 import fault_table
 from fault import all_rows
+
+pytestmark = pytest.mark.thorough
 
 ROWS = ("TaskStopped", "TaskKilled", "GuiKilled", "GuardKilled", "GuardStopped", "Aborts", "FramedAborts", "RotaryAborts",
         "MachineOff", "Refused_AXIS_X_MAX_VELOCITY_0", "Refused_TRAJ_MAX_LINEAR_VELOCITY_0",

@@ -5,6 +5,8 @@ import os
 import tempfile
 import unittest
 
+import pytest
+
 import harness
 from inner_modules import MODULES, SKEW, all_of_linuxcnc, with_skewkins
 from test_loading import Refusals, halrun
@@ -42,6 +44,7 @@ def numbers(output):
     return [int(line) for line in output.splitlines() if line.isdigit()]
 
 
+@pytest.mark.thorough
 class EachModule(unittest.TestCase):
     def comes_and_goes(self, kinematics, **options):
         """Loaded, unloaded, loaded again, switched to each of its types and back, and unloaded."""

@@ -9,6 +9,8 @@ import shutil
 import tempfile
 import unittest
 
+import pytest
+
 import harness
 from inner_modules import MODULES, SKEW, STOCK, Kinematics, with_skewkins
 from kinematics_host import Module
@@ -113,6 +115,7 @@ def around(number, centre, distance):
     return [value + number.uniform(-distance, distance) for value in centre]
 
 
+@pytest.mark.thorough
 class Poses(unittest.TestCase):
     def machine_pose(self, number, pair, kinematics, kind):
         """A random position that the machine can reach, and joints near it."""

@@ -8,6 +8,8 @@ import random
 import unittest
 from itertools import pairwise
 
+import pytest
+
 import harness
 from contract.row import MICROMETRE, PERIOD, difference, to_segment
 from test_planner import AXES, RUN, Case
@@ -129,6 +131,7 @@ class Modes(LookAhead):
         length = sum(math.dist(a, b) for a, b in pairwise(points))
         self.assertLess(len(executed) * PERIOD, length / 100.0 + 0.5)
 
+    @pytest.mark.thorough
     def test_a_random_program(self):
         source = random.Random(11)
         points, place = [], [0.0, 0.0, 0.0]
@@ -219,6 +222,7 @@ class Operator(LookAhead):
         points = self.motion(result)
         self.assertLess(math.dist(points[-1], corners[-1]), 1e-9)
 
+    @pytest.mark.thorough
     def test_the_shape_does_not_depend_on_the_override(self):
         corners = zigzag(8)
         paths = []

@@ -2,6 +2,8 @@
 
 import unittest
 
+import pytest
+
 import harness
 from test_gcode import QUICK
 
@@ -67,6 +69,7 @@ class Modes(Case):
         self.assertEqual([(mode[0], mode[2]) for mode in self.modes(result)], [(10, 1), (10, 1)])
 
 
+@pytest.mark.thorough
 class BackInTheFrame(Case):
     """The move behind one of the machine waits for the next, or for a spindle, while the codes in force are still those of the
     move before, which a probing move keeps to its end: neither blendtp nor frame_guard takes it for a move of the machine."""

@@ -13,6 +13,8 @@ import unittest
 from itertools import groupby, pairwise
 from typing import ClassVar
 
+import pytest
+
 import harness
 import screen_checks
 
@@ -95,6 +97,7 @@ def planned_dwells(times):
     return [seconds for seconds in rests if seconds > SHORT]
 
 
+@pytest.mark.thorough
 class TimeLeft(Operator):
     def setUp(self):
         #: {name: seconds of each dwell}

@@ -8,6 +8,8 @@ import subprocess
 import tempfile
 import unittest
 
+import pytest
+
 import harness
 from test_install import make
 
@@ -18,6 +20,7 @@ def output(*command):
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
+@pytest.mark.thorough
 class Packages(unittest.TestCase):
     def package(self, target, name):
         """The package that a target of make leaves, with its fields and its files."""

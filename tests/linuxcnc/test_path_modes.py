@@ -3,6 +3,8 @@
 import math
 import unittest
 
+import pytest
+
 import harness
 from part_programs import convert
 
@@ -80,6 +82,7 @@ class PathModes(unittest.TestCase):
             else:
                 self.assertLessEqual(max(beyond), 1e-9)
 
+    @pytest.mark.thorough
     def test_programs_that_touch_a_soft_limit_do_not_pass_it(self):
         limit = 500
         zigzag = [(limit - depth, 480 + 0.4 * k) for k, depth in enumerate((0, 0.9, 0.3, 0, 0.2, 1.3) * 8)]

@@ -3,6 +3,8 @@
 import math
 import unittest
 
+import pytest
+
 import numpy
 
 import harness
@@ -82,11 +84,13 @@ class Commands(Compared):
                    "o<arot_rpl> call [-50]", "X5 Z5", "G19", "o<rot_rpl> call [15]", "Y9 Z-2", "o<frame_off> call",
                    "X1 Y1 Z1", "G92.1")
 
+    @pytest.mark.thorough
     def test_turns_in_space_with_arcs_of_all_planes(self):
         self.check("G10 L2 P1 X2 Y3 Z4 R-35", "o<rot> call [20] [-35] [50]", "G1 X5 Y5 Z5", "G2 X15 I5 J0",
                    "G3 X5 Y5 I-5 J0 Z9", "G18", "G2 X11 Z15 I3 K3", "G19", "G3 Y15 Z11 J5 K-2", "G17",
                    "o<arot> call [10] [5] [3]", "G1 X1 Y2 Z3", "G3 X1 Y2 I4 J4", "o<frame_off> call", "G2 X20 Y20 R30")
 
+    @pytest.mark.thorough
     def test_solid_angles(self):
         for convention in ("seed", "k2"):
             with self.subTest(convention=convention):
@@ -94,12 +98,14 @@ class Commands(Compared):
                            "o<arots_yz> call [12] [40]", "G1 X5 Y-3 Z2", "G2 X9 Y1 R5", "o<arots_xy> call [0.00004] [5]",
                            "G1 X-200 Y20", ini={("FRAMEPATH", "ROTS_CONVENTION"): convention})
 
+    @pytest.mark.thorough
     def test_scales_and_mirrors(self):
         self.check("G10 L2 P1 X20 Y10 R15", "o<scale> call [2] [2] [2]", "G1 X4 Y5", "G2 X10 Y5 I3 J0",
                    "o<amirror> call [1] [0] [0]", "G1 X3 Y1", "G3 X6 Y4 I3 J0", "o<atrans> call [1] [2] [3]", "G1 X0 Y0 Z0",
                    "o<ascale_off> call", "G1 X4 Y3 Z2", "o<mirror> call [1] [1] [0]", "G1 X7 Y2", "G2 X9 Y4 R3",
                    "o<ascale> call [1.5] [0.5] [-3]", "G1 X2 Y9 Z1", "G3 X4 Y7 R2")
 
+    @pytest.mark.thorough
     def test_a_tool_is_turned_and_not_scaled(self):
         for rule in ("frame", "machine"):
             with self.subTest(tool_length=rule):
@@ -112,6 +118,7 @@ class Commands(Compared):
         self.check("o<rot> call [30] [0] [45]", "G1 X5 Y6 Z7", "T2 M6 G43", "G1 X8 Y6 Z7", "G43.1 X1 Y2 Z3", "G1 X1 Y6 Z7",
                    "G49", "G1 X2 Y2 Z2")
 
+    @pytest.mark.thorough
     def test_codes_inches_and_increments(self):
         self.check("G77.1 X10 Y5", "G78.3 R30", "G1 X4 Y5", "G20", "G78.1 X0.5 Y-0.25 Z0.125", "G1 X1 Y1 Z0.5 F40", "G91",
                    "X0.1", "G78.2 X20 Z10", "Y0.2 Z0.1", "G78.6 X1", "X0.3", "G2 X0.2 Y0.1 R1", "G90", "G21", "G78.4 X10 Y20",
@@ -123,6 +130,7 @@ class Commands(Compared):
                    "G68.2 P2 Q1 X0 Y0 Z0", "G68.2 P2 Q2 X9 Y1 Z2", "G68.2 P2 Q3 X1 Y8 Z-3", "G1 X3 Y4 Z5",
                    "G68.2 P3 Q1 X1 Y2 Z3 I1 J1 K0", "G68.2 P3 Q2 I0 J0.01 K1", "G1 X8 Y3 Z1", "G69", "G1 X1 Y1 Z1")
 
+    @pytest.mark.thorough
     def test_the_tool_centre_point_with_the_table_level(self):
         # it is known of the machine: a preview takes M64 for any output
         self.check("G43.4 H2", "G1 X5 Y6 Z7", "G68.2 X10 Y5 I30 J20 K-10", "G1 X4 Y5 Z6", "G43.4 H1", "G1 X1 Y2 Z3", "G69",
@@ -138,6 +146,7 @@ class Commands(Compared):
                    "G73 X12 Y9 Z-3 R1 Q1", "G98 G82 X3 Y4 Z-1 R3 P0.01", "G91 G81 X2 Y2 Z-4 R-1 L3", "G90 G80",
                    "G89 X1 Y1 Z-2 R1 P0.01", "G80 G1 X0 Y0")
 
+    @pytest.mark.thorough
     def test_moves_of_the_machine(self):
         self.check("G10 L2 P1 X12 Y-7 Z3 R20", "G10 L2 P2 X30 Y5 Z1 R-10", "G1 X5 Y5", "G53 G1 X20 Y20", "G1 X1 Y1",
                    "o<rot> call [10] [20] [30]", "G1 X5 Y5", "G79 Z40", "G1 X6 Y6 Z6", "o<machine_move> call [50] [40] [30]",
@@ -183,6 +192,7 @@ class Unchanged(unittest.TestCase):
         self.assertEqual(moves["same"], moves["plain"])
 
 
+@pytest.mark.thorough
 class Refused(unittest.TestCase):
     def test_a_frame_that_would_be_refused_ends_the_preview(self):
         for command, reason in (("o<scale> call [1] [0] [1]", "o<scale> with 1, 0, 1 would be refused, a scale factor is 0"),

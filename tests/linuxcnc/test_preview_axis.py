@@ -2,8 +2,12 @@
 
 import unittest
 
+import pytest
+
 import screen_checks
 from test_preview import ARC, program
+
+pytestmark = pytest.mark.thorough
 
 #: with a program that AXIS opens by itself, where a test has one
 AXIS = screen_checks.Screen(["axis", "PROGRAMS/part.ngc"], "probe_axis.py")

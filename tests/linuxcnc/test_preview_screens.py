@@ -2,9 +2,13 @@
 
 import unittest
 
+import pytest
+
 import harness
 import screen_checks
 from test_preview import program
+
+pytestmark = pytest.mark.thorough
 
 GMOCCAPY = screen_checks.Screen(["gmoccapy"], "probe_gmoccapy.py", ["gmoccapy_screen.py", "probe_panel.py"])
 QTDRAGON = screen_checks.Screen(["qtvcp", "qtdragon"], "probe_qtvcp.py", ["qtvcp_screen.py"], (screen_checks.READS_IN_AUTO,))

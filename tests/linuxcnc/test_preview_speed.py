@@ -4,8 +4,12 @@ interpreter."""
 import statistics
 import unittest
 
+import pytest
+
 import preview_speed
 from overload import ATTEMPTS
+
+pytestmark = pytest.mark.thorough
 
 #: how much longer it may take
 MOST = 1.2

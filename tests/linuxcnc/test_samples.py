@@ -6,6 +6,8 @@ import unittest
 from itertools import pairwise
 from typing import ClassVar
 
+import pytest
+
 import harness
 from contract.row import MICROMETRE, peaks
 from part_programs import convert
@@ -122,6 +124,7 @@ class Lathe(Sample):
         return max(abs(distance - PITCH * round(distance / PITCH)) for distance in off)
 
 
+@pytest.mark.thorough
 class Gantry(Sample):
     sample, program, axes, joints = "framepath-gantry", "sheet.ngc", "xyz", 4
     limits: ClassVar = {"joint.0": (200, 800, 16000), "joint.1": (200, 800, 16000), "joint.2": (200, 800, 16000),
@@ -164,6 +167,7 @@ class Gantry(Sample):
                 self.assertLess(off, 0.2, f"{along} {across} at {corner}")
 
 
+@pytest.mark.thorough
 class Inches(Sample):
     sample, program, axes = "framepath-inch", "plate.ngc", "xyz"
     limits: ClassVar = {f"joint.{joint}": (4, 40, 800) for joint in range(3)}

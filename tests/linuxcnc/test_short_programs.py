@@ -7,6 +7,8 @@ import shutil
 import unittest
 from typing import ClassVar
 
+import pytest
+
 import harness
 import short_programs
 import test_plan
@@ -42,6 +44,7 @@ class Recorder(harness.Recorder):
         self.header.remove("slot")
 
 
+@pytest.mark.thorough
 class AgainstLinuxCnc(test_plan.AgainstLinuxCnc):
     axes = "xyzb"
     #: The planner waits the longer for a move the slower they came, in the programs before as well: it matters where all the

@@ -4,6 +4,8 @@ every servo cycle."""
 import unittest
 from itertools import pairwise
 
+import pytest
+
 import harness
 from contract.row import MICROMETRE, PERIOD
 from overload import ATTEMPTS
@@ -60,6 +62,7 @@ class Spindle(Case):
 
 
 class Threads(Spindle):
+    @pytest.mark.thorough
     def test_every_speed_cuts_the_same_groove_to_a_micrometre(self):
         for speed, pitch in ((60, 1.5), (300, 1.5), (1500, 1.5), (600, 4), (2400, 0.5)):
             result = self.run_spindle([RUN], f"M3 S{speed}", "G4 P2.5", f"G33 Z{-14 * pitch} K{pitch}", "G0 X5",
@@ -200,6 +203,7 @@ class Taps(Spindle):
             self.assertAlmostEqual(end[2], 2, delta=1e-9)
             self.assertAlmostEqual(end[0], 5, delta=1e-9)
 
+    @pytest.mark.thorough
     def test_an_abort_anywhere_leaves_nothing_for_the_next_move(self):
         for seconds in (0.5, 2.0, 3.5, 5.5):
             steps = [["start", "PROGRAMS/part.ngc"], ["wait_line", 5], ["sleep", seconds], ["abort"], ["sleep", 1],

@@ -4,6 +4,8 @@ import itertools
 import unittest
 from typing import ClassVar
 
+import pytest
+
 import harness
 from screen_checks import READS_IN_AUTO
 from test_gcode import QUICK
@@ -301,6 +303,7 @@ class Dead(Case):
         self.assertFalse(rows[gone - 1][1])
         self.at(result, "dead", (11, 22, 0), (11, 22, 0))
 
+    @pytest.mark.thorough
     def test_others_never_wait_for_it(self):
         # killed with HAL's lock, it would leave halcmd, screens and LinuxCNC's own end waiting for ever
         result = watched([["start", "PROGRAMS/long.ngc"], ON, ["stop_guard_often", 1200], ["abort"], OFF], self.LONG)

@@ -5,6 +5,8 @@ import random
 import re
 import unittest
 
+import pytest
+
 import harness
 
 #: switches at one place of the machine, places, machine units and degrees
@@ -59,12 +61,14 @@ class Switching(unittest.TestCase):
                     worst = max(worst, abs(row[joint] - result.rows[n - 4][joint]))
         return seen, worst
 
+    @pytest.mark.thorough
     def test_three_axes(self):
         self.switch(False)
 
     def test_five_axes_with_a_table(self):
         self.switch(True, sample="framepath-xyzac", joints=5, axes="xyzac")
 
+    @pytest.mark.thorough
     def test_five_axes_with_external_offsets(self):
         # where an axis with such an offset has left its limits, LinuxCNC takes the offset away in one period
         ini = {(f"AXIS_{axis}", key): value for axis in "XYZ"

@@ -15,7 +15,7 @@ const WORKERS: u32 = 2;
 #[test]
 fn short_programs_keep_all_limits() {
     let cases =
-        std::env::var("FRAMEPATH_CASES").map_or(10_000, |cases| cases.parse().expect("a number"));
+        std::env::var("FRAMEPATH_CASES").map_or(3_000, |cases| cases.parse().expect("a number"));
     let config = Config {
         cases,
         failure_persistence: None,
