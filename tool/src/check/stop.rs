@@ -1,6 +1,7 @@
 //! How far each axis runs on from its greatest velocity until it stands, by an abort or a feed hold.
 
 use super::finding::{Findings, advice};
+use crate::hal::number;
 use crate::machine::configuration::is_rotary;
 use crate::machine::length_unit::INCH;
 use crate::machine::place::Place;
@@ -63,7 +64,7 @@ pub fn stops(subject: &Subject) -> Vec<Stop> {
             return None;
         }
         let set = subject.state.settings.get(&jerk_pin(*letter));
-        let jerk: Option<f64> = set.and_then(|setting| setting.value.parse().ok());
+        let jerk: Option<f64> = set.and_then(|setting| number(&setting.value));
         // No move is taken, so there is none to stop.
         if subject.has_planner()
             && jerk.is_some_and(|jerk| is_refused_jerk(jerk, least_jerk(acceleration)))

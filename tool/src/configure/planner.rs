@@ -2,9 +2,11 @@
 
 use super::ConfigureArguments;
 use super::edits::Edits;
+use crate::machine::IniError;
 use crate::machine::angles;
 use crate::machine::configuration::{DEFAULT_LIMIT, taken_instead, unit_of};
 use crate::machine::jerk::Jerk;
+use crate::machine::length_unit;
 use crate::machine::numbers;
 use crate::machine::place::Place;
 use crate::wiring::USUAL_JERK;
@@ -12,7 +14,7 @@ use crate::wiring::blendtp::{
     TOLERANCE_PIN, inch_line, inch_tolerance_line, jerk_line, jerk_pin, least_jerk,
 };
 use crate::wiring::comments;
-use crate::wiring::subject::Subject;
+use crate::wiring::subject::{Subject, shared};
 
 /// Adds what is not there yet.
 pub fn write(subject: &Subject, arguments: &ConfigureArguments, edits: &mut Edits) {
@@ -49,6 +51,17 @@ fn usable(subject: &Subject, edits: &mut Edits) {
             "start LinuxCNC once, or run update_ini, which writes VERSION = 1.1",
         );
     }
+    for problem in &subject.ini_problems {
+        if let IniError::Refused {
+            file,
+            line,
+            problem,
+            remedy,
+        } = problem
+        {
+            edits.refuse(&Place::new(&shared(file), *line, 0), problem, remedy);
+        }
+    }
     for problem in &subject.script.problems {
         edits.refuse(
             &problem.place,
@@ -80,20 +93,39 @@ fn usable(subject: &Subject, edits: &mut Edits) {
             "COORDINATES = XYZ under [TRAJ], the axes of the machine",
         );
     }
-    if !angles::are_degrees(&subject.ini) {
-        let units = subject.text("TRAJ", "ANGULAR_UNITS").unwrap_or("");
-        edits.refuse(
-            &subject.place_of("TRAJ", "ANGULAR_UNITS"),
-            format!("[TRAJ]ANGULAR_UNITS = {units}: {}", angles::PROBLEM),
-            angles::REMEDY,
-        );
-    }
+    units(subject, edits);
     if let Some(module) = subject.state.module("blendtp") {
         edits.refuse(
             &module.statement.place,
             "a HAL file loads blendtp",
             "remove this line: [TRAJ]TPMOD loads it",
         );
+    }
+}
+
+/// LinuxCNC does not start without units, and the lines for blendtp are for these alone.
+fn units(subject: &Subject, edits: &mut Edits) {
+    for (key, is_known, problem, help) in [
+        (
+            "LINEAR_UNITS",
+            subject.length_unit().is_some(),
+            length_unit::PROBLEM,
+            "LINEAR_UNITS = mm, or inch, under [TRAJ], and all lengths in that unit",
+        ),
+        (
+            "ANGULAR_UNITS",
+            subject.text("TRAJ", "ANGULAR_UNITS").is_some() && angles::are_degrees(&subject.ini),
+            angles::PROBLEM,
+            angles::REMEDY,
+        ),
+    ] {
+        if !is_known {
+            let found = match subject.text("TRAJ", key) {
+                Some(unit) => format!("[TRAJ]{key} = {unit}: {problem}"),
+                None => format!("[TRAJ]{key} is missing, without which LinuxCNC does not start"),
+            };
+            edits.refuse(&subject.place_of("TRAJ", key), found, help);
+        }
     }
 }
 

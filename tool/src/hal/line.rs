@@ -21,16 +21,23 @@ pub enum Reason {
     OpenQuote,
     /// A variable without a value.
     Variable(Missing),
+    /// More bytes than `halcmd` reads at once, [`LONGEST`]: the rest is another line to it.
+    Long,
+    /// A carriage return elsewhere than at the end of a line.
+    Return,
 }
+
+/// The longest line that `halcmd` reads as one, bytes without the line feed; joined ones may be longer.
+pub const LONGEST: usize = 1023;
 
 /// A character and where it stands: line and column, from 1.
 type Placed = (char, usize, usize);
 
-/// The lines of a file, those that end in a backslash joined with the next ones.
+/// The lines of a file, those that end in a backslash joined with the next ones; a carriage return behind it keeps them apart.
 pub fn joined(text: &str) -> Vec<Vec<Placed>> {
     let mut lines: Vec<Vec<Placed>> = Vec::new();
     let mut goes_on = false;
-    for (index, line) in text.lines().enumerate() {
+    for (index, line) in text.split_terminator('\n').enumerate() {
         let content = line.strip_suffix('\\');
         let characters = content.unwrap_or(line).chars().enumerate();
         let placed = characters.map(|(column, c)| (c, index + 1, column + 1));
@@ -49,6 +56,7 @@ pub fn statement(
     line: &[Placed],
     ini: &Ini,
 ) -> Result<Option<Statement>, Refusal> {
+    within_limit(file, line)?;
     let line = without_comment(file, line)?;
     let text: String = line.iter().map(|(c, ..)| c).collect();
     let words = words(file, &replaced(file, line, ini)?);
@@ -63,23 +71,53 @@ pub fn statement(
     }))
 }
 
-/// Up to the `#` that is in no quotes.
+/// Refuses a line of the file that is cut.
+fn within_limit(file: &Arc<Path>, line: &[Placed]) -> Result<(), Refusal> {
+    let mut length = 0;
+    let mut number = 0;
+    for &placed in line {
+        let (character, row, _) = placed;
+        length = character.len_utf8() + if row == number { length } else { 0 };
+        number = row;
+        if length > LONGEST && character != '\r' {
+            return Err(refused(file, placed, Reason::Long));
+        }
+    }
+    Ok(())
+}
+
+/// Up to the `#` that is in no quotes, without the carriage return of the line's end.
 fn without_comment<'a>(file: &Arc<Path>, line: &'a [Placed]) -> Result<&'a [Placed], Refusal> {
     let mut quote: Option<Placed> = None;
     for (index, &placed) in line.iter().enumerate() {
         match (placed.0, quote) {
+            ('\r', _) if index + 1 == line.len() => return closed(file, &line[..index], quote),
+            ('\r', _) => return Err(refused(file, placed, Reason::Return)),
             ('#', None) => return Ok(&line[..index]),
             (mark @ ('"' | '\''), Some((open, ..))) if mark == open => quote = None,
             ('"' | '\'', None) => quote = Some(placed),
             _ => {}
         }
     }
+    closed(file, line, quote)
+}
+
+/// The line, unless a quotation mark is open at its end.
+fn closed<'a>(
+    file: &Arc<Path>,
+    line: &'a [Placed],
+    quote: Option<Placed>,
+) -> Result<&'a [Placed], Refusal> {
     match quote {
         None => Ok(line),
-        Some((_, row, column)) => Err(Refusal {
-            place: Place::new(file, row, column),
-            reason: Reason::OpenQuote,
-        }),
+        Some(open) => Err(refused(file, open, Reason::OpenQuote)),
+    }
+}
+
+fn refused(file: &Arc<Path>, (_, row, column): Placed, reason: Reason) -> Refusal {
+    Refusal {
+        place: Place::new(file, row, column),
+        reason,
     }
 }
 
@@ -94,9 +132,8 @@ fn replaced(file: &Arc<Path>, line: &[Placed], ini: &Ini) -> Result<Vec<Placed>,
             at += 1;
             continue;
         }
-        let (length, value) = resolve(&characters[at..], ini).map_err(|missing| Refusal {
-            place: Place::new(file, row, column),
-            reason: Reason::Variable(missing),
+        let (length, value) = resolve(&characters[at..], ini).map_err(|missing| {
+            refused(file, (character, row, column), Reason::Variable(missing))
         })?;
         found.extend(value.chars().map(|c| (c, row, column)));
         at += length;
@@ -104,13 +141,13 @@ fn replaced(file: &Arc<Path>, line: &[Placed], ini: &Ini) -> Result<Vec<Placed>,
     Ok(found)
 }
 
+/// Cut at the blanks of ASCII that are in no quotes; the quotes stay.
 fn words(file: &Arc<Path>, line: &[Placed]) -> Vec<Word> {
     let mut words: Vec<Word> = Vec::new();
     let mut in_word = false;
     let mut quote = None;
     for &(character, row, column) in line {
-        let closes = quote == Some(character);
-        if quote.is_none() && character.is_whitespace() {
+        if quote.is_none() && matches!(character, ' ' | '\t' | '\x0b' | '\x0c') {
             in_word = false;
             continue;
         }
@@ -121,11 +158,12 @@ fn words(file: &Arc<Path>, line: &[Placed]) -> Vec<Word> {
                 place: Place::new(file, row, column),
             });
         }
-        if closes {
+        if quote == Some(character) {
             quote = None;
         } else if quote.is_none() && matches!(character, '"' | '\'') {
             quote = Some(character);
-        } else if let Some(word) = words.last_mut() {
+        }
+        if let Some(word) = words.last_mut() {
             word.text.push(character);
         }
     }
@@ -158,13 +196,33 @@ mod tests {
         let found = found.expect("valid");
         assert_eq!(found[0], ["loadrt", "trivkins", "coordinates=XZ"]);
         assert_eq!(found[1], ["setp", "a", "5", "5"]);
-        assert_eq!(found[2], ["x", "a b#"]);
+        assert_eq!(found[2], ["x", "'a b'\"#\""]);
     }
 
     #[test]
     fn a_comment_in_the_ini_file_gets_into_the_line() {
         let found = read("setp a [AXIS_X]MAX_JERK").expect("valid");
         assert_eq!(found[0], ["setp", "a", "20", "#", "much"]);
+    }
+
+    /// As halcmd of LinuxCNC 2.9 takes them.
+    #[test]
+    fn blanks_and_ends_of_lines_are_those_of_halcmd() {
+        let longest = format!("#{}\nsetp a 5", "x".repeat(LONGEST - 1));
+        for (text, words) in [
+            ("setp\ta\x0b5\x0c\r\n", vec!["setp", "a", "5"]),
+            ("setp\u{a0}a 5", vec!["setp\u{a0}a", "5"]),
+            ("setp a \"5\"", vec!["setp", "a", "\"5\""]),
+            ("setp a \\\r\n5\r\n", vec!["setp", "a", "\\"]),
+            ("# \rsetp b 6\nsetp a 5", vec!["setp", "a", "5"]),
+            (&longest, vec!["setp", "a", "5"]),
+        ] {
+            assert_eq!(read(text).expect("taken")[0], words, "{text:?}");
+        }
+        let reason = |text: &str| read(text).expect_err("refused").reason;
+        assert_eq!(reason(&format!("# {}", "x".repeat(LONGEST))), Reason::Long);
+        assert_eq!(reason("setp a\r5"), Reason::Return);
+        assert_eq!(reason("echo \"a\r\n"), Reason::OpenQuote);
     }
 
     #[test]

@@ -16,7 +16,7 @@ mod variables;
 pub use model::{Added, Module, Program, Setting, State};
 pub use script::{Script, read_script};
 pub use tcl::Stock;
-pub use values::{is_bit, is_value};
+pub use values::{is_bit, is_value, number};
 pub use variables::HALLIB;
 
 use crate::machine::place::Place;

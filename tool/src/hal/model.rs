@@ -194,7 +194,9 @@ impl State {
             self.refuse(statement, found, "remove one of the two lines");
         }
         let parameters = statement.words.iter().skip(2).map(|word| {
-            let (name, value) = word.text.split_once('=').unwrap_or((&word.text, ""));
+            // Of parameters alone halcmd takes the quotes away.
+            let text = word.text.replace(['"', '\''], "");
+            let (name, value) = text.split_once('=').unwrap_or((&text, ""));
             (name.to_owned(), value.to_owned())
         });
         self.modules.push(Module {
@@ -361,7 +363,7 @@ mod tests {
     #[test]
     fn values_modules_and_programs_are_kept() {
         let state = run(
-            "loadrt motmod num_aio=16 x\nsetp p 1\np = 2\nloadusr -Wn guard ./g.py a\nsetp p 1 2\n",
+            "loadrt motmod num_aio=\"16\" x\nsetp p 1\np = 2\nloadusr -Wn guard ./g.py a\nsetp p 1 2\n",
         );
         assert_eq!(state.settings["p"].value, "2");
         assert_eq!(state.modules[0].parameter("num_aio"), Some("16"));
@@ -379,6 +381,8 @@ mod tests {
             ("setp and2.0.in0 yes\n", "takes yes for no value"),
             ("scale.0.gain = 5,5\n", "takes 5,5 for no value"),
             ("sets s on\n", "takes on for no value"),
+            ("setp p \"5\"\n", "takes \"5\" for no value"),
+            ("setp p \\\r\n5\r\n", "takes \\ for no value"),
             (
                 "loadrt and2\nloadrt and2 count=2\n",
                 "and2 is loaded already",

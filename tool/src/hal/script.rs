@@ -1,7 +1,7 @@
 //! Which HAL files an INI file names, where they are, and what they say.
 
 use super::commands::is_known;
-use super::line::{Reason, Refusal, joined, statement};
+use super::line::{LONGEST, Reason, Refusal, joined, statement};
 use super::tcl::Stock;
 use super::variables::{HALLIB, Missing};
 use super::{Fix, Problem, State, Statement, Unread, Word};
@@ -236,6 +236,21 @@ impl Reader<'_> {
             Reason::OpenQuote => {
                 let found = "a quotation mark is not closed".to_owned();
                 self.refuse(&place, found, "close it");
+            }
+            Reason::Long => {
+                let found = format!(
+                    "the line is longer than {LONGEST} bytes, and halcmd takes the rest for another one"
+                );
+                self.refuse(
+                    &place,
+                    found,
+                    "write it in several lines, with \\ at the ends",
+                );
+            }
+            Reason::Return => {
+                let found = "a carriage return stands within the line".to_owned();
+                let remedy = "end lines with a line feed, as dos2unix does";
+                self.refuse(&place, found, remedy);
             }
             Reason::Variable(Missing::Form) => {
                 let found = "`[` or `$` begins the name of a variable, and none follows".to_owned();

@@ -33,6 +33,18 @@ pub enum IniError {
         /// What is wrong and the remedy.
         problem: String,
     },
+    /// LinuxCNC does not read the file, or reads something that nobody means.
+    #[error("{}:{line}: {problem}: {remedy}", file.display())]
+    Refused {
+        /// The file.
+        file: PathBuf,
+        /// Line, 1 for the first.
+        line: usize,
+        /// What is wrong.
+        problem: String,
+        /// What to write.
+        remedy: String,
+    },
     /// A section or key is missing.
     #[error("{}: {entry} is missing: {remedy}", file.display())]
     Missing {

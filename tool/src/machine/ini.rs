@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::error::IniError;
-use super::include::{self, NotIncluded};
+use super::include;
+use super::ini_lines::{self, BLANKS};
 use super::numbers::{self, Form};
 use super::place::Place;
 use super::text_file;
@@ -55,7 +56,7 @@ impl Ini {
     /// Reads a file as LinuxCNC does: [`Ini::passed_over`] has the lines that are nothing to it.
     ///
     /// # Errors
-    /// [`IniError::Read`], and [`IniError::Unread`].
+    /// [`IniError::Read`], [`IniError::Unread`] and [`IniError::Refused`].
     pub fn read(file: &Path) -> Result<Ini, IniError> {
         let (mut ini, problems) = Ini::read_all(file)?;
         for problem in problems {
@@ -100,12 +101,12 @@ impl Ini {
                 entries: Vec::new(),
                 headings: Vec::new(),
                 passed_over: Vec::new(),
-                expanded: include::put_in(file, text),
+                expanded: None,
             },
             problems: Vec::new(),
             section: None,
         };
-        reader.take(&Arc::from(file), text, true);
+        reader.take(&Arc::from(file), text);
         (reader.ini, reader.problems)
     }
 
@@ -292,37 +293,35 @@ struct Reader {
 }
 
 impl Reader {
-    /// Reads one file; those that it includes only if it `may_include`.
-    fn take(&mut self, file: &Arc<Path>, text: &str, may_include: bool) {
-        for (line, content) in joined_lines(text) {
-            let indent = content.chars().take_while(|c| c.is_whitespace()).count();
-            let place = Place::new(file, line, indent + 1);
-            let content = content.trim();
-            if let Some(name) = include::included(content) {
-                match may_include {
-                    true => self.include(&place, name),
-                    false => self.refuse(
-                        &place,
-                        "#INCLUDE in a file that is included itself is a comment for LinuxCNC: put it into the first file",
-                    ),
+    fn take(&mut self, file: &Arc<Path>, text: &str) {
+        let lines = match include::expand(file, text) {
+            Some(expansion) => {
+                self.problems.extend(expansion.problems);
+                let texts = expansion.lines.iter().map(|line| line.text.as_str());
+                self.ini.expanded = Some(texts.collect());
+                expansion.lines
+            }
+            None => {
+                let lines = ini_lines::of_file(file, text);
+                for line in lines.iter().filter(|line| include::is_include(&line.text)) {
+                    self.refuse(
+                        &line.place,
+                        "an indented #INCLUDE is a comment where no other begins its line: remove the blanks before it",
+                    );
                 }
-            } else if !content.is_empty() && !content.starts_with(['#', ';']) {
-                self.take_line(place, content);
+                lines
             }
-        }
-    }
-
-    fn include(&mut self, place: &Place, name: &str) {
-        match include::read(&self.ini.file, name) {
-            Ok((path, text)) => self.take(&Arc::from(path), &text, false),
-            Err(NotIncluded::Missing(problem)) => {
-                self.refuse(place, &format!("#INCLUDE {name}: {problem}"));
+        };
+        let (lines, problems) = ini_lines::joined(&lines);
+        self.problems.extend(problems);
+        for mut line in lines {
+            let content = line.text.trim_start_matches(BLANKS);
+            let indent = line.text[..line.text.len() - content.len()].chars().count();
+            line.place.column += indent;
+            let content = content.trim_end_matches(BLANKS);
+            if !content.is_empty() && !content.starts_with(['#', ';']) {
+                self.take_line(line.place, content);
             }
-            Err(NotIncluded::NotExpanded(problem)) => self.problems.push(IniError::Unread {
-                file: place.file.to_path_buf(),
-                line: place.line,
-                problem: format!("#INCLUDE {name}: {problem}"),
-            }),
         }
     }
 
@@ -333,20 +332,27 @@ impl Reader {
             };
             return self.begin_section(place, name);
         }
-        let Some((key, value)) = content.split_once('=') else {
+        // A key ends at the first blank, whatever stands before the equal sign; without one LinuxCNC ends its search here.
+        let key = content.split(BLANKS).next().unwrap_or("");
+        let key = key.split('=').next().unwrap_or("");
+        let (_, value) = content.split_once('=').unwrap_or_else(|| {
             let problem =
                 format!("`{content}` is neither a [SECTION] nor KEY = value nor a comment");
-            return self.refuse(&place, &problem);
-        };
+            self.refuse(&place, &problem);
+            ("", "")
+        });
         let Some((section, is_read)) = self.section.clone() else {
-            let problem = format!("`{}` stands before the first [SECTION]", key.trim());
-            return self.refuse(&place, &problem);
+            if content.contains('=') {
+                let problem = format!("`{key}` stands before the first [SECTION]");
+                self.refuse(&place, &problem);
+            }
+            return;
         };
         self.ini.entries.push(Entry {
             section,
-            key: key.trim().to_owned(),
+            key: key.to_owned(),
             value: without_comment(value).to_owned(),
-            raw: value.trim().to_owned(),
+            raw: value.trim_matches(BLANKS).to_owned(),
             place,
             is_read,
         });
@@ -373,24 +379,6 @@ impl Reader {
     }
 }
 
-/// Lines with their numbers; a line that ends in a backslash goes on in the next.
-fn joined_lines(text: &str) -> Vec<(usize, String)> {
-    let mut joined: Vec<(usize, String)> = Vec::new();
-    let mut continues = false;
-    for (index, line) in text.lines().enumerate() {
-        let (content, goes_on) = match line.trim_end().strip_suffix('\\') {
-            Some(content) => (content, true),
-            None => (line, false),
-        };
-        match joined.last_mut() {
-            Some((_, start)) if continues => start.push_str(content),
-            _ => joined.push((index + 1, content.to_owned())),
-        }
-        continues = goes_on;
-    }
-    joined
-}
-
 /// The value without the blanks around it and without a comment after it.
 ///
 /// A comment has to be set off by a blank, since `#` and `;` occur inside values.
@@ -398,9 +386,9 @@ fn without_comment(value: &str) -> &str {
     let end = value
         .char_indices()
         .zip(value.chars().skip(1))
-        .find(|((_, before), mark)| before.is_whitespace() && matches!(mark, '#' | ';'))
+        .find(|((_, before), mark)| BLANKS.contains(before) && matches!(mark, '#' | ';'))
         .map_or(value.len(), |((index, _), _)| index);
-    value[..end].trim()
+    value[..end].trim_matches(BLANKS)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod coordinates;
 mod error;
 mod include;
 pub(crate) mod ini;
+mod ini_lines;
 pub(crate) mod jerk;
 pub(crate) mod lathe;
 pub(crate) mod length_unit;

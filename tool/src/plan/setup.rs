@@ -13,7 +13,7 @@ use crate::machine::configuration::{AXIS_LETTERS, Machine, UNLIMITED};
 use crate::machine::ini::Ini;
 use crate::machine::limits::{Jerk, Limits, infinite_for_none, is_rotary};
 use crate::path::Position;
-use crate::wiring::blendtp::least_jerk;
+use crate::wiring::blendtp::{jerk_pin, least_jerk};
 use crate::wiring::codes::missing_files;
 use crate::wiring::joints::JointSettings;
 use crate::wiring::user_codes::user_codes;
@@ -263,6 +263,9 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     let mut joints = JointSettings::read(&ini);
     joints.turned_on = arguments.tool_centre_point;
     joints.kinematics_type = arguments.kinematics_type;
+    if arguments.jerk.is_none() {
+        setup.assumed.extend(other_jerk(&machine, &joints));
+    }
     setup.joints = Joints::from_settings(&joints, &ini, setup.period, 1.0)?;
     if are_axes(&joints) && setup.joints.limited().is_none() {
         take_above_joints(&mut setup, &ini, &machine, arguments);
@@ -287,6 +290,28 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     setup.surroundings.kinematics_switch = output.map(|output| (output, kind));
     setup.ini.clone_from(&setup.surroundings.ini);
     Ok(setup)
+}
+
+/// A line for each axis whose jerk HAL files set to another one than that of the INI file, with which the plan is.
+fn other_jerk(machine: &Machine, joints: &JointSettings) -> Vec<String> {
+    let axes = machine.axes.iter();
+    let other = axes.filter_map(|axis| {
+        let letter = axis.letter;
+        let (jerk, place) = joints.jerk_of_axis(letter)?;
+        let is_limit = |jerk: &f64| *jerk > 0.0 && jerk.is_finite();
+        if Some(jerk).filter(is_limit) == axis.limits.jerk {
+            return None;
+        }
+        let planned = match axis.limits.jerk {
+            Some(planned) => format!("[AXIS_{letter}]MAX_JERK = {planned}"),
+            None => "a jerk that is not limited".to_owned(),
+        };
+        Some(format!(
+            "{place}: {} is set to {jerk}, and the plan is with {planned}: write the same in both, or plan with --jerk",
+            jerk_pin(letter)
+        ))
+    });
+    other.collect()
 }
 
 /// Limits of axes above those of their joints, with a warning; an option takes the place of those of the axes.

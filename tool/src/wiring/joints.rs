@@ -1,9 +1,10 @@
 //! The limits of joints that HAL files set for blendtp, and the kinematics behind which these are.
 
-use super::blendtp::{JOINT_LIMITS, LIMITED_JOINTS};
-use super::subject::{leading_float, parameter};
-use crate::hal::{State, read_script};
+use super::blendtp::{JOINT_LIMITS, LIMITED_JOINTS, jerk_pin};
+use super::subject::parameter;
+use crate::hal::{self, State, read_script};
 use crate::machine::ini::Ini;
+use crate::machine::place::Place;
 
 /// What the HAL files of a machine leave behind for its joints.
 pub struct JointSettings {
@@ -111,6 +112,13 @@ impl JointSettings {
             .collect()
     }
 
+    /// The jerk that HAL files set for an axis, machine units (degrees) and seconds, 0 or infinite where it is not limited, and
+    /// where they do.
+    pub fn jerk_of_axis(&self, letter: char) -> Option<(f64, &Place)> {
+        let setting = self.state.settings.get(&jerk_pin(letter))?;
+        Some((hal::number(&setting.value)?, &setting.statement.place))
+    }
+
     /// What a pin of framekins is set to, 0 where nothing sets it.
     pub fn framekins(&self, pin: &str) -> f64 {
         number(&self.state, &format!("framekins.{pin}"))
@@ -122,6 +130,6 @@ fn number(state: &State, pin: &str) -> f64 {
     let value = state.settings.get(pin).map_or("", |setting| &setting.value);
     match value.to_ascii_lowercase().as_str() {
         "true" => 1.0,
-        text => leading_float(text).unwrap_or(0.0),
+        text => hal::number(text).unwrap_or(0.0),
     }
 }

@@ -350,7 +350,7 @@ pub fn leading_number(text: &str) -> Option<f64> {
 }
 
 /// The number that a text begins with; HAL takes `inf` and `nan` for one as well.
-pub fn leading_float(text: &str) -> Option<f64> {
+fn leading_float(text: &str) -> Option<f64> {
     let word = text
         .split(|c: char| c.is_whitespace() || ",;#".contains(c))
         .next()?;

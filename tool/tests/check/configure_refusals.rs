@@ -79,19 +79,47 @@ fn limits_with_which_linuxcnc_does_not_start() {
 }
 
 #[test]
-fn angles_of_another_unit_than_the_degree() {
+fn units_that_linuxcnc_or_blendtp_does_not_know() {
     let folder = stock("mill.ini");
     let ini = folder.path().join("mill.ini");
     let text = fs::read_to_string(&ini).expect("a text");
-    let changed = text.replace("ANGULAR_UNITS = degree", "ANGULAR_UNITS = radian");
-    fs::write(&ini, changed).expect("written");
-    let output = framepath(folder.path(), &["configure", "mill.ini"]);
-    let said = refused(folder.path(), &output);
-    assert!(
-        said.contains("[TRAJ]ANGULAR_UNITS = radian: angles are in degrees")
-            && said.contains("ANGULAR_UNITS = degree"),
-        "{said}"
-    );
+    for (line, found, help) in [
+        (
+            "ANGULAR_UNITS = radian",
+            "[TRAJ]ANGULAR_UNITS = radian: angles are in degrees",
+            "ANGULAR_UNITS = degree",
+        ),
+        (
+            "NO_UNITS =",
+            "[TRAJ]ANGULAR_UNITS is missing",
+            "ANGULAR_UNITS = degree",
+        ),
+        (
+            "LINEAR_UNITS = cm",
+            "[TRAJ]LINEAR_UNITS = cm: mm or inch",
+            "LINEAR_UNITS = mm, or inch",
+        ),
+        (
+            "LINEAR_UNITS = .5",
+            "[TRAJ]LINEAR_UNITS = .5: mm or inch",
+            "LINEAR_UNITS = mm, or inch",
+        ),
+        (
+            "LINEAR_UNITS =",
+            "[TRAJ]LINEAR_UNITS is missing",
+            "LINEAR_UNITS = mm, or inch",
+        ),
+    ] {
+        let key = match help.starts_with("LINEAR") {
+            true => "LINEAR_UNITS = mm",
+            false => "ANGULAR_UNITS = degree",
+        };
+        assert!(text.contains(key), "{text}");
+        fs::write(&ini, text.replace(key, line)).expect("written");
+        let output = framepath(folder.path(), &["configure", "mill.ini"]);
+        let said = refused(folder.path(), &output);
+        assert!(said.contains(found) && said.contains(help), "{said}");
+    }
 }
 
 #[test]

@@ -26,6 +26,21 @@ fn what_halcmd_does_not_take_is_an_error() {
         ),
         ("sets estop-loop on", "takes on for no value", "1, 0"),
         (
+            "setp blendtp.axis.x.max-jerk \"20000\"",
+            "takes \"20000\" for no value",
+            "decimal point",
+        ),
+        (
+            "setp blendtp.axis.x.max-jerk \\\r\n20000\r",
+            "takes \\ for no value",
+            "decimal point",
+        ),
+        (
+            "setp\u{a0}blendtp.axis.x.max-jerk 20000",
+            "is no command of halcmd",
+            "correct or remove",
+        ),
+        (
             "setp spindle.0.at-speed 1.0",
             "spindle.0.at-speed is a bit, and halcmd refuses 1.0",
             "setp spindle.0.at-speed 1",

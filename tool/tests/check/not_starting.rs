@@ -95,6 +95,26 @@ fn what_is_no_number_or_no_parameter_is_an_error() {
             "LinuxCNC does not start without [TASK]TASK",
         ),
         (
+            "\nDISPLAY = ",
+            "\nSCREEN = ",
+            "LinuxCNC does not start without [DISPLAY]DISPLAY",
+        ),
+        (
+            "LINEAR_UNITS = mm",
+            "LINEAR_UNITS =",
+            "LinuxCNC does not start without [TRAJ]LINEAR_UNITS",
+        ),
+        (
+            "ANGULAR_UNITS = degree",
+            "",
+            "LinuxCNC does not start without [TRAJ]ANGULAR_UNITS",
+        ),
+        (
+            "ANGULAR_UNITS = degree",
+            "ANGULAR_UNITS =\rdegree",
+            "LinuxCNC refuses the file: a carriage return stands",
+        ),
+        (
             "framepath filter",
             "framepath filter --tool A=1 --tool a=2",
             "--tool A= is given twice",

@@ -43,6 +43,50 @@ fn lines_that_linuxcnc_passes_over_are_warnings() {
     }
 }
 
+/// The machine has the jerk of its HAL files, by whatever statement, and the plan that of its INI file.
+#[test]
+fn another_jerk_of_a_hal_file_is_a_warning() {
+    let bench = Bench::new();
+    bench.write("part.ngc", PROGRAM);
+    bench.write("mill.ini", &format!("{MILL}[HAL]\nHALFILE = mill.hal\n"));
+    for (lines, warning) in [
+        ("setp blendtp.axis.x.max-jerk [AXIS_X]MAX_JERK\n", None),
+        ("setp blendtp.axis.x.max-jerk 0x4e20\n", None),
+        (
+            "setp blendtp.axis.x.max-jerk 2000\n",
+            Some(
+                "blendtp.axis.x.max-jerk is set to 2000, and the plan is with [AXIS_X]MAX_JERK = 20000",
+            ),
+        ),
+        (
+            "net jerk blendtp.axis.z.max-jerk\nsets jerk 0\n",
+            Some(
+                "blendtp.axis.z.max-jerk is set to 0, and the plan is with [AXIS_Z]MAX_JERK = 5000",
+            ),
+        ),
+    ] {
+        bench.write("mill.hal", lines);
+        let output = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+        let told = String::from_utf8(output.stderr).expect("text");
+        assert!(output.status.success(), "{told}");
+        let is_told =
+            |words: &str| told.contains(&format!("mill.hal:{}:1: {words}", lines.lines().count()));
+        assert_eq!(
+            warning.is_some_and(is_told),
+            warning.is_some(),
+            "{lines}: {told}"
+        );
+        assert_eq!(
+            told.contains("max-jerk"),
+            warning.is_some(),
+            "{lines}: {told}"
+        );
+        let given = bench.plan(&["part.ngc", "--ini", "mill.ini", "--jerk", "20A"]);
+        let told = String::from_utf8(given.stderr).expect("text");
+        assert!(!told.contains("max-jerk"), "{lines}: {told}");
+    }
+}
+
 /// It may have limits.
 #[test]
 fn an_include_that_only_a_shell_understands_is_refused() {
@@ -73,6 +117,35 @@ fn subroutines_of_an_included_file_are_found() {
     );
     let figures = bench.figures("G21\no<far> call\nM2\n", &["--ini", "mill.ini"]);
     assert_eq!(figures["path_length"], 100.0);
+}
+
+/// What LinuxCNC does not read of an INI file is no part of the machine.
+#[test]
+fn lines_are_those_that_linuxcnc_has() {
+    let bench = Bench::new();
+    bench.write("part.ngc", PROGRAM);
+    let (before, axes) = MILL.split_once("[AXIS_X]").expect("there");
+    bench.write("axes.inc", &format!("[AXIS_X]{axes}"));
+    for end in [
+        "\n  #INCLUDE axes.inc\n",
+        "\n#INCLUDE axes.inc",
+        "\n#INCLUDE axes.inc\r\n",
+    ] {
+        bench.write("mill.ini", &format!("{}{end}", before.trim_end()));
+        let output = bench.plan(&["part.ngc", "--ini", "mill.ini"]);
+        let told = String::from_utf8(output.stderr).expect("text");
+        assert!(
+            told.contains("LinuxCNC passes over this line"),
+            "{end:?}: {told}"
+        );
+        assert!(told.contains("[AXIS_X]"), "{end:?}: {told}");
+    }
+    bench.write("mill.ini", &MILL.replacen("100\n", "100\r\r\n", 1));
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert!(
+        error.contains("LinuxCNC refuses the file: a carriage return"),
+        "{error}"
+    );
 }
 
 /// Moves of a file of subroutines have lines of that file, which are none of the program.

@@ -8,7 +8,11 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
     if angles::are_degrees(&subject.ini) {
         return;
     }
+    // That there is none is told with the other keys that LinuxCNC needs.
     let units = subject.text("TRAJ", "ANGULAR_UNITS").unwrap_or("");
+    if units.is_empty() {
+        return;
+    }
     findings.error(
         &subject.place_of("TRAJ", "ANGULAR_UNITS"),
         format!("[TRAJ]ANGULAR_UNITS = {units}: {}", angles::PROBLEM),

@@ -1,7 +1,7 @@
 //! Pins that are bits, and set to what is none: halcmd refuses the line.
 
 use crate::check::finding::{Findings, replace};
-use crate::hal::{is_bit, is_value};
+use crate::hal::{is_bit, is_value, number};
 use crate::wiring::subject::Subject;
 
 /// Those of framekins, blendtp and motion that a HAL file may set: `#` is a number, `*` a letter.
@@ -54,7 +54,7 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
         }
         let found =
             format!("{pin} is a bit, and halcmd refuses {value}: it takes 1, 0, TRUE and FALSE");
-        let bit = u8::from(value.parse() != Ok(0.0));
+        let bit = u8::from(number(value) != Some(0.0));
         findings.error(
             &setting.statement.place,
             found,

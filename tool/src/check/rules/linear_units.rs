@@ -5,7 +5,11 @@ use crate::machine::length_unit;
 use crate::wiring::subject::Subject;
 
 pub fn look(subject: &Subject, findings: &mut Findings) {
-    let Some(units) = subject.text("TRAJ", "LINEAR_UNITS") else {
+    // That there is none is told with the other keys that LinuxCNC needs.
+    let Some(units) = subject
+        .text("TRAJ", "LINEAR_UNITS")
+        .filter(|units| !units.is_empty())
+    else {
         return;
     };
     let is_number = subject.has_linear_units();

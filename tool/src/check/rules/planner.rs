@@ -1,7 +1,7 @@
 //! blendtp: its jerk limits and tolerances, the servo period, the greatest velocity.
 
 use crate::check::finding::{Findings, Level, Remedy, add, advice, if_missing, replace};
-use crate::hal::{Fix, Setting};
+use crate::hal::{Fix, Setting, number};
 use crate::machine::length_unit::INCH;
 use crate::wiring::USUAL_JERK;
 use crate::wiring::blendtp::{
@@ -100,7 +100,7 @@ fn value(subject: &Subject, letter: char, setting: &Setting, findings: &mut Find
         true => subject.place_of(&section, "MAX_JERK"),
         false => place.clone(),
     };
-    let Ok(jerk) = setting.value.parse::<f64>() else {
+    let Some(jerk) = number(&setting.value) else {
         let found = format!("{pin} is set to `{}`, which is no number", setting.value);
         return findings.error(&key_place, found, replace(format!("MAX_JERK = {likely}")));
     };
@@ -155,7 +155,7 @@ fn tolerances(subject: &Subject, findings: &mut Findings) {
             continue;
         };
         let is_possible = |number: f64| (0.0..=1e6).contains(&number);
-        if !setting.value.parse().is_ok_and(is_possible) {
+        if !number(&setting.value).is_some_and(is_possible) {
             let found = format!(
                 "{pin} is `{}`, and blendtp refuses every move: it has to be a number of {unit} from 0 to 1e6",
                 setting.value
@@ -207,10 +207,7 @@ fn millimetre(subject: &Subject, findings: &mut Findings) {
             add(subject.hal_file(), line),
         ),
         Some(setting)
-            if !setting
-                .value
-                .parse()
-                .is_ok_and(|value: f64| (value / unit - 1.0).abs() < 1e-3) =>
+            if !number(&setting.value).is_some_and(|value| (value / unit - 1.0).abs() < 1e-3) =>
         {
             let found = format!(
                 "{pin} is {}, and [TRAJ]LINEAR_UNITS is {units}",

@@ -26,6 +26,16 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
                 *line,
                 format!("this line is not read here: {problem}"),
             ),
+            IniError::Refused {
+                file,
+                line,
+                problem,
+                remedy,
+            } => {
+                let place = Place::new(&shared(file), *line, 0);
+                findings.error(&place, problem, advice(remedy));
+                continue;
+            }
             _ => continue,
         };
         let place = Place::new(&shared(file), line, 0);
@@ -78,7 +88,35 @@ pub fn is_current(subject: &Subject) -> bool {
     subject.text("EMC", "VERSION") == Some("1.1")
 }
 
-/// The script `linuxcnc` ends without these.
+/// Sections and keys, what is usual, and what is wrong without them.
+const NEEDED: [(&str, &str, &str, &str); 4] = [
+    (
+        "TASK",
+        "TASK",
+        "milltask",
+        "LinuxCNC does not start without [TASK]TASK, the program that reads part programs",
+    ),
+    (
+        "DISPLAY",
+        "DISPLAY",
+        "axis",
+        "LinuxCNC does not start without [DISPLAY]DISPLAY, the screen",
+    ),
+    (
+        "TRAJ",
+        "LINEAR_UNITS",
+        "mm",
+        "LinuxCNC does not start without [TRAJ]LINEAR_UNITS, the unit of lengths",
+    ),
+    (
+        "TRAJ",
+        "ANGULAR_UNITS",
+        "degree",
+        "LinuxCNC does not start without [TRAJ]ANGULAR_UNITS, the unit of angles",
+    ),
+];
+
+/// The script `linuxcnc`, or its task controller, ends without these.
 fn needed(subject: &Subject, findings: &mut Findings) {
     // update_ini writes what is missing.
     match subject.ini.entry("EMC", "VERSION") {
@@ -105,12 +143,14 @@ fn needed(subject: &Subject, findings: &mut Findings) {
             add("[KINS]", format!("JOINTS = {count}")),
         );
     }
-    if subject.text("TASK", "TASK").is_none() {
-        findings.error(
-            &subject.place_of("TASK", "TASK"),
-            "LinuxCNC does not start without [TASK]TASK, the program that reads part programs",
-            add("[TASK]", "TASK = milltask"),
-        );
+    for (section, key, usual, found) in NEEDED {
+        if subject.text(section, key).is_none_or(str::is_empty) {
+            findings.error(
+                &subject.place_of(section, key),
+                found,
+                add(format!("[{section}]"), format!("{key} = {usual}")),
+            );
+        }
     }
     if subject.text("KINS", "KINEMATICS").is_none() && !subject.has_frames() {
         let letters: String = subject.axes.iter().collect();
