@@ -57,12 +57,15 @@ fn a_plunge_comes_before_the_way_onto_the_contour() {
     }
 }
 
-/// What has not begun ends without a trace.
+/// What has not begun ends without a trace: an arc may follow.
 #[test]
 fn without_a_motion_in_the_plane_nothing_is_compensated() {
-    let program = "T1 M6\nD1\nG70 G90 G54 G0 X0 Y0 Z20\nG41\nG1 Z-5 F100\nG40\nG1 X20\nM30\n";
-    let found = feeds("sinumerik", program, "program");
-    assert_eq!(found, [[0.0, 0.0, -5.0], [20.0, 0.0, -5.0]]);
+    for way in ["G1 X20", "G2 X10 I5 J0\nG1 X20"] {
+        let program =
+            format!("T1 M6\nD1\nG70 G90 G54 G0 X0 Y0 Z20\nG41\nG1 Z-5 F100\nG40\n{way}\nM30\n");
+        let found = feeds("sinumerik", &program, "program");
+        assert_eq!(found, [[0.0, 0.0, -5.0], [20.0, 0.0, -5.0]], "{way}");
+    }
 }
 
 /// A Fagor steps aside where the tool stands.

@@ -40,7 +40,9 @@ pub struct EndOfCompensation {
     plane: Plane,
     /// Whether it is on.
     on: bool,
-    /// Whether it has been switched off, and nothing has moved in the plane since.
+    /// Whether something has moved in the plane since: without that LinuxCNC sees nothing of it.
+    begun: bool,
+    /// Whether it has been switched off, having begun, and nothing has moved in the plane since.
     open: bool,
 }
 
@@ -49,6 +51,7 @@ impl Default for EndOfCompensation {
         EndOfCompensation {
             plane: Plane::Xy,
             on: false,
+            begun: false,
             open: false,
         }
     }
@@ -62,14 +65,16 @@ impl EndOfCompensation {
         for action in actions {
             match action {
                 Action::Compensation(Compensation::Off) => {
-                    self.open = self.open || self.on;
-                    self.on = false;
+                    self.open = self.open || self.begun;
+                    (self.on, self.begun) = (false, false);
                 }
                 Action::Compensation(_) => self.on = true,
                 Action::Plane(plane) => self.plane = *plane,
                 Action::Move(path) => {
                     met = met.or_else(|| self.no_way_off(path));
-                    self.open = self.open && !path.leads_in_plane(self.plane);
+                    let leads = path.leads_in_plane(self.plane);
+                    self.open = self.open && !leads;
+                    self.begun = self.begun || self.on && leads;
                 }
                 _ => {}
             }
