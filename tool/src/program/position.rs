@@ -1,7 +1,8 @@
 //! Where the axes are while a program is evaluated, as far as that is known ahead of time.
 //!
 //! Nothing is known at the start, after a tool or a work offset changes, and after a motion in
-//! machine coordinates: the offsets are set at the machine. A coordinate that is not known is
+//! machine coordinates: the offsets are set at the machine. Another tool offset moves the axes that the tool table says.
+//! A coordinate that is not known is
 //! never guessed. The backends write it so that LinuxCNC works it out, or refuse.
 
 use super::frame::Frame;
@@ -46,6 +47,24 @@ impl Position {
         let moved = apply_partly(&to_inverse, apply_partly(from.map(), linear));
         self.coordinates[..3].copy_from_slice(&moved);
     }
+}
+
+/// The axes whose coordinates in the frame change where these axes of the machine move: they themselves, and those that
+/// the frame mixes with them.
+pub fn displaced_in(frame: &Frame, axes: [bool; 9]) -> [bool; 9] {
+    let mut displaced = axes;
+    if frame.is_empty() {
+        return displaced;
+    }
+    let stays = [0, 1, 2].map(|axis| (!axes[axis]).then_some(0.0));
+    let in_frame = match frame.map().inverse() {
+        Ok(inverse) => apply_partly(&inverse, stays),
+        Err(_) => [None; 3],
+    };
+    for (axis, place) in in_frame.into_iter().enumerate() {
+        displaced[axis] |= place.is_none();
+    }
+    displaced
 }
 
 /// The image of a point of which only some coordinates are known.

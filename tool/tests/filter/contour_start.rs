@@ -254,6 +254,19 @@ fn what_cannot_be_written_is_refused() {
     }
 }
 
+/// Posts lead the tool over the start before they switch its length on, which moves Z alone on mills.
+#[test]
+fn the_length_of_the_tool_leaves_the_start_known() {
+    for way in [
+        "G0 X0 Y-10\nD1 Z5\nG41 G1 Y0\nX-20\nY60",
+        "AROT Z90\nG0 X-10 Y0\nD1 Z5\nG41 G1 X0\nY20\nX60",
+    ] {
+        let program = format!("T1 M6\nG70 F300\n{way}\nG40 X90 Y90\nM30\n");
+        let found = feeds("sinumerik", &program, "program");
+        assert_begins(&found, &[[0.0, -4.0, 5.0], [-20.0, -4.0, 5.0]], way);
+    }
+}
+
 /// Where the tool comes from may not be known ahead of time.
 #[test]
 fn an_unknown_start_is_told() {

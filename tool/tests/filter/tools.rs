@@ -200,3 +200,42 @@ fn a_lathe_cuts_with_no_tool_that_was_not_changed_to() {
         accepted(&run(program, lathe));
     }
 }
+
+/// Its length is switched on behind the way over the part: where X and Y are stays known where no tool has an offset in
+/// them. What is wrong in the lists is no matter of a program that names no tool.
+#[test]
+fn a_length_moves_the_axes_of_the_table() {
+    let program = "T1 M6\nF100\nG0 X10 Y20\nD1 Z15\nG1 X20 RND=2\nY30\nM30\n";
+    for (list, table, known) in [
+        ("A,3\n", TABLE, true),
+        ("A,3\n", "T1 P1 Z10 X0 Y+0.0\n", true),
+        ("A,3\n", "T1 P1 Z10\nT2 P2 X1\n", false),
+        ("A,x\n", TABLE, false),
+    ] {
+        let output = run(&shop(program, list, "", table), &[]);
+        match known {
+            true => drop(accepted(&output)),
+            false => assert!(refused(&output).contains("begins or ends where is not known")),
+        }
+    }
+}
+
+#[test]
+fn a_database_of_tools_is_no_table() {
+    let shop = shop(
+        "T1 M6\nG0 X0 Y0 Z9\nSLOT1(9,0,1,-3,,2,20,6,0,0,10,0,90,300,800,2,3,0)\nM30\n",
+        "A,3\n",
+        "",
+        TABLE,
+    );
+    std::fs::write(
+        shop.path("config/mill.ini"),
+        format!("{INI}DB_PROGRAM = ./tools.py\n"),
+    )
+    .expect("a file");
+    let errors = refused(&run(&shop, &[]));
+    assert!(
+        errors.contains("mill.ini has its tools from [EMCIO]DB_PROGRAM"),
+        "{errors}"
+    );
+}

@@ -7,7 +7,7 @@ use super::{Control, Done};
 use crate::diagnostics::Diagnostic;
 use crate::program::frame::Frame;
 use crate::program::moves::{Coordinate, Move, MoveKind};
-use crate::program::position::apply_partly;
+use crate::program::position::displaced_in;
 use crate::program::{Action, Compensation};
 use crate::source::Span;
 
@@ -46,7 +46,8 @@ impl Control<'_> {
         };
         let target = targets(words, &self.modal, self.settings, self.diagnostics)?;
         let start = self.modal.position.coordinates();
-        let displaced = displaced(&target, &self.modal.frame);
+        let moved = target.map(|target| target != Coordinate::Keep);
+        let displaced = displaced_in(&self.modal.frame, moved);
         for (axis, target) in target.iter().enumerate() {
             let moves = *target != Coordinate::Keep;
             self.modal.length_undecided &= !(moves && axis == 2);
@@ -179,25 +180,6 @@ impl Control<'_> {
             );
         }
     }
-}
-
-/// The coordinates in the frame that a motion of the machine's axes changes: those of its own axes, and those that
-/// the frame mixes with them.
-fn displaced(target: &[Coordinate; 9], frame: &Frame) -> [bool; 9] {
-    let moves = |axis: usize| target[axis] != Coordinate::Keep;
-    let mut displaced = std::array::from_fn(moves);
-    if frame.is_empty() {
-        return displaced;
-    }
-    let stays = [0, 1, 2].map(|axis| (!moves(axis)).then_some(0.0));
-    let in_frame = match frame.map().inverse() {
-        Ok(inverse) => apply_partly(&inverse, stays),
-        Err(_) => [None; 3],
-    };
-    for (axis, place) in in_frame.into_iter().enumerate() {
-        displaced[axis] |= place.is_none();
-    }
-    displaced
 }
 
 /// G52 behind G92, while the tool is nobody knows where.

@@ -3,7 +3,7 @@
 use super::words::Dimension;
 use crate::dialects::settings::Settings;
 use crate::program::frame::Frame;
-use crate::program::position::Position;
+use crate::program::position::{Position, displaced_in};
 use crate::program::{Compensation, FeedMode, PathControl, Plane, Spindle};
 use crate::source::Span;
 
@@ -152,20 +152,20 @@ impl Modal {
     pub fn select_work_offset(&mut self, system: u8) {
         let shifted = self.preset_at.is_some() || self.shifted != [false; 9];
         if self.work_offset.replace(system) != Some(system) || shifted {
-            self.change_offset();
+            self.change_offset([true; 9]);
         }
     }
 
-    /// The tool or an offset changed: where the axes are is not known any more. What was programmed last is,
-    /// and increments that follow the setting may count from it.
-    pub fn change_offset(&mut self) {
-        if self.follows_setting {
-            for (axis, carried) in self.carried.iter_mut().enumerate() {
-                let programmed = self.position.get(axis);
-                *carried = carried.or(programmed.map(Some));
-            }
+    /// The tool or an offset changed, which moves these axes of the machine: where they are is not known any more.
+    /// What was programmed last is, and increments that follow the setting may count from it.
+    pub fn change_offset(&mut self, axes: [bool; 9]) {
+        let changed = displaced_in(&self.frame, axes);
+        for axis in (0..9).filter(|axis| changed[*axis]) {
+            let programmed = self.position.get(axis).filter(|_| self.follows_setting);
+            let carried = &mut self.carried[axis];
+            *carried = carried.or(programmed.map(Some));
+            self.position.set(axis, None);
         }
-        self.position.forget();
         self.tangent = None;
     }
 

@@ -85,7 +85,7 @@ impl Control<'_> {
     /// M6. With `with_length` the length of the new tool is compensated at once.
     pub fn tool_change(&mut self, span: Span, with_length: bool) -> Done {
         self.refuse_compensation(span, "the tool changes")?;
-        self.modal.change_offset();
+        self.modal.change_offset([true; 9]);
         self.actions.push(Action::ToolChange);
         self.tools.change();
         // LinuxCNC stops the spindle.
@@ -178,7 +178,8 @@ impl Control<'_> {
     /// Tool length compensation of the tool in the spindle, on or off.
     pub fn tool_length(&mut self, on: bool, span: Span) -> Done {
         self.refuse_compensation(span, "the tool offset changes")?;
-        self.modal.change_offset();
+        let axes = self.axes_of_tool_offsets();
+        self.modal.change_offset(axes);
         if !matches!(self.actions.last(), Some(Action::ToolLength(last)) if *last == on) {
             self.states.push(Action::ToolLength(on));
         }
@@ -191,7 +192,8 @@ impl Control<'_> {
             return self.tool_length(false, span);
         }
         self.refuse_compensation(span, "the tool offset changes")?;
-        self.modal.change_offset();
+        let axes = self.axes_of_tool_offsets();
+        self.modal.change_offset(axes);
         self.states.push(Action::ToolOffset(number));
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Tools by their names, and what the tool table says of the tool in the spindle.
 
 use super::{Control, Done};
-use crate::diagnostics::Diagnostic;
+use crate::diagnostics::{Diagnostic, Diagnostics};
 use crate::dialects::tools::ToolBook;
 use crate::program::Action;
 use crate::source::Span;
@@ -13,8 +13,8 @@ pub(super) struct ToolState {
     selected: Option<u32>,
     /// The tool that M6 changed to.
     in_spindle: Option<u32>,
-    /// Read when it is asked for the first time; `Err` where something was wrong, which has been reported.
-    book: Option<Result<ToolBook, ()>>,
+    /// Read when it is asked for the first time; `Err` with what was wrong, until that has been reported.
+    book: Option<Result<ToolBook, Diagnostics>>,
 }
 
 impl ToolState {
@@ -89,11 +89,25 @@ impl Control<'_> {
         }
     }
 
+    /// The axes that another tool offset moves: Z, and all where LinuxCNC's tool table is not known or has offsets in
+    /// others, as on lathes. What is wrong in the lists is no matter of a program that names no tool.
+    pub(super) fn axes_of_tool_offsets(&mut self) -> [bool; 9] {
+        match self.read_tools() {
+            Ok(book) if book.offsets_move_z_only() => std::array::from_fn(|axis| axis == 2),
+            _ => [true; 9],
+        }
+    }
+
     fn tool_book(&mut self) -> Option<&ToolBook> {
-        if self.tools.book.is_none() {
-            let book = ToolBook::read(&self.settings.tool_files, self.sources);
-            self.tools.book = Some(book.map_err(|wrong| self.diagnostics.append(wrong)));
+        if let Err(wrong) = self.read_tools() {
+            let wrong = std::mem::take(wrong);
+            self.diagnostics.append(wrong);
         }
         self.tools.book.as_ref()?.as_ref().ok()
+    }
+
+    fn read_tools(&mut self) -> &mut Result<ToolBook, Diagnostics> {
+        let read = || ToolBook::read(&self.settings.tool_files, self.sources);
+        self.tools.book.get_or_insert_with(read)
     }
 }

@@ -224,7 +224,7 @@ impl Interpreter<'_> {
     pub(super) fn suppress_offset(&mut self, span: Span) -> Done {
         self.control
             .refuse_compensation(span, "the work offset changes")?;
-        self.control.modal.change_offset();
+        self.control.modal.change_offset([true; 9]);
         self.control.modal.work_offset = None;
         self.system = Some(0);
         self.set_offsets();

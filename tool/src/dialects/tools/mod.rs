@@ -53,6 +53,8 @@ struct Tools {
     numbers: BTreeMap<String, Vec<u32>>,
     /// Diameters by number, machine units.
     diameters: BTreeMap<u32, f64>,
+    /// Whether an offset of a tool moves another axis than Z.
+    aside: bool,
 }
 
 impl Tools {
@@ -181,6 +183,11 @@ impl ToolBook {
         self.files.iter().find_map(of)
     }
 
+    /// Whether LinuxCNC's tool table is known, and no offset in it moves another axis than Z.
+    pub fn offsets_move_z_only(&self) -> bool {
+        self.without_table.is_none() && !self.files.iter().any(|file| file.aside)
+    }
+
     /// Why there is no tool table, if there is none.
     pub fn without_table(&self) -> Option<&str> {
         self.without_table.as_deref()
@@ -190,6 +197,12 @@ impl ToolBook {
 /// The tool table that an INI file names.
 fn tool_table(ini: &Path) -> Result<PathBuf, String> {
     let read = Ini::read(ini).map_err(|error| error.to_string())?;
+    if read.text("EMCIO", "DB_PROGRAM").is_some() {
+        return Err(format!(
+            "{} has its tools from [EMCIO]DB_PROGRAM",
+            ini.display()
+        ));
+    }
     match read.text("EMCIO", "TOOL_TABLE") {
         Some(table) => Ok(ini.with_file_name(table)),
         None => Err(format!("{} has no [EMCIO]TOOL_TABLE", ini.display())),

@@ -34,6 +34,7 @@ pub(super) fn parse(text: Text) -> Result<Tools, Diagnostic> {
             match letter {
                 'T' => number = Some(value),
                 'D' => diameter = Some(value),
+                'X' | 'Y' | 'A' | 'B' | 'C' | 'U' | 'V' | 'W' => tools.aside |= value != 0.0,
                 _ => {}
             }
         }
