@@ -27,10 +27,12 @@ pub fn run_all(dialect: Dialect, bytes: &[u8]) {
     run_with(&settings, dialect, bytes);
 }
 
-/// What is said about which place.
+/// What is said about which place. That a place is not known is left unsaid behind another error, and which of them is
+/// found first depends on the pieces.
 fn places(diagnostics: &Diagnostics) -> BTreeSet<(usize, usize, String)> {
     let place = |one: &Diagnostic| (one.span.start, one.span.end, one.message.clone());
-    diagnostics.iter().map(place).collect()
+    let sure = |one: &&Diagnostic| !one.message.contains("not known ahead of time");
+    diagnostics.iter().filter(sure).map(place).collect()
 }
 
 /// The same of a file of which some pages are held, each a line long or little more.

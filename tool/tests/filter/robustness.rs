@@ -4,6 +4,12 @@ use crate::front_end::run_all;
 use framepath_tool::dialects::Dialect;
 use proptest::prelude::*;
 
+/// The error of the second line is found first where the program is read in pieces: that of the first is then left unsaid.
+#[test]
+fn errors_that_follow_from_others_may_be_left_out() {
+    run_all(Dialect::Fagor, b"G8 R2 \n P4 G0");
+}
+
 /// Pieces of programs, so that much of what is made gets past the parser.
 fn piece() -> impl Strategy<Value = String> {
     let fixed = [
