@@ -1,7 +1,8 @@
 //! Shapes of the path and its rates: [`segment`]s in the nine axes of the machine, [`pieces`] of a
 //! programmed contour, velocity, acceleration and jerk as [`rates`] of recorded positions and as
-//! [`differences`] of positions that go by; what counts as [`exceeded`].
+//! [`differences`] of positions that go by; the way [`between`] two of them; what counts as [`exceeded`].
 
+pub(crate) mod between;
 #[cfg(feature = "linuxcnc")]
 pub(crate) mod differences;
 #[cfg(feature = "linuxcnc")]

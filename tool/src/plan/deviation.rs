@@ -5,6 +5,7 @@ use crate::layer::judged::{Around, judged, tolerance, wider, with_merging};
 use crate::layer::program::{Piece, Shape};
 use crate::layer::turns::TurnsLeftAway;
 use crate::path::Position;
+use crate::path::between::way;
 use crate::path::exceeded::is_beyond;
 use crate::path::segment::Segment;
 use framepath::axes::Axes;
@@ -92,8 +93,12 @@ struct Tracked {
     tapped: Option<Segment>,
     /// What a degree of C counts.
     turn_share: f64,
-    /// Distance of its end from the planned path so far.
+    /// Distance of its end from the planned path so far, its positions joined by lines.
     end_missed: f64,
+    /// The positions around the cycle that came nearest, see [`way`].
+    end_way: [Position; 4],
+    /// The last of them is still to come.
+    end_near: bool,
     /// P of this piece and the one before; `None` without P.
     tolerance: Option<f64>,
     /// How far merging may have taken the moves from this piece and those beside it, mm: a corner reaches over several, and the
@@ -106,6 +111,15 @@ impl Tracked {
     fn allowed(&self) -> Option<f64> {
         self.tolerance
             .map(|tolerance| with_merging(tolerance, self.merged))
+    }
+
+    /// Distance of its end from the planned path: the machine may turn back between two positions, beyond both.
+    fn end_from_way(&self, all_axes: bool) -> f64 {
+        let around = self.end_way.map(|at| with_turn(&at, self.turn_share));
+        let away = |line: Segment| line.deviation(&self.counted.end, all_axes).0;
+        way(around)
+            .map(|[from, to]| away(Segment::line(from, to)))
+            .fold(self.end_missed, f64::min)
     }
 }
 
@@ -125,7 +139,8 @@ pub struct Follower {
     /// What turns of C count.
     orientation: Option<Orientation>,
     found: Deviation,
-    last: Option<Position>,
+    /// The last two positions.
+    last: Option<[Position; 2]>,
 }
 
 /// A position with C counting a share.
@@ -184,6 +199,8 @@ impl Follower {
                     .then(|| counted.beyond_both_ends()),
                 turn_share,
                 end_missed: f64::INFINITY,
+                end_way: [[0.0; 9]; 4],
+                end_near: false,
                 tolerance: wider(own, before),
                 merged,
             });
@@ -197,7 +214,7 @@ impl Follower {
         let Some((near, distance)) = self.nearest(position) else {
             return;
         };
-        let before = self.last.unwrap_or(*position);
+        let [earlier, before] = self.last.unwrap_or([*position; 2]);
         let [first, last] = self.own;
         // A cycle may pass many short pieces, and the move that runs may be the next one at its end.
         let from = first.min(near).min(came_from).saturating_sub(NEAR);
@@ -209,9 +226,16 @@ impl Follower {
                 with_turn(position, turn_share),
             );
             let missed = chord.deviation(&tracked.counted.end, self.all_axes).0;
-            tracked.end_missed = tracked.end_missed.min(missed);
+            if tracked.end_near {
+                tracked.end_way[3] = *position;
+            }
+            tracked.end_near = missed < tracked.end_missed;
+            if tracked.end_near {
+                tracked.end_missed = missed;
+                tracked.end_way = [earlier, before, *position, *position];
+            }
         }
-        self.last = Some(*position);
+        self.last = Some([before, *position]);
         self.near = near;
         self.found.now = distance;
         let place = Place {
@@ -296,12 +320,13 @@ impl Follower {
             ..left
         };
         if judged.end_missed.is_finite() {
-            self.found.programmed.note(judged.end_missed, &judged);
-            self.found.tightest.note_share(judged.end_missed, &judged);
+            let missed = judged.end_from_way(self.all_axes);
+            self.found.programmed.note(missed, &judged);
+            self.found.tightest.note_share(missed, &judged);
             if judged.tolerance == Some(0.0) {
-                self.found.exact.note(judged.end_missed, &judged);
+                self.found.exact.note(missed, &judged);
             }
-            self.note_beyond(judged.end_missed, judged.allowed(), judged.piece.line);
+            self.note_beyond(missed, judged.allowed(), judged.piece.line);
         }
     }
 

@@ -120,6 +120,16 @@ fn a_hook_in_a_merged_move_is_no_deviation() {
 }
 
 #[test]
+fn a_tip_between_two_cycles_is_no_deviation() {
+    let there_and_back = [[-3.0, 0.0], [1.0, 0.0], [-3.0, 0.0]];
+    // Under an acceleration that takes 0.05 off in half a cycle.
+    let x = |n: i32| 1.0 - 0.05 * f64::from(2 * n + 1).powi(2);
+    let ways = (-5..5).map(|n| (x(n), usize::from(n >= 0)));
+    let found = followed_along_x(&merged(&there_and_back, &[1, 1]), ways);
+    assert!(found.programmed.distance < 1e-3, "{found:?}");
+}
+
+#[test]
 fn pieces_that_a_cycle_passes_are_no_deviation() {
     // Pieces of 5 micrometres, merged to two moves; 20 of them in a cycle.
     let places: Vec<[f64; 2]> = (0..=200).map(|n| [f64::from(n) * 0.005, 0.0]).collect();
