@@ -2,9 +2,10 @@
 //! faster than real time.
 
 use super::arrivals::Arrivals;
-use super::error::{PlanError, refusal, spindle_error};
+use super::error::{PlanError, refusal, spindle_error, stuck};
 use super::joint_way::JointWay;
 use super::joints;
+use super::lines::Lines;
 use super::setup::Setup;
 use super::soft_limits::SoftLimits;
 use super::source::Source;
@@ -94,7 +95,7 @@ pub struct Drive<'a> {
     arrivals: Option<Arrivals>,
     /// Moves that the planner was given.
     moves: usize,
-    last_line: i32,
+    lines: Lines,
     last_position: Axes,
     last_change: u64,
     finished: bool,
@@ -159,7 +160,7 @@ impl<'a> Drive<'a> {
                 _ => None,
             },
             moves: 0,
-            last_line: 0,
+            lines: Lines::default(),
             last_position: Axes::zeros(),
             last_change: 0,
             finished: false,
@@ -260,7 +261,7 @@ impl<'a> Drive<'a> {
                     if seconds > LONGEST_DWELL {
                         return Err(PlanError::Dwell {
                             file: self.file.to_owned(),
-                            line: self.last_line,
+                            line: self.lines.last(),
                             seconds,
                         });
                     }
@@ -291,7 +292,7 @@ impl<'a> Drive<'a> {
         if leaves {
             return Err(PlanError::Stopped {
                 file: self.file.to_owned(),
-                line: self.last_line,
+                line: self.lines.last(),
                 reason: "a joint would go beyond a soft limit ([JOINT_n]MIN_LIMIT, MAX_LIMIT)"
                     .to_owned(),
             });
@@ -302,7 +303,7 @@ impl<'a> Drive<'a> {
     fn look_at_joints(&mut self) -> Result<(), PlanError> {
         let way = self.joint_way.as_mut();
         match way.and_then(|way| way.look(&mut self.planner)) {
-            Some(refused) => Err(self.move_refused(refused.line, refused.reason)),
+            Some(refused) => Err(self.move_refused(self.lines.of(refused.id), refused.reason)),
             None => Ok(()),
         }
     }
@@ -310,7 +311,7 @@ impl<'a> Drive<'a> {
     /// What LinuxCNC would refuse for a soft limit is planned all the same, with a word.
     fn admit(&mut self, shape: Result<Shape, ShapeError>) {
         if let (Some(limits), Ok(shape)) = (&mut self.soft_limits, shape) {
-            limits.admit(&shape, self.file, self.last_line);
+            limits.admit(&shape, self.file, self.lines.last());
         }
     }
 
@@ -334,11 +335,10 @@ impl<'a> Drive<'a> {
         let length = millimetres / self.setup.millimetres;
         let position = self.planner.status().position;
         joints::set_tool_length(&self.setup.joints, length, &position)
-            .map_err(|why| self.move_refused(self.last_line, why.to_owned()))
+            .map_err(|why| self.move_refused(self.lines.last(), why.to_owned()))
     }
 
     fn add(&mut self, a_move: &Move) -> Result<(), PlanError> {
-        self.last_line = a_move.line;
         let length = 1.0 / self.setup.millimetres;
         let linear = (0..AXIS_COUNT).any(|axis| {
             !crate::machine::limits::is_rotary(axis)
@@ -362,9 +362,7 @@ impl<'a> Drive<'a> {
         };
         let id = i32::try_from(a_move.index + 1).unwrap_or(i32::MAX);
         self.planner.set_id(id);
-        if let Some(way) = &mut self.joint_way {
-            way.note(id, a_move.line);
-        }
+        self.lines.note(id, a_move.line);
         let end = Axes::from_fn(|axis, _| a_move.end[axis] * self.setup.scale(axis));
         if let Some(joints) = self.setup.joints.limited()
             && !joints.reaches(&end)
@@ -429,12 +427,18 @@ impl<'a> Drive<'a> {
         self.spindle.surface_speeds()
     }
 
+    /// The number of the move that runs.
+    fn runs(status: &Status) -> Option<usize> {
+        let id = (status.active_depth > 0).then_some(status.exec_id)?;
+        usize::try_from(id).ok()?.checked_sub(1)
+    }
+
     /// What must not happen.
     fn judge(&mut self, status: &Status) -> Result<(), PlanError> {
         let stopped = |reason: String| {
             Err(PlanError::Stopped {
                 file: self.file.to_owned(),
-                line: self.last_line,
+                line: self.lines.of(status.exec_id),
                 reason,
             })
         };
@@ -454,20 +458,15 @@ impl<'a> Drive<'a> {
         }
         let held = || self.arrivals.as_ref().map_or(Ok(false), Arrivals::hold);
         if self.cycle - self.last_change > STUCK && !held()? {
-            let why = if status.waiting_for_index {
-                "it waits for the index of a spindle that does not turn"
-            } else {
-                "it stands still with moves to go. This is a fault of blendtp: please report it with the program"
-            };
-            return stopped(why.to_owned());
+            let per_turn = Self::runs(status).and_then(|at| self.turn_feeds.running(at));
+            let stands = self.spindle.speed() == 0.0;
+            return stopped(stuck(status, per_turn.is_some() && stands).to_owned());
         }
         Ok(())
     }
 
     fn sample(&mut self, status: &Status, dwells: bool) -> Sample {
-        let running = (status.active_depth > 0)
-            .then(|| usize::try_from(status.exec_id).ok()?.checked_sub(1))
-            .flatten();
+        let running = Self::runs(status);
         // Where motion follows the spindle the planner counts on more, should the spindle become faster.
         let turn_feed = running.and_then(|index| self.turn_feeds.running(index));
         let asked = turn_feed

@@ -6,7 +6,7 @@ use crate::joints::JointsError;
 use crate::machine::IniError;
 use framepath::axes::AXIS_LETTERS;
 use framepath::moves::shape::ShapeError;
-use framepath::planner::{AddError, SpindleError};
+use framepath::planner::{AddError, SpindleError, Status};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -176,5 +176,17 @@ pub(super) fn spindle_error(error: &SpindleError) -> String {
             "the spindle does not turn back at the end of a tap".to_owned()
         }
         SpindleError::NoIndex => "the spindle does not turn, or has no index".to_owned(),
+    }
+}
+
+/// Why the planner stands still with moves to go. `without_turns`: the move follows the turns of a spindle that stands.
+pub(super) fn stuck(status: &Status, without_turns: bool) -> &'static str {
+    if without_turns {
+        "it follows the turns of a spindle that stands (M5, or S0), and LinuxCNC waits there until somebody starts the spindle: \
+         write M3 or M4 with an S before it, or G94 with an F per minute"
+    } else if status.waiting_for_index {
+        "it waits for the index of a spindle that does not turn"
+    } else {
+        "it stands still with moves to go. This is a fault of blendtp: please report it with the program"
     }
 }

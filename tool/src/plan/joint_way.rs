@@ -4,10 +4,8 @@
 use crate::joints::LimitedJoints;
 use framepath::abi::planner::kinematics_module::KinematicsModule;
 use framepath::axes::{AXIS_LETTERS, Axes};
-use framepath::moves::CAPACITY;
 use framepath::planner::Planner;
 use framepath::planner::range::{Finding, JointRange, JointSolver, Joints, Jump};
-use std::collections::VecDeque;
 
 /// Axes that a place is told with: U V W have joints of their own.
 const TOLD_AXES: usize = 6;
@@ -21,15 +19,13 @@ pub struct JointWay {
     range: JointRange,
     /// Where the machine is.
     joints: Joints,
-    /// The moves that were handed over last: LinuxCNC's number, and the line.
-    handed: VecDeque<(i32, i32)>,
 }
 
 /// Why a move is not taken.
 #[derive(Debug)]
 pub struct Refused {
-    /// Its line.
-    pub line: i32,
+    /// LinuxCNC's number of it.
+    pub id: i32,
     /// For the reader.
     pub reason: String,
 }
@@ -47,14 +43,7 @@ impl JointWay {
                 ..JointRange::NONE
             },
             joints: home,
-            handed: VecDeque::new(),
         })
-    }
-
-    /// A move is handed over, with LinuxCNC's number of it.
-    pub(super) fn note(&mut self, id: i32, line: i32) {
-        self.handed.truncate(CAPACITY);
-        self.handed.push_front((id, line));
     }
 
     /// Looks at more of the moves, before each servo period. Why one is not taken, if that is found.
@@ -69,9 +58,7 @@ impl JointWay {
             Finding::Unreached { place, id } => (id, self.unreached(&place)),
             Finding::Leaves { .. } | Finding::Unknown { .. } => return None,
         };
-        let handed = self.handed.iter().find(|(handed, _)| *handed == id);
-        let line = handed.map_or(0, |(_, line)| *line);
-        Some(Refused { line, reason })
+        Some(Refused { id, reason })
     }
 
     fn jumps(&self, jump: &Jump) -> String {

@@ -2,7 +2,7 @@
 //!
 //! The files in the order of the work: [`setup`] is the machine, [`start`] where it begins, [`source`] the program as the task
 //! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with its [`joints`] where these have limits, a
-//! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`]; [`collector`] takes in each servo
+//! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`], with their [`lines`]; [`collector`] takes in each servo
 //! cycle: [`cause`] says what limits the machine, [`places`] where time is lost, [`evenness`] how much of cutting is near the feed,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
 //! drawings; [`figures`] holds all of it, the greatest [`speed`] and the [`distances`] among it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
@@ -23,6 +23,7 @@ mod findings;
 mod joint_way;
 mod joints;
 mod limit;
+mod lines;
 mod listing;
 mod page;
 mod places;

@@ -463,3 +463,24 @@ fn a_program_without_an_end_is_told_how_to_end() {
         "{error}"
     );
 }
+
+/// The planner stops in the fourth line, with moves of the lines behind it in its queue.
+#[test]
+fn what_stops_behind_the_spindle_is_told_with_its_line() {
+    let bench = Bench::new();
+    for (line, told) in [
+        (
+            "G95 F.1 M5\nG1 X1",
+            "it follows the turns of a spindle that stands (M5, or S0)",
+        ),
+        ("F600\nG33 Z-10 K20", "to follow the spindle takes 200.0"),
+    ] {
+        bench.write(
+            "part.ngc",
+            &format!("G21 M3 S600\nG0 Z5\n{line}\nG1 X2\nX3\nX4\nM2\n"),
+        );
+        let error = bench.refused(&["part.ngc"]);
+        let at = "part.ngc:4: the planner stops the motion: ";
+        assert!(error.contains(&format!("{at}{told}")), "{error}");
+    }
+}
