@@ -3,7 +3,7 @@
 use std::panic::resume_unwind;
 use std::thread;
 
-/// Runs a test where a planner, some 17 MB, has room on the stack.
+/// Runs a test where a planner, some 18 MB, has room on the stack.
 pub fn with_room<R: Send>(test: impl FnOnce() -> R + Send) -> R {
     thread::scope(|scope| {
         thread::Builder::new()

@@ -4,10 +4,10 @@
 use super::blame::MANY_KERNELS;
 use super::chain::Chain;
 use super::equal_widths::EqualWidthsSum;
+use super::linear_axes;
 use super::lone_corner::OUTER_REACH;
 use super::metric::Metric;
 use super::settings::BlendSettings;
-use super::shift;
 use super::vertex::Vertex;
 use super::vertex_widths::KERNEL_SHARE;
 use super::widths::Widths;
@@ -213,6 +213,6 @@ fn deviation_at_equal_widths(
     sum.add(chain.curve_right_of(number, window.next), vertex);
     let (mut deviation, terms) = sum.total();
     let share = chain.vertex(number).turn_share;
-    shift::add(&mut deviation, &chain.leg(number).shift_at(here));
+    linear_axes::add(&mut deviation, &chain.leg(number).shift_at(here));
     (metric.deviation(&deviation, share), terms)
 }

@@ -6,8 +6,8 @@
 use super::chain::{Chain, NEIGHBOURS};
 use super::deviation::Violation;
 use super::jump::{GROUP_SIZE, JumpSum};
+use super::linear_axes;
 use super::metric::Metric;
-use super::shift;
 use super::vertex::Vertex;
 use super::window::Window;
 
@@ -113,7 +113,7 @@ fn blames(
     }
     let mut total = others.axes() + JumpSum::of_groups(&[linear]).axes();
     let place = chain.leg(leg);
-    shift::add(&mut total, &place.shift_at(s));
+    linear_axes::add(&mut total, &place.shift_at(s));
     place.take_off_along(s, metric, &mut total);
     let mut blames = [0.0; MOST];
     for (((trial, number), value), blame) in trials().zip(values).zip(&mut blames) {

@@ -1,8 +1,7 @@
 //! One leg of the programmed path: a move, or several short lines merged into one.
 
-use nalgebra::Vector3;
-
 use super::leg_check::LegCheck;
+use super::linear_axes::LinearAxes;
 use super::metric::Metric;
 use super::nearly_linear::is_nearly_linear;
 use super::settings::{Allowance, BlendSettings};
@@ -74,7 +73,7 @@ pub(super) struct Leg {
     pub measure_rate: f64,
     /// What F counts.
     pub measure: Measure,
-    /// Whether nothing but X, Y and Z counts for much on it: see [`nearly_linear`](super::nearly_linear).
+    /// Whether nothing but linear axes counts for much on it: see [`nearly_linear`](super::nearly_linear).
     pub is_linear: bool,
     /// How far its direction turns for a unit of path distance, radians: 0 on a line.
     pub turning: f64,
@@ -188,9 +187,9 @@ impl Leg {
         }
     }
 
-    /// What it is moved by at path distance `s`, held within it; XYZ.
+    /// What it is moved by at path distance `s`, held within it.
     #[inline]
-    pub fn shift_at(&self, s: f64) -> Vector3<f64> {
+    pub fn shift_at(&self, s: f64) -> LinearAxes {
         self.shift.at(self.distance(s))
     }
 
@@ -214,7 +213,7 @@ impl Leg {
         self.may_swing_out && self.near_limit == NearLimit::NONE && self.is_linear
     }
 
-    /// The line, if it does not matter where along it the path is: one of XYZ for the most, and no thread, whose pitch that would change.
+    /// The line, if it does not matter where along it the path is: one of linear axes for the most, and no thread, whose pitch that would change.
     fn line_in_space(&self) -> Option<&Line9> {
         match &self.shape {
             Shape::Line(line) if self.may_swing_out && self.is_linear => Some(line),

@@ -9,9 +9,11 @@
 //! sides of a corner can be compared. Both are in proportion on every single move: a leg of the
 //! path keeps their quotient.
 //!
-//! The tolerance P of G64 is a distance of this kind too: rotary axes may deviate by P over the
-//! weight, in degrees.
+//! The tolerance P of G64 is a distance of this kind too, but X, Y, Z and U, V, W keep it each by themselves: these are the two
+//! ends of a wire, each with its own path, and both keep P at the same time. Rotary axes may deviate by P over the weight, in
+//! degrees, and count at both ends.
 
+use super::linear_axes::greater;
 use crate::axes::Axes;
 use crate::moves::shape::Shape;
 
@@ -50,12 +52,14 @@ impl Metric {
         self.product(displacement, displacement).sqrt()
     }
 
-    /// The same where a degree of C counts a `share` of a degree, 0 to 1.
+    /// What a displacement, shape (9), counts of a tolerance: its length at X Y Z or at U V W, whichever is greater. A degree of C
+    /// counts a `share` of a degree, 0 to 1.
     #[inline]
     pub fn deviation(&self, displacement: &Axes, share: f64) -> f64 {
-        let mut displacement = *displacement;
-        displacement[5] *= share;
-        self.norm(&displacement)
+        let [x, y, z, a, b, c, u, v, w]: [f64; 9] = (*displacement).into();
+        let c = share * c;
+        let greater = greater(x * x + y * y + z * z, u * u + v * v + w * w);
+        (greater + self.rotary * (a * a + b * b + c * c)).sqrt()
     }
 
     /// How far a shape goes in this distance while F counts one unit. For a spiral the greatest
@@ -86,6 +90,22 @@ mod tests {
         let metric = Metric::new(0.1);
         let displacement = Axes::from([1.0, 2.0, 2.0, 30.0, 0.0, 40.0, 2.0, 4.0, 4.0]);
         assert!((metric.norm(&displacement) - 70f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn each_end_keeps_the_tolerance_by_itself() {
+        let metric = Metric::new(0.1);
+        let of = |numbers: [f64; 9]| metric.deviation(&Axes::from(numbers), 0.5);
+        let ends = of([1.0, 2.0, 2.0, 0.0, 0.0, 0.0, 2.0, 4.0, 4.0]);
+        assert!((ends - 6.0).abs() < 1e-12, "{ends}");
+        let turned = of([3.0, 0.0, 0.0, 0.0, 40.0, 0.0, 0.0, 0.0, 1.0]);
+        assert!((turned - 5.0).abs() < 1e-12, "{turned}");
+        for axis in 0..9 {
+            let mut numbers = [1.0; 9];
+            numbers[axis] = f64::NAN;
+            assert!(of(numbers).is_nan(), "{axis}");
+        }
+        assert!((of([0.0, 0.0, 0.0, 0.0, 0.0, 40.0, 0.0, 0.0, 0.0]) - 2.0).abs() < 1e-12);
     }
 
     #[test]

@@ -57,6 +57,7 @@ mod leg;
 mod leg_check;
 mod legs_and_vertices;
 mod line_merger;
+mod linear_axes;
 mod lone_corner;
 mod metric;
 mod narrowed;

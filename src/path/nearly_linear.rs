@@ -1,11 +1,11 @@
-//! Moves on which nothing but X, Y and Z counts for much.
+//! Moves on which nothing but linear axes counts for much: X, Y, Z and U, V, W.
 //!
 //! Their path may be anywhere in its tolerance: it swings out at corners, vertices of dense code are moved, and where along a line
 //! it is does not matter. A rotary axis that turns a little beside them, as on a part that is wrapped around it, changes
 //! nothing of that: the tolerance is still kept in the [metric](super::metric) of all axes, and the widths are chosen for
 //! the limits of all of them.
 //!
-//! Not so where it turns the tool about its tip. Joints then follow it with X, Y and Z, and what widths gain for these three
+//! Not so beside U, V and W, where nothing is gained by it, and where it turns the tool about its tip. Joints then follow it with X, Y and Z, and what widths gain for these three
 //! is lost again: random programs in five axes took up to 5.5 % longer.
 
 use super::settings::BlendSettings;
@@ -18,18 +18,29 @@ const NEARLY: f64 = 0.8;
 /// What the length of a move may differ by from what F counts on it, of that: nothing else moves.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether a move whose length F counts along X, Y and Z is one of them, where its path is `per_measure` times as long as that.
+/// Whether a move whose length F counts along X, Y and Z is one of them, where its path is `per_measure` times as long as that. On an
+/// arc nothing else may move.
 pub(super) fn is_nearly_linear(shape: &Shape, per_measure: f64, settings: &BlendSettings) -> bool {
-    let least_share = match shape {
-        Shape::Line(line) if !settings.turns_tool() && !moves_parallel_axes(line) => NEARLY,
-        _ => 1.0 - ROUNDING,
+    let (linear, least_share) = match shape {
+        Shape::Line(line) => {
+            let linear = linear_measure(line);
+            let alone = linear == 1.0 && !settings.turns_tool();
+            (linear, if alone { NEARLY } else { 1.0 - ROUNDING })
+        }
+        Shape::Arc(_) => (1.0, 1.0 - ROUNDING),
     };
-    per_measure * least_share < 1.0
+    per_measure * least_share < linear
 }
 
-/// Whether U, V or W moves. Programs in which lines of all six axes counted took 1.4 % longer.
-fn moves_parallel_axes(line: &Line9) -> bool {
-    line.direction().iter().skip(6).any(|rate| *rate != 0.0)
+/// How far X, Y, Z and U, V, W go together on a line while X, Y and Z go one unit.
+fn linear_measure(line: &Line9) -> f64 {
+    let [.., u, v, w]: [f64; 9] = (*line.direction()).into();
+    let parallel = u * u + v * v + w * w;
+    if parallel > 0.0 {
+        (1.0 + parallel).sqrt()
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]
@@ -55,7 +66,8 @@ mod tests {
             (3, 70.0, true),
             (5, -70.0, true),
             (5, 80.0, false),
-            (6, 0.01, false),
+            (6, 0.01, true),
+            (7, 50.0, true),
         ] {
             assert_eq!(is_one(axis, way, &plain), expected, "{axis} {way}");
         }

@@ -3,8 +3,8 @@
 use super::chain::{Chain, NEIGHBOURS};
 use super::jump::GROUPS;
 use super::kernel_lanes::KernelLanes;
+use super::linear_axes;
 use super::metric::Metric;
-use super::shift;
 use super::trial_kernel::TrialKernel;
 use super::vertex::Vertex;
 use super::widths::FurtherKernel;
@@ -138,7 +138,7 @@ impl Reaching {
         }
         let mut deviation = sum.axes();
         let leg = chain.leg(self.leg);
-        shift::add(&mut deviation, &leg.shift_at(s));
+        linear_axes::add(&mut deviation, &leg.shift_at(s));
         leg.take_off_along(s, metric, &mut deviation);
         metric.deviation(&deviation, turn_share)
     }

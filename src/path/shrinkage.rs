@@ -15,6 +15,7 @@
 use wide::f64x2;
 
 use super::leg::Leg;
+use super::linear_axes::greater_end;
 use super::vertex::Vertex;
 
 /// Of what the tolerance leaves, how much the curve may shrink by.
@@ -66,9 +67,9 @@ impl Vertex {
     /// What is moved on a curve made of chords: their ends to the inner side, and the middles to the outer one. In between nothing is
     /// moved and the tolerance seems to be left; but what shrinks there takes the ends of the chords with it.
     pub fn find_moved_beside(&mut self, before: &Leg, after: &Leg) {
-        let here = after.shift_at(self.s).norm();
+        let here = greater_end(&after.shift_at(self.s));
         let ends = [before.shift_at(before.start), after.shift_at(after.end())];
-        let beside = ends.iter().map(|end| end.norm()).fold(0.0, f64::max);
+        let beside = ends.iter().map(greater_end).fold(0.0, f64::max);
         let by_all = beside > MOVED_BY_ALL * self.tolerance;
         if after.ends_curve && by_all && self.tangent_jump_size < GREATEST_TURN {
             self.moved_beside = (beside - here).max(0.0);
@@ -89,8 +90,7 @@ impl Vertex {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
-
+    use super::super::linear_axes;
     use super::super::shift::Shift;
     use super::*;
     use crate::axes::Axes;
@@ -134,7 +134,11 @@ mod tests {
     #[test]
     fn what_is_moved_by_all_it_may_be_beside_leaves_nothing() {
         let leg = |start: f64, end: f64, ends_curve: bool| {
-            let [start, end] = [start, end].map(|moved| Vector3::new(0.0, moved, 0.0));
+            let [start, end] = [start, end].map(|moved| {
+                linear_axes::of(&Axes::from_fn(
+                    |axis, _| if axis == 1 { moved } else { 0.0 },
+                ))
+            });
             Leg {
                 length: 0.2,
                 ends_curve,

@@ -18,6 +18,7 @@
 //! ```
 
 use super::leg::Leg;
+use super::linear_axes::greater_end;
 use super::vertex::Vertex;
 
 /// Of the tolerance, what tapering kernels and what the program is moved by may use.
@@ -34,7 +35,7 @@ impl Vertex {
         if !after.ends_curve || self.isolated || self.tolerance_jump_size <= 0.0 {
             return;
         }
-        let moved = after.shift_at(self.s).norm();
+        let moved = greater_end(&after.shift_at(self.s));
         let left = (TOLERANCE_SHARE * self.tolerance - moved).max(0.0);
         let curvature = self.tolerance_jump_size / self.mean_leg;
         self.taper = 2.0 * (left / (OFF_PER_SLOPE * curvature)).sqrt();

@@ -8,6 +8,7 @@
 
 use super::kernel;
 use super::leg::Leg;
+use super::linear_axes::{self, share_of_greater_end};
 use super::settings::BlendSettings;
 
 /// So many times as slow as the faster leg a corner is at least.
@@ -31,7 +32,8 @@ pub(super) fn stands_alone(before: &Leg, after: &Leg, settings: &BlendSettings) 
     if turn < SHARP || !before.is_linear || !after.is_linear {
         return false;
     }
-    let widest = before.tolerance().min(after.tolerance()) / (kernel::peak(0.0) * turn);
+    let widest = before.tolerance().min(after.tolerance())
+        / (kernel::peak(0.0) * turn * share_of_greater_end(&linear_axes::of(&jump)));
     let [slower, than_after] =
         [&from, &to].map(|direction| settings.times_as_slow(&jump, direction));
     let (slower, faster_leg) = if than_after > slower {

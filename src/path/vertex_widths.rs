@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::leg::Leg;
+use super::linear_axes::{self, LinearAxes, ends, greater_end};
 use super::lone_corner::{LoneCorner, narrow_share};
 use super::settings::BlendSettings;
 use super::vertex::Vertex;
@@ -148,17 +149,26 @@ impl Vertex {
         }
     }
 
-    /// How many jumps of its tangent lead so far from the program as the middle of a corner may be, where it is moved.
-    fn jumps_within(&self, shift: &Vector3<f64>) -> f64 {
+    /// How many jumps of its tangent lead so far from the program as the middle of a corner may be, where it is moved: at
+    /// both ends, as if the jump of each were that of the greater one.
+    fn jumps_within(&self, shift: &LinearAxes) -> f64 {
         let allowed = KERNEL_SHARE * self.tolerance;
-        let [linear, ..] = self.tangent_jump.groups();
-        let towards = shift.dot(&Vector3::from(*linear));
-        if towards == 0.0 {
-            return allowed / self.tolerance_jump_size;
-        }
-        let left = (allowed * allowed - shift.norm_squared()).max(0.0);
-        let square = self.tolerance_jump_size * self.tolerance_jump_size;
-        ((towards * towards + square * left).sqrt() - towards) / square
+        let jumps = ends(&linear_axes::of(&self.tangent_jump.axes()));
+        let of_end = |(shift, jump): (Vector3<f64>, &Vector3<f64>)| {
+            let towards = shift.dot(jump);
+            if towards == 0.0 {
+                return allowed / self.tolerance_jump_size;
+            }
+            let left = (allowed * allowed - shift.norm_squared()).max(0.0);
+            let square = self.tolerance_jump_size * self.tolerance_jump_size;
+            ((towards * towards + square * left).sqrt() - towards) / square
+        };
+        let moved = ends(shift).into_iter().zip(&jumps);
+        let within = moved.filter(|(_, jump)| **jump != Vector3::zeros());
+        within
+            .map(of_end)
+            .reduce(f64::min)
+            .unwrap_or(allowed / self.tolerance_jump_size)
     }
 
     /// The mix of its kernel where it keeps clear of its neighbours', and the width that its feed wants where half legs may be
@@ -199,7 +209,7 @@ impl Vertex {
     fn find_base_easement(&mut self, before: &Leg, after: &Leg, settings: &BlendSettings) {
         let speed = before.speed.max(after.speed);
         let design_width = before.design_width.max(after.design_width);
-        let left = self.tolerance - after.shift_at(self.s).norm();
+        let left = self.tolerance - greater_end(&after.shift_at(self.s));
         let within = EASEMENT_SHARE * left / (self.easement_peak() * self.curvature_jump_size);
         let halves = before.half_for_corner().min(after.half_for_corner());
         let wanted = if self.at_limit {

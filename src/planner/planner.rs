@@ -29,7 +29,7 @@ use crate::moves::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PositionError;
 
-/// The trajectory planner. About 17 MB, without a heap: it belongs in a static.
+/// The trajectory planner. About 18 MB, without a heap: it belongs in a static.
 #[derive(Debug)]
 pub struct Planner {
     pub(super) queue: MoveQueue,

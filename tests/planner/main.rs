@@ -5,6 +5,7 @@ mod arrivals;
 mod at_soft_limits;
 mod behind_frame;
 mod beside_soft_limits;
+mod both_ends;
 mod caps;
 mod chord_circles;
 mod common;

@@ -1,5 +1,6 @@
 //! Single steps that begin in a pause in motion: each ends at rest at the end of the move under way.
 
+use crate::common::path_check::counted;
 use crate::common::seeded_runner::seeded_runner;
 use crate::common::{Machine, at, feed_move, with_machine, with_room};
 use crate::program::queue::queue;
@@ -351,7 +352,7 @@ fn run_paused(machine: &mut Machine, moves: &[Programmed], pauses: &[Paused]) ->
             if let Some((end, tolerance)) = ends[id as usize - 1].filter(|_| stood) {
                 let next = ends.get(id as usize).copied().flatten();
                 let allowed = next.map_or(tolerance, |(_, next)| tolerance.max(next));
-                found.push(((rest.position - end).norm(), allowed));
+                found.push((counted(&(rest.position - end)), allowed));
             }
         }
         machine.planner.resume();

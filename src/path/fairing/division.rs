@@ -5,6 +5,7 @@
 
 use crate::path::kernel;
 use crate::path::leg::Leg;
+use crate::path::linear_axes::{self, share_of_greater_end};
 use crate::path::settings::BlendSettings;
 use crate::path::unlike_axes;
 
@@ -105,7 +106,8 @@ impl Corner {
         let turn = (to - from).norm();
         Self {
             turn,
-            widest: before.tolerance().min(after.tolerance()) / (kernel::peak(0.0) * turn),
+            widest: before.tolerance().min(after.tolerance())
+                / (kernel::peak(0.0) * turn * share_of_greater_end(&linear_axes::of(&(to - from)))),
             shorter: before.whole.min(after.whole),
             of_unlike_axes: unlike_axes::stands_alone(before, after, settings),
         }

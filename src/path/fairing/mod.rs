@@ -16,7 +16,7 @@
 //! The kernels of the path find their widths afterwards, within what is left of the tolerance. Nothing depends on how well
 //! vertices were moved: none is moved by more than a share of the tolerance, so that a kernel narrow enough always keeps it.
 //!
-//! Moved are lines and arcs in XYZ under G64 with P, in runs. What is more than two dozen lines away hardly matters, so that
+//! Moved are lines in XYZ and UVW, and arcs, under G64 with P, in runs. What is more than two dozen lines away hardly matters, so that
 //! vertices become final soon behind the newest one. Long lines beside a corner, and arcs, are [divided](division), or there
 //! were nothing to be moved. What bends much anyway [counts less](weights).
 

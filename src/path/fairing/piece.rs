@@ -1,13 +1,13 @@
 //! A piece of a leg that waits, with the vertex at its end.
 
-use nalgebra::Vector3;
-
-use crate::axes::Axes;
 use crate::path::leg::Leg;
+use crate::path::linear_axes::{self, LinearAxes};
 use crate::path::settings::{Allowance, BlendSettings};
 
-/// XYZ.
-pub(super) type Point = Vector3<f64>;
+/// XYZ and UVW.
+pub(super) type Point = LinearAxes;
+
+pub(super) const ORIGIN: Point = linear_axes::ORIGIN;
 
 /// Pieces that there is room for, and those before them that the first ones depend on.
 pub(super) const ROOM: usize = 128;
@@ -69,7 +69,6 @@ pub(super) struct Piece {
 
 impl Piece {
     pub const VACANT: Self = {
-        const ORIGIN: Point = Point::new(0.0, 0.0, 0.0);
         Self {
             leg: Leg::VACANT,
             end: ORIGIN,
@@ -93,7 +92,7 @@ impl Piece {
     pub fn new(leg: Leg, settings: &BlendSettings) -> Self {
         Self {
             even: settings.even_third(leg.speed),
-            end: xyz(&leg.programmed_point(leg.end()).position),
+            end: linear_axes::of(&leg.programmed_point(leg.end()).position),
             leg,
             ..Self::VACANT
         }
@@ -104,14 +103,14 @@ impl Piece {
         let way = self.end - before.end;
         self.direction = way / way.norm().max(f64::MIN_POSITIVE);
         self.turn = (self.direction - before.direction).norm();
-        let about = before.direction.cross(&self.direction);
+        let about = linear_axes::cross(&before.direction, &self.direction);
         self.about = about * (self.turn / about.norm().max(LEAST_TURN));
     }
 
     /// None, where this leg starts.
     pub fn before(leg: &Leg) -> Self {
         Self {
-            end: xyz(&leg.programmed_point(leg.start).position),
+            end: linear_axes::of(&leg.programmed_point(leg.start).position),
             ..Self::VACANT
         }
     }
@@ -133,14 +132,12 @@ fn is_short(piece: &Leg) -> bool {
     piece.turning * piece.length <= MOST_TURN_OF_PIECE
 }
 
-/// Whether vertices at the ends of a leg may be moved: lines and arcs in XYZ alone that have a tolerance, and may be left to
+/// Whether vertices at the ends of a leg may be moved: lines in XYZ and UVW alone, and arcs, that have a tolerance, and may be left to
 /// either side.
 pub(super) fn is_moved(leg: &Leg, settings: &BlendSettings) -> bool {
-    // The length of what moves other axes as well is not what F counts.
-    let linear = leg.is_linear;
     leg.turning * leg.whole <= MOST_TURN
         && matches!(leg.allowance, Allowance::Tolerance(_))
-        && linear
+        && leg.is_linear
         && leg.may_swing_out
         && settings.swings()
         && !leg.near_limit.start
@@ -164,8 +161,10 @@ pub(super) fn third(lengths: [f64; SPAN - 1]) -> [f64; SPAN] {
     ]
 }
 
-fn xyz(position: &Axes) -> Point {
-    Point::new(position[0], position[1], position[2])
+/// X and Y.
+#[cfg(test)]
+pub(super) fn at(x: f64, y: f64) -> Point {
+    Point::from([x, y, 0.0, 0.0, 0.0, 0.0])
 }
 
 #[cfg(test)]

@@ -3,9 +3,11 @@
 //! Of one that would be moved by more than its room a multiplier holds it back, which grows and falls with the
 //! proportion of the two: where it has settled, a vertex is either at the end of its room or not held at all, and that is
 //! the optimum. Multipliers are kept from one time to the next, when the window has moved on by a few vertices. With all
-//! given, the sum is a quadratic form with four diagonals, the same for all three axes.
+//! given, the sum is a quadratic form with four diagonals, the same for all axes. At which of its two ends, X Y Z or U V W,
+//! a vertex is moved by more than its room does not matter: one multiplier holds back both.
 
-use super::piece::{Piece, Point, ROOM, SPAN, vertex};
+use super::piece::{ORIGIN, Piece, Point, ROOM, SPAN, vertex};
+use crate::path::linear_axes::greater_end;
 use crate::ring::Ring;
 
 /// What a multiplier begins with, of what the vertex counts itself.
@@ -20,8 +22,6 @@ const GREATEST_CHANGE: f64 = 10.0;
 
 /// Of what a vertex counts itself, what rounding leaves of it.
 const ROUNDING: f64 = 1e-12;
-
-const ORIGIN: Point = Point::new(0.0, 0.0, 0.0);
 
 /// A vertex that is being moved.
 #[derive(Clone, Copy, Debug)]
@@ -195,7 +195,7 @@ impl Solver {
                 continue;
             }
             piece.multiplier = row.multiplier;
-            let size = row.shift.norm();
+            let size = greater_end(&row.shift);
             piece.shift = if size > row.room {
                 row.shift * (row.room / size)
             } else if size.is_finite() {
@@ -212,7 +212,7 @@ impl Row {
     fn correct(&mut self) {
         if self.room > 0.0 {
             let [own, ..] = self.form;
-            let proportion = self.shift.norm() / self.room;
+            let proportion = greater_end(&self.shift) / self.room;
             let change = proportion.max(GREATEST_CHANGE.recip()).min(GREATEST_CHANGE);
             self.multiplier = (self.multiplier * change)
                 .max(LEAST_MULTIPLIER * own)
@@ -223,13 +223,13 @@ impl Row {
 
 #[cfg(test)]
 mod tests {
-    use super::super::piece::third;
+    use super::super::piece::{at, third};
     use super::*;
 
     /// Pieces of length 1 with points of a zigzag.
     fn zigzag(height: f64, room: f64, test: fn(&mut Solver, &mut Ring<Piece, ROOM>)) {
         let mut pieces = Box::new(Ring::filled_with(Piece::VACANT));
-        let point = |k: u64| Point::new(k as f64, height * (k % 2) as f64, 0.0);
+        let point = |k: u64| at(k as f64, height * (k % 2) as f64);
         for number in 0..40 {
             *pieces.at_mut(number) = Piece {
                 end: point(number + 1),
@@ -258,7 +258,7 @@ mod tests {
             }
             solver.store(pieces);
             let places = (10..30).map(|k| pieces.at(k).end + pieces.at(k).shift);
-            let heights: Vec<f64> = places.map(|place| place.y).collect();
+            let heights: Vec<f64> = places.map(|place| place[1]).collect();
             let spread = heights.windows(2).map(|pair| (pair[1] - pair[0]).abs());
             assert!(spread.fold(0.0, f64::max) < 0.01, "{heights:?}");
         });

@@ -3,6 +3,8 @@
 use super::super::leg::ProgrammedMove;
 use super::super::metric::Metric;
 use super::*;
+use nalgebra::Vector3;
+
 use crate::axes::{Axes, AxisLimits};
 use crate::moves::shape::{Arc9, Circle, Line9, Shape};
 use crate::moves::{NearLimit, TerminationCondition};
@@ -203,8 +205,8 @@ fn corners_are_moved_together_with_denser_ones_before_them() {
 fn arc([x, y]: [f64; 2], from: f64, to: f64) -> Shape {
     let place = |angle: f64| at([x + angle.cos(), y + angle.sin()]);
     let circle = Circle {
-        center: Point::new(x, y, 0.0),
-        normal: Point::new(0.0, 0.0, 1.0),
+        center: Vector3::new(x, y, 0.0),
+        normal: Vector3::new(0.0, 0.0, 1.0),
         revolutions: 0,
     };
     Shape::Arc(Arc9::new(&place(from), &place(to), &circle).expect("an arc"))

@@ -183,13 +183,13 @@ impl Around {
 
 #[cfg(test)]
 mod tests {
-    use super::super::piece::Point;
+    use super::super::piece::at;
     use super::*;
 
     /// 40 pieces of length .4 with these directions, radians.
     fn pieces(angle: fn(u64) -> f64) -> Box<Ring<Piece, ROOM>> {
         let mut pieces = Box::new(Ring::filled_with(Piece::VACANT));
-        let direction = |number: u64| Point::new(angle(number).cos(), angle(number).sin(), 0.0);
+        let direction = |number: u64| at(angle(number).cos(), angle(number).sin());
         for number in 1..40 {
             let piece = pieces.at_mut(number);
             piece.direction = direction(number);
@@ -242,10 +242,9 @@ mod tests {
         // With a radius of 10, of chords that are divided unevenly.
         let angle = |number: u64| 0.07 * number as f64 + 0.02 * (number % 3) as f64;
         let point = |number| {
-            Point::new(
+            at(
                 10.0 * f64::sin(angle(number)),
                 -10.0 * f64::cos(angle(number)),
-                0.0,
             )
         };
         let mut before = Piece::VACANT;
@@ -274,7 +273,7 @@ mod tests {
             if number % 4 == 0 {
                 angle += turn(number / 4);
             }
-            let way = 0.25 * Point::new(angle.cos(), angle.sin(), 0.0);
+            let way = 0.25 * at(angle.cos(), angle.sin());
             let mut piece = Piece {
                 end: before.end + way,
                 ..Piece::VACANT

@@ -140,14 +140,14 @@ fn square(pieces: &Ring<Piece, ROOM>, number: u64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::piece::third;
+    use super::super::piece::{at, third};
     use super::*;
 
     #[test]
     fn what_bends_more_counts_less() {
         let mut pieces = Box::new(Ring::filled_with(Piece::VACANT));
         let height = |k: u64| if k < 20 { 0.01 } else { 1.0 };
-        let point = |k: u64| Point::new(k as f64, height(k) * (k % 2) as f64, 0.0);
+        let point = |k: u64| at(k as f64, height(k) * (k % 2) as f64);
         for number in 0..40 {
             *pieces.at_mut(number) = Piece {
                 end: point(number + 1),
@@ -178,7 +178,7 @@ mod tests {
             // A circle with a radius of 10 of chords that are divided unevenly.
             let angle = 0.07 * number as f64 + 0.02 * (number % 3) as f64;
             let mut piece = Piece {
-                end: Point::new(10.0 * angle.sin(), -10.0 * angle.cos(), 0.0),
+                end: at(10.0 * angle.sin(), -10.0 * angle.cos()),
                 joined: true,
                 third: if number >= 3 {
                     third([0.7; 3])

@@ -4,7 +4,7 @@ use framepath::axes::Axes;
 use framepath::moves::TerminationCondition;
 use framepath::path::{BlendedPath, ProgrammedMove};
 
-use super::{DEFAULT_TOLERANCE, norm};
+use super::{DEFAULT_TOLERANCE, counted};
 
 /// The greatest deviation over its tolerance, sampled densely.
 pub fn greatest_deviation(path: &BlendedPath) -> f64 {
@@ -69,9 +69,9 @@ fn deviation_where(path: &BlendedPath, counts: impl Fn(u64) -> bool) -> f64 {
 }
 
 /// How far path and program are from each other at `s`: at equal path distance, and where that is more than is allowed on a line
-/// in XYZ, from the nearest place.
+/// in XYZ and UVW, from the nearest place.
 fn deviation_at(path: &BlendedPath, s: f64, allowed: f64) -> f64 {
-    let deviation = norm(&(path.point(s).position - path.programmed_point(s).position));
+    let deviation = counted(&(path.point(s).position - path.programmed_point(s).position));
     if deviation > allowed && leads_along_a_line(path, s) {
         both_ways(path, s, deviation)
     } else {
@@ -79,22 +79,21 @@ fn deviation_at(path: &BlendedPath, s: f64, allowed: f64) -> f64 {
     }
 }
 
-/// Whether the program moves X, Y and Z there, on a line, and A, B and C little beside them.
+/// Whether the program moves X, Y, Z or U, V, W there, on a line, and A, B and C little beside them.
 fn leads_along_a_line(path: &BlendedPath, s: f64) -> bool {
     let point = path.programmed_point(s);
-    let linear = point.first.fixed_rows::<3>(0).norm();
-    let parallel = point.first.fixed_rows::<3>(6).norm();
-    point.second == Axes::zeros() && parallel == 0.0 && linear > 0.8
+    let [linear, parallel] = [0, 6].map(|first| point.first.fixed_rows::<3>(first).norm());
+    point.second == Axes::zeros() && linear > 0.0 && linear.hypot(parallel) > 0.8
 }
 
 /// How far the path at `s` is from the program at most, and the program from the path, where both are looked for nearby.
 fn both_ways(path: &BlendedPath, s: f64, deviation: f64) -> f64 {
     let [on_path, on_program] = [path.point(s).position, path.programmed_point(s).position];
     let to_program = least_beside(path, s, deviation, |at| {
-        norm(&(path.programmed_point(at).position - on_path))
+        counted(&(path.programmed_point(at).position - on_path))
     });
     let to_path = least_beside(path, s, deviation, |at| {
-        norm(&(path.point(at).position - on_program))
+        counted(&(path.point(at).position - on_program))
     });
     to_program.max(to_path)
 }

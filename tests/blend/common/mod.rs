@@ -232,6 +232,14 @@ pub fn program(character: &Character, draws: &[Draw]) -> Vec<ProgrammedMove> {
     moves
 }
 
+/// What a displacement counts of a tolerance, which XYZ and UVW keep each by themselves.
+pub fn counted(displacement: &Axes) -> f64 {
+    let mut ends = [*displacement; 2];
+    ends[0].fixed_rows_mut::<3>(6).fill(0.0);
+    ends[1].fixed_rows_mut::<3>(0).fill(0.0);
+    norm(&ends[0]).max(norm(&ends[1]))
+}
+
 /// The length of a displacement, degrees weighted.
 pub fn norm(displacement: &Axes) -> f64 {
     let mut weighted = *displacement;

@@ -33,7 +33,7 @@ impl Wanted {
 
     fn distance(&self, point: &Axes) -> f64 {
         let length = self.shape.length();
-        let at = |s: f64| (self.shape.position(s) - point).norm();
+        let at = |s: f64| counted(&(self.shape.position(s) - point));
         if let Shape::Line(_) = self.shape {
             let (start, end) = (self.shape.position(0.0), self.shape.end());
             return to_segment(point, &start, &end);
@@ -72,7 +72,13 @@ fn to_segment(point: &Axes, start: &Axes, end: &Axes) -> f64 {
     } else {
         0.0
     };
-    (start + way * t - point).norm()
+    counted(&(start + way * t - point))
+}
+
+/// What a displacement counts of a tolerance: its length with X, Y, Z or with U, V, W, which keep it each by themselves.
+pub fn counted(displacement: &Axes) -> f64 {
+    let square = |first| displacement.fixed_rows::<3>(first).norm_squared();
+    (square(0).max(square(6)) + square(3)).sqrt()
 }
 
 /// A place where the machine was.
