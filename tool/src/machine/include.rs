@@ -124,9 +124,10 @@ struct ShellLine {
 }
 
 impl ShellLine {
-    /// As the script writes it, without the blank that it ends a single word with, unless that keeps a backslash from the end.
+    /// As the script writes it, without the blank that it ends a single word with, unless that keeps a backslash or a carriage return from
+    /// the end.
     fn written(self) -> Line {
-        let separator = match self.rest.is_empty() && !self.first.ends_with('\\') {
+        let separator = match self.rest.is_empty() && !self.first.ends_with(['\\', '\r']) {
             true => "",
             false => " ",
         };
