@@ -72,15 +72,16 @@ impl WidthOptimizer {
             Some(violation) => {
                 self.violated = true;
                 chain.leg_mut(leg).check.note_violation();
-                if self.is_stuck(chain, leg) {
-                    self.send_back(chain, violation.s);
-                }
+                let s = violation.s;
                 let last = chain.leg(self.window.next.wrapping_sub(1));
-                let near_end = self
-                    .window
-                    .is_near_end(violation.s, NEAR_END * last.design_width);
+                let near_end = self.window.is_near_end(s, NEAR_END * last.design_width);
                 let spent = self.share_spent();
-                blame::mark(chain, leg, violation, near_end, &self.window, metric, spent)
+                let marked =
+                    blame::mark(chain, leg, violation, near_end, &self.window, metric, spent);
+                if self.is_stuck(chain, leg, marked.any) {
+                    self.send_back(chain, s);
+                }
+                marked.cost
             }
         };
         self.spent += cost + marking;
