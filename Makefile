@@ -159,6 +159,8 @@ test thorough: export PROPTEST_RNG_SEED ?= 1
 # A text that differs from its snapshot, or has none, fails and writes nothing.
 test thorough: export INSTA_UPDATE = no
 test thorough: export TOOL_PROFILE = dev
+# Planners are tested on the stack (with_room in tests/planner/common): one that has been used before costs no time.
+test thorough: export RUST_MIN_STACK = 268435456
 
 # The tests of cargo and, for them, the tool in their profile.
 cargo-tests: buildable prerequisites
@@ -178,7 +180,8 @@ test:
 thorough:
 	@./prerequisites browser screen sanitize package test
 	$(BUILD_WHAT_IS_TESTED)
-	FRAMEPATH_CASES=10000 $(CARGO) test --locked --test planner short_programs::
+	FRAMEPATH_CASES=10000 $(CARGO) test --locked --workspace --test planner short_programs::
+	$(CARGO) test --locked --workspace --no-fail-fast -- --ignored
 	$(call run_linuxcnc_tests,and thorough)
 
 # What runs in a real LinuxCNC, with the modules and the tool as they are built.

@@ -6,6 +6,8 @@ import re
 import sys
 import unittest
 
+import pytest
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "contract"))
 
 import harness
@@ -40,12 +42,18 @@ class Case(unittest.TestCase):
 
 
 class Contract(Case):
+    def test_every_promise_with_blendtp(self):
+        names = [row.name() for row in all_rows("plain")]
+        self.assert_kept(self.outcomes(planners=(table.OURS,)), names)
+
+    @pytest.mark.thorough
     def test_every_promise(self):
         found = self.outcomes()
         print("\n".join(table.lines(found)))
         self.assert_kept(found, [row.name() for row in all_rows("plain")])
 
 
+@pytest.mark.thorough
 class Framed(Case):
     def test_promises_in_a_turned_frame(self):
         found = self.outcomes(list(IN_A_FRAME), behind="frame", planners=(table.OURS,))

@@ -5,7 +5,11 @@ import os
 import unittest
 from itertools import pairwise
 
+import pytest
+
 import harness
+
+pytestmark = pytest.mark.thorough
 
 MODULES = os.environ.get("FRAMEPATH_FAULT_MODULES", os.path.join(harness.ROOT, "target", "fault-modules"))
 

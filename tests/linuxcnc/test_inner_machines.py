@@ -4,7 +4,11 @@ import math
 import unittest
 from typing import ClassVar
 
+import pytest
+
 from inner_machine import Machine
+
+pytestmark = pytest.mark.thorough
 
 SCARA = Machine("scarakins", (45, -90, 150, 0, 0, 0), "XYZABC", "setp scarakins.D6 0\n")
 BRIDGE = Machine("5axiskins", (0, 0, 0, 0, 0, 0), "XYZBCW")

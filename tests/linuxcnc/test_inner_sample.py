@@ -2,9 +2,13 @@
 
 import unittest
 
+import pytest
+
 import machine_row
 import sample_machines
 from sample_table import MACHINES, machine
+
+pytestmark = pytest.mark.thorough
 
 
 class Sample(unittest.TestCase):

@@ -4,10 +4,14 @@ import math
 import tempfile
 import unittest
 
+import pytest
+
 import inner_machine
 from inner_machine import Machine
 from inner_modules import with_compiled
 from test_inner_machines import BRIDGE, CLOSE, OWN, SCARA, TABLE, TILTING, InnerMachines
+
+pytestmark = pytest.mark.thorough
 
 TABLE_TYPES = "inner=xyzac-trt-kins tool_types=1"
 

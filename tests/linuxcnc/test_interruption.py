@@ -3,7 +3,11 @@
 import tempfile
 import unittest
 
+import pytest
+
 import harness
+
+pytestmark = pytest.mark.thorough
 
 PROBES = 40
 HAL = """\

@@ -8,10 +8,14 @@ import subprocess
 import tempfile
 import unittest
 
+import pytest
+
 import harness
 from inner_machine import SELECT, SWITCH, Machine
 from ten_programs import ATTEMPTS
 from test_inner_machines import DOUBLE, OWN, SCARA, TABLE, TILTING
+
+pytestmark = pytest.mark.thorough
 
 #: what joints may do here: half of what the axes may
 VELOCITY, ACCELERATION, JERK = 100, 1000, 20000

@@ -78,6 +78,7 @@ class Modes(LookAhead):
         self.within_limits(result)
         return self.motion(result)
 
+    @pytest.mark.thorough
     def test_a_zigzag_in_each_mode(self):
         corners = zigzag(12)
         vertices = [(0.0, 0.0, 0.0), *corners]

@@ -6,9 +6,13 @@ import subprocess
 import tempfile
 import unittest
 
+import pytest
+
 import harness
 from overload import is_overloaded
 from test_loading import MOTION, halrun
+
+pytestmark = pytest.mark.thorough
 
 SAMPLE = "framepath-sim"
 HANDLER, CONTROLLER = ("addf motion-command-handler servo-thread\n", "addf motion-controller servo-thread\n")

@@ -2,8 +2,12 @@
 
 import unittest
 
+import pytest
+
 import harness
 from test_operation import KNOWN, OFF, Case, programs, run
+
+pytestmark = pytest.mark.thorough
 
 MACHINE = {("FRAMEPATH", "TOOL_LENGTH"): "machine"}
 BY_PARAMETER = {("KINS", "KINEMATICS"): "framekins coordinates=XYZ tool_length=machine"}

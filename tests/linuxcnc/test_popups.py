@@ -2,7 +2,11 @@
 
 import unittest
 
+import pytest
+
 import harness
+
+pytestmark = pytest.mark.thorough
 
 #: A part program that the filter refuses.
 REFUSED = {"part.mpf": "N10 G0 X10\nN20 G1 X(\nM30\n"}

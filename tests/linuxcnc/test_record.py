@@ -9,7 +9,11 @@ import subprocess
 import tempfile
 import unittest
 
+import pytest
+
 import harness
+
+pytestmark = pytest.mark.thorough
 
 #: Its first move takes seconds, in which all others up to the dwell are queued, so that a busy computer rounds the same corners.
 PROGRAM = """G21 G90 G64 P0.05 F300

@@ -186,6 +186,7 @@ class Trouble(Spindle):
 
 
 class Taps(Spindle):
+    @pytest.mark.thorough
     def test_down_and_up_in_step(self):
         for direction, scale in (("M3", ""), ("M4", ""), ("M3", " I1.5")):
             sign = -1 if direction == "M4" else 1
@@ -234,6 +235,7 @@ class FeedPerTurn(Spindle):
         self.assertAlmostEqual(self.feed_at(result, 16.5), 2, delta=0.002)
         self.assertAlmostEqual(self.feed_at(result, 40), 8, delta=0.008)
 
+    @pytest.mark.thorough
     def test_constant_surface_speed(self):
         # 60 m/min at a radius of 40 mm: 239 turns a minute, at 5 mm 1910
         result = self.run_spindle([RUN], "G18 G7", "G0 X80", "G96 D2000 S60 M3", "G4 P1.5", "G95 F0.2", "G1 X10")

@@ -168,6 +168,7 @@ class EndOfAFrame(Case):
         self.assertLess(max(y) - min(y), 1e-9)
 
 
+@pytest.mark.thorough
 class BehindAProgram(Case):
     """What is given right behind the end of a program with a frame: it is done, or the operator is told that it was not."""
 
@@ -258,6 +259,7 @@ class PutBack(unittest.TestCase):
         self.assertTrue(Offsets(status).command(status, 1 / 25.4).startswith("G10 L2 P1 X25.400000000 "))
 
 
+@pytest.mark.thorough
 class Dead(Case):
     LONG: ClassVar = {"long": "o<trans> call [10] [20] [0]\nG1 X1 Y2\nG1 X400 F1800\nM2\n",
                       "dwell": "o<trans> call [10] [20] [0]\nG1 X1 Y2\nG4 P1000\nG1 X400\nM2\n"}
