@@ -51,16 +51,9 @@ fn narrowing(violation: &Violation, on_curve: bool, spent: f64) -> f64 {
     share.min(most).max(MOST_NARROWED)
 }
 
-/// What [`mark`] did.
-pub(super) struct Marked {
-    /// Whether narrowing any vertex helps.
-    pub any: bool,
-    /// Kernel terms that it took.
-    pub cost: usize,
-}
-
 /// Marks the open vertices that are to blame for a violation of the tolerance on a leg. `near_end`: it may be due to the
-/// end of what is known. `spent`: of what a trial may take, the share that it has taken, 0 to 1.
+/// end of what is known. `spent`: of what a trial may take, the share that it has taken, 0 to 1. Answers the kernel terms that it
+/// took.
 pub(super) fn mark(
     chain: &mut Chain,
     leg: u64,
@@ -69,7 +62,7 @@ pub(super) fn mark(
     window: &Window,
     metric: &Metric,
     spent: f64,
-) -> Marked {
+) -> usize {
     let s = violation.s;
     let from = leg
         .saturating_sub(NEIGHBOURS - 1)
@@ -78,20 +71,15 @@ pub(super) fn mark(
     let to = leg.saturating_add(1 + NEIGHBOURS).min(window.next);
     let blames = blames(chain, leg, s, from..to, metric);
     let greatest = blames.iter().copied().fold(0.0, f64::max);
-    let mut any = false;
     for (blame, number) in blames.into_iter().zip(from..to) {
         let on_curve = chain.leg(number).ends_curve;
         let vertex = chain.vertex_mut(number);
         if blame > 0.0 && blame >= BLAMED * greatest && reaches(vertex, s) {
             vertex.narrowing = vertex.narrowing.min(narrowing(&violation, on_curve, spent));
             vertex.marked_temporarily |= near_end;
-            any = true;
         }
     }
-    Marked {
-        any,
-        cost: 2 * to.saturating_sub(from) as usize,
-    }
+    2 * to.saturating_sub(from) as usize
 }
 
 /// By how much each of the `vertices` is to blame for the deviation of a leg at a place. Those that are held are not narrowed whatever
@@ -204,10 +192,8 @@ mod tests {
                 allowed: 0.81,
                 kernels,
             };
-            let marked = mark(&mut chain, 1, violation, false, &window, &metric, spent);
-            let narrowings = [1, 2].map(|number| chain.vertex(number).narrowing);
-            assert_eq!(marked.any, narrowings != [1.0; 2]);
-            narrowings
+            mark(&mut chain, 1, violation, false, &window, &metric, spent);
+            [1, 2].map(|number| chain.vertex(number).narrowing)
         })
     }
 

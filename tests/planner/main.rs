@@ -29,7 +29,6 @@ mod move_jerk;
 mod moves;
 mod moves_of_micrometres;
 mod operator;
-mod outlines;
 mod pinned_plans;
 mod program;
 mod programs;

@@ -3,8 +3,7 @@
 //! Where dozens of kernels overlap some lead to one side of a place and some to the other. The final ones stay as they are: what an
 //! open one takes back of them comes to light when that is narrowed, the more the narrower it is. In dense code nearly all trials
 //! that were given up ended in this way, on one of the two legs before the first open vertex. The widths in force are known to keep
-//! the tolerance there: vertices go back to them. So they do where all that is left there leads to the side of the program: no vertex
-//! is to blame then, and nothing is narrowed.
+//! the tolerance there: vertices go back to them.
 
 use super::super::chain::Chain;
 use super::WidthOptimizer;
@@ -13,10 +12,9 @@ use super::WidthOptimizer;
 const NARROWED_FOR: u32 = 12;
 
 impl WidthOptimizer {
-    /// Whether narrowing has not helped a leg, or cannot: no open vertex is `to_blame`.
-    pub(super) fn is_stuck(&self, chain: &Chain, leg: u64, to_blame: bool) -> bool {
-        let helps = to_blame && chain.leg(leg).check.violations() <= NARROWED_FOR;
-        leg < self.window.open && !helps
+    /// Whether narrowing has not helped a leg.
+    pub(super) fn is_stuck(&self, chain: &Chain, leg: u64) -> bool {
+        leg < self.window.open && chain.leg(leg).check.violations() > NARROWED_FOR
     }
 
     /// Marks the open vertices that reach a place, or did: they are to go back to the widths in force.

@@ -72,16 +72,15 @@ impl WidthOptimizer {
             Some(violation) => {
                 self.violated = true;
                 chain.leg_mut(leg).check.note_violation();
-                let s = violation.s;
-                let last = chain.leg(self.window.next.wrapping_sub(1));
-                let near_end = self.window.is_near_end(s, NEAR_END * last.design_width);
-                let spent = self.share_spent();
-                let marked =
-                    blame::mark(chain, leg, violation, near_end, &self.window, metric, spent);
-                if self.is_stuck(chain, leg, marked.any) {
-                    self.send_back(chain, s);
+                if self.is_stuck(chain, leg) {
+                    self.send_back(chain, violation.s);
                 }
-                marked.cost
+                let last = chain.leg(self.window.next.wrapping_sub(1));
+                let near_end = self
+                    .window
+                    .is_near_end(violation.s, NEAR_END * last.design_width);
+                let spent = self.share_spent();
+                blame::mark(chain, leg, violation, near_end, &self.window, metric, spent)
             }
         };
         self.spent += cost + marking;
