@@ -3,6 +3,7 @@
 pub mod lathe;
 pub mod path_check;
 pub mod seeded_runner;
+pub mod zigzag;
 
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::machine::JOINT_COUNT;
