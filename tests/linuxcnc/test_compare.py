@@ -12,6 +12,8 @@ import subprocess
 import tempfile
 import unittest
 
+import pytest
+
 import harness
 from ten_programs import ATTEMPTS, NCFILES, PROGRAMS, PROMPT, record
 
@@ -62,6 +64,7 @@ def compared(folder):
     return times
 
 
+@pytest.mark.thorough
 class AgainstLinuxCnc(unittest.TestCase):
     def test_times(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -16,6 +16,7 @@ SQUARE = "G1 X20\nY20\nX0\nY0\nM30\n"
 CORNERS = [(20.0, 0.0), (20.0, 20.0), (0.0, 20.0)]
 
 
+@pytest.mark.thorough
 class PathModes(unittest.TestCase):
     def rows(self, program, dialect, backend="program"):
         """Where X Y Z were in each servo cycle."""
@@ -82,7 +83,6 @@ class PathModes(unittest.TestCase):
             else:
                 self.assertLessEqual(max(beyond), 1e-9)
 
-    @pytest.mark.thorough
     def test_programs_that_touch_a_soft_limit_do_not_pass_it(self):
         limit = 500
         zigzag = [(limit - depth, 480 + 0.4 * k) for k, depth in enumerate((0, 0.9, 0.3, 0, 0.2, 1.3) * 8)]

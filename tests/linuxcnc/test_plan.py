@@ -15,6 +15,8 @@ import tempfile
 import unittest
 from typing import ClassVar
 
+import pytest
+
 import harness
 from ten_programs import ATTEMPTS, AXES, PROGRAMS, PROMPT, motion, program, record
 
@@ -124,6 +126,7 @@ LATHE = program(
     "G49")
 
 
+@pytest.mark.thorough
 class ConstantSurfaceSpeed(AgainstLinuxCnc):
     """Feed per turn of a spindle that follows the diameter (G96), with offsets of work and tool, in metres and in feet."""
     programs, axes = {"lathe": LATHE}, "xz"

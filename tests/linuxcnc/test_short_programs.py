@@ -27,6 +27,7 @@ CHANGES = {("AXIS_Y", "OFFSET_AV_RATIO"): None, ("TASK", "CYCLE_TIME"): 0.001,
 JERK = 20000
 
 
+@pytest.mark.thorough
 class Planned(unittest.TestCase):
     def test_none_ends_in_a_fault_or_beyond_a_limit(self):
         found = short_programs.bulk(range(1, PLANNED + 1))

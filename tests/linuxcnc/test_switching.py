@@ -17,6 +17,7 @@ LINKED = ["command", "value.1", "value.2", "value.3", "work-offset.x", "work-off
           "work-offset.rotation", "check", "tool-offset.x", "tool-offset.y", "tool-offset.z"]
 
 
+@pytest.mark.thorough
 class Switching(unittest.TestCase):
     def switch(self, table, before=(), ini=None, **options):
         """before: steps that come before all others."""
@@ -61,14 +62,12 @@ class Switching(unittest.TestCase):
                     worst = max(worst, abs(row[joint] - result.rows[n - 4][joint]))
         return seen, worst
 
-    @pytest.mark.thorough
     def test_three_axes(self):
         self.switch(False)
 
     def test_five_axes_with_a_table(self):
         self.switch(True, sample="framepath-xyzac", joints=5, axes="xyzac")
 
-    @pytest.mark.thorough
     def test_five_axes_with_external_offsets(self):
         # where an axis with such an offset has left its limits, LinuxCNC takes the offset away in one period
         ini = {(f"AXIS_{axis}", key): value for axis in "XYZ"
