@@ -1,6 +1,7 @@
 """In which order pytest runs the tests of this folder, a few at a time: each LinuxCNC has a world of its own and mostly
 waits."""
 
+import inspect
 import os
 import unittest
 
@@ -44,6 +45,9 @@ def pytest_collection_modifyitems(items):
         return len(BUSY) + (stem not in FIRST), -os.path.getsize(item.path)
 
     for item in items:
+        # pytest calls whatever has the name of a test, and a mark that was given a lambda passes
+        if not inspect.isroutine(item.obj):
+            raise pytest.UsageError(f"{item.nodeid} is no function, and would run nothing: {item.obj!r}")
         if item.path.stem in BUSY:
             item.add_marker(pytest.mark.busy)
         if is_set_up_once(item):

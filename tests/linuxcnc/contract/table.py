@@ -15,8 +15,8 @@ from row import all_rows
 
 STOCK, OURS = "tpmod", "blendtp"
 SECTIONS = ("Identity", "Status", "Path modes", "Feed", "Operator", "Outputs", "Probing", "Indexer", "Spindle", "Threads", "Frames")
-#: LinuxCNCs for each planner
-AT_A_TIME = 4
+#: LinuxCNCs of all planners
+AT_A_TIME = 8
 #: share of what stock leaves below which ours is better, not the same
 BETTER = 0.8
 
@@ -25,9 +25,10 @@ def outcomes(names=None, verbose=False, behind="plain", planners=(STOCK, OURS)):
     """{planner: {row: Outcome}} for these planners, in some LinuxCNCs side by side, which mostly wait."""
     names = names or [row.name() for row in all_rows(behind)]
     found: dict = {planner: {} for planner in planners}
-    with concurrent.futures.ThreadPoolExecutor(AT_A_TIME * len(planners)) as pool:
-        running = [(planner, pool.submit(session.run, planner, names[part::AT_A_TIME], verbose, behind))
-                   for planner in found for part in range(AT_A_TIME) if names[part::AT_A_TIME]]
+    parts = AT_A_TIME // len(planners)
+    with concurrent.futures.ThreadPoolExecutor(AT_A_TIME) as pool:
+        running = [(planner, pool.submit(session.run, planner, names[part::parts], verbose, behind))
+                   for planner in found for part in range(parts) if names[part::parts]]
         for planner, future in running:
             found[planner].update(future.result())
     return found
