@@ -64,15 +64,27 @@ impl Wanted {
     }
 }
 
+/// What the nearest point of a line is away: nearest by what [counts](counted), which is convex along it.
 fn to_segment(point: &Axes, start: &Axes, end: &Axes) -> f64 {
     let way = end - start;
-    let square = way.norm_squared();
-    let t = if square > 0.0 {
-        ((point - start).dot(&way) / square).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    counted(&(start + way * t - point))
+    let at = |t: f64| counted(&(start + way * t - point));
+    let both_ends =
+        |axes: &Axes| axes.fixed_rows::<3>(0).amax() > 0.0 && axes.fixed_rows::<3>(6).amax() > 0.0;
+    if !(both_ends(&way) || both_ends(&(point - start))) {
+        let square = way.norm_squared();
+        let t = (point - start).dot(&way) / square.max(f64::MIN_POSITIVE);
+        return at(t.clamp(0.0, 1.0));
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if at(a) < at(b) {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    at(0.5 * (low + high))
 }
 
 /// What a displacement counts of a tolerance: its length with X, Y, Z or with U, V, W, which keep it each by themselves.
@@ -165,4 +177,12 @@ fn missed(wanted: &[Wanted], places: &[Place]) -> Option<String> {
         }
     }
     None
+}
+
+#[test]
+fn the_nearest_place_of_a_line_is_nearest_by_what_counts() {
+    let at = |x: f64, u: f64| Axes::from([x, 0.0, 0.0, 0.0, 0.0, 0.0, u, 0.0, 0.0]);
+    // X is as far away there as U; the place nearest in six axes, at a fiftieth of the line, counts .08
+    let distance = to_segment(&at(0.1, 0.0), &at(0.0, 0.0), &at(1.0, 2.0));
+    assert!((distance - 0.2 / 3.0).abs() < 1e-9, "{distance}");
 }
