@@ -6,6 +6,8 @@ import subprocess
 import tempfile
 import unittest
 
+import pytest
+
 import harness
 
 STOCK = "/usr/share/doc/linuxcnc/examples/sample-configs/sim/axis"
@@ -110,6 +112,7 @@ class Configure(unittest.TestCase):
 TCL_NEEDS_A_SCREEN = (("HALUI = halui\n", "\n"), ("LIB:basic_sim.tcl", "LIB:basic_sim.tcl -no_use_hal_manualtoolchange"))
 
 
+@pytest.mark.thorough
 class Tcl(unittest.TestCase):
     """HAL files in Tcl are LinuxCNC's own affair: what is needed comes before and behind them."""
 

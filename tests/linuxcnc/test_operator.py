@@ -302,6 +302,7 @@ class Stale(Operator):
                       result.log)
 
 
+@pytest.mark.thorough
 class Panel(unittest.TestCase):
     """The panel of AXIS for a table: each of its pins gets what it is named for. That of a mill: screen_checks.OnTheScreen."""
 

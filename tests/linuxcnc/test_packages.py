@@ -82,6 +82,7 @@ class Packages(unittest.TestCase):
         self.assertIn("interest-noawait /usr/bin/linuxcnc", output("dpkg-deb", "--info", package, "triggers"))
 
 
+@pytest.mark.thorough
 class OfALittleSource(unittest.TestCase):
     """make deb-source of what it needs, which takes no time."""
 
@@ -172,6 +173,7 @@ class OfALittleSource(unittest.TestCase):
         self.assertRegex(output("dpkg-deb", "--field", package, "Version"), r"\+git\d{14}\.[0-9a-f]{7,}$")
 
 
+@pytest.mark.thorough
 class OverAnother(unittest.TestCase):
     def test_over_what_make_has_installed_the_package_is_not_laid(self):
         with open(os.path.join(DEBIAN, "framepath.preinst"), encoding="utf-8") as file:

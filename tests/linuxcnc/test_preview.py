@@ -114,6 +114,7 @@ class Commands(Compared):
                            "G1 X2 Y3 Z-4", "G49", "o<frame_refresh> call", "G1 X1 Y2 Z3", "o<frame_off> call", "G43 H2",
                            "G1 X4 Y4 Z4", ini={("FRAMEPATH", "TOOL_LENGTH"): rule})
 
+    @pytest.mark.thorough
     def test_a_tool_that_is_changed_in_a_turned_frame(self):
         self.check("o<rot> call [30] [0] [45]", "G1 X5 Y6 Z7", "T2 M6 G43", "G1 X8 Y6 Z7", "G43.1 X1 Y2 Z3", "G1 X1 Y6 Z7",
                    "G49", "G1 X2 Y2 Z2")
@@ -136,6 +137,7 @@ class Commands(Compared):
         self.check("G43.4 H2", "G1 X5 Y6 Z7", "G68.2 X10 Y5 I30 J20 K-10", "G1 X4 Y5 Z6", "G43.4 H1", "G1 X1 Y2 Z3", "G69",
                    "G1 X1 Y1 Z1", steps=[["mdi", "T2 M6"], ["mdi", "G43.4"]], sample="framepath-xyzac", joints=5, axes="xyzac")
 
+    @pytest.mark.thorough
     def test_motion_codes_stay_across_a_frame(self):
         self.check("G1 X5 Y5 Z5", "G2 X10 Y10 R5", "o<trans> call [3] [1] [0]", "X11 Y11 R5", "G1 X6",
                    "o<arot_rpl> call [25]", "X8", "Y3", "G98 G81 X2 Y2 Z-3 R2 F600", "o<atrans> call [20] [0] [0]", "X3 Y3",

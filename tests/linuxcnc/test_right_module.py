@@ -10,6 +10,8 @@ import subprocess
 import tempfile
 import unittest
 
+import pytest
+
 import abi_drivers
 import harness
 from abi_drivers import LIBRARY
@@ -68,6 +70,7 @@ class OtherLinuxCNC(unittest.TestCase):
             self.assert_refused("loadrt blendtp\n", "blendtp", f"{BUILT_FOR} {version},")
             self.assert_refused("loadrt framekins coordinates=XYZ\n", "framekins", f"{BUILT_FOR} {version},")
 
+    @pytest.mark.thorough
     def test_another_release_of_the_series_and_an_unknown_one_are_not(self):
         for version in ("2.9.10", ""):
             build(self.modules, f"LINUXCNC_VERSION={version}")
@@ -98,6 +101,7 @@ class OtherLinuxCNC(unittest.TestCase):
                           "unsigned char enables_new;\n\tdouble rapid_scale;", "the overrides are not 1")
 
 
+@pytest.mark.thorough
 class NextSeries(unittest.TestCase):
     """What LinuxCNC 2.10 has more of, with headers that are changed to have it: the same C is built for both."""
 
@@ -164,6 +168,7 @@ class RunningVersion(unittest.TestCase):
         os.remove(os.path.join(self.tree, script))
         return done.returncode, done.stdout
 
+    @pytest.mark.thorough
     def test_built_for_this_one_and_loaded_by_the_next(self):
         for script in ("bin/linuxcnc", "scripts/linuxcnc"):
             code, said = self.started("2.9.4", "2.10.0~pre1", script)

@@ -68,6 +68,7 @@ class Sample(unittest.TestCase):
         return min(column), max(column)
 
 
+@pytest.mark.thorough
 class Lathe(Sample):
     sample, program, axes, joints = "framepath-lathe", "thread.ngc", "xz", 2
     limits: ClassVar = dict.fromkeys(("joint.0", "joint.1"), (100, 1000, 20000))

@@ -8,6 +8,8 @@ import tempfile
 import unittest
 import unittest.mock
 
+import pytest
+
 import abi_drivers
 
 SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize=object-size", "-fno-sanitize-recover=all",
@@ -98,6 +100,7 @@ class Sanitizers(Watched):
         return dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
 
 
+@pytest.mark.thorough
 class Valgrind(Watched):
     """The modules as they are installed."""
 

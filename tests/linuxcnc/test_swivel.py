@@ -2,6 +2,8 @@
 
 import unittest
 
+import pytest
+
 import harness
 from part_programs import filtered
 from test_machines import RUN, SAMPLE, TOOL_CENTRE_POINT
@@ -72,6 +74,7 @@ class Swivel(unittest.TestCase):
         first = min(n for n, angle in enumerate(angles) if angle > 1e-9)
         self.is_at_the_top(rows, first)
 
+    @pytest.mark.thorough
     def test_of_a_table_that_was_turned_by_hand_it_retracts_along_the_tool(self):
         result = self.run_program("G0 Z60", TILT.format(fr=0), "G0 X0 Y0 Z30", "A0", BACK.format(fr=1), "G0 X5 Y6 Z50")
         self.good(result)

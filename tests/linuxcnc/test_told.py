@@ -5,6 +5,8 @@ import glob
 import os
 import unittest
 
+import pytest
+
 import harness
 from test_gcode import QUICK
 from test_operation import KNOWN, OFF, ON, Case, programs, run
@@ -65,6 +67,7 @@ class Words(unittest.TestCase):
 
 
 class Removed(Case):
+    @pytest.mark.thorough
     def test_by_whatever_but_the_end_of_its_program(self):
         cases: tuple[tuple[str, list[list], int], ...] = (
             ("a mistyped line", [["forget"], ["mdi", "G0 XX"], OFF, KNOWN, ["recall", "said"]], 1),
