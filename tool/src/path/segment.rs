@@ -2,6 +2,7 @@
 
 use super::Position;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Shorter than this an angle counts as none, and an arc with it as a full turn, radians.
 const SMALLEST_ANGLE: f64 = 1e-12;
@@ -190,10 +191,15 @@ impl Segment {
             return (near, u);
         }
         let differ = |u: f64| largest_difference(&self.point(u), point);
-        let other = self.nearest_of_others(point).unwrap_or(u);
+        let places = [
+            Some(u),
+            self.nearest_of(point, 3..6),
+            self.nearest_of(point, 6..9),
+        ];
+        let places = || places.iter().copied().flatten();
         // The largest of convex functions is least between their minima.
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let (mut low, mut high) = (u.min(other), u.max(other));
+        let (mut low, mut high) = (places().fold(u, f64::min), places().fold(u, f64::max));
         for _ in 0..if high > low { 24 } else { 0 } {
             let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
             if differ(left) <= differ(right) {
@@ -202,18 +208,18 @@ impl Segment {
                 low = left;
             }
         }
-        [u, other, (low + high) / 2.0]
-            .into_iter()
+        places()
+            .chain([(low + high) / 2.0])
             .map(|u| (differ(u), u))
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .unwrap_or((near, u))
     }
 
-    /// The u where A B C U V W come nearest; `None` if they stand still.
-    fn nearest_of_others(&self, point: &Position) -> Option<f64> {
+    /// The u where these axes come nearest; `None` if they stand still.
+    fn nearest_of(&self, point: &Position, axes: Range<usize>) -> Option<f64> {
         let (mut along, mut square) = (0.0, 0.0);
         let ends = self.start.iter().zip(&self.end);
-        for ((start, end), at) in ends.zip(point).skip(3) {
+        for ((start, end), at) in ends.zip(point).take(axes.end).skip(axes.start) {
             let travel = end - start;
             along += (at - start) * travel;
             square += travel * travel;
@@ -351,6 +357,18 @@ mod tests {
         let (far, u) = arc.nearest(&arc.point(0.3));
         assert!(far < 1e-9 && (u - 0.3).abs() < 1e-6, "{far} {u}");
         assert!((arc.nearest(&at(1.0, 1.0, 1.5)).0 - (2.0 - 2f64.sqrt())).abs() < 1e-9);
+    }
+
+    /// Nearest to the one of A, to the other of U: 2 |u - .2| and |u - .8| are the same at .4.
+    #[test]
+    fn each_kind_of_axes_has_its_own_nearest_place() {
+        let axes = |x, a, u| [x, 0.0, 0.0, a, 0.0, 0.0, u, 0.0, 0.0];
+        let line = Segment::line(axes(0.0, 0.0, 0.0), axes(1.0, 2.0, 1.0));
+        let (away, place) = line.deviation(&axes(0.32, 0.4, 0.8), true);
+        assert!(
+            (away - 0.4).abs() < 1e-4 && (place - 0.4).abs() < 1e-4,
+            "{away} {place}"
+        );
     }
 
     #[test]
