@@ -140,12 +140,12 @@ impl RotaryChain {
     /// One step towards the direction: the cosine of a small angle says little of it.
     fn refined(&self, wanted: &Vector3<f64>, angles: RotaryAngles) -> RotaryAngles {
         let reached = self.direction(angles);
-        let missed = wanted - reached;
         let tilt_line = self.rotary.map_or(*self.tilt.line, |rotary| {
             rotary.turned(angles.rotary, &self.tilt.line)
         });
+        // Square to what is reached: it says as much of what is wanted as of what is missed.
         let by_tilt = tilt_line.cross(&reached);
-        let step = missed.dot(&by_tilt) / by_tilt.norm_squared();
+        let step = wanted.dot(&by_tilt) / by_tilt.norm_squared();
         if step.is_finite() && step.abs() < REACHED.sqrt() {
             RotaryAngles {
                 tilt: angles.tilt + step.to_degrees(),

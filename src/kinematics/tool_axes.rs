@@ -121,6 +121,20 @@ mod tests {
     }
 
     #[test]
+    fn a_tilt_square_to_z_below_c_is_known() {
+        for (text, tilt) in [
+            ("C,B", Some(4)),
+            ("-C,A", Some(3)),
+            ("B", None),
+            ("C:0:1:1,B", None),
+            ("A:0:0:1,B", None),
+            ("C,B:0:1:1", None),
+        ] {
+            assert_eq!(chain(text).tilt_axis_below_c(), tilt, "{text}");
+        }
+    }
+
+    #[test]
     fn what_says_nothing_that_can_be_is_refused() {
         assert_eq!(ToolAxes::from_text(b""), Some(ToolAxes::Unsaid));
         assert_eq!(ToolAxes::from_text(b"none"), Some(ToolAxes::Nothing));

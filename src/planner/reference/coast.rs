@@ -84,6 +84,7 @@ impl Coast {
 mod tests {
     use nalgebra::Vector3;
 
+    use super::{Coast, ProfileState};
     use crate::axes::{Axes, AxisLimits};
     use crate::cycle::JERK_KEPT;
     use crate::machine_map::{JointJet, JointMap};
@@ -95,6 +96,31 @@ mod tests {
     use crate::test_room::with_room;
 
     const PERIOD: f64 = 1e-3;
+
+    #[test]
+    fn the_only_jump_is_where_the_acceleration_is_released() {
+        let coast = Coast {
+            start: ProfileState {
+                velocity: 10.0,
+                acceleration: 100.0,
+                distance: 0.0,
+                jerk: 0.0,
+            },
+            release: 0.02,
+            end: f64::INFINITY,
+            backwards: false,
+        };
+        assert_eq!(coast.next_jump(0.0), coast.release);
+        assert_eq!(coast.next_jump(coast.release), f64::INFINITY);
+        let [before, behind] =
+            [0.0, coast.release].map(|within| coast.state(coast.release, within));
+        assert!((before.velocity - 11.0).abs() < 1e-12 && before.acceleration.abs() < 1e-12);
+        assert_eq!(
+            (before.distance, before.velocity),
+            (behind.distance, behind.velocity)
+        );
+        assert_eq!((before.jerk, behind.jerk), (-5000.0, 0.0));
+    }
 
     /// What goes wrong.
     type Spoil = fn(&mut Reference);

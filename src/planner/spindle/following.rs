@@ -54,13 +54,13 @@ impl SpindleFollower {
             Some(tap) if tap.is_up() => -with.per_turn,
             _ => with.per_turn,
         };
-        let square = speed * speed;
+        let [velocity, acceleration, jerk] = target.rates(speed, rise).map(|rate| forth * rate);
         Some(Follow {
             error: forth * (thread.begin + target.place - here),
-            velocity: forth * target.first * speed,
-            acceleration: forth * (target.second * square + target.first * rise),
+            velocity,
+            acceleration,
             greatest_acceleration: running.limits().acceleration,
-            jerk: forth * (target.third * square * speed + 3.0 * target.second * speed * rise),
+            jerk,
         })
     }
 

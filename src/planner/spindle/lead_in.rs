@@ -29,6 +29,19 @@ pub struct Target {
     pub third: f64,
 }
 
+impl Target {
+    /// Velocity, acceleration and jerk of the place, in turns, where the spindle turns with `speed` turns a second and that
+    /// changes by `rise` in each second.
+    pub fn rates(&self, speed: f64, rise: f64) -> [f64; 3] {
+        let square = speed * speed;
+        [
+            self.first * speed,
+            self.second * square + self.first * rise,
+            self.third * square * speed + 3.0 * self.second * speed * rise,
+        ]
+    }
+}
+
 impl LeadIn {
     /// In step at once.
     pub const NONE: Self = Self { span: 0.0 };
@@ -105,6 +118,26 @@ mod tests {
                 assert!(here.third.abs() * factor * speed < 0.86 * LIMITS.jerk);
             }
         }
+    }
+
+    #[test]
+    fn its_rates_are_those_of_the_place_while_the_spindle_becomes_faster() {
+        let lead_in = LeadIn::new(8.0, 1.5, &LIMITS);
+        let (rise, step) = (60.0, 1e-4);
+        let at = |time: f64| {
+            let turns = -0.7 * lead_in.lead() + (8.0 + 0.5 * rise * time) * time;
+            lead_in.target(turns)
+        };
+        let [far_before, before, behind, far_behind] =
+            [-2.0, -1.0, 1.0, 2.0].map(|steps| at(steps * step).place);
+        let [velocity, acceleration, jerk] = at(0.0).rates(8.0, rise);
+        let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-4;
+        assert!(close((behind - before) / (2.0 * step), velocity));
+        let second = (behind - 2.0 * at(0.0).place + before) / (step * step);
+        assert!(close(second, acceleration), "{second} {acceleration}");
+        let third = (far_behind - 2.0 * behind + 2.0 * before - far_before) / 2.0;
+        let third = third / (step * step * step);
+        assert!(close(third, jerk), "{third} {jerk}");
     }
 
     #[test]
