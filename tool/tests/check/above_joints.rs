@@ -2,13 +2,23 @@
 
 use crate::bench::framepath;
 use std::fs;
+use std::path::Path;
 
-const STOCK: &str = "/usr/share/doc/linuxcnc/examples/sample-configs/sim/axis/axis_mm.ini";
+const STOCK: &str = "/usr/share/doc/linuxcnc/examples/sample-configs/sim/axis";
 
 #[test]
 fn configure_warns_of_axes_above_their_joints() {
     let folder = tempfile::tempdir().expect("a folder");
-    let ini = fs::read_to_string(STOCK).expect("a text");
+    // LinuxCNC 2.9.4 has one of its HAL files beside it.
+    for entry in fs::read_dir(STOCK).expect("a folder") {
+        let file = entry.expect("an entry").path();
+        if file.extension().is_some_and(|ending| ending == "hal") {
+            let name = file.file_name().expect("a name");
+            fs::copy(&file, folder.path().join(name)).expect("copied");
+        }
+    }
+    let stock = Path::new(STOCK).join("axis_mm.ini");
+    let ini = fs::read_to_string(stock).expect("a text");
     let y = "[AXIS_Y]\nMAX_VELOCITY = 30.48\nMAX_ACCELERATION = ";
     let above = ini.replacen(&format!("{y}508"), &format!("{y}600"), 1);
     fs::write(folder.path().join("mill.ini"), &above).expect("written");

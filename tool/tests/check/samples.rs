@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 /// LinuxCNC's sample configurations.
 const STOCK: &str = "/usr/share/doc/linuxcnc/examples/sample-configs";
 
-/// What is wrong with some of them in LinuxCNC 2.9.0: the end of the path, and what is found.
-const FAULTY: [(&str, &str); 5] = [
+/// What is wrong with some of them in LinuxCNC 2.9.0 and 2.9.4: the end of the path, and what is found.
+const FAULTY: [(&str, &str); 6] = [
     (
         "qtdragon/qtdragon_xyyz.ini",
         "the HAL file simulated-xyyz-home.hal is not there",
@@ -18,6 +18,11 @@ const FAULTY: [(&str, &str); 5] = [
         "the HAL file simulated-xyyz-home.hal is not there",
     ),
     ("dallur-thc/dallur-advanced.ini", " already"),
+    // its SUBROUTINE_PATH has three points where a folder should be
+    (
+        "woodpecker/woodpecker_auto_tool_probe.ini",
+        "qt_auto_probe_tool.ngc is in no folder",
+    ),
     // of panels, not of machines
     ("panelui-demo/_panelui.ini", "no INI file of LinuxCNC"),
     ("craftsman/cnc_settings.ini", "no INI file of LinuxCNC"),
