@@ -52,6 +52,8 @@ pub struct Tag {
     pub flags: u64,
     /// Line number, motion mode, plane and others.
     pub fields: [i32; 8],
+    /// The file of the line: 0 is the program, n the nth file of subroutines that is read. LinuxCNC's tag has no name.
+    pub file: usize,
 }
 
 /// What M66 asks for.
@@ -282,6 +284,7 @@ fn tag(words: &mut Words) -> Option<Tag> {
         speed,
         flags,
         fields,
+        file: words.number()?,
     })
 }
 

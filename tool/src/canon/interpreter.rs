@@ -10,7 +10,6 @@ use crate::output::in_temporary_folder;
 use crate::path::Position;
 use crate::wiring::same_series::{OtherSeries, check_installed};
 use std::borrow::Cow;
-use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -160,8 +159,8 @@ pub struct CallStream {
     complaints: Option<JoinHandle<String>>,
     line: Vec<u8>,
     ended: bool,
-    /// The files of subroutines that were read so far.
-    read: BTreeSet<PathBuf>,
+    /// The files of subroutines that were read so far, in the order of [`Tag::file`](super::call::Tag::file).
+    read: Vec<Arc<Path>>,
     /// Whether there is an INI file.
     has_ini: bool,
     /// The file of numbered parameters, if there is one.
@@ -226,7 +225,7 @@ impl CallStream {
             complaints: Some(complaints),
             line: Vec::new(),
             ended: false,
-            read: BTreeSet::new(),
+            read: Vec::new(),
             has_ini: surroundings.ini.is_some(),
             parameters: surroundings.parameters.clone(),
             _home: home,
@@ -246,8 +245,8 @@ impl CallStream {
         self
     }
 
-    /// The files of subroutines that were read so far.
-    pub fn read(&self) -> &BTreeSet<PathBuf> {
+    /// The files of subroutines that were read so far, in the order of [`Tag::file`](super::call::Tag::file).
+    pub fn read(&self) -> &[Arc<Path>] {
         &self.read
     }
 
@@ -280,7 +279,7 @@ impl CallStream {
             return Ok(None);
         }
         if let Some(file) = line.strip_prefix("READ ") {
-            self.read.insert(PathBuf::from(file));
+            self.read.push(Arc::from(Path::new(file)));
             return self.next_call();
         }
         match line.strip_prefix("REFUSED ") {

@@ -63,11 +63,7 @@ pub(crate) struct Feeds {
 impl Move {
     /// Whether its line is one of the program, not of a file of subroutines.
     pub fn is_of_program(&self) -> bool {
-        /// LinuxCNC's `GM_FLAG_EXTERNAL_FILE`, which is also set in a program that has called nothing yet.
-        const OF_OTHER_FILE: u64 = 1 << 23;
-        /// `GM_FLAG_IN_SUB` and `GM_FLAG_IN_REMAP`.
-        const CALLED: u64 = 1 << 22 | 1 << 21;
-        self.tag.flags & OF_OTHER_FILE == 0 || self.tag.flags & CALLED == 0
+        self.tag.file == 0
     }
 }
 

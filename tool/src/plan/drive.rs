@@ -2,10 +2,10 @@
 //! faster than real time.
 
 use super::arrivals::Arrivals;
-use super::error::{PlanError, refusal, spindle_error, stuck};
+use super::error::{PlanError, move_refused, refusal, spindle_error, stopped, stuck};
 use super::joint_way::JointWay;
 use super::joints;
-use super::lines::Lines;
+use super::lines::{Line, Lines};
 use super::setup::Setup;
 use super::soft_limits::SoftLimits;
 use super::source::Source;
@@ -21,6 +21,7 @@ use framepath::moves::{FeedWord, MotionType, StateTag, TerminationCondition};
 use framepath::planner::{CycleInputs, MoveRequest, Planner, Status};
 use nalgebra::Vector3;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Which overrides apply, as LinuxCNC begins a program: of spindle and feed, and feed hold; the adaptive
 /// one (4) after M52 only.
@@ -78,7 +79,6 @@ pub struct Handed {
 
 /// The planner and the program that it runs.
 pub struct Drive<'a> {
-    file: &'a Path,
     setup: &'a Setup,
     planner: Box<Planner>,
     soft_limits: Option<SoftLimits>,
@@ -106,7 +106,7 @@ impl<'a> Drive<'a> {
     ///
     /// # Errors
     /// Settings that the planner does not take.
-    pub fn new(file: &'a Path, setup: &'a Setup, supply: Supply) -> Result<Self, PlanError> {
+    pub fn new(file: &Path, setup: &'a Setup, supply: Supply) -> Result<Self, PlanError> {
         let mut planner = Box::new(Planner::new());
         let refused = |what: &str| PlanError::Option(format!("the planner refuses {what}"));
         let unit = |axis: usize| setup.scale(axis);
@@ -144,7 +144,6 @@ impl<'a> Drive<'a> {
             .set_position(&scaled(&setup.surroundings.start))
             .map_err(|_| refused("the start: [JOINT_n]HOME"))?;
         Ok(Drive {
-            file,
             setup,
             planner,
             soft_limits: setup.soft_limits.clone(),
@@ -160,7 +159,7 @@ impl<'a> Drive<'a> {
                 _ => None,
             },
             moves: 0,
-            lines: Lines::default(),
+            lines: Lines::new(file),
             last_position: Axes::zeros(),
             last_change: 0,
             finished: false,
@@ -241,7 +240,7 @@ impl<'a> Drive<'a> {
             self.last_change = self.cycle;
             match operation {
                 Operation::Move(a_move) => {
-                    self.add(&a_move)?;
+                    self.add(&a_move, Arc::clone(source.file_of(&a_move)))?;
                     self.turn_feeds.add(a_move.index);
                     self.moves += 1;
                     if let Some(until) = &mut self.hold_until {
@@ -259,9 +258,10 @@ impl<'a> Drive<'a> {
                 Operation::Dwell(_) if self.arrivals.is_some() => {}
                 Operation::Dwell(seconds) => {
                     if seconds > LONGEST_DWELL {
+                        let behind = self.lines.last();
                         return Err(PlanError::Dwell {
-                            file: self.file.to_owned(),
-                            line: self.lines.last(),
+                            file: behind.file.to_path_buf(),
+                            line: behind.number,
                             seconds,
                         });
                     }
@@ -285,25 +285,20 @@ impl<'a> Drive<'a> {
     }
 
     fn look_for_soft_limits(&mut self) -> Result<(), PlanError> {
-        let leaves = match &mut self.soft_limits {
-            Some(limits) => limits.look(&mut self.planner),
-            None => false,
-        };
-        if leaves {
-            return Err(PlanError::Stopped {
-                file: self.file.to_owned(),
-                line: self.lines.last(),
-                reason: "a joint would go beyond a soft limit ([JOINT_n]MIN_LIMIT, MAX_LIMIT)"
-                    .to_owned(),
-            });
+        let limits = self.soft_limits.as_mut();
+        match limits.and_then(|limits| limits.look(&mut self.planner)) {
+            Some(id) => {
+                let reason = "a joint would go beyond a soft limit ([JOINT_n]MIN_LIMIT, MAX_LIMIT)";
+                Err(stopped(self.lines.of(id), reason.to_owned()))
+            }
+            None => Ok(()),
         }
-        Ok(())
     }
 
     fn look_at_joints(&mut self) -> Result<(), PlanError> {
         let way = self.joint_way.as_mut();
         match way.and_then(|way| way.look(&mut self.planner)) {
-            Some(refused) => Err(self.move_refused(self.lines.of(refused.id), refused.reason)),
+            Some(refused) => Err(move_refused(self.lines.of(refused.id), refused.reason)),
             None => Ok(()),
         }
     }
@@ -311,7 +306,7 @@ impl<'a> Drive<'a> {
     /// What LinuxCNC would refuse for a soft limit is planned all the same, with a word.
     fn admit(&mut self, shape: Result<Shape, ShapeError>) {
         if let (Some(limits), Ok(shape)) = (&mut self.soft_limits, shape) {
-            limits.admit(&shape, self.file, self.lines.last());
+            limits.admit(&shape, self.lines.last());
         }
     }
 
@@ -335,10 +330,11 @@ impl<'a> Drive<'a> {
         let length = millimetres / self.setup.millimetres;
         let position = self.planner.status().position;
         joints::set_tool_length(&self.setup.joints, length, &position)
-            .map_err(|why| self.move_refused(self.lines.last(), why.to_owned()))
+            .map_err(|why| move_refused(self.lines.last(), why.to_owned()))
     }
 
-    fn add(&mut self, a_move: &Move) -> Result<(), PlanError> {
+    /// The line of the move stands in `file`.
+    fn add(&mut self, a_move: &Move, file: Arc<Path>) -> Result<(), PlanError> {
         let length = 1.0 / self.setup.millimetres;
         let linear = (0..AXIS_COUNT).any(|axis| {
             !crate::machine::limits::is_rotary(axis)
@@ -360,15 +356,16 @@ impl<'a> Drive<'a> {
             indexer_joint: None,
             tag: StateTag::EMPTY,
         };
-        let id = i32::try_from(a_move.index + 1).unwrap_or(i32::MAX);
+        let id = id_of(a_move.index);
         self.planner.set_id(id);
-        self.lines.note(id, a_move.line);
+        let number = a_move.line;
+        self.lines.note(id, Line { file, number });
         let end = Axes::from_fn(|axis, _| a_move.end[axis] * self.setup.scale(axis));
         if let Some(joints) = self.setup.joints.limited()
             && !joints.reaches(&end)
         {
-            return Err(self.move_refused(
-                a_move.line,
+            return Err(move_refused(
+                self.lines.last(),
                 format!("{} has no joints for where it ends", joints.told()),
             ));
         }
@@ -406,15 +403,7 @@ impl<'a> Drive<'a> {
         };
         added
             .map(|_| ())
-            .map_err(|error| self.move_refused(a_move.line, refusal(&error)))
-    }
-
-    fn move_refused(&self, line: i32, reason: String) -> PlanError {
-        PlanError::MoveRefused {
-            file: self.file.to_owned(),
-            line,
-            reason,
-        }
+            .map_err(|error| move_refused(self.lines.last(), refusal(&error)))
     }
 
     /// Where the last move that was handed over ends, mm and degrees.
@@ -427,6 +416,12 @@ impl<'a> Drive<'a> {
         self.spindle.surface_speeds()
     }
 
+    /// The line that runs in a cycle.
+    pub fn line(&self, sample: &Sample) -> &Line {
+        let id = sample.running.map(id_of);
+        id.map_or(self.lines.last(), |id| self.lines.of(id))
+    }
+
     /// The number of the move that runs.
     fn runs(status: &Status) -> Option<usize> {
         let id = (status.active_depth > 0).then_some(status.exec_id)?;
@@ -435,20 +430,14 @@ impl<'a> Drive<'a> {
 
     /// What must not happen.
     fn judge(&mut self, status: &Status) -> Result<(), PlanError> {
-        let stopped = |reason: String| {
-            Err(PlanError::Stopped {
-                file: self.file.to_owned(),
-                line: self.lines.of(status.exec_id),
-                reason,
-            })
-        };
+        let stops = |reason| Err(stopped(self.lines.of(status.exec_id), reason));
         if let Some(fault) = status.fault {
-            return stopped(format!(
+            return stops(format!(
                 "{fault:?}. This is a fault of blendtp: please report it with the program"
             ));
         }
         if let Some(error) = status.spindle_error {
-            return stopped(spindle_error(&error));
+            return stops(spindle_error(&error));
         }
         // Whatever creeps by less than this in so long a time has no end.
         let moves = (self.last_position - status.position).amax() > NO_TRAVEL;
@@ -460,7 +449,7 @@ impl<'a> Drive<'a> {
         if self.cycle - self.last_change > STUCK && !held()? {
             let per_turn = Self::runs(status).and_then(|at| self.turn_feeds.running(at));
             let stands = self.spindle.speed() == 0.0;
-            return stopped(stuck(status, per_turn.is_some() && stands).to_owned());
+            return stops(stuck(status, per_turn.is_some() && stands).to_owned());
         }
         Ok(())
     }
@@ -495,4 +484,9 @@ impl<'a> Drive<'a> {
             },
         }
     }
+}
+
+/// LinuxCNC's number of a move, which itself counts from 0.
+fn id_of(index: usize) -> i32 {
+    i32::try_from(index + 1).unwrap_or(i32::MAX)
 }

@@ -1,5 +1,6 @@
 //! Why there is no plan.
 
+use super::lines::Line;
 use crate::canon::CanonError;
 use crate::canon::tool_table::ToolTableError;
 use crate::joints::JointsError;
@@ -38,7 +39,7 @@ pub enum PlanError {
         file.display(), ini.display()
     )]
     NoAxis {
-        /// The program.
+        /// The program, or a file of subroutines.
         file: PathBuf,
         /// Line of the move.
         line: i32,
@@ -50,7 +51,7 @@ pub enum PlanError {
     /// The planner refused a move.
     #[error("{}:{line}: the planner refuses the move: {reason}", file.display())]
     MoveRefused {
-        /// The program.
+        /// The program, or a file of subroutines.
         file: PathBuf,
         /// Line of the move.
         line: i32,
@@ -60,7 +61,7 @@ pub enum PlanError {
     /// The planner stopped the motion.
     #[error("{}:{line}: the planner stops the motion: {reason}", file.display())]
     Stopped {
-        /// The program.
+        /// The program, or a file of subroutines.
         file: PathBuf,
         /// Line of the move.
         line: i32,
@@ -73,7 +74,7 @@ pub enum PlanError {
         file.display(), behind_line(*line)
     )]
     Dwell {
-        /// The program.
+        /// The program, or a file of subroutines.
         file: PathBuf,
         /// Line of the last move before it, 0 for none.
         line: i32,
@@ -95,7 +96,7 @@ pub enum PlanError {
         file.display()
     )]
     Slow {
-        /// The program.
+        /// The program, or a file of subroutines.
         file: PathBuf,
         /// The line that runs.
         line: i32,
@@ -130,6 +131,24 @@ impl PlanError {
             file: file.to_owned(),
             source,
         }
+    }
+}
+
+/// The planner refuses the move of this line.
+pub(super) fn move_refused(line: &Line, reason: String) -> PlanError {
+    PlanError::MoveRefused {
+        file: line.file.to_path_buf(),
+        line: line.number,
+        reason,
+    }
+}
+
+/// The planner stops in this line, or before it.
+pub(super) fn stopped(line: &Line, reason: String) -> PlanError {
+    PlanError::Stopped {
+        file: line.file.to_path_buf(),
+        line: line.number,
+        reason,
     }
 }
 

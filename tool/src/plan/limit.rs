@@ -2,6 +2,7 @@
 
 use super::PlanArguments;
 use super::error::PlanError;
+use super::lines::Line;
 use crate::canon::CanonError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -76,19 +77,20 @@ impl Limit {
         }
     }
 
-    /// A servo cycle has been planned, in which a line of the program runs.
+    /// A servo cycle has been planned, in which this line runs.
     ///
     /// # Errors
     /// When the plan has taken too long, or is not wanted any more.
-    pub fn note(&mut self, line: i32) -> Result<(), PlanError> {
+    pub fn note<'a>(&mut self, runs: impl FnOnce() -> &'a Line) -> Result<(), PlanError> {
         self.go_on()?;
         self.cycles += 1;
         if !self.cycles.is_multiple_of(CYCLES) || self.begun.elapsed() <= self.most_time {
             return Ok(());
         }
+        let runs = runs();
         Err(PlanError::Slow {
-            file: self.file.clone(),
-            line,
+            file: runs.file.to_path_buf(),
+            line: runs.number,
             seconds: self.most_time.as_secs(),
         })
     }

@@ -315,7 +315,7 @@ fn plan(
         }
         end = shown.time;
         progress.note(shown.line, shown.time);
-        limit.note(shown.line)?;
+        limit.note(|| drive.line(&sample))?;
     }
     progress.finish();
     crate::machine::warn_of(drive.warnings());

@@ -1,5 +1,6 @@
 //! The soft limits of the machine as blendtp looks at them: near one the path keeps to the inner side of the program.
 
+use super::lines::Line;
 use crate::joints::are_axes;
 use crate::machine::IniError;
 use crate::machine::configuration::{AXIS_LETTERS, Machine};
@@ -10,7 +11,6 @@ use framepath::machine::JOINT_COUNT;
 use framepath::moves::shape::Shape;
 use framepath::planner::Planner;
 use framepath::planner::range::{Finding, JointRange, JointSolver, Joints, RangeVerdict, Sweep};
-use std::path::Path;
 
 /// What blendtp asks in a servo period.
 const CALLS_A_CYCLE: usize = 16;
@@ -61,8 +61,8 @@ impl SoftLimits {
     }
 
     /// A limit that a move goes beyond, which LinuxCNC refuses, is none from there on: the rest is planned as well, with a
-    /// [warning](Self::warnings). The move stands in a line of a file.
-    pub fn admit(&mut self, shape: &Shape, file: &Path, line: i32) {
+    /// [warning](Self::warnings). The move stands in this line.
+    pub fn admit(&mut self, shape: &Shape, line: &Line) {
         let start = self.joints(&shape.position(0.0));
         for _ in 0..2 * JOINT_COUNT {
             let mut sweep = Sweep::new(shape, &self.range, &start);
@@ -82,9 +82,10 @@ impl SoftLimits {
                 "MIN_LIMIT"
             };
             self.warnings.push(format!(
-                "{}:{line}: joint {} goes to {:.3}, beyond [JOINT_{1}]{key} = {}: LinuxCNC refuses the program (is the work offset \
+                "{}:{}: joint {} goes to {:.3}, beyond [JOINT_{2}]{key} = {}: LinuxCNC refuses the program (is the work offset \
                  set?); planned without that limit",
-                file.display(),
+                line.file.display(),
+                line.number,
                 found.joint,
                 found.position,
                 found.limit,
@@ -97,12 +98,15 @@ impl SoftLimits {
         &self.warnings
     }
 
-    /// Looks at more of the moves, before each servo period. Answers whether one goes beyond a limit, which none does that was
-    /// [admitted](Self::admit).
-    pub fn look(&mut self, planner: &mut Planner) -> bool {
+    /// Looks at more of the moves, before each servo period. Answers with LinuxCNC's number of one that goes beyond a limit, which
+    /// none does that was [admitted](Self::admit).
+    pub fn look(&mut self, planner: &mut Planner) -> Option<i32> {
         let (range, joints) = (self.range, self.joints(&planner.status().position));
         let finding = planner.check_range(&range, &joints, self);
-        matches!(finding, Some(Finding::Leaves { .. }))
+        match finding {
+            Some(Finding::Leaves { id, .. }) => Some(id),
+            _ => None,
+        }
     }
 
     fn joints(&self, position: &Axes) -> Joints {
@@ -127,5 +131,59 @@ impl JointSolver for SoftLimits {
 
     fn keeps_lines(&self) -> bool {
         self.keeps_lines
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use framepath::axes::AxisLimits;
+    use framepath::moves::{MotionType, StateTag};
+    use framepath::planner::MoveRequest;
+
+    /// More than the planner, which is made in place.
+    const STACK: usize = 64 << 20;
+
+    fn number_of_the_one_beyond() -> Option<i32> {
+        let mut limits = SoftLimits {
+            axes: vec![0],
+            range: JointRange::NONE,
+            keeps_lines: false,
+            warnings: Vec::new(),
+        };
+        limits.range.greatest[0] = 10.0;
+        limits.range.count = 1;
+        let mut planner = Box::new(Planner::new());
+        assert!(planner.set_cycle_time(0.001));
+        planner.set_limits(&AxisLimits {
+            velocity: Axes::repeat(100.0),
+            acceleration: Axes::repeat(1000.0),
+            jerk: Axes::repeat(20_000.0),
+        });
+        planner.wait_for_range_check(true);
+        let request = MoveRequest {
+            motion_type: MotionType::Feed,
+            feed: 10.0,
+            max_velocity: 100.0,
+            path_jerk: f64::INFINITY,
+            enables: 0,
+            wait_for_spindle: false,
+            indexer_joint: None,
+            tag: StateTag::EMPTY,
+        };
+        for (id, x) in [(1, 5.0), (2, 20.0), (3, 1.0)] {
+            let mut end = Axes::zeros();
+            end[0] = x;
+            planner.set_id(id);
+            planner.add_line(&end, &request).expect("taken");
+        }
+        (0..100).find_map(|_| limits.look(&mut planner))
+    }
+
+    #[test]
+    fn the_move_that_goes_beyond_is_named_not_the_last_one() {
+        let thread = std::thread::Builder::new().stack_size(STACK);
+        let thread = thread.spawn(number_of_the_one_beyond).expect("a thread");
+        assert_eq!(thread.join().expect("an end"), Some(2));
     }
 }

@@ -4,10 +4,10 @@
 use super::error::PlanError;
 use super::setup::Setup;
 use crate::canon::{Call, CallStream, Input, stream_program};
-use crate::layer::program::{Operation, Piece, Shape};
+use crate::layer::program::{Move, Operation, Piece, Shape};
 use crate::layer::stream::{Laid, LayerStream};
 use std::collections::{BTreeSet, VecDeque};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -17,7 +17,7 @@ const NO_TRAVEL: f64 = 1e-9;
 
 /// A program that is being read.
 pub struct Source<'a> {
-    file: &'a Path,
+    file: Arc<Path>,
     setup: &'a Setup,
     calls: CallStream,
     layer: LayerStream<'a>,
@@ -37,14 +37,14 @@ impl<'a> Source<'a> {
     /// # Errors
     /// A program that cannot be opened.
     pub fn open(
-        file: &'a Path,
+        file: &Path,
         setup: &'a Setup,
         layer: LayerStream<'a>,
         most_time: Duration,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, PlanError> {
         Ok(Source {
-            file,
+            file: Arc::from(file),
             setup,
             calls: stream_program(file, &setup.surroundings)?
                 .within(most_time)
@@ -87,7 +87,14 @@ impl<'a> Source<'a> {
 
     /// The files of subroutines that were read so far.
     pub(super) fn read(&self) -> impl Iterator<Item = &Path> {
-        self.calls.read().iter().map(PathBuf::as_path)
+        self.calls.read().iter().map(AsRef::as_ref)
+    }
+
+    /// The file that the line of a move stands in.
+    pub(super) fn file_of(&self, a_move: &Move) -> &Arc<Path> {
+        let of_subroutine = a_move.tag.file.checked_sub(1);
+        let of_subroutine = of_subroutine.and_then(|index| self.calls.read().get(index));
+        of_subroutine.unwrap_or(&self.file)
     }
 
     /// What the user is to be told of the program, when it has been read.
@@ -135,7 +142,7 @@ impl<'a> Source<'a> {
                     && !(turns && axis < 3)
                 {
                     return Err(PlanError::NoAxis {
-                        file: self.file.to_owned(),
+                        file: self.file_of(a_move).to_path_buf(),
                         line: a_move.line,
                         letter: framepath::axes::AXIS_LETTERS[axis],
                         ini: ini.clone(),

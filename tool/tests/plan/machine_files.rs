@@ -182,6 +182,45 @@ fn lines_of_subroutines_are_not_those_of_the_program() {
     }
 }
 
+/// What the planner refuses, and what it is warned of, in a file of subroutines has the line of that file beside it.
+#[test]
+fn lines_of_subroutines_are_told_with_their_file() {
+    let bench = Bench::new();
+    let keys = "[RS274NGC]\nSUBROUTINE_PATH = subs\n";
+    let limited = MILL.replace("[JOINT_0]\n", "[JOINT_0]\nMAX_LIMIT = 30\n");
+    bench.write("mill.ini", &limited.replace("[RS274NGC]\n", keys));
+    std::fs::create_dir(bench.path().join("subs")).expect("a folder");
+    let local = "o<local> sub\n(two)\nG1 X1\no<local> endsub\n";
+    let program = format!("{local}G21 F600 M3 S600 G1 Y1\no<called> call\no<local> call\nM2\n");
+    bench.write("part.ngc", &program);
+    let folder = std::fs::canonicalize(bench.path()).expect("a folder");
+    let called = folder.join("subs/called.ngc").display().to_string();
+    let told = |line: &str| {
+        let text = format!("o<called> sub\n(two)\nX2\n{line}\nG1 X3\no<called> endsub\nM2\n");
+        bench.write("subs/called.ngc", &text);
+        String::from_utf8(bench.plan(&["part.ngc", "--ini", "mill.ini"]).stderr).expect("text")
+    };
+    for (line, said) in [
+        ("G33 Z-10 K20", "the planner stops the motion: "),
+        (
+            "G1 Y1000000000000000000000",
+            "the planner refuses the move: ",
+        ),
+        ("G1 U5", "axis U moves, which the machine does not have"),
+        ("G1 X40", "joint 0 goes to 40.000, beyond"),
+    ] {
+        let told = told(line);
+        assert!(told.contains(&format!("{called}:4: {said}")), "{told}");
+    }
+    // One of the program itself is none of another file.
+    bench.write("part.ngc", &program.replace("X1", "X40"));
+    let told = told("X5");
+    assert!(
+        told.contains("part.ngc:3: joint 0 goes to") && !told.contains(&called),
+        "{told}"
+    );
+}
+
 #[test]
 fn a_file_of_a_remap_that_is_not_there_is_named() {
     let bench = Bench::new();

@@ -10,7 +10,7 @@
  *   UNIT mm                      length of the program's unit
  *   TERM mode tolerance          1 exact stop, 2 exact path, 3 continuous
  *   NAIVECAM tolerance
- *   TAG P Q feed speed flags fields(8)                      of the moves that follow, in program units
+ *   TAG P Q feed speed flags fields(8) file                 of the moves that follow, in program units
  *   SYNC per-revolution velocity-mode                       0: ends
  *   SURFACE greatest centre      of the two below: their speed is mm a minute (G96), up to so many rpm; X in the middle of the work,
  *                                mm of the machine; greatest 0: their speed is rpm
@@ -265,7 +265,7 @@ void UPDATE_TAG(GivenTag with_flags)
     fprintf(output, " %lu", tag.packed_flags);
     for (int i = 0; i < GM_FIELD_MAX_FIELDS; i++)
         fprintf(output, " %d", tag.fields[i]);
-    fputc('\n', output);
+    fprintf(output, " %d\n", now.file);
 }
 
 void DWELL(double seconds)

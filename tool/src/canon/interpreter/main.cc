@@ -6,7 +6,8 @@
  * PARAMETERS is the file of numbered parameters; it is written anew at the end, so the caller gives a copy. SETTINGS is
  * what an INI file says of the machine, see settings.cc; what the interpreter itself takes from an INI file it reads
  * there, by the variable INI_FILE_NAME of the environment.
- * The calls themselves are in calls.cc. READ comes once before those of a file of subroutines: it is the name of the file.
+ * The calls themselves are in calls.cc. READ comes once before those of a file of subroutines: it is the name of the file. These
+ * files count from 1 in this order, the program is 0.
  * A refusal is printed as two lines, REFUSED with line number and message, SOURCE
  * with the text of the line, and the exit code is 1. The number is a line of FILE, also where the text is of a subroutine in
  * another file: then it is the line that called it.
@@ -17,8 +18,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <poll.h>
-#include <set>
 #include <string>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -65,15 +66,18 @@ static std::string subroutine_file(InterpBase &interpreter)
     return name == program ? "" : name.substr(name.rfind('/') + 1);
 }
 
-/* Tells which file of subroutines is read, each once. */
+/* Notes which file is read, and tells each file of subroutines once. */
 static void note_file(InterpBase &interpreter)
 {
-    static std::set<std::string> told;
-    if (interpreter.call_level() == 0)
+    static std::map<std::string, int> numbers;
+    now.file = 0;
+    if (subroutine_file(interpreter).empty())
         return;
     char path[4096] = "";
     interpreter.file_name(path, sizeof path);
-    if (!told.insert(path).second)
+    auto [known, is_new] = numbers.emplace(path, numbers.size() + 1);
+    now.file = known->second;
+    if (!is_new)
         return;
     char *whole = realpath(path, nullptr);
     fprintf(output, "READ %s\n", one_line(whole ? whole : path).c_str());

@@ -31,6 +31,7 @@ struct Where {
     int selected_tool = 0, tool_number = 0;
     int flood = 0, mist = 0;
     double kinematics_type = 0;
+    int file = 0;                   /* that of the line that is carried out: 0 the program, else which READ tells of it */
 };
 
 extern Where now;
