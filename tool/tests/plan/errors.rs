@@ -282,7 +282,7 @@ fn a_dwell_of_ages_is_refused() {
     );
 }
 
-/// The line of the program that called it, and the text of the mistake.
+/// The line of the program that called it, and file and text of the mistake.
 #[test]
 fn a_mistake_in_the_file_of_a_subroutine_is_told() {
     let bench = Bench::new();
@@ -296,8 +296,17 @@ fn a_mistake_in_the_file_of_a_subroutine_is_told() {
     bench.write("part.ngc", &format!("{local}G21 F100\no<local> call\nM2\n"));
     let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
     assert!(
-        error.starts_with("part.ngc:6: ") && error.contains("G1 X2 Q?"),
+        error.starts_with("part.ngc:6: ") && error.contains("    pocket.ngc: G1 X2 Q?"),
         "{error}"
+    );
+    bench.write(
+        "pocket.ngc",
+        "o<pocket> sub\nG1 X1\nG1 X2 F0\no<pocket> endsub\nM2\n",
+    );
+    let error = bench.refused(&["part.ngc", "--ini", "mill.ini"]);
+    assert_eq!(
+        error,
+        "part.ngc:6: Cannot do g1 with zero feed rate\n    pocket.ngc, line 3: G1 X2 F0\n"
     );
 }
 

@@ -10,7 +10,7 @@
  * files count from 1 in this order, the program is 0.
  * A refusal is printed as two lines, REFUSED with line number and message, SOURCE
  * with the text of the line, and the exit code is 1. The number is a line of FILE, also where the text is of a subroutine in
- * another file: then it is the line that called it.
+ * another file: then it is the line that called it, and that file stands before the text.
  *
  * SPDX-License-Identifier: GPL-2.0-or-later
  */
@@ -94,6 +94,9 @@ static void note_line(InterpBase &interpreter)
  * the interpreter at the end of the file. */
 static std::string line_carried_out;
 
+/* Before that text: the file of subroutines where it is none of the program, and the line there, if that is known. */
+static std::string place_carried_out;
+
 static std::string text_of(int number)
 {
     char line[1024] = "";
@@ -121,6 +124,8 @@ static int print_refusal(InterpBase &interpreter, int number, const std::string 
     std::string line = line_carried_out.empty() ? line_text(interpreter) : line_carried_out;
     if (opened && number == 0)
         line.clear();
+    if (!line.empty())
+        line = place_carried_out + line;
     fprintf(output, "REFUSED %d %s\n", number, one_line(message.c_str()).c_str());
     fprintf(output, "SOURCE %s\n", one_line(line.c_str()).c_str());
     return 1;
@@ -170,6 +175,7 @@ static int unsupported(InterpBase &interpreter, const char *what, std::string pl
     std::string file = subroutine_file(interpreter);
     if (!file.empty())
         place = "in " + file + ", line " + std::to_string(interpreter.sequence_number()) + ": ";
+    place_carried_out.clear();
     return print_refusal(interpreter, program_line, place + what + " is not supported here");
 }
 
@@ -191,18 +197,21 @@ static int interpret(InterpBase &interpreter, const char *file)
     if (failed(status))
         return refuse(interpreter, status);
     for (;;) {
-        bool in_subroutine = !subroutine_file(interpreter).empty();
+        std::string file = subroutine_file(interpreter);
         line_carried_out.clear();
+        place_carried_out = file.empty() ? "" : file + ": ";
         status = interpreter.read();
         if (status == INTERP_ENDFILE || status == INTERP_EXIT)
             break;
-        if (failed(status) && !in_subroutine)
+        if (failed(status) && file.empty())
             line_carried_out = text_of(interpreter.sequence_number());
         if (failed(status))
             return refuse(interpreter, status);
         note_line(interpreter);
         note_file(interpreter);
         line_carried_out = line_text(interpreter);
+        file = subroutine_file(interpreter);
+        place_carried_out = file.empty() ? "" : file + ", line " + std::to_string(interpreter.sequence_number()) + ": ";
         look_for_answer(line_carried_out.c_str());
         if (sends_frame(interpreter))
             return unsupported(interpreter, sent_by_tool_centre ? tool_centre : "a programmed frame (framekins)");
