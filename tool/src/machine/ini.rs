@@ -195,7 +195,7 @@ impl Ini {
         let problem = match numbers::form(section, key) {
             Form::Other => "a number is needed here, for example 100.0",
             Form::Number => {
-                "LinuxCNC needs a number alone here, for example 100.5, and no comment in this line"
+                "LinuxCNC needs a number alone here, for example 100.5, none above 1.8e308, and no comment in this line"
             }
             Form::Whole => {
                 "LinuxCNC needs a whole number alone here, without a point, and no comment in this line"

@@ -83,11 +83,18 @@ pub fn form(section: &str, key: &str) -> Form {
 pub fn number(entry: &Entry) -> Option<f64> {
     let text = entry.raw.as_str();
     match form(&entry.section, &entry.key) {
-        Form::Number => text.parse().ok(),
+        Form::Number => decimal(text),
         Form::Whole => text.parse::<i32>().ok().map(f64::from),
         Form::OfModule => whole_of_module(text).map(|whole| whole as f64),
-        Form::Other => entry.value.parse().ok(),
+        Form::Other => decimal(&entry.value),
     }
+}
+
+/// A number with decimals. Infinity is a word: digits that mean a greater number than there is are none to LinuxCNC.
+fn decimal(text: &str) -> Option<f64> {
+    let number: f64 = text.parse().ok()?;
+    let has_digits = text.contains(|character: char| character.is_ascii_digit());
+    (number.is_finite() || !has_digits).then_some(number)
 }
 
 /// A whole number as RTAPI reads it.
@@ -136,7 +143,9 @@ mod tests {
         ] {
             assert_eq!(of_axis(value), Some(expected), "{value}");
         }
-        for value in ["50 # c", "50,5", "50;c", "50 60", "0x10", "\"5\"", "TRUE"] {
+        for value in [
+            "50 # c", "50,5", "50;c", "50 60", "0x10", "\"5\"", "TRUE", "1e400",
+        ] {
             assert_eq!(of_axis(value), None, "{value}");
         }
         for (value, expected) in [
@@ -161,5 +170,6 @@ mod tests {
         let output = |value| read("FRAMEPATH", "ANALOG_OUTPUT", value);
         assert_eq!(output("4 # c"), Some(4.0));
         assert_eq!(output("4,5"), None);
+        assert_eq!(output("-1e400"), None);
     }
 }

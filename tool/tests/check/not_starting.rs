@@ -66,6 +66,11 @@ fn what_is_no_number_or_no_parameter_is_an_error() {
         ),
         (
             "MAX_VELOCITY = 100",
+            "MAX_VELOCITY = 1e400",
+            "[AXIS_X]MAX_VELOCITY = 1e400 is no number",
+        ),
+        (
+            "MAX_VELOCITY = 100",
             "MAX_VELOCITY = 50 # mm/s",
             "[AXIS_X]MAX_VELOCITY = 50 # mm/s is no number",
         ),

@@ -305,6 +305,7 @@ fn numbers_that_linuxcnc_does_not_take_are_refused() {
     for (from, to, line) in [
         ("MAX_VELOCITY = 100", "MAX_VELOCITY = 50 # c", 13),
         ("MAX_VELOCITY = 100", "MAX_VELOCITY = 50,5", 13),
+        ("MAX_VELOCITY = 100", "MAX_VELOCITY = 1e400", 13),
         ("MAX_JERK = 20000", "MAX_JERK = 20000 # c", 15),
         ("SERVO_PERIOD = 1000000", "SERVO_PERIOD = 1e6", 4),
         ("SERVO_PERIOD = 1000000", "SERVO_PERIOD = 1000000 # ns", 4),

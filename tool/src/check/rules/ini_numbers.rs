@@ -22,7 +22,7 @@ pub fn look(subject: &Subject, findings: &mut Findings) {
             entry.section, entry.key, entry.raw
         );
         let remedy = advice(format!(
-            "a {kind} alone: decimals behind a point, and a comment in a line of its own"
+            "a {kind} alone: decimals behind a point, none above 1.8e308, and a comment in a line of its own"
         ));
         findings.error(&entry.place, found, remedy);
     }
