@@ -6,7 +6,10 @@ use indicatif::HumanDuration;
 #[cfg(feature = "linuxcnc")]
 use std::time::Duration;
 
-/// A number with so many significant digits, never in scientific notation.
+/// From here on a number is shown in scientific notation: nobody counts its zeros.
+const SCIENTIFIC_FROM: f64 = 1e15;
+
+/// A number with so many significant digits, below [`SCIENTIFIC_FROM`] never in scientific notation.
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -14,13 +17,30 @@ pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return value.to_string();
     }
+    if value.abs() >= SCIENTIFIC_FROM {
+        let text = format!("{value:.*e}", digits.saturating_sub(1));
+        let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{exponent}", without_zeros(digits));
+    }
     let magnitude = value.abs().log10().floor() as i64 + 1;
     let decimals = (digits as i64 - magnitude).clamp(0, 12) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
+    without_zeros(&format!("{value:.decimals$}")).to_owned()
+}
+
+/// Without zeros behind the last decimal.
+fn without_zeros(text: &str) -> &str {
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => text,
+    }
+}
+
+/// A share in percent.
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    match percent.abs() < SCIENTIFIC_FROM {
+        true => format!("{percent:.1} %"),
+        false => format!("{} %", significant(percent, 4)),
     }
 }
 
@@ -68,6 +88,9 @@ pub fn greatest_speed(value: f64, length_unit: &str, time: f64, line: i64) -> St
 /// A length with its unit: small ones in micrometres (um) or nanometres (nm), inches as they are.
 pub fn length(value: f64, unit: &str) -> String {
     let size = value.abs();
+    if size >= SCIENTIFIC_FROM {
+        return format!("{} {unit}", significant(value, 6));
+    }
     if unit != "mm" {
         return format!("{value:.6} {unit}");
     }
@@ -167,6 +190,15 @@ mod tests {
         assert_eq!(significant(19999.97, 6), "20000");
         assert_eq!(significant(0.00123456, 3), "0.00123");
         assert_eq!(significant(1234567.0, 3), "1234567");
+        assert_eq!(significant(999e12, 3), "999000000000000");
+        assert_eq!(significant(1e300, 6), "1e300");
+        assert_eq!(significant(-1.23456e20, 4), "-1.235e20");
+        assert_eq!(significant(f64::INFINITY, 4), "inf");
+        assert_eq!(percent(0.12345), "12.3 %");
+        assert_eq!(percent(1e298), "1e300 %");
+        assert_eq!(percent(f64::INFINITY), "inf %");
+        assert_eq!(length(1e300, "mm"), "1e300 mm");
+        assert_eq!(length(f64::INFINITY, "in"), "inf in");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(significant(-0.0, 3), "0");
         assert_eq!(in_column(3.452e-9, 4), "0");

@@ -3,7 +3,7 @@
 use super::distances::DistanceFigure;
 use super::figures::{AxisFigures, Figures, PlaceFigure, SurfaceFigures};
 use crate::format::{
-    duration, fixed, greatest_speed, grouped, in_column, length, significant, unit,
+    duration, fixed, greatest_speed, grouped, in_column, length, percent, significant, unit,
 };
 use crate::path::rates::Quantity;
 use std::fmt::{self, Write};
@@ -288,7 +288,7 @@ fn peaks(
     for axis in figures {
         for peak in &axis.peaks {
             let limit = peak.limit.map(|limit| significant(limit, 7));
-            let share = peak.share.map(|share| format!("{:.1} %", 100.0 * share));
+            let share = peak.share.map(percent);
             let label = if peak.quantity == Quantity::Velocity {
                 label(axis)
             } else {

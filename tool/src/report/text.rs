@@ -4,7 +4,9 @@ use std::fmt::{self, Write};
 
 use super::differences::{Judgement, Peak};
 use super::summary::{FarthestReport, MemberReport, PathReport, Report, Verdict};
-use crate::format::{duration, greatest_speed, grouped, in_column, length, significant, unit};
+use crate::format::{
+    duration, greatest_speed, grouped, in_column, length, percent, significant, unit,
+};
 use crate::machine::configuration::PathSource;
 
 /// Width of the column of labels.
@@ -184,9 +186,7 @@ fn members(out: &mut String, headline: &str, members: &[MemberReport]) -> fmt::R
             let limit = peak
                 .limit
                 .map_or("-".to_owned(), |limit| significant(limit, 7));
-            let share = peak
-                .share
-                .map_or("-".to_owned(), |share| format!("{:.1} %", 100.0 * share));
+            let share = peak.share.map_or("-".to_owned(), percent);
             writeln!(
                 out,
                 "  {name:12}{:14}{:>12}{limit:>12}  {:8}{share:>8}{:>10.3}{:>8}  {}",
