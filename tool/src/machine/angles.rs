@@ -21,6 +21,13 @@ pub fn are_degrees(ini: &Ini) -> bool {
     text.eq_ignore_ascii_case("degree") || text.eq_ignore_ascii_case("deg") || is_one()
 }
 
+/// What is said of a machine with a rotary axis whose INI file does not name the unit; `None` where it does.
+pub fn assumed(ini: &Ini) -> Option<String> {
+    let remedy = "LinuxCNC does not start without it, and degrees are taken here: write ANGULAR_UNITS = degree";
+    let is_missing = ini.text("TRAJ", "ANGULAR_UNITS").is_none();
+    is_missing.then(|| ini.missing("TRAJ", "ANGULAR_UNITS", remedy).to_string())
+}
+
 /// Refuses another one.
 ///
 /// # Errors

@@ -39,6 +39,12 @@ pub struct Member {
     pub assumed: Vec<String>,
 }
 
+impl Member {
+    fn is_rotary(&self) -> bool {
+        is_rotary(self.letter)
+    }
+}
+
 /// Whose positions describe the path of the tool in machine coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -109,7 +115,9 @@ impl Machine {
         {
             let section = format!("AXIS_{letter}");
             let unit = unit_of(letter, length_unit);
-            let (limits, assumed) = limits(ini, &section, unit, None)?;
+            let (limits, mut assumed) = limits(ini, &section, unit, None)?;
+            let is_first_rotary = is_rotary(letter) && !axes.iter().any(Member::is_rotary);
+            assumed.extend(is_first_rotary.then(|| angles::assumed(ini)).flatten());
             axes.push(Member {
                 name: format!("axis.{}", letter.to_ascii_lowercase()),
                 letter,
@@ -370,6 +378,28 @@ MAX_ACCELERATION = 1000
         assert!(message("LINEAR_UNITS = mm", "LINEAR_UNITS = 2.0").contains("mm or inch"));
         assert!(message("MAX_VELOCITY = 100", "MAX_VELOCITY = 0").contains("above 0"));
         assert!(message("TYPE = LINEAR", "TYPE = LINEA").contains("LINEAR or ANGULAR"));
+    }
+
+    #[test]
+    fn a_unit_of_angles_that_is_missing_is_told_once_where_something_turns() {
+        let assumed = |text: &str| {
+            let axes = machine(text).expect("a valid machine").axes;
+            Vec::from_iter(axes.into_iter().flat_map(|axis| axis.assumed))
+        };
+        let tables = MILL
+            .replace("coordinates=XYZ", "coordinates=XAC")
+            .replace("AXIS_Y", "AXIS_A")
+            .replace("AXIS_Z", "AXIS_C");
+        assert_eq!(
+            assumed(&tables),
+            [
+                "mill.ini: [TRAJ]ANGULAR_UNITS is missing: LinuxCNC does not start without it, and degrees are taken \
+                 here: write ANGULAR_UNITS = degree"
+            ]
+        );
+        let named = tables.replace("[TRAJ]", "[TRAJ]\nANGULAR_UNITS = degree");
+        assert_eq!(assumed(&named), [""; 0]);
+        assert_eq!(assumed(MILL), [""; 0], "nothing turns");
     }
 
     #[test]
