@@ -137,6 +137,25 @@ class ConstantSurfaceSpeed(AgainstLinuxCnc):
     machine: ClassVar[dict] = {"sample": "framepath-lathe", "joints": 2, "edit_hal": at_once}
 
 
+#: Full circles end where they begin: no axis shows that their F is one of length.
+INCHES = {
+    "inches": program("G20", "G64 P.002 Q.001 F100", "G1 X1", "X2 Y.2", "X2.01 Y.21", "X2.02 Y.215", "G3 X3 Y.2 R1", "F40",
+                      "G2 J.5", "G18 G3 I.25", "G17 G0 X0 Y0"),
+    "metric": program("F1500 G64 P.05", "G1 X20", "X40 Y5", "G2 X60 I10", "G3 J5", "G20", "G1 X3 Y1 F80", "G0 X0 Y0"),
+}
+
+
+@pytest.mark.thorough
+class Inches(AgainstLinuxCnc):
+    """A machine in inches, with programs in both units."""
+    programs = INCHES
+    ini = os.path.join(harness.SAMPLES, "configs", "framepath-inch", "framepath-inch.ini")
+    #: The limits go through millimetres: their last digit may be another one, and with it where the search for the speed of a
+    #: period ends.
+    same = 1e-5
+    machine: ClassVar[dict] = {"sample": "framepath-inch"}
+
+
 class Refusals(unittest.TestCase):
     def test_what_the_interpreter_refuses_is_passed_on(self):
         with tempfile.NamedTemporaryFile("w", suffix=".ngc") as file:

@@ -1,6 +1,6 @@
 //! What the machine does in a servo cycle, and what keeps it from being faster.
 
-use super::drive::{Activity, Sample};
+use super::sample::{Activity, Sample};
 use crate::path::Position;
 use crate::path::differences::Rates;
 use crate::path::rates::Quantity;
@@ -148,14 +148,12 @@ pub struct Asked {
     pub greatest_velocity: f64,
 }
 
-/// What happens in a cycle. `path_velocity` is the greatest velocity along the path; `joints` are the rates of joints that
-/// have limits of their own, with these.
+/// What happens in a cycle. `joints` are the rates of joints that have limits of their own, with these.
 pub fn classify(
     sample: &Sample,
     rates: &Rates,
     asked: Option<Asked>,
     limits: &AxisLimits,
-    path_velocity: f64,
     joints: Option<(&Rates, &AxisLimits)>,
 ) -> (Phase, Cause) {
     // At rest the planner repeats its position to the last digit.
@@ -179,7 +177,7 @@ pub fn classify(
     let strongest = cause;
     if sample.share_of_feed >= AT_FEED {
         let cause = match asked {
-            Some(asked) if path_velocity < asked.velocity => Cause::PathVelocity,
+            Some(asked) if sample.path_velocity < asked.velocity => Cause::PathVelocity,
             Some(asked) if asked.velocity < BELOW_GREATEST * asked.greatest_velocity => Cause::Feed,
             _ if reached >= REACHED_AT_FEED => strongest,
             _ => Cause::Feed,
@@ -247,12 +245,13 @@ mod tests {
             position: [0.0; 9],
             running: Some(0),
             share_of_feed,
+            path_velocity: f64::INFINITY,
             awaits_spindle: false,
             activity: Activity::Moves,
             moves_done: 0,
             distance_to_go: 0.0,
         };
-        classify(&sample, &rates, Some(asked), &LIMITS, 1e9, None)
+        classify(&sample, &rates, Some(asked), &LIMITS, None)
     }
 
     const SLOW: Asked = Asked {

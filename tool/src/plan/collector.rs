@@ -3,11 +3,12 @@
 
 use super::cause::{Asked, AxisLimits, Cause, Phase, classify};
 use super::deviation::{Deviation, Follower};
-use super::drive::{Handed, Sample};
+use super::drive::Handed;
 use super::evenness::{self, Evenness};
 use super::places::{Pace, Place, Places};
 use super::polyline::{PathPoint, Polyline};
 use super::profile::Profiles;
+use super::sample::Sample;
 use super::setup::Setup;
 use crate::layer::program::{Feeds, MotionType, Piece};
 use crate::path::Position;
@@ -281,7 +282,6 @@ impl<'a> Collector<'a> {
             &rates,
             asked,
             &self.limits,
-            self.setup.velocity_limit,
             joints.as_ref().map(|(rates, limits)| (rates, limits)),
         );
         let moves = phase != Phase::Standing;

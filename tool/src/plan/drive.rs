@@ -5,16 +5,17 @@ use super::arrivals::Arrivals;
 use super::error::{PlanError, move_refused, refusal, spindle_error, stopped, stuck};
 use super::joint_way::JointWay;
 use super::joints;
+use super::kinds::{Kind, Kinds};
 use super::lines::{Line, Lines};
+use super::sample::{Activity, Sample};
 use super::setup::Setup;
 use super::soft_limits::SoftLimits;
 use super::source::Source;
 use super::spindle::Spindle;
 use super::supply::Supply;
-use super::turn_feeds::TurnFeeds;
 use crate::canon::call::PathMode;
 use crate::layer::program::{self, Move, Operation, Piece};
-use crate::path::Position;
+use crate::machine::limits::is_rotary;
 use framepath::axes::{AXIS_COUNT, Axes, AxisLimits};
 use framepath::moves::shape::{Circle, Shape, ShapeError};
 use framepath::moves::{FeedWord, MotionType, StateTag, TerminationCondition};
@@ -39,38 +40,6 @@ const SETTLING: u64 = 1000;
 /// Travel of an axis below it counts as none, mm or degrees.
 const NO_TRAVEL: f64 = 1e-8;
 
-/// Why the machine stands, or that it moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Activity {
-    /// The planner has moves.
-    Moves,
-    /// G4.
-    Dwells,
-    /// The program waits for the end of motion, or has ended.
-    Waits,
-}
-
-/// One servo cycle.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    /// Since the program was started, s.
-    pub time: f64,
-    /// mm and degrees.
-    pub position: Position,
-    /// Number of the move that runs, from 0.
-    pub running: Option<usize>,
-    /// Speed along the path over what the move asks for; 0 where nothing runs.
-    pub share_of_feed: f64,
-    /// Whether the next move waits for the spindle: its index or its speed.
-    pub awaits_spindle: bool,
-    /// What goes on.
-    pub activity: Activity,
-    /// How many moves are behind the machine.
-    pub moves_done: u64,
-    /// What F counts until the end of the running or next move, machine units or degrees.
-    pub distance_to_go: f64,
-}
-
 /// A move on its way through the planner, with what the program says of it.
 pub struct Handed {
     pub(super) a_move: Move,
@@ -85,7 +54,9 @@ pub struct Drive<'a> {
     /// The joints on the way of moves, where they might jump.
     joint_way: Option<JointWay>,
     spindle: Spindle,
-    turn_feeds: TurnFeeds,
+    kinds: Kinds,
+    /// How far the moves to come go in a turn of the spindle, machine units; 0: they do not follow it.
+    per_turn: f64,
     inputs: CycleInputs,
     cycle: u64,
     dwell_until: Option<u64>,
@@ -149,7 +120,8 @@ impl<'a> Drive<'a> {
             soft_limits: setup.soft_limits.clone(),
             joint_way,
             spindle: Spindle::new(setup.spindle),
-            turn_feeds: TurnFeeds::default(),
+            kinds: Kinds::default(),
+            per_turn: 0.0,
             inputs: CycleInputs::default(),
             cycle: 0,
             dwell_until: None,
@@ -241,7 +213,6 @@ impl<'a> Drive<'a> {
             match operation {
                 Operation::Move(a_move) => {
                     self.add(&a_move, Arc::clone(source.file_of(&a_move)))?;
-                    self.turn_feeds.add(a_move.index);
                     self.moves += 1;
                     if let Some(until) = &mut self.hold_until {
                         *until = self.cycle + SETTLING;
@@ -276,7 +247,7 @@ impl<'a> Drive<'a> {
                     let per_turn = per_revolution / self.setup.millimetres;
                     self.planner
                         .set_spindle_synchronisation(0, per_turn, velocity_mode);
-                    self.turn_feeds.set(per_turn);
+                    self.per_turn = per_turn;
                 }
                 Operation::Spindle(command) => self.spindle.command(command),
             }
@@ -336,11 +307,15 @@ impl<'a> Drive<'a> {
     /// The line of the move stands in `file`.
     fn add(&mut self, a_move: &Move, file: Arc<Path>) -> Result<(), PlanError> {
         let length = 1.0 / self.setup.millimetres;
-        let linear = (0..AXIS_COUNT).any(|axis| {
-            !crate::machine::limits::is_rotary(axis)
-                && (a_move.end[axis] - self.program_position(axis)).abs() > NO_TRAVEL
-        });
-        let rate = if linear { length } else { 1.0 };
+        let is_rotary = self.turns_only(a_move);
+        self.kinds.add(
+            a_move.index,
+            Kind {
+                per_turn: self.per_turn,
+                is_rotary,
+            },
+        );
+        let rate = if is_rotary { 1.0 } else { length };
         let request = MoveRequest {
             motion_type: match a_move.motion_type {
                 program::MotionType::Traverse => MotionType::Traverse,
@@ -406,6 +381,13 @@ impl<'a> Drive<'a> {
             .map_err(|error| move_refused(self.lines.last(), refusal(&error)))
     }
 
+    /// Whether nothing but rotary axes moves. A full circle ends where it begins.
+    fn turns_only(&self, a_move: &Move) -> bool {
+        let travels = |axis| (a_move.end[axis] - self.program_position(axis)).abs() > NO_TRAVEL;
+        let mut linear = (0..AXIS_COUNT).filter(|axis| !is_rotary(*axis));
+        !matches!(a_move.shape, program::Shape::Arc { .. }) && !linear.any(travels)
+    }
+
     /// Where the last move that was handed over ends, mm and degrees.
     fn program_position(&self, axis: usize) -> f64 {
         self.planner.goal()[axis] / self.setup.scale(axis)
@@ -447,9 +429,9 @@ impl<'a> Drive<'a> {
         }
         let held = || self.arrivals.as_ref().map_or(Ok(false), Arrivals::hold);
         if self.cycle - self.last_change > STUCK && !held()? {
-            let per_turn = Self::runs(status).and_then(|at| self.turn_feeds.running(at));
+            let per_turn = Self::runs(status).map_or(0.0, |at| self.kinds.running(at).per_turn);
             let stands = self.spindle.speed() == 0.0;
-            return stops(stuck(status, per_turn.is_some() && stands).to_owned());
+            return stops(stuck(status, per_turn != 0.0 && stands).to_owned());
         }
         Ok(())
     }
@@ -457,12 +439,16 @@ impl<'a> Drive<'a> {
     fn sample(&mut self, status: &Status, dwells: bool) -> Sample {
         let running = Self::runs(status);
         // Where motion follows the spindle the planner counts on more, should the spindle become faster.
-        let turn_feed = running.and_then(|index| self.turn_feeds.running(index));
-        let asked = turn_feed
-            .map_or(status.requested_velocity, |per_turn| {
-                per_turn * self.spindle.speed()
-            })
-            .min(self.setup.velocity_limit / self.setup.millimetres);
+        let kind = running.map_or(Kind::default(), |index| self.kinds.running(index));
+        let path_velocity = match kind.is_rotary {
+            true => f64::INFINITY,
+            false => self.setup.velocity_limit,
+        };
+        let asked = match kind.per_turn == 0.0 {
+            true => status.requested_velocity,
+            false => kind.per_turn * self.spindle.speed(),
+        }
+        .min(path_velocity / self.setup.millimetres);
         Sample {
             time: self.cycle as f64 * self.setup.period,
             position: std::array::from_fn(|axis| status.position[axis] / self.setup.scale(axis)),
@@ -472,6 +458,7 @@ impl<'a> Drive<'a> {
             } else {
                 0.0
             },
+            path_velocity,
             awaits_spindle: status.waiting_for_spindle || status.waiting_for_index,
             moves_done: self.planner.moves_done(),
             distance_to_go: status.distance_to_go,

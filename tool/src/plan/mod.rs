@@ -2,8 +2,8 @@
 //!
 //! The files in the order of the work: [`setup`] is the machine, [`start`] where it begins, [`source`] the program as the task
 //! controller gets it, [`drive`] runs the planner in the place of task and motion controller, with its [`joints`] where these have limits, a
-//! [`spindle`] and what goes with its turns ([`turn_feeds`]), moves coming one a cycle or as recorded [`arrivals`], with their [`lines`]; [`collector`] takes in each servo
-//! cycle: [`cause`] says what limits the machine, [`places`] where time is lost, [`evenness`] how much of cutting is near the feed,
+//! [`spindle`] and what [`kinds`] of moves there are beside it, moves coming one a cycle or as recorded [`arrivals`], with their [`lines`]; [`collector`] takes in each servo
+//! cycle, a [`sample`]: [`cause`] says what limits the machine, [`places`] where time is lost, [`evenness`] how much of cutting is near the feed,
 //! [`deviation`] how far the plan is from the program, [`profile`] and [`polyline`] are for the
 //! drawings; [`figures`] holds all of it, the greatest [`speed`] and the [`distances`] among it, with [`findings`] of what is not kept; [`text`], [`page`], [`svg`] and [`csv`] show it, with a
 //! [`listing`] of the program. Nothing is kept of a cycle, so that a program may have any length.
@@ -22,6 +22,7 @@ mod figures;
 mod findings;
 mod joint_way;
 mod joints;
+mod kinds;
 mod limit;
 mod lines;
 mod listing;
@@ -30,6 +31,7 @@ mod places;
 mod polyline;
 mod profile;
 mod progress;
+mod sample;
 mod setup;
 mod soft_limits;
 mod source;
@@ -40,7 +42,6 @@ mod supply;
 mod svg;
 mod text;
 mod times;
-mod turn_feeds;
 
 pub use error::PlanError;
 

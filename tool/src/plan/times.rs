@@ -2,8 +2,8 @@
 //!
 //! Within a move rows lie where the time is not a straight line over what is left of the move.
 
-use super::drive::Sample;
 use super::error::PlanError;
+use super::sample::Sample;
 use crate::canon::CanonError;
 use crate::output::OutputFile;
 use std::fs::File;

@@ -89,6 +89,11 @@ fn a_machine_in_inches() {
     assert_eq!(figures["length_unit"], "in");
     assert!((number(&figures["path_length"]) - 8.0).abs() < 1e-9);
     assert!((number(&figures["axes"][0]["peaks"][0]["peak"]) - 4.0).abs() < 1e-3);
+    // F is of length also where an arc ends at its start, which no axis shows.
+    let circle = bench.figures_on(&inches, "G20\nF60\nG2 I1\nM2\n");
+    let time = number(&circle["time"]);
+    assert!((time - std::f64::consts::TAU).abs() < 0.1, "{time}");
+    assert!((number(&circle["greatest_speed"]["value"]) - 1.0).abs() < 0.01);
 }
 
 #[test]
@@ -293,6 +298,33 @@ fn speeds_of_rotary_axes_are_degrees() {
         text.contains("mm/s (") && !text.contains("deg/s ("),
         "{text}"
     );
+}
+
+/// [TRAJ]MAX_LINEAR_VELOCITY, in inches here: 4 in/s are no 4 degrees/s.
+#[test]
+fn the_greatest_path_velocity_is_none_of_rotary_axes() {
+    let bench = Bench::new();
+    let inches = MILL
+        .replace(
+            "LINEAR_UNITS = mm",
+            "LINEAR_UNITS = inch\nMAX_LINEAR_VELOCITY = 4",
+        )
+        .replace(
+            "COORDINATES = XYZ",
+            "COORDINATES = XYZA\nANGULAR_UNITS = degree",
+        )
+        .replace("coordinates=XYZ", "coordinates=XYZA");
+    let limits = "MAX_VELOCITY = 100\nMAX_ACCELERATION = 1000\n";
+    let ini = format!("{inches}[AXIS_A]\n{limits}MAX_JERK = 20000\n[JOINT_3]\n{limits}");
+    let seconds = |program: &str, name: &str| {
+        let figures = bench.figures_on(&ini, program);
+        time_of(&figures["limited_by"], name)
+    };
+    let turn = "G20 F3000\nG1 A90\nM2\n";
+    assert_eq!(seconds(turn, "greatest path velocity"), 0.0);
+    assert!(seconds(turn, "programmed feed") > 1.5);
+    let line = "G20\nF3000\nG1 X20\nM2\n";
+    assert!(seconds(line, "greatest path velocity") > 4.0);
 }
 
 #[test]
