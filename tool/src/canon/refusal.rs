@@ -20,10 +20,18 @@ pub const NO_FILE: &str = "File not open";
 /// What it says beside that of a remapped code.
 const NO_REMAP: &str = "INTERP_REMAP: NGC file not found: ngc=";
 
+/// As the interpreter names characters: it knows all of these that the machine has.
+const AXES: [char; 9] = ['x', 'y', 'z', 'a', 'b', 'c', 'u', 'v', 'w'];
+
 /// What is to be said behind a message, which may be nothing.
 pub fn behind(message: &str, has_ini: bool) -> &'static str {
     if message.starts_with("File ended with no percent sign") {
         return ": end it with a line M2 (or M30)";
+    }
+    if let Some(rest) = message.strip_prefix("Bad character '")
+        && rest.starts_with(AXES)
+    {
+        return ": the machine has no such axis, since [TRAJ]COORDINATES (or [KINS]KINEMATICS) does not name it";
     }
     let user_code = message.strip_prefix("Unknown m code used: M");
     let user_code = user_code.and_then(|code| code.trim().parse::<u32>().ok());

@@ -2,6 +2,7 @@
 
 use super::tool_table::Tool;
 use crate::path::Position;
+use framepath::axes::{AXIS_COUNT, AXIS_LETTERS};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +22,8 @@ pub struct Surroundings {
     pub unit: f64,
     /// Where the machine stands.
     pub start: Position,
+    /// The axes that there are, in the order of a position: words of others are refused.
+    pub axes: [bool; AXIS_COUNT],
     /// Code that runs before the program, empty for none.
     pub startup: String,
     /// All tools there are; `None`: every number is a tool without length and radius.
@@ -42,6 +45,7 @@ impl Default for Surroundings {
             parameters: None,
             unit: 1.0,
             start: [0.0; 9],
+            axes: [true; AXIS_COUNT],
             startup: String::new(),
             tools: None,
             held: 0,
@@ -84,6 +88,12 @@ impl Surroundings {
             words.collect()
         };
         let mut text = format!("UNIT {:e}\nSTART{}\n", self.unit, numbers(&self.start));
+        let axes = AXIS_LETTERS.iter().zip(self.axes);
+        let axes: String = axes
+            .filter(|(_, there)| *there)
+            .map(|(letter, _)| letter)
+            .collect();
+        text += &format!("AXES {axes}\n");
         if !self.startup.trim().is_empty() {
             text += &format!("STARTUP {}\n", self.startup.trim());
         }

@@ -275,6 +275,7 @@ fn from_ini(file: &Path, arguments: &PlanArguments) -> Result<Setup, PlanError> 
     setup.spindle = SpeedLimits::from_ini(&ini)?;
     let start = at_home(&ini, &machine, &joints, &mut setup.assumed)?;
     setup.surroundings = surroundings(&ini, file, millimetres, start, &mut setup.assumed)?;
+    setup.surroundings.axes = setup.axes;
     setup.read = files_read(&ini, file);
     setup.missing_file = missing_files(&ini).first().map(|(entry, file)| {
         format!(
@@ -410,6 +411,7 @@ fn surroundings(
         parameters: named("RS274NGC", "PARAMETER_FILE").map(|name| folder.join(name)),
         unit,
         start,
+        axes: [true; AXIS_COUNT],
         startup: named("RS274NGC", "RS274NGC_STARTUP_CODE")
             .unwrap_or_default()
             .to_owned(),

@@ -15,6 +15,9 @@ use std::time::Duration;
 /// Millimetres (degrees): travel of an axis below it counts as none.
 const NO_TRAVEL: f64 = 1e-9;
 
+/// The share of the normal of an arc from which on an axis stands normal to its plane.
+const ALONG: f64 = 1.0 - 1e-9;
+
 /// A program that is being read.
 pub struct Source<'a> {
     file: Arc<Path>,
@@ -132,14 +135,13 @@ impl<'a> Source<'a> {
                 continue;
             };
             let (start, end) = (&piece.segment.start, &piece.segment.end);
-            let turns = matches!(a_move.shape, Shape::Arc { .. });
             for axis in 0..end.len() {
-                let travels = (end[axis] - start[axis]).abs() > NO_TRAVEL;
+                let ends_elsewhere = (end[axis] - start[axis]).abs() > NO_TRAVEL;
+                let travels = ends_elsewhere || is_in_plane(&a_move.shape, axis);
                 let there = self.setup.axes[axis];
                 if travels
                     && !there
                     && let Some(ini) = &self.setup.ini
-                    && !(turns && axis < 3)
                 {
                     return Err(PlanError::NoAxis {
                         file: self.file_of(a_move).to_path_buf(),
@@ -152,6 +154,14 @@ impl<'a> Source<'a> {
         }
         Ok(())
     }
+}
+
+/// Whether an arc goes to and fro in an axis.
+fn is_in_plane(shape: &Shape, axis: usize) -> bool {
+    let Shape::Arc { normal, .. } = shape else {
+        return false;
+    };
+    normal.get(axis).is_some_and(|along| along.abs() < ALONG)
 }
 
 /// The texts, parted by commas; `None` if there are none.

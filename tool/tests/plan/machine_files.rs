@@ -206,7 +206,6 @@ fn lines_of_subroutines_are_told_with_their_file() {
             "G1 Y1000000000000000000000",
             "the planner refuses the move: ",
         ),
-        ("G1 U5", "axis U moves, which the machine does not have"),
         ("G1 X40", "joint 0 goes to 40.000, beyond"),
     ] {
         let told = told(line);
@@ -319,6 +318,45 @@ fn numbers_that_linuxcnc_does_not_take_are_refused() {
             "{error}"
         );
     }
+}
+
+/// LinuxCNC reads no word of an axis that it does not have, not even where nothing would move; and an arc needs none to move one.
+#[test]
+fn axes_that_the_machine_does_not_have_are_refused() {
+    let bench = Bench::new();
+    let lathe = MILL.replace("COORDINATES = XYZ", "COORDINATES = XZ");
+    bench.write(
+        "lathe.ini",
+        &lathe.replace("coordinates=XYZ", "coordinates=XZ"),
+    );
+    let refused = |line: &str| {
+        bench.write(
+            "part.ngc",
+            &format!("G21 F600 G17\nG1 X5\n{line}\nG1 X9\nM2\n"),
+        );
+        bench.refused(&["part.ngc", "--ini", "lathe.ini"])
+    };
+    for line in ["G1 Y0", "G1 X6 A5", "G10 L2 P1 U0"] {
+        let told = refused(line);
+        let axis = line
+            .chars()
+            .find(|c| matches!(c, 'Y' | 'A' | 'U'))
+            .expect("one");
+        let said = format!(
+            "part.ngc:3: Bad character '{}' used: the machine has no such axis",
+            axis.to_ascii_lowercase()
+        );
+        assert!(told.starts_with(&said), "{told}");
+    }
+    for line in ["G2 X7 I1", "G2 I5"] {
+        let told = refused(line);
+        assert!(
+            told.starts_with("part.ngc:3: axis Y moves, which the machine does not have"),
+            "{told}"
+        );
+    }
+    let arc = "G21 F600 G18\nG1 X5\nG2 X7 Z-2 I2\nG2 I5\nM2\n";
+    bench.figures(arc, &["--ini", "lathe.ini"]);
 }
 
 /// How long they take nobody knows here.

@@ -64,7 +64,7 @@ double GET_EXTERNAL_MOTION_CONTROL_NAIVECAM_TOLERANCE() { return now.naive_cam; 
 int GET_EXTERNAL_FLOOD() { return now.flood; }
 int GET_EXTERNAL_MIST() { return now.mist; }
 int GET_EXTERNAL_QUEUE_EMPTY() { return 1; }
-int GET_EXTERNAL_AXIS_MASK() { return (1 << AXES) - 1; }
+int GET_EXTERNAL_AXIS_MASK() { return machine.axes; }
 double GET_EXTERNAL_SPEED(int spindle) { return known(spindle) ? now.speed[spindle] : 0; }
 CANON_DIRECTION GET_EXTERNAL_SPINDLE(int spindle)
 {

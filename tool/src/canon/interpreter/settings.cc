@@ -2,6 +2,7 @@
  *
  *   UNIT mm                      length of the machine's unit
  *   START nine numbers           where the machine stands, mm and degrees
+ *   AXES letters                 the axes that there are; without it all nine
  *   STARTUP code                 runs before the program ([RS274NGC]RS274NGC_STARTUP_CODE)
  *   TABLE                        the tools that follow are all there are
  *   TOOL number pocket offset(9) diameter front back orientation     machine units
@@ -43,6 +44,12 @@ static bool read_setting(const std::string &line)
     } else if (name == "START") {
         for (double &coordinate : now.here.at)
             words >> coordinate;
+    } else if (name == "AXES") {
+        std::string letters;
+        words >> letters;
+        machine.axes = 0;
+        for (char letter : letters)
+            machine.axes |= 1 << std::string("XYZABCUVW").find(letter);
     } else if (name == "STARTUP") {
         std::getline(words >> std::ws, machine.startup);
     } else if (name == "TABLE") {

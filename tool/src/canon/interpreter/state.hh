@@ -39,6 +39,7 @@ extern Where now;
 /* What does not change while a program runs; without settings a machine in millimetres that has every tool. */
 struct Machine {
     double unit = 1;                /* mm */
+    int axes = (1 << AXES) - 1;     /* those that there are, X the lowest bit */
     std::string startup;
     bool has_table = false;
     std::vector<CANON_TOOL_TABLE> tools;
