@@ -9,7 +9,7 @@ pub const TURN: &str = "G21 G61 F6000\nG1 C180\nM2\n";
 /// 40 mm/s. A machine unit has so many mm.
 pub fn table(bench: &Bench, units: &str, millimetres: f64) {
     let mut ini = format!(
-        "[EMC]\nMACHINE = table\n[EMCMOT]\nSERVO_PERIOD = 1000000\n[TRAJ]\nLINEAR_UNITS = {units}\n[HAL]\n\
+        "[EMC]\nMACHINE = table\n[EMCMOT]\nSERVO_PERIOD = 1000000\n[TRAJ]\nLINEAR_UNITS = {units}\nANGULAR_UNITS = degree\n[HAL]\n\
          HALFILE = table.hal\n[KINS]\nKINEMATICS = framekins coordinates=XYZAC machine=xyzac\n"
     );
     let mut hal = format!(

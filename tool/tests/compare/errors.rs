@@ -148,7 +148,7 @@ fn the_conditions_are_those_of_a_machine() {
     let bench = Bench::new();
     bench.write("program.ngc", "G20 G64 P0.1 F600\nG1 X1\nM2\n");
     let ini = "[EMC]\nMACHINE = inches\n[EMCMOT]\nSERVO_PERIOD = 2000000\n[DISPLAY]\nMAX_FEED_OVERRIDE = 1.5\n\
-               [TRAJ]\nLINEAR_UNITS = inch\nMAX_LINEAR_VELOCITY = 3\n[KINS]\nKINEMATICS = trivkins coordinates=XC\n\
+               [TRAJ]\nLINEAR_UNITS = inch\nANGULAR_UNITS = degree\nMAX_LINEAR_VELOCITY = 3\n[KINS]\nKINEMATICS = trivkins coordinates=XC\n\
                [AXIS_X]\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 20\n[AXIS_C]\nMAX_VELOCITY = 90\nMAX_ACCELERATION = 900\n\
                [JOINT_0]\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 20\n[JOINT_1]\nMAX_VELOCITY = 90\n\
                MAX_ACCELERATION = 900\n";
@@ -180,7 +180,7 @@ fn the_conditions_are_those_of_a_machine() {
     bench.write("machine.ini", &lower);
     let told = String::from_utf8(bench.compare(&machine).stderr).expect("text");
     assert!(
-        told.starts_with("warning: machine.ini:14:1: [AXIS_X]MAX_ACCELERATION = 20 asks more of the joint than [JOINT_0]"),
+        told.starts_with("warning: machine.ini:15:1: [AXIS_X]MAX_ACCELERATION = 20 asks more of the joint than [JOINT_0]"),
         "{told}"
     );
     assert_near(&changed["period"], 0.001, 0.0);
