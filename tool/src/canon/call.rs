@@ -167,6 +167,8 @@ pub enum Call {
     UserCode(u32),
     /// M66 that waits for an input, or whose answer the program looks at; motion has come to its end before.
     Input(Input),
+    /// A block that begins with a slash is carried out, the first of them.
+    OptionalBlock,
     /// Ends the merging of short lines.
     Flush,
 }
@@ -263,6 +265,7 @@ impl Call {
                 number: words.number()?,
                 mode: words.number()?,
             }),
+            "SLASH" => Call::OptionalBlock,
             "FLUSH" => Call::Flush,
             _ => return None,
         };

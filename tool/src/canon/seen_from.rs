@@ -59,6 +59,7 @@ pub fn seen_from(call: Call, origin: &Position) -> Call {
         | Call::Wait
         | Call::UserCode(..)
         | Call::Input(..)
+        | Call::OptionalBlock
         | Call::Flush => call,
     }
 }

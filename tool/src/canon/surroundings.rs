@@ -26,6 +26,8 @@ pub struct Surroundings {
     pub axes: [bool; AXIS_COUNT],
     /// Code that runs before the program, empty for none.
     pub startup: String,
+    /// Whether blocks that begin with a slash are left out, as with LinuxCNC's block delete.
+    pub skip_blocks: bool,
     /// All tools there are; `None`: every number is a tool without length and radius.
     pub tools: Option<Vec<Tool>>,
     /// Number of the tool that the spindle holds at the start, 0 for none.
@@ -47,6 +49,7 @@ impl Default for Surroundings {
             start: [0.0; 9],
             axes: [true; AXIS_COUNT],
             startup: String::new(),
+            skip_blocks: false,
             tools: None,
             held: 0,
             kinematics_switch: None,
@@ -96,6 +99,9 @@ impl Surroundings {
         text += &format!("AXES {axes}\n");
         if !self.startup.trim().is_empty() {
             text += &format!("STARTUP {}\n", self.startup.trim());
+        }
+        if self.skip_blocks {
+            text += "SKIP\n";
         }
         if self.held != 0 {
             text += &format!("HELD {}\n", self.held);

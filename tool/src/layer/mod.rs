@@ -127,7 +127,7 @@ impl<'a> Layer<'a> {
             }
             Call::Wait | Call::UserCode(_) => self.wait(),
             // Motion has come to its end for it before.
-            Call::Input(_) => {}
+            Call::Input(_) | Call::OptionalBlock => {}
             Call::Flush => self.flush(),
         }
     }

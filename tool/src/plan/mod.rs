@@ -126,6 +126,9 @@ pub struct PlanArguments {
     /// blendtp.corners-inside: corners are rounded on their inner side only
     #[arg(long)]
     pub corners_inside: bool,
+    /// Leave out blocks that begin with a slash, as LinuxCNC does while block delete is on
+    #[arg(long)]
+    pub skip_blocks: bool,
     /// The longest program, bytes
     #[arg(long, value_name = "BYTES", default_value_t = 1_000_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub most_bytes: u64,

@@ -118,6 +118,10 @@ impl Setup {
             setup.default_tolerance = tolerance * setup.millimetres;
             changed.push(format!("--default-tolerance {tolerance}"));
         }
+        if arguments.skip_blocks {
+            setup.surroundings.skip_blocks = true;
+            changed.push("--skip-blocks".to_owned());
+        }
         if arguments.corners_inside {
             setup.corners_inside = true;
             changed.push("--corners-inside".to_owned());
@@ -412,6 +416,7 @@ fn surroundings(
         unit,
         start,
         axes: [true; AXIS_COUNT],
+        skip_blocks: false,
         startup: named("RS274NGC", "RS274NGC_STARTUP_CODE")
             .unwrap_or_default()
             .to_owned(),

@@ -32,6 +32,8 @@ pub struct Source<'a> {
     user_codes: BTreeSet<u32>,
     /// The inputs of the machine on which the program depends so far.
     inputs: BTreeSet<Input>,
+    /// A block that begins with a slash was carried out.
+    has_optional_blocks: bool,
 }
 
 impl<'a> Source<'a> {
@@ -58,6 +60,7 @@ impl<'a> Source<'a> {
             moves: 0,
             user_codes: BTreeSet::new(),
             inputs: BTreeSet::new(),
+            has_optional_blocks: false,
         })
     }
 
@@ -72,6 +75,7 @@ impl<'a> Source<'a> {
             match call {
                 Some(Call::UserCode(code)) => drop(self.user_codes.insert(code)),
                 Some(Call::Input(input)) => drop(self.inputs.insert(input)),
+                Some(Call::OptionalBlock) => self.has_optional_blocks = true,
                 _ => {}
             }
             let waiting = &mut self.waiting;
@@ -104,6 +108,12 @@ impl<'a> Source<'a> {
     pub(super) fn warnings(&self) -> Vec<String> {
         let file = self.file.display();
         let mut warnings = Vec::new();
+        if self.has_optional_blocks {
+            warnings.push(format!(
+                "{file}: blocks that begin with a slash are planned as if block delete were off; it is on when LinuxCNC starts, until \
+                 a screen switches it off: --skip-blocks leaves them out"
+            ));
+        }
         if let Some(codes) = listed(self.user_codes.iter().map(|code| format!("M{code}"))) {
             warnings.push(format!(
                 "{file}: what the programs of the machine do that it calls ({codes}) is not known here: they count as 0 s"

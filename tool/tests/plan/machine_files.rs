@@ -320,6 +320,22 @@ fn numbers_that_linuxcnc_does_not_take_are_refused() {
     }
 }
 
+/// Whether they run the operator decides.
+#[test]
+fn blocks_with_a_slash_are_told_or_left_out() {
+    let bench = Bench::new();
+    let program = "G21 F6000\nG1 X1\n / G1 X5\nG1 X2\nM2\n";
+    let greatest = |options: &[&str]| number(&bench.figures(program, options)["axes"][0]["to"]);
+    assert!((greatest(&[]) - 5.0).abs() < 1e-3);
+    assert!((greatest(&["--skip-blocks"]) - 2.0).abs() < 1e-3);
+    let told = |options: &[&str]| {
+        let output = bench.plan(&[&["part.ngc"], options].concat());
+        String::from_utf8(output.stderr).expect("text")
+    };
+    assert!(told(&[]).contains("part.ngc: blocks that begin with a slash are planned"));
+    assert_eq!(told(&["--skip-blocks"]), "");
+}
+
 /// LinuxCNC reads no word of an axis that it does not have, not even where nothing would move; and an arc needs none to move one.
 #[test]
 fn axes_that_the_machine_does_not_have_are_refused() {

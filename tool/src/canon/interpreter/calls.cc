@@ -19,6 +19,7 @@
  *   DWELL seconds                WAIT (motion comes to its end)     FLUSH (ends the merging of short lines)
  *   USER number                  a program of the machine, M100 to M199, when motion has come to its end
  *   INPUT analog number mode     M66 with a mode (L) that waits, or whose answer the program looks at
+ *   SLASH                        once, where a block that begins with a slash is carried out
  *   END (the program came to its end)
  *
  * What the interpreter asks for is in answers.cc; M66 in inputs.cc.

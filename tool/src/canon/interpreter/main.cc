@@ -179,6 +179,17 @@ static int unsupported(InterpBase &interpreter, const char *what, std::string pl
     return print_refusal(interpreter, program_line, place + what + " is not supported here");
 }
 
+/* Tells once that a block is carried out which an operator may have left out. */
+static void note_slash(const std::string &line)
+{
+    static bool told;
+    size_t first = line.find_first_not_of(" \t");
+    if (told || now.block_delete || first == std::string::npos || line[first] != '/')
+        return;
+    fputs("SLASH\n", output);
+    told = true;
+}
+
 static int interpret(InterpBase &interpreter, const char *file)
 {
     program = file;
@@ -213,6 +224,7 @@ static int interpret(InterpBase &interpreter, const char *file)
         file = subroutine_file(interpreter);
         place_carried_out = file.empty() ? "" : file + ", line " + std::to_string(interpreter.sequence_number()) + ": ";
         look_for_answer(line_carried_out.c_str());
+        note_slash(line_carried_out);
         if (sends_frame(interpreter))
             return unsupported(interpreter, sent_by_tool_centre ? tool_centre : "a programmed frame (framekins)");
         if (status == INTERP_OK)

@@ -4,6 +4,7 @@
  *   START nine numbers           where the machine stands, mm and degrees
  *   AXES letters                 the axes that there are; without it all nine
  *   STARTUP code                 runs before the program ([RS274NGC]RS274NGC_STARTUP_CODE)
+ *   SKIP                         blocks that begin with a slash are left out
  *   TABLE                        the tools that follow are all there are
  *   TOOL number pocket offset(9) diameter front back orientation     machine units
  *   SWITCH output type           the analog output that switches the kinematics, and the type for which moves are supported,
@@ -52,6 +53,8 @@ static bool read_setting(const std::string &line)
             machine.axes |= 1 << std::string("XYZABCUVW").find(letter);
     } else if (name == "STARTUP") {
         std::getline(words >> std::ws, machine.startup);
+    } else if (name == "SKIP") {
+        now.block_delete = true;
     } else if (name == "TABLE") {
         machine.has_table = true;
         /* Behind the index 0 is what the spindle holds. */
