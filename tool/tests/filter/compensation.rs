@@ -209,3 +209,38 @@ fn stops_are_refused() {
         written("fanuc", "", &format!("Y20.\n{beside}\nX20."));
     }
 }
+
+/// Nothing is beside a contour until the first motion in the plane, with which G41 is written.
+#[test]
+fn stops_before_the_first_motion_in_the_plane_are_kept() {
+    for (dialect, begin, stop, kept) in [
+        ("sinumerik", "G41", "M1", "M1"),
+        ("sinumerik", "G41", "M0", "M0"),
+        ("fanuc", "G41 D1", "M01", "M1"),
+        ("fanuc", "G41 D1", "G1 Z5. F100. M0", "M0"),
+        ("fanuc", "G41 D1", "#3006=1(TURN)", "M0"),
+        ("fagor", "G41", "M1", "M1"),
+        ("isg", "G41", "M0", "M0"),
+    ] {
+        let text = program(dialect, &format!("{begin}\n{stop}"), "X20.");
+        let shop = Shop::new(&[("part", text.as_bytes())]);
+        let output = accepted(&shop.run_in(dialect, "part", &["--backend", "program"]));
+        rs274::interpret(&shop.path(""), "T1 P1 Z0.4 D0.2\n", &output);
+        let lines = commands(&output);
+        let at = |word: &str| lines.iter().position(|line| line.contains(word));
+        assert!(at(kept) < at("G41") && at(kept).is_some(), "{output}");
+    }
+    // Behind G40 and G41 again, as at first; behind a contour that has begun not.
+    for (dialect, before, stop) in [
+        ("fanuc", "G41 D1\nG1 X-10. Y0.\nG40 X-20.\nG41 D1 M1", ""),
+        ("fanuc", "G41 D1\nM1\nG1 X-10. Y0.", "M1"),
+    ] {
+        let text = program(dialect, before, stop);
+        let shop = Shop::new(&[("part", text.as_bytes())]);
+        let output = shop.run_in(dialect, "part", &[]);
+        match stop.is_empty() {
+            true => assert!(accepted(&output).contains("M1")),
+            false => assert!(refused(&output).contains("M1 while cutter compensation is on")),
+        }
+    }
+}

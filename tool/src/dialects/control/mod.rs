@@ -100,6 +100,8 @@ pub struct Control<'a> {
     contour_ends: ContourEnds,
     contour_entries: ContourEntries,
     end_of_compensation: EndOfCompensation,
+    /// Whether a motion in the plane has stood behind G41 or G42, in a block that is finished.
+    on_contour: bool,
     finished: usize,
     running: Vec<String>,
     blocks_run: usize,
@@ -134,6 +136,7 @@ impl<'a> Control<'a> {
             contour_ends: ContourEnds::default(),
             contour_entries: ContourEntries::default(),
             end_of_compensation: EndOfCompensation::default(),
+            on_contour: false,
             finished: 0,
             running: Vec::new(),
             blocks_run: 0,
@@ -218,6 +221,7 @@ impl<'a> Control<'a> {
 
     /// Puts the collected actions into the program, with the place of the block.
     pub fn finish_block(&mut self, place: &Place) {
+        self.on_contour = self.is_on_contour();
         let mut actions = std::mem::take(&mut self.actions);
         self.states.clear();
         self.take_functions();
@@ -241,6 +245,17 @@ impl<'a> Control<'a> {
             comment: place.comment.clone(),
             frame_text,
         });
+    }
+
+    /// Whether LinuxCNC leads the tool beside a contour: where nothing has moved in the plane since G41 or G42,
+    /// [`ContourEntries`] still holds them back.
+    fn is_on_contour(&self) -> bool {
+        let leads = |action: &Action| match action {
+            Action::Move(motion) => motion.leads_in_plane(self.modal.plane),
+            _ => false,
+        };
+        self.modal.compensation != Compensation::Off
+            && (self.on_contour || self.actions.iter().any(leads))
     }
 
     /// What the blocks that follow do is kept, and not a part of the program.

@@ -285,9 +285,9 @@ impl Control<'_> {
     ///
     /// # Errors
     ///
-    /// Under cutter compensation.
+    /// Under cutter compensation, from the way onto the contour on.
     pub fn pause(&mut self, optional: bool, span: Span, what: &str) -> Done {
-        if self.modal.compensation != Compensation::Off {
+        if self.is_on_contour() {
             return Err(Diagnostic::error(
                 span,
                 format!(
