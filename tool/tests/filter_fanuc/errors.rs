@@ -47,14 +47,7 @@ fn words_and_blocks() {
         ("G1 X1.\nM30\n", "1:4", "no F is in force"),
         ("M77\nM30\n", "1:1", "M77 is not defined"),
         ("M198 P5\nM30\n", "1:1", "write M98 P and its number"),
-        (
-            "M97 P100\nM30\n",
-            "1:1",
-            "call it with M98 P and that number",
-        ),
         ("G4\nM30\n", "1:1", "G4 needs one time"),
-        ("G4 P.5\nM30\n", "1:4", "thousandths of a second"),
-        ("G4 P5.\nM30\n", "1:4", "thousandths of a second"),
         ("#1=2.5\nG4 P#1\nM30\n", "2:4", "thousandths of a second"),
         ("EN1\nM30\n", "1:2", "the name END with all its letters"),
         ("GO 10\nM30\n", "1:2", "the name GOTO with all its letters"),
@@ -347,8 +340,8 @@ fn offsets_frames_and_cycles() {
             "needs Q above 0",
         ),
         (
-            "G0 Z5.\nG82 X1. Z-5. R2. P.5 F1.\nM30\n",
-            "2:18",
+            "#1=.5\nG0 Z5.\nG82 X1. Z-5. R2. P#1 F1.\nM30\n",
+            "3:18",
             "thousandths of a second",
         ),
         (

@@ -5,6 +5,7 @@ mod errors;
 mod frames;
 #[path = "../filter/front_end.rs"]
 mod front_end;
+mod haas;
 mod language;
 mod lathe;
 mod moves;

@@ -30,6 +30,8 @@ pub struct BlockWords {
     pub q: Option<At<f64>>,
     /// L.
     pub l: Option<At<f64>>,
+    /// E.
+    pub rounding: Option<At<f64>>,
     /// F.
     pub feed: Option<At<f64>>,
     /// S.
@@ -48,7 +50,7 @@ pub struct BlockWords {
 }
 
 /// The addresses of lengths and angles.
-const LENGTHS: &str = "XYZABCUVWIJKQR";
+const LENGTHS: &str = "XYZABCUVWEIJKQR";
 
 /// What stands for the addresses ,R and ,C.
 pub const CORNER: char = ',';
@@ -131,6 +133,7 @@ impl BlockWords {
             }
             'Q' => set(&mut self.q, value, span, letter),
             'L' => set(&mut self.l, value, span, letter),
+            'E' => set(&mut self.rounding, value, span, letter),
             'F' => set(&mut self.feed, value, span, letter),
             'S' => set(&mut self.speed, value, span, letter),
             'T' => set(&mut self.tool, (value, word.pointless), span, letter),
@@ -141,11 +144,7 @@ impl BlockWords {
                 "the block number stands at the beginning of the block",
             )
             .help("write N10 G1 X10.")),
-            _ => Err(
-                Diagnostic::error(span, format!("the address {letter} is not supported")).help(
-                    "axes are X Y Z A B C U V W; a program begins with O on a line of its own",
-                ),
-            ),
+            _ => Err(unknown_address(letter, span)),
         }
     }
 
@@ -154,6 +153,8 @@ impl BlockWords {
     pub fn forget_counts(&mut self, in_cycle: bool) {
         let look_ahead = self.has_g(50) || self.has_g(51) || self.has_g(80);
         let order = self.has_g(682);
+        // L counts the holes of a circle, whose K is an angle.
+        let in_cycle = in_cycle && !self.has_g(710);
         self.pointless.retain(|(letter, _)| match letter {
             'K' => !in_cycle,
             'Q' => !look_ahead && !order,
@@ -165,11 +166,13 @@ impl BlockWords {
     /// Numbers without a point as counts of `length` and `angle`, the least increments of the control.
     pub fn count_increments(&mut self, length: f64, angle: f64) {
         let angles = self.has_g(680) || self.has_g(682) || self.has_g(510);
+        let on_circle = self.has_g(700) || self.has_g(710);
         let dwell = self.has_g(40);
         for (letter, _) in &self.pointless {
             let step = match letter {
                 'A' | 'B' | 'C' => angle,
                 'I' | 'J' | 'K' | 'R' if angles => angle,
+                'J' | 'K' if on_circle => angle,
                 // Thousandths of a second.
                 'X' | 'U' if dwell => angle,
                 _ => length,
@@ -183,6 +186,7 @@ impl BlockWords {
             let place = match (axis, centre, letter) {
                 (Some(axis), _, _) => &mut self.axes[axis],
                 (_, Some(axis), _) => &mut self.centre[axis],
+                (_, _, 'E') => &mut self.rounding,
                 (_, _, 'R') => &mut self.radius,
                 _ => &mut self.q,
             };
@@ -193,7 +197,8 @@ impl BlockWords {
         self.pointless.clear();
     }
 
-    /// P as a time in seconds: thousandths of a second without a point, or a whole number that was worked out.
+    /// P as a time in seconds: thousandths of a second without a point, or a whole number that was worked out; with a
+    /// point it counts seconds, see [`BlockWords::dwells_in_seconds`].
     pub fn take_dwell(&mut self) -> Result<Option<f64>, Diagnostic> {
         let worked_out = self.p_is_worked_out;
         match self.p.take() {
@@ -204,12 +209,23 @@ impl BlockWords {
             }) if value >= 0.0 && (digits.is_some() || worked_out && value.fract() == 0.0) => {
                 Ok(Some(value / 1000.0))
             }
+            Some(At {
+                value: (value, None),
+                ..
+            }) if value >= 0.0 && !worked_out => Ok(Some(value)),
             Some(At { span, .. }) => Err(Diagnostic::error(
                 span,
                 "P is a whole number of thousandths of a second, without a point",
             )
             .help("write P500 for half a second")),
         }
+    }
+
+    /// Where P stands, if it is a time with a decimal point. Controls that take one count seconds there. (Haas
+    /// Automation, Mill Operator's Manual, "G04 Dwell".)
+    pub fn dwells_in_seconds(&self) -> Option<Span> {
+        let p = self.p.filter(|p| p.value.1.is_none());
+        p.filter(|_| !self.p_is_worked_out).map(|p| p.span)
     }
 
     /// Whether this G function, times ten, is in the block.
@@ -225,6 +241,9 @@ impl BlockWords {
 
     /// Refuses what nothing has used.
     pub fn refuse_rest(&self) -> Done {
+        if let Some(word) = self.rounding {
+            return Err(unknown_address('E', word.span));
+        }
         let single = [
             ("P", self.p.map(|word| word.span)),
             ("Q", self.q.map(|word| word.span)),
@@ -247,6 +266,11 @@ impl BlockWords {
             .help("take it out, or put it beside the function that it belongs to")),
         }
     }
+}
+
+fn unknown_address(letter: char, span: Span) -> Diagnostic {
+    Diagnostic::error(span, format!("the address {letter} is not supported"))
+        .help("axes are X Y Z A B C U V W; a program begins with O on a line of its own")
 }
 
 fn is_worked_out(value: &Expression) -> bool {

@@ -1,4 +1,4 @@
-//! Subprograms (M98, M99) and macros (G65, G66, G67).
+//! Subprograms (M97, M98, M99) and macros (G65, G66, G67).
 
 use super::arguments::locals;
 use super::block_words::BlockWords;
@@ -27,7 +27,10 @@ const DIGITS: u32 = 4;
 /// What is called, and how often.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Call {
+    /// That of a program, or with `local` of a block of this one.
     number: u32,
+    /// M97 of Haas controls.
+    local: bool,
     passes: u32,
     span: Span,
 }
@@ -113,6 +116,7 @@ impl Interpreter<'_> {
         };
         let target = Call {
             number: program_number(program)?,
+            local: false,
             passes: passes.map_or(Ok(1), whole_passes)?,
             span: call.span,
         };
@@ -168,7 +172,7 @@ impl Interpreter<'_> {
         })
     }
 
-    /// M98.
+    /// M97 and M98.
     pub(super) fn subprogram(
         &mut self,
         call: Call,
@@ -189,27 +193,26 @@ impl Interpreter<'_> {
         at: usize,
         block: &Block,
     ) -> Result<(Next, Locals), Diagnostic> {
-        let routine = self.routine(call.number, call.span)?;
+        let (routine, first, name) = self.callee(call, caller, at)?;
         self.control
-            .check_call(&routine.name, call.passes, call.span, &RULES)?;
+            .check_call(&name, call.passes, call.span, &RULES)?;
         let place = &block.place;
         let mut end = Next::Block(at + 1);
         let mut left = Locals::new();
         for pass in 1..=call.passes {
             let passes = [pass, call.passes];
-            self.control
-                .enter(&routine.name, routine.file, passes, place);
+            self.control.enter(&name, routine.file, passes, place);
             if let Some(locals) = &locals {
                 self.variables.enter(locals.clone());
             }
-            end = self.run_routine(&routine);
+            end = self.run_routine(&routine, first);
             if let Next::Block(_) = end {
                 self.end_is_missing(&routine);
             }
             if locals.is_some() {
                 left = self.variables.leave();
             }
-            self.control.leave(&routine.name, place);
+            self.control.leave(&name, place);
             if !matches!(end, Next::Block(_) | Next::Return) {
                 return Ok((end, left));
             }
@@ -218,10 +221,27 @@ impl Interpreter<'_> {
             }
         }
         let next = match (end, self.return_to.take()) {
-            (_, Some((label, span))) => self.go_to_label(label, span, caller, at)?,
+            (_, Some((label, span))) => Next::Block(self.label(label, span, caller, at)?),
             _ => Next::Block(at + 1),
         };
         Ok((next, left))
+    }
+
+    /// The program that a call leads to, the first of its blocks that runs, and the name of both.
+    fn callee(
+        &mut self,
+        call: Call,
+        caller: &Rc<Routine>,
+        at: usize,
+    ) -> Result<(Rc<Routine>, usize, String), Diagnostic> {
+        if !call.local {
+            let routine = self.routine(call.number, call.span)?;
+            let name = routine.name.clone();
+            return Ok((routine, 0, name));
+        }
+        let name = format!("N{} of {}", call.number, caller.name);
+        let first = self.label(call.number, call.span, caller, at)?;
+        Ok((caller.clone(), first, name))
     }
 
     /// A program by its number: in this file, or in one that has the number for its name.
@@ -291,8 +311,34 @@ impl Interpreter<'_> {
         };
         Ok(Outcome::Call(Call {
             number,
+            local: false,
             passes,
             span,
+        }))
+    }
+
+    /// `M97 P100 L3`: the blocks of this program from N100 to M99. (Haas Automation, Mill Operator's Manual, "M97 Local
+    /// Sub-Program Call".)
+    pub(super) fn m97(
+        &mut self,
+        words: &mut BlockWords,
+        span: Span,
+    ) -> Result<Outcome, Diagnostic> {
+        let Some(At {
+            value: (value, _),
+            span: at,
+        }) = words.p.take()
+        else {
+            return Err(
+                Diagnostic::error(span, "the number of the block is missing")
+                    .help("write M97 P100 for the blocks from N100 to M99"),
+            );
+        };
+        Ok(Outcome::Call(Call {
+            number: block_number(At { value, span: at })?,
+            local: true,
+            passes: words.l.take().map_or(Ok(1), whole_passes)?,
+            span: at,
         }))
     }
 
@@ -312,20 +358,23 @@ impl Interpreter<'_> {
         self.return_to = match words.p.take() {
             None => None,
             Some(At {
-                value: (label, _),
+                value: (value, _),
                 span,
-            }) => {
-                if label.fract() != 0.0 || !(0.0..=99_999_999.0).contains(&label) {
-                    return Err(Diagnostic::error(
-                        span,
-                        format!("{label} is not the number of a block"),
-                    ));
-                }
-                Some((label as u32, span))
-            }
+            }) => Some((block_number(At { value, span })?, span)),
         };
         Ok(Outcome::Return)
     }
+}
+
+/// The number of a block, to which a jump or a call leads.
+pub(super) fn block_number(word: At<f64>) -> Result<u32, Diagnostic> {
+    if word.value.fract() == 0.0 && (0.0..=99_999_999.0).contains(&word.value) {
+        return Ok(word.value as u32);
+    }
+    Err(Diagnostic::error(
+        word.span,
+        format!("{} is not the number of a block", word.value),
+    ))
 }
 
 fn program_number(word: At<f64>) -> Result<u32, Diagnostic> {

@@ -133,7 +133,7 @@ impl Interpreter<'_> {
         cycle.return_level = words.radius.take().map(level).or(cycle.return_level);
         cycle.step = words.q.take().or(cycle.step);
         let dwell_at = words.p.map(|word| word.span);
-        if let Some(dwell) = words.take_dwell()? {
+        if let Some(dwell) = self.take_dwell(words)? {
             cycle.dwell = dwell;
             cycle.dwell_at = dwell_at;
             cycle.own_dwell = true;
@@ -169,7 +169,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    fn run_cycle_at(&mut self, motion: &MotionWords, times: u32, block: Span) -> Done {
+    /// `times` holes at a place.
+    pub(super) fn run_cycle_at(&mut self, motion: &MotionWords, times: u32, block: Span) -> Done {
         // K0 keeps the data of the cycle and does nothing.
         if times == 0 {
             return self.skip_place(motion, block);

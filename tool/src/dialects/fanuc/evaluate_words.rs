@@ -48,6 +48,7 @@ impl Interpreter<'_> {
         self.tool_offsets(&mut words, once.length, once.compensation)?;
         self.control.apply_states(compensated);
         let called = match end {
+            Some(At { value: 97, span }) => Some(self.m97(&mut words, span)?),
             Some(At { value: 98, span }) => Some(self.m98(&mut words, span)?),
             Some(At { value: 99, span }) => Some(self.m99(&mut words, span)?),
             _ => None,
@@ -92,12 +93,6 @@ impl Interpreter<'_> {
                 }
                 29 => self.rigid = true,
                 48 | 49 => self.control.overrides(m.value == 48, m.span)?,
-                97 if !self.control.settings.passed_m.contains(&97) => {
-                    return Err(Diagnostic::error(m.span, "M97 is not supported").help(
-                        "it calls lines of the same program by their number: make a program of them, from O and \
-                         a number to M99, and call it with M98 P and that number",
-                    ));
-                }
                 198 if !self.control.settings.passed_m.contains(&198) => {
                     return Err(Diagnostic::error(m.span, "M198 is not supported").help(
                         "it calls a subprogram from outside of the memory: write M98 P and its number, and give its folder \
@@ -107,18 +102,17 @@ impl Interpreter<'_> {
                 _ => others.push(*m),
             }
         }
-        let ends: Vec<At<u32>> = others
-            .iter()
-            .copied()
-            .filter(|m| matches!(m.value, 2 | 30 | 98 | 99))
-            .collect();
+        let passed = self.control.settings.passed_m.contains(&97);
+        let leaves = |m: u32| matches!(m, 2 | 30 | 98 | 99) || m == 97 && !passed;
+        let ends: Vec<At<u32>> = others.iter().copied().filter(|m| leaves(m.value)).collect();
         if let [first, second, ..] = ends[..] {
             return Err(Diagnostic::error(
                 second.span,
                 format!("M{} and M{} exclude each other", first.value, second.value),
             ));
         }
-        self.control.m_functions(&others, &[2, 30, 98, 99])?;
+        others.retain(|m| !leaves(m.value));
+        self.control.m_functions(&others, &[])?;
         Ok(ends.first().copied())
     }
 
@@ -179,6 +173,7 @@ impl Interpreter<'_> {
         match code {
             40 => return self.dwell(words, span),
             531 => return self.tool_normal(words, span),
+            700 | 710 => return self.hole_circle(words, g, block),
             _ => {}
         }
         if self.cycle.is_some() {
@@ -188,6 +183,7 @@ impl Interpreter<'_> {
             );
         }
         match code {
+            120 | 130 => self.circular_pocket(words, g, block),
             280 | 300 => self.home(words, g),
             530 => self.machine_coordinates(words, span),
             _ => self.shift(words, g, block),
@@ -205,7 +201,7 @@ impl Interpreter<'_> {
         let given = [
             words.axes[0].take().map(|word| word.value),
             words.axes[6].take().map(|word| word.value),
-            words.take_dwell()?,
+            self.take_dwell(words)?,
         ];
         let mut given = given.into_iter().flatten();
         match (given.next(), given.next()) {
@@ -213,6 +209,15 @@ impl Interpreter<'_> {
             _ => Err(Diagnostic::error(span, "G4 needs one time")
                 .help("write G4 X1.5, or G4 P1500, for 1.5 seconds")),
         }
+    }
+
+    /// P as a time in seconds; says once that it counts them where it has a point.
+    pub(super) fn take_dwell(&mut self, words: &mut BlockWords) -> Result<Option<f64>, Diagnostic> {
+        if let Some(span) = words.dwells_in_seconds() {
+            let message = "P of a dwell with a decimal point counts seconds, as on the controls that take one";
+            self.control.note_once("P", message, span);
+        }
+        words.take_dwell()
     }
 
     /// The words of a motion, taken out of the block.

@@ -1,10 +1,12 @@
 //! Which block comes next: jumps, conditions and loops.
 
+use super::calls::block_number;
 use super::interpreter::Interpreter;
 use super::routine::Routine;
 use super::syntax::{Block, Jump, Statement, Then};
 use super::values::number;
 use crate::diagnostics::Diagnostic;
+use crate::dialects::control::words::At;
 use crate::dialects::run::Next;
 use crate::source::Span;
 
@@ -46,24 +48,21 @@ impl Interpreter<'_> {
     }
 
     fn jump(&mut self, jump: &Jump, routine: &Routine, at: usize) -> Result<Next, Diagnostic> {
-        let label = number(&jump.number, self)?;
-        if label.fract() != 0.0 || !(0.0..=99_999_999.0).contains(&label) {
-            return Err(Diagnostic::error(
-                jump.span,
-                format!("{label} is not the number of a block"),
-            ));
-        }
-        self.go_to_label(label as u32, jump.span, routine, at)
+        let label = block_number(At {
+            value: number(&jump.number, self)?,
+            span: jump.span,
+        })?;
+        self.label(label, jump.span, routine, at).map(Next::Block)
     }
 
-    /// To the block with this number.
-    pub(super) fn go_to_label(
+    /// The block with this number, to which a jump or a call of this program leads.
+    pub(super) fn label(
         &mut self,
         label: u32,
         span: Span,
         routine: &Routine,
         at: usize,
-    ) -> Result<Next, Diagnostic> {
+    ) -> Result<usize, Diagnostic> {
         let (sources, diagnostics) = (&*self.control.sources, &mut *self.control.diagnostics);
         let Some(target) = routine.label(label, at, sources, diagnostics) else {
             return Err(Diagnostic::error(
@@ -79,6 +78,6 @@ impl Interpreter<'_> {
             )
             .help("jump to the block with WHILE or DO"));
         }
-        Ok(Next::Block(target))
+        Ok(target)
     }
 }

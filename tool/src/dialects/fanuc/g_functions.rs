@@ -71,9 +71,17 @@ impl Interpreter<'_> {
                 once.motion = Some(span);
                 1
             }
-            40 | 280 | 300 | 510 | 511 | 501 | 520 | 530 | 531 | 680 | 682 | 920 => {
+            40 | 120 | 130 | 280 | 300 | 510 | 511 | 501 | 520 | 530 | 531 | 680 | 682 | 920 => {
                 once.place = Some(at);
                 PLACES
+            }
+            700 | 710 if self.cycle.is_some() => {
+                once.place = Some(at);
+                PLACES
+            }
+            1870 => {
+                self.smoothness(words, span)?;
+                103
             }
             50 | 51 | 80 => {
                 self.look_ahead(code, span, words)?;
@@ -133,7 +141,7 @@ impl Interpreter<'_> {
                 14
             }
             610 => {
-                self.control.path_control(PathControl::ExactStop, span)?;
+                self.path_mode(PathControl::ExactStop, span)?;
                 15
             }
             620 => {
@@ -141,7 +149,8 @@ impl Interpreter<'_> {
                 15
             }
             640 => {
-                self.control.continuous_path(None, span)?;
+                let tolerance = self.control.settings.tolerance;
+                self.path_mode(PathControl::Continuous { tolerance }, span)?;
                 15
             }
             670 => {
@@ -323,7 +332,16 @@ fn unsupported(code: u32, span: Span) -> Diagnostic {
             "turning a tool to the path is not supported: post the moves of the rotary axis"
         }
         683 | 684 => "write G68.2 with the angles of the plane",
-        320 | 700 | 710 | 720 | 750 => {
+        700 | 710 => {
+            "to lathes it is a cycle, and programs of lathes of this control are not translated; holes on a circle \
+             (Haas) need a canned cycle before: G81 Z-5. R2. F100. L0"
+        }
+        720 => {
+            "to lathes it is a cycle, and programs of lathes of this control are not translated; of holes in a line \
+             (Haas) write the places, each in a block of its own"
+        }
+        1500 => "post the pocket as moves: G150 takes its contour from a subprogram",
+        320 | 750 => {
             "to lathes it is a cycle or a thread, and programs of lathes of this control are not translated; \
              where it calls a macro, write G65 P and its number"
         }

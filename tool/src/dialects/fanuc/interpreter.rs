@@ -6,6 +6,7 @@ use super::cycles::{Cycle, is_cycle};
 use super::lathe::ToolCalls;
 use super::routine::Routine;
 use super::skipped_places::SkippedAxes;
+use super::smoothness::Smoothness;
 use super::syntax::{Assignment, Block, Statement, Word};
 use super::tool_offsets::ToolOffsets;
 use super::transforms::Transforms;
@@ -30,6 +31,8 @@ pub struct Interpreter<'a> {
     pub(super) offsets: ToolOffsets,
     pub(super) cycle: Option<Cycle>,
     pub(super) skipped: SkippedAxes,
+    /// G187.
+    pub(super) smoothness: Smoothness,
     /// G99.
     pub(super) to_return_level: bool,
     /// M29: taps follow the spindle.
@@ -69,6 +72,7 @@ impl<'a> Interpreter<'a> {
             offsets: ToolOffsets::default(),
             cycle: None,
             skipped: SkippedAxes::default(),
+            smoothness: Smoothness::default(),
             to_return_level: false,
             rigid: false,
             surface_speed: false,
@@ -84,9 +88,9 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs a routine from its first block.
-    pub(super) fn run_routine(&mut self, routine: &Rc<Routine>) -> Next {
-        let mut at = 0;
+    /// Runs a routine from one of its blocks on.
+    pub(super) fn run_routine(&mut self, routine: &Rc<Routine>, first: usize) -> Next {
+        let mut at = first;
         loop {
             let block = match reach(self, &routine.blocks, &mut at, routine.blocks.len()) {
                 Reached::Block(block) => block,
@@ -293,7 +297,7 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
     }
 
     fn run_main(&mut self, main: &Rc<Routine>) -> bool {
-        let end = self.run_routine(main);
+        let end = self.run_routine(main, 0);
         if end != Next::Abort {
             self.check_tool_calls();
         }

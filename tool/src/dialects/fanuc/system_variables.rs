@@ -108,7 +108,8 @@ impl Interpreter<'_> {
                 }
                 self.control.pause(false, span, "#3006")
             }
-            3003 | 3004 => {
+            // The clock of milliseconds, that of hours, and what the operator may switch.
+            3001..=3004 => {
                 self.control.note(&format!("#{number}"), span);
                 Ok(())
             }
