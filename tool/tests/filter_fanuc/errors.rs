@@ -66,7 +66,7 @@ fn words_and_blocks() {
 #[test]
 fn functions_that_are_not_supported() {
     for code in [
-        "G7.1", "G10", "G12.1", "G16", "G22", "G27", "G29", "G31", "G33", "G37", "G45", "G40.2",
+        "G7.1", "G10.1", "G12.1", "G22", "G27", "G29", "G31", "G33", "G37", "G45", "G40.2",
         "G41.1", "G51.2", "G53.2", "G53.6", "G60", "G63", "G68.3", "G68.4", "G77", "G81.1", "G87",
         "G88", "G92.1", "G43.4", "G44", "G100",
     ] {
@@ -76,6 +76,11 @@ fn functions_that_are_not_supported() {
             &format!("{code} is not supported"),
         );
     }
+    one_error(
+        "G10\nM30\n",
+        "1:1",
+        "G10 is not supported without L2 or L20",
+    );
     one_error("G31 Z-5.\nM30\n", "1:1", "measure at the machine");
     one_error("G30 P2 X0\nM30\n", "1:1", "second reference position");
     one_error("G66.1 P1\nM30\n", "1:1", "G66.1 is not supported");

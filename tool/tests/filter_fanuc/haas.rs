@@ -193,6 +193,14 @@ fn what_is_not_known_of_them_is_refused() {
     );
 }
 
+#[test]
+fn further_work_offsets_have_a_number_of_their_own() {
+    pair("G154 P2\nX0 Y0\nG103 P1\nG103", "G59.2\nX0 Y0");
+    let program = "O1\nG154 P9\nM30\n";
+    let shown = Shop::with(Dialect::Fanuc, program).refused(&[]);
+    assert_one_error(&shown, program, "part.nc:2:6", "no work offset for P9");
+}
+
 /// Times are counted while a program runs: that they begin again changes nothing where they are not read.
 #[test]
 fn clocks_may_be_set() {

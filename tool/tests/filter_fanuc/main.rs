@@ -12,6 +12,7 @@ mod moves;
 #[path = "../filter/one_error.rs"]
 mod one_error;
 mod path;
+mod polar;
 mod random;
 mod robustness;
 #[path = "../filter/rs274.rs"]

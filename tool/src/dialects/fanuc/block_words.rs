@@ -163,8 +163,9 @@ impl BlockWords {
         });
     }
 
-    /// Numbers without a point as counts of `length` and `angle`, the least increments of the control.
-    pub fn count_increments(&mut self, length: f64, angle: f64) {
+    /// Numbers without a point as counts of `length` and `angle`, the least increments of the control. `polar`: Y is an
+    /// angle.
+    pub fn count_increments(&mut self, length: f64, angle: f64, polar: bool) {
         let angles = self.has_g(680) || self.has_g(682) || self.has_g(510);
         let on_circle = self.has_g(700) || self.has_g(710);
         let dwell = self.has_g(40);
@@ -173,6 +174,7 @@ impl BlockWords {
                 'A' | 'B' | 'C' => angle,
                 'I' | 'J' | 'K' | 'R' if angles => angle,
                 'J' | 'K' if on_circle => angle,
+                'Y' if polar => angle,
                 // Thousandths of a second.
                 'X' | 'U' if dwell => angle,
                 _ => length,

@@ -153,7 +153,16 @@ impl Interpreter<'_> {
         }
         let times = times.map_or(1, |times| times.value);
         let motion = self.motion_words(words);
-        self.run_cycle_at(&motion, times, block)
+        if self.polar.is_none() {
+            return self.run_cycle_at(&motion, times, block);
+        }
+        // An increment of the angle leads elsewhere each time.
+        for _ in 0..times.max(1) {
+            let mut place = motion;
+            self.resolve_polar(&mut place, block)?;
+            self.run_cycle_at(&place, times.min(1), block)?;
+        }
+        Ok(())
     }
 
     /// I and J of fine boring (G76), and the first and second axis of its plane.

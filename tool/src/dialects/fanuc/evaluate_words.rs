@@ -127,7 +127,7 @@ impl Interpreter<'_> {
         if self.cycle.is_some() {
             return self.cycle_block(words, block);
         }
-        let motion = self.motion_words(words);
+        let motion = self.place_words(words, block)?;
         if !motion.is_motion() {
             return match once.exact_stop {
                 true => Err(Diagnostic::error(block, "G9 needs a motion in its block")
@@ -183,6 +183,7 @@ impl Interpreter<'_> {
             );
         }
         match code {
+            100 => self.set_offset(words, span),
             120 | 130 => self.circular_pocket(words, g, block),
             280 | 300 => self.home(words, g),
             530 => self.machine_coordinates(words, span),

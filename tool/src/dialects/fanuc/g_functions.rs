@@ -71,7 +71,8 @@ impl Interpreter<'_> {
                 once.motion = Some(span);
                 1
             }
-            40 | 120 | 130 | 280 | 300 | 510 | 511 | 501 | 520 | 530 | 531 | 680 | 682 | 920 => {
+            40 | 100 | 120 | 130 | 280 | 300 | 510 | 511 | 501 | 520 | 530 | 531 | 680 | 682
+            | 920 => {
                 once.place = Some(at);
                 PLACES
             }
@@ -83,7 +84,7 @@ impl Interpreter<'_> {
                 self.smoothness(words, span)?;
                 103
             }
-            50 | 51 | 80 => {
+            50 | 51 | 80 | 1030 => {
                 self.look_ahead(code, span, words)?;
                 101
             }
@@ -91,9 +92,17 @@ impl Interpreter<'_> {
                 once.exact_stop = true;
                 102
             }
-            // The end of modes that are not there: polar coordinates, the turning to the path, polygons, the
-            // face of a rotary axis.
-            150 => 17,
+            150 => {
+                self.polar = None;
+                17
+            }
+            160 => {
+                self.begin_polar(span)?;
+                17
+            }
+            // The end of modes that are not there: the values of G10, the turning to the path, polygons, the face of a
+            // rotary axis.
+            110 => 104,
             401 => 19,
             502 => 20,
             131 => 21,
@@ -138,6 +147,11 @@ impl Interpreter<'_> {
             }
             540..=590 => {
                 self.work_offset(code, words, span)?;
+                14
+            }
+            // That of Haas controls.
+            1540 => {
+                self.work_offset(541, words, span)?;
                 14
             }
             610 => {
@@ -311,10 +325,8 @@ impl Interpreter<'_> {
 fn unsupported(code: u32, span: Span) -> Diagnostic {
     let reason = match code {
         70 | 71 => "axes of a cylinder are not supported: post the moves of the rotary axis",
-        100 | 101 | 110 => {
-            "offsets, tools and settings are entered at the machine: take it out, and enter the values there"
-        }
-        121 | 160 => "polar coordinates are not supported: post X and Y",
+        101 => "settings are entered at the machine: take it out, and enter the values there",
+        121 => "polar coordinates are not supported: post X and Y",
         220..=230 => "stored stroke limits are set at the machine: take it out",
         270 | 290 | 301 => {
             "which way the machine goes depends on its settings: write G53 with coordinates"

@@ -4,6 +4,7 @@ use super::block_words::BlockWords;
 use super::calls::ModalMacro;
 use super::cycles::{Cycle, is_cycle};
 use super::lathe::ToolCalls;
+use super::polar::PolarPlace;
 use super::routine::Routine;
 use super::skipped_places::SkippedAxes;
 use super::smoothness::Smoothness;
@@ -31,6 +32,8 @@ pub struct Interpreter<'a> {
     pub(super) offsets: ToolOffsets,
     pub(super) cycle: Option<Cycle>,
     pub(super) skipped: SkippedAxes,
+    /// G16.
+    pub(super) polar: Option<PolarPlace>,
     /// G187.
     pub(super) smoothness: Smoothness,
     /// G99.
@@ -72,6 +75,7 @@ impl<'a> Interpreter<'a> {
             offsets: ToolOffsets::default(),
             cycle: None,
             skipped: SkippedAxes::default(),
+            polar: None,
             smoothness: Smoothness::default(),
             to_return_level: false,
             rigid: false,
@@ -223,7 +227,10 @@ impl<'a> Interpreter<'a> {
             // The factors of G51 have their own rule.
             DecimalPoint::Calculator if words.has_g(510) => {}
             DecimalPoint::Calculator => self.explain_point(address, span),
-            DecimalPoint::Increments => words.count_increments(length, 0.001),
+            DecimalPoint::Increments => {
+                let polar = (self.polar.is_some() || words.has_g(160)) && !words.has_g(150);
+                words.count_increments(length, 0.001, polar);
+            }
         }
         Some(words)
     }
@@ -315,6 +322,7 @@ impl<'a> Interpret<'a> for Interpreter<'a> {
             && (!self.point_explained
                 || self.control.settings.decimal_point != DecimalPoint::Calculator);
         self.cycle.is_none()
+            && self.polar.is_none()
             && self.skipped == SkippedAxes::default()
             && self.modal_macro.is_none()
             && !self.transforms.is_unsettled()

@@ -1,4 +1,4 @@
-//! G5, G5.1 and G8: how far ahead the control looks.
+//! G5, G5.1, G8, and G103 of Haas controls: how far ahead the control looks.
 
 use super::block_words::{BlockWords, g_name};
 use super::interpreter::Interpreter;
@@ -6,6 +6,11 @@ use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::words::At;
 use crate::source::Span;
+
+/// P of G103: how many blocks, 0 for no limit.
+const BLOCKS: [f64; 16] = [
+    0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0,
+];
 
 /// The letter that says what a function does, its values that only tune the control, and what else the
 /// value can be.
@@ -18,6 +23,7 @@ fn switch(code: u32) -> (char, &'static [f64], &'static str) {
              form of their own: post G1",
         ),
         51 => ('Q', &[0.0, 1.0, 2.0, 3.0], "Q0 to Q3 are understood"),
+        1030 => ('P', &BLOCKS, "P0 to P15 are understood"),
         _ => ('P', &[0.0, 1.0], "P0 and P1 are understood"),
     }
 }
@@ -34,6 +40,8 @@ impl Interpreter<'_> {
                 span: word.span,
             }),
         };
+        // G103 alone is that with P0.
+        let given = given.or_else(|| (code == 1030).then_some(At { value: 0.0, span }));
         let Some(given) = given.filter(|given| values.contains(&given.value)) else {
             let place = given.map_or(span, |given| given.span);
             return Err(Diagnostic::error(

@@ -28,6 +28,9 @@ impl Interpreter<'_> {
             span,
         );
         self.control.refuse_compensation(span, "G28")?;
+        if self.polar.is_some() && (words.axes[0].is_some() || words.axes[1].is_some()) {
+            return Err(Diagnostic::error(span, "G28 with X or Y in G16").help("write G15 before"));
+        }
         let mut motion = self.motion_words(words);
         let stays = self.control.modal.incremental
             && motion.axes.iter().flatten().all(|word| word.value.0 == 0.0);

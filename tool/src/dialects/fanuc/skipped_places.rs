@@ -6,7 +6,7 @@
 use super::interpreter::Interpreter;
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
-use crate::dialects::control::words::{AXES, MotionWords};
+use crate::dialects::control::words::{AXES, At, Dimension, MotionWords};
 use crate::source::Span;
 
 /// The axes that K0 has named since they moved last.
@@ -29,8 +29,10 @@ impl Interpreter<'_> {
     pub(super) fn check_skipped(&mut self, motion: &MotionWords, block: Span) -> Done {
         // Said once.
         let skipped = std::mem::take(&mut self.skipped);
-        let from_there = self.control.modal.incremental || motion.names_a_centre();
-        let goes = |axis: usize| motion.axes[axis].is_some() && !from_there;
+        let modal = &self.control.modal;
+        let absolute = |word: At<(f64, Dimension)>| !modal.is_incremental(word.value.1);
+        let goes =
+            |axis: usize| motion.axes[axis].is_some_and(absolute) && !motion.names_a_centre();
         match (0..9).find(|axis| skipped[*axis] && !goes(*axis)) {
             None => Ok(()),
             Some(axis) => Err(not_the_same(axis, block)),
