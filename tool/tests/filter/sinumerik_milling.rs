@@ -232,6 +232,27 @@ fn contours_are_milled_in_layers() {
 }
 
 #[test]
+fn a_contour_may_stand_between_labels_or_block_numbers_of_the_program() {
+    let blocks = "G0 X20 Y10\nG1 X40\nG3 X45 Y15 I0 J5\n";
+    for (name, begin, end) in [
+        ("CORNER:CORNER_E", "CORNER:", "G1 Y30\nCORNER_E:"),
+        ("corner:corner_e", "CORNER:", "CORNER_E: G1 Y30"),
+        ("N100:N200", "N100", "N200 G1 Y30"),
+    ] {
+        let cycle = format!("CYCLE72(\"{name}\",10,0,2,-4,0,0,0,300,100,2,41,1,5,0,1,5)");
+        let plain = format!(
+            "{PLAIN_HEAD}G0 X8.7 Y10\nG0 Z10\nG0 Z2\nF100 G1 Z-4\nF300 G41 G1 X12 Y10\nX20\nX40\nG3 X45 Y15 I0 J5\n\
+             G1 Y30\nY38\nG40 G1 Y41.3\nG0 Z10\nF50 G1 Z12\nM2\n"
+        );
+        let behind = format!("{HEAD}{cycle}\nG1 Z12\nM30\n{begin}\n{blocks}{end}\n");
+        assert_pair(&behind, &plain);
+        // Passed over before.
+        let before = format!("GOTOF GO\n{begin}\n{blocks}{end}\nGO:\n{HEAD}{cycle}\nG1 Z12\nM30\n");
+        assert_pair(&before, &plain);
+    }
+}
+
+#[test]
 fn contours_follow_a_mirror() {
     assert_pair(
         &contour("MIRROR X0\nCYCLE72(\"CORNER\",10,0,2,-4,0,0,0,300,100,2,41,1,5,0,1,5)"),
@@ -249,7 +270,15 @@ fn what_is_not_a_contour_is_refused() {
         ("CYCLE72(,10,0,2,-4,0,0,0,300,100,2,41)", "needs _KNAME"),
         (
             "CYCLE72(\"A:B\",10,0,2,-4,0,0,0,300,100,2,41)",
-            "_KNAME = \"A:B\"",
+            "there is no contour from A to B in this program",
+        ),
+        (
+            "HERE: CYCLE72(\"HERE:HERE\",10,0,2,-4,0,0,0,300,100,2,41,1,5)",
+            "this cycle is among the blocks of its contour",
+        ),
+        (
+            "CYCLE72(\"CORNER:A:B\",10,0,2,-4,0,0,0,300,100,2,41)",
+            "_KNAME = \"CORNER:A:B\"",
         ),
         ("CYCLE72(\"NONE\",10,0,2,-4,0,0,0,300,100,2,41)", "NONE"),
         (

@@ -6,6 +6,7 @@
 
 use super::approach::{Shape, Smooth};
 use super::cycle_parameters::Cycle;
+use super::flow::target_of;
 use super::interpreter::Interpreter;
 use super::milling::Milling;
 use super::pockets::allowance;
@@ -13,6 +14,7 @@ use super::syntax::{Block, Call};
 use crate::diagnostics::Diagnostic;
 use crate::dialects::control::Done;
 use crate::dialects::control::words::At;
+use crate::dialects::run::Next;
 use crate::program::moves::{Coordinate, Move, MoveKind};
 use crate::program::{Action, Compensation};
 use crate::source::Span;
@@ -223,24 +225,29 @@ impl Interpreter<'_> {
         let Some(name) = cycle.text("_KNAME") else {
             return Err(cycle.missing("_KNAME, the name of the subprogram with the contour"));
         };
-        if name.contains([':', '/']) {
+        let span = cycle.span_of("_KNAME");
+        let places = name.split_once(':');
+        if name.contains('/') || places.is_some_and(|(_, last)| last.contains(':')) {
             return Err(cycle.unsupported(
                 "_KNAME",
-                "put the contour into a subprogram of its own and write its name",
+                "put the contour into a subprogram of its own and write its name, or between two labels of this program",
             ));
         }
-        let contour = Call {
-            name: name
-                .to_ascii_uppercase()
-                .trim_end_matches(".SPF")
-                .to_string(),
-            span: cycle.span_of("_KNAME"),
-            arguments: Vec::new(),
-            passes: None,
-        };
         let position = self.control.modal.position.clone();
         self.control.begin_recording();
-        let ran = self.try_call(&contour, block);
+        let ran = match places {
+            Some(places) => self.run_section(places, span),
+            None => {
+                let name = name.to_ascii_uppercase();
+                let contour = Call {
+                    name: name.trim_end_matches(".SPF").to_string(),
+                    span,
+                    arguments: Vec::new(),
+                    passes: None,
+                };
+                self.try_call(&contour, block)
+            }
+        };
         let recorded = self.control.end_recording();
         let tangent = self.control.modal.tangent;
         self.control.modal.position = position;
@@ -248,7 +255,38 @@ impl Interpreter<'_> {
             return Err(not_a_contour(call.span));
         }
         self.read_contour(recorded, tangent)
-            .ok_or_else(|| not_a_contour(contour.span))
+            .ok_or_else(|| not_a_contour(span))
+    }
+
+    /// Runs the blocks of this program from one label or block number to another, as `"BEGIN:END"` names them; whether
+    /// the program goes on.
+    fn run_section(&mut self, (first, last): (&str, &str), span: Span) -> Result<bool, Diagnostic> {
+        let Some(routine) = self.routine.clone() else {
+            return Ok(false);
+        };
+        if self.repeats.contains(&span) {
+            return Err(
+                Diagnostic::error(span, "this cycle is among the blocks of its contour")
+                    .help("let the contour end before it"),
+            );
+        }
+        let [begin, end] =
+            [first, last].map(|name| self.targets(&target_of(name), &routine).first().copied());
+        let (Some(begin), Some(end)) = (begin, end.filter(|end| Some(*end) >= begin)) else {
+            return Err(Diagnostic::error(
+                span,
+                format!("there is no contour from {first} to {last} in this program"),
+            )
+            .help("both are labels, written NAME: at the beginning of a block, or block numbers, one behind the other"));
+        };
+        self.repeats.push(span);
+        let next = self.run_range(&routine, begin..end + 1);
+        self.repeats.pop();
+        match next {
+            Next::Block(_) => Ok(true),
+            Next::Abort => Ok(false),
+            _ => Err(not_a_contour(span)),
+        }
     }
 
     /// `None` for what is not a contour.

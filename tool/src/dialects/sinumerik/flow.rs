@@ -179,7 +179,7 @@ impl Interpreter<'_> {
         self.for_pass(start, last, body, at + 1)
     }
 
-    fn targets(&mut self, target: &Target, routine: &Routine) -> Vec<usize> {
+    pub(super) fn targets(&mut self, target: &Target, routine: &Routine) -> Vec<usize> {
         let control = &mut self.control;
         routine.targets(target, control.sources, control.diagnostics)
     }
@@ -249,7 +249,7 @@ impl Interpreter<'_> {
 }
 
 /// What a text names.
-fn target_of(text: &str) -> Target {
+pub(super) fn target_of(text: &str) -> Target {
     let name = text.trim().to_ascii_uppercase();
     let digits = name.strip_prefix(['N', ':']);
     let digits = digits.filter(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()));

@@ -81,6 +81,8 @@ pub struct Interpreter<'a> {
     pub(super) system: Option<u8>,
     /// Values for work offsets, until one is chosen.
     pub(super) waiting_offsets: Vec<SystemValues>,
+    /// The routine whose blocks run.
+    pub(super) routine: Option<Rc<Routine>>,
     /// What S means, and LIMS.
     pub(super) speed: SpindleSpeed,
 }
@@ -122,6 +124,7 @@ impl<'a> Interpreter<'a> {
             modulo: [false; 9],
             open_line: None,
             system: None,
+            routine: None,
             waiting_offsets: Vec::new(),
             speed: SpindleSpeed::default(),
         }
@@ -143,6 +146,13 @@ impl<'a> Interpreter<'a> {
 
     /// The same of a part of the blocks, which no jump may leave.
     pub(super) fn run_range(&mut self, routine: &Rc<Routine>, range: Range<usize>) -> Next {
+        let caller = self.routine.replace(routine.clone());
+        let next = self.run_blocks_in(routine, range);
+        self.routine = caller;
+        next
+    }
+
+    fn run_blocks_in(&mut self, routine: &Rc<Routine>, range: Range<usize>) -> Next {
         let mut at = range.start;
         loop {
             let block = match reach(self, &routine.blocks, &mut at, range.end) {
